@@ -1,0 +1,39 @@
+"""Time as a parameter: the same code runs in real time and as fast as it goes."""
+
+from __future__ import annotations
+
+import time
+from typing import Protocol
+
+
+class Clock(Protocol):
+    """Seconds since an arbitrary start. Never goes backwards, is never the wall clock."""
+
+    def now_s(self) -> float: ...
+
+
+class RealClock:
+    """The machine's monotonic clock (shared by all processes of one machine since its boot)."""
+
+    def now_s(self) -> float:
+        return time.monotonic()
+
+
+class VirtualClock:
+    """A clock that stands until someone moves it on."""
+
+    def __init__(self, start_s: float = 0.0) -> None:
+        self._now_s = start_s
+
+    def now_s(self) -> float:
+        return self._now_s
+
+    def advance(self, duration_s: float) -> None:
+        """Move on by `duration_s`.
+
+        Raises:
+            ValueError: for a negative duration; time does not go back.
+        """
+        if not duration_s >= 0.0:
+            raise ValueError(f"a clock cannot go back: {duration_s} s")
+        self._now_s += duration_s

@@ -1,0 +1,103 @@
+"""What a robot is: its limits (apart from its wiring), shape and sensors. One TOML file a robot fills it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+Kinematics = Literal["differential", "mecanum", "ackermann"]
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What the governor holds the robot to. All positive; planar, in the robot's frame.
+
+    `max_speed_mps` bounds the combined linear speed hypot(vx, vy) too. `deceleration_mps2` and `latency_s` are
+    what braking distance is computed from: v * latency + v^2 / (2 * deceleration).
+    `min_turning_radius_m` is 0 for a base that can turn on the spot.
+    """
+
+    max_speed_mps: float
+    max_sideways_mps: float
+    max_rate_radps: float
+    acceleration_mps2: float
+    angular_acceleration_radps2: float
+    deceleration_mps2: float
+    latency_s: float
+    min_turning_radius_m: float = 0.0
+
+
+@dataclass(frozen=True)
+class Defaults:
+    """What a person means who names no number."""
+
+    speed_mps: float
+    rate_radps: float
+    distance_m: float
+    turn_rad: float
+
+
+@dataclass(frozen=True)
+class Lidar:
+    """A planar laser scanner: where it sits in the robot's frame and what it can see."""
+
+    x_m: float
+    y_m: float
+    yaw_rad: float
+    beams: int
+    min_range_m: float
+    max_range_m: float
+    rate_hz: float
+
+
+@dataclass(frozen=True)
+class Wiring:
+    """Topics, types and habits of the base. Nothing here bounds a motion.
+
+    `base_timeout_s` is how long the base holds its last command; None means for ever.
+    """
+
+    cmd_vel_topic: str = "cmd_vel"
+    cmd_vel_type: Literal["Twist", "TwistStamped"] = "Twist"
+    odom_topic: str = "odom"
+    imu_topic: str | None = None
+    scan_topic: str | None = None
+    bumper_topic: str | None = None
+    battery_topic: str | None = None
+    camera_topic: str | None = None
+    base_timeout_s: float | None = None
+
+
+@dataclass(frozen=True)
+class RobotProfile:
+    """One robot. `footprint` is a convex polygon in the robot's frame, metres, counter-clockwise.
+
+    `sources` tells for every limit where its number comes from. `approval` says whether a plan needs a person's
+    yes before it runs where nothing else is said.
+    """
+
+    name: str
+    title: str
+    kinematics: Kinematics
+    limits: Limits
+    defaults: Defaults
+    footprint: tuple[Point, ...]
+    wiring: Wiring = field(default_factory=Wiring)
+    lidar: Lidar | None = None
+    approval: Literal["plan", "stream"] = "plan"
+    sources: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def can_turn_on_the_spot(self) -> bool:
+        return self.kinematics != "ackermann"
+
+    @property
+    def can_go_sideways(self) -> bool:
+        return self.kinematics == "mecanum"
+
+    @property
+    def footprint_radius_m(self) -> float:
+        """Of the circle about the robot's centre that holds the whole footprint."""
+        return float(max((x * x + y * y) ** 0.5 for x, y in self.footprint))
