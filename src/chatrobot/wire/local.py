@@ -1,0 +1,194 @@
+"""The wire between processes of one machine: one hub (the simulated robot runs it), Unix packet sockets.
+
+SOCK_SEQPACKET keeps message boundaries and makes each send atomic, so any thread may publish without a lock:
+that is what lets a stop go out past everything else.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import select
+import socket
+import threading
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from chatrobot.core.errors import WireError
+from chatrobot.wire.codec import decode, encode, topic_of
+from chatrobot.wire.messages import Message
+from chatrobot.wire.wire import M
+
+PACKET_BYTES = 262_144
+_SUBSCRIBE = b"\0subscribe\0"
+
+
+class _Subscriptions:
+    """Who in this process wants which topic."""
+
+    def __init__(self) -> None:
+        self._callbacks: dict[str, list[tuple[type, Callable[[Any], None]]]] = {}
+
+    def add(self, topic: str, kind: type, callback: Callable[[Any], None]) -> None:
+        self._callbacks.setdefault(topic, []).append((kind, callback))
+
+    def deliver(self, topic: str, message: Message) -> None:
+        for kind, callback in tuple(self._callbacks.get(topic, ())):
+            if type(message) is kind:
+                callback(message)
+
+    def wants(self, topic: str) -> bool:
+        return topic in self._callbacks
+
+
+class LocalWire:
+    """A process's end of the local wire. Connects at once; a thread of its own delivers.
+
+    Raises:
+        WireError: nobody serves that socket.
+    """
+
+    def __init__(self, path: Path | str) -> None:
+        self._subscriptions = _Subscriptions()
+        self._closed = False
+        self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        try:
+            self._socket.connect(str(path))
+        except OSError as error:
+            self._socket.close()
+            raise WireError(f"no robot answers at {path}") from error
+        self._reader: threading.Thread | None = None
+
+    def publish(self, topic: str, message: Message) -> None:
+        packet = encode(topic, message)
+        try:
+            self._socket.send(packet, socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
+        except BlockingIOError:
+            return  # the hub does not read: it is frozen, and a queue of old velocities would help nobody
+        except OSError as error:
+            raise WireError("the other end of the wire is gone") from error
+
+    def subscribe(self, topic: str, kind: type[M], callback: Callable[[M], None]) -> None:
+        self._subscriptions.add(topic, kind, callback)
+        try:
+            self._socket.send(_SUBSCRIBE + topic.encode(), socket.MSG_NOSIGNAL)
+        except OSError as error:
+            raise WireError("the other end of the wire is gone") from error
+        if self._reader is None:
+            self._reader = threading.Thread(target=self._read, name="wire", daemon=True)
+            self._reader.start()
+
+    def close(self) -> None:
+        if self._closed:
+            return
+        self._closed = True
+        with contextlib.suppress(OSError):
+            self._socket.shutdown(socket.SHUT_RDWR)
+        if self._reader is not None and self._reader is not threading.current_thread():
+            self._reader.join()
+        self._socket.close()
+
+    def _read(self) -> None:
+        while True:
+            try:
+                packet = self._socket.recv(PACKET_BYTES)
+            except OSError:
+                return
+            if not packet:
+                return
+            message = decode(packet)
+            if message is not None:
+                self._subscriptions.deliver(topic_of(packet), message)
+
+
+class LocalHub:
+    """Routes packets between the processes; is itself an end of the wire for the process that runs it.
+
+    Single-threaded: whoever owns it calls `poll`. Callbacks come from within `poll` or `publish`.
+    """
+
+    def __init__(self, path: Path | str) -> None:
+        self.path = Path(path)
+        self._subscriptions = _Subscriptions()
+        self._clients: dict[int, tuple[socket.socket, set[str]]] = {}
+        self._listener = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET | socket.SOCK_NONBLOCK)
+        with contextlib.suppress(FileNotFoundError):
+            self.path.unlink()
+        self._listener.bind(str(self.path))
+        self._listener.listen(16)
+        self._poller = select.poll()
+        self._poller.register(self._listener, select.POLLIN)
+        self.ever_connected = False
+
+    @property
+    def client_count(self) -> int:
+        return len(self._clients)
+
+    def publish(self, topic: str, message: Message) -> None:
+        self._subscriptions.deliver(topic, message)
+        packet: bytes | None = None
+        for client, topics in tuple(self._clients.values()):
+            if topic in topics:
+                packet = packet or encode(topic, message)
+                self._send(client, packet)
+
+    def subscribe(self, topic: str, kind: type[M], callback: Callable[[M], None]) -> None:
+        self._subscriptions.add(topic, kind, callback)
+
+    def poll(self, timeout_s: float) -> None:
+        """Wait up to `timeout_s` for packets and route all that are there."""
+        for descriptor, _ in self._poller.poll(max(0.0, timeout_s) * 1000.0):
+            if descriptor == self._listener.fileno():
+                self._accept()
+            elif descriptor in self._clients:
+                self._receive(descriptor)
+
+    def close(self) -> None:
+        for descriptor in tuple(self._clients):
+            self._drop(descriptor)
+        self._listener.close()
+        with contextlib.suppress(FileNotFoundError):
+            self.path.unlink()
+
+    def _accept(self) -> None:
+        client, _ = self._listener.accept()
+        client.setblocking(False)
+        self._clients[client.fileno()] = (client, set())
+        self._poller.register(client, select.POLLIN)
+        self.ever_connected = True
+
+    def _receive(self, descriptor: int) -> None:
+        client, topics = self._clients[descriptor]
+        while True:
+            try:
+                packet = client.recv(PACKET_BYTES)
+            except BlockingIOError:
+                return
+            except OSError:
+                packet = b""
+            if not packet:
+                self._drop(descriptor)
+                return
+            if packet.startswith(_SUBSCRIBE):
+                topics.add(packet[len(_SUBSCRIBE) :].decode(errors="replace"))
+            else:
+                self._route(client, packet)
+
+    def _route(self, sender: socket.socket, packet: bytes) -> None:
+        topic = topic_of(packet)
+        for client, topics in tuple(self._clients.values()):
+            if topic in topics and client is not sender:
+                self._send(client, packet)
+        if self._subscriptions.wants(topic):
+            message = decode(packet)
+            if message is not None:
+                self._subscriptions.deliver(topic, message)
+
+    def _send(self, client: socket.socket, packet: bytes) -> None:
+        with contextlib.suppress(OSError):  # full: it does not read; gone: its own event will say so
+            client.send(packet, socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
+
+    def _drop(self, descriptor: int) -> None:
+        client, _ = self._clients.pop(descriptor)
+        self._poller.unregister(descriptor)
+        client.close()

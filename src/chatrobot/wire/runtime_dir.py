@@ -1,0 +1,26 @@
+"""The folder where this user's running robots keep their sockets."""
+
+from __future__ import annotations
+
+import os
+import stat
+from pathlib import Path
+
+from chatrobot.core.errors import WireError
+
+
+def runtime_dir() -> Path:
+    """`$XDG_RUNTIME_DIR/chatrobot`, or `/tmp/chatrobot-<uid>`; made if missing, private to the user.
+
+    Raises:
+        WireError: somebody else owns the folder, or it is open to others.
+    """
+    base = os.environ.get("XDG_RUNTIME_DIR")
+    path = Path(base) / "chatrobot" if base and os.access(base, os.W_OK) else Path(f"/tmp/chatrobot-{os.getuid()}")
+    path.mkdir(mode=0o700, exist_ok=True)
+    info = path.lstat()
+    if not stat.S_ISDIR(info.st_mode) or info.st_uid != os.getuid():
+        raise WireError(f"{path} is not ours: remove it or set XDG_RUNTIME_DIR to a folder of yours")
+    if info.st_mode & 0o077:
+        path.chmod(0o700)
+    return path
