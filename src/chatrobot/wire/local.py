@@ -172,12 +172,12 @@ class LocalHub:
             if packet.startswith(_SUBSCRIBE):
                 topics.add(packet[len(_SUBSCRIBE) :].decode(errors="replace"))
             else:
-                self._route(client, packet)
+                self._route(packet)
 
-    def _route(self, sender: socket.socket, packet: bytes) -> None:
+    def _route(self, packet: bytes) -> None:
         topic = topic_of(packet)
         for client, topics in tuple(self._clients.values()):
-            if topic in topics and client is not sender:
+            if topic in topics:
                 self._send(client, packet)
         if self._subscriptions.wants(topic):
             message = decode(packet)
