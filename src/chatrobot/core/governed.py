@@ -27,3 +27,18 @@ class GovernedTwist:
             raise SafetyError("only the governor mints velocities")
         self.twist = twist
         self.epoch = epoch
+
+
+class StopEpoch:
+    """Counts the stops. A stop is one step of this counter, made without a lock from any thread.
+
+    Two stops at the same instant may share a value; either way it has changed, and that is all that is asked.
+    """
+
+    __slots__ = ("value",)
+
+    def __init__(self) -> None:
+        self.value = 0
+
+    def stop(self) -> None:
+        self.value += 1

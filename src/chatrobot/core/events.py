@@ -1,0 +1,201 @@
+"""What happens, told to whoever listens: console, `--json`, recordings. Listeners only read.
+
+Every event is a frozen dataclass with a name; `to_json` gives the object of one `--json` line. Motion's events and
+the session's are one family, so that a listener needs no second vocabulary. Units are in the field names, poses
+are in `odom` as the robot itself measures them (`TruePose` alone is the simulator's truth).
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, Literal
+
+from chatrobot.core.geometry import ORIGIN, Pose, Twist
+from chatrobot.core.reason import Reason
+
+Outcome = Literal["completed", "stopped", "refused", "unclear", "answered", "failed"]
+EXIT_CODES: Mapping[str, int] = {
+    "completed": 0, "answered": 0, "failed": 1, "unclear": 3, "refused": 4, "stopped": 5,
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Event:
+    """Base of all events. `turn` counts the instructions of a session from 1; 0 belongs to none."""
+
+    turn: int
+    name: ClassVar[str] = ""
+
+    def to_json(self) -> dict[str, Any]:
+        return {"event": self.name, **{f.name: _plain(getattr(self, f.name)) for f in dataclasses.fields(self)}}
+
+
+@dataclass(frozen=True)
+class Interpreted(Event):
+    """What was understood, and by whom."""
+
+    name: ClassVar[str] = "interpreted"
+    by: Literal["offline", "model", "reflex"]
+    plan_text: str
+    reply: str
+
+
+@dataclass(frozen=True)
+class FindingSeen(Event):
+    """One thing rehearsal found. `step` is the index path of the step, from 1."""
+
+    name: ClassVar[str] = "finding"
+    severity: Literal["refuse", "warn", "note"]
+    reason: Reason
+    step: tuple[int, ...] = ()
+    t_s: float = 0.0
+
+
+@dataclass(frozen=True)
+class Rehearsed(Event):
+    """What the plan would do: `path` is (x_m, y_m, yaw_rad) along the predicted way, thinned for drawing."""
+
+    name: ClassVar[str] = "rehearsed"
+    ok: bool
+    duration_s: float
+    length_m: float
+    end: Pose
+    findings: tuple[FindingSeen, ...] = ()
+    path: tuple[tuple[float, float, float], ...] = ()
+    needs_approval: bool = False
+
+
+@dataclass(frozen=True)
+class Started(Event):
+    """The robot begins to act on this turn."""
+
+    name: ClassVar[str] = "started"
+    pose: Pose = ORIGIN
+
+
+@dataclass(frozen=True)
+class Progress(Event):
+    """How far a running turn is: step `step` of `of`, `fraction` of the whole predicted duration (0..1)."""
+
+    name: ClassVar[str] = "progress"
+    step: int
+    of: int
+    fraction: float
+    pose: Pose
+    twist: Twist
+
+
+@dataclass(frozen=True)
+class Telemetry(Event):
+    """Where the robot is and how it moves, as it measures itself; `path_m` since odometry began."""
+
+    name: ClassVar[str] = "telemetry"
+    pose: Pose
+    twist: Twist
+    path_m: float
+    battery_percent: float | None = None
+    nearest_obstacle_m: float | None = None
+    moving: bool = False
+
+
+@dataclass(frozen=True)
+class TruePose(Event):
+    """The simulator's truth, for `--trace`. Nothing else may read it."""
+
+    name: ClassVar[str] = "pose"
+    t_s: float
+    x_m: float
+    y_m: float
+    yaw_rad: float
+    vx_mps: float
+    vy_mps: float
+    wz_radps: float
+
+
+@dataclass(frozen=True)
+class Limited(Event):
+    """The governor sent less than was asked for."""
+
+    name: ClassVar[str] = "limited"
+    rule: str
+    asked: Twist
+    sent: Twist
+
+
+@dataclass(frozen=True)
+class Said(Event):
+    """A `say` step."""
+
+    name: ClassVar[str] = "said"
+    text: str
+
+
+@dataclass(frozen=True)
+class Remembered(Event):
+    """A `remember` step: the place and where it is, in `odom`."""
+
+    name: ClassVar[str] = "remembered"
+    place: str
+    pose: Pose
+
+
+@dataclass(frozen=True)
+class Notice(Event):
+    """Something a person should know that ends nothing."""
+
+    name: ClassVar[str] = "notice"
+    reason: Reason
+    text: str = ""
+
+
+@dataclass(frozen=True)
+class Finished(Event):
+    """Motion's end of a turn: what odometry measured, never what was asked for.
+
+    `planned_m` and `planned_turn_rad` are what the plan wanted up to its end, for "1.00 m of 1.00 m".
+    """
+
+    name: ClassVar[str] = "finished"
+    outcome: Outcome
+    reason: Reason | None
+    start: Pose
+    pose: Pose
+    turned_rad: float
+    path_m: float
+    duration_s: float
+    paused_s: float
+    planned_m: float = 0.0
+    planned_turn_rad: float = 0.0
+    steps_done: int = 0
+    steps: int = 0
+    measured: bool = True
+
+
+@dataclass(frozen=True)
+class Result(Event):
+    """The last event of every turn."""
+
+    name: ClassVar[str] = "result"
+    outcome: Outcome
+    reply: str
+    pose: Pose = ORIGIN
+    turned_rad: float = 0.0
+    path_m: float = 0.0
+    duration_s: float = 0.0
+    paused_s: float = 0.0
+    reason: Reason | None = field(default=None)
+
+
+def _plain(value: Any) -> Any:
+    """JSON's own types: a Pose and a Twist become objects with their units in the keys."""
+    if isinstance(value, (Pose, Twist)):
+        return {key: round(number, 6) for key, number in zip(value._fields, value)}
+    if isinstance(value, float):
+        return round(value, 6)
+    if isinstance(value, (Reason, Event)):
+        return value.to_json()
+    if isinstance(value, (tuple, list)):
+        return [_plain(item) for item in value]
+    return value
