@@ -1,0 +1,123 @@
+"""The guard's process: `python -m chatrobot.guard --wire PATH --topic cmd_vel --odom odom --fd N`.
+
+Started by Motion in a session of its own, so that neither Ctrl-C, Ctrl-Z nor a closed terminal reaches it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import select
+import signal
+import socket
+import sys
+import time
+
+from chatrobot.core.errors import WireError
+from chatrobot.guard.watch import BEAT_S, GOODBYE, Watch
+from chatrobot.wire.local import LocalWire
+from chatrobot.wire.messages import Odometry, TwistMessage
+
+STANDING_S = 1.0
+"""A robot whose Motion is dead has been seen standing this long: the guard's work is done."""
+
+GIVE_UP_S = 30.0
+"""Without odometry nobody can see it standing; after this long of zeros nobody is left to serve."""
+
+ZERO = TwistMessage(0.0, 0.0, 0.0)
+
+
+class Standing:
+    """Since when odometry has shown the robot standing."""
+
+    def __init__(self) -> None:
+        self._since_s: float | None = None
+
+    def on_odometry(self, message: Odometry) -> None:
+        if abs(message.vx_mps) + abs(message.vy_mps) + abs(message.wz_radps) > 0.01:
+            self._since_s = None
+        elif self._since_s is None:
+            self._since_s = time.monotonic()
+
+    def for_s(self, now_s: float) -> float:
+        return 0.0 if self._since_s is None else now_s - self._since_s
+
+
+class Guard:
+    """Reads Motion's words from `line`, halts over `wire`."""
+
+    def __init__(self, line: socket.socket, wire: LocalWire, cmd_vel_topic: str, odom_topic: str) -> None:
+        self._line = line
+        self._wire = wire
+        self._topic = cmd_vel_topic
+        self._watch = Watch()
+        self._standing = Standing()
+        self._motion_is_gone = False
+        if odom_topic:
+            wire.subscribe(odom_topic, Odometry, self._standing.on_odometry)
+
+    def run(self) -> None:
+        """Until Motion says goodbye, or is gone and the robot stands."""
+        tripped_at_s: float | None = None
+        while True:
+            now_s = time.monotonic()
+            if self._watch.must_halt(now_s):
+                tripped_at_s = now_s if tripped_at_s is None else tripped_at_s
+                self._wire.publish(self._topic, ZERO)
+                if self._motion_is_gone and self._may_leave(now_s, tripped_at_s):
+                    return
+            else:
+                tripped_at_s = None
+            if self._listen(self._watch.seconds_left(now_s)):
+                return
+
+    def _may_leave(self, now_s: float, tripped_at_s: float) -> bool:
+        halted_s = now_s - tripped_at_s
+        return halted_s > GIVE_UP_S or (halted_s > STANDING_S and self._standing.for_s(now_s) > STANDING_S)
+
+    def _listen(self, timeout_s: float) -> bool:
+        """Take in Motion's words for up to `timeout_s`; True for a goodbye."""
+        if self._motion_is_gone:
+            time.sleep(BEAT_S)
+            return False
+        readable, _, _ = select.select([self._line], [], [], timeout_s)
+        if not readable:
+            return False
+        try:
+            words = self._line.recv(256)
+        except OSError:
+            words = b""
+        if not words:
+            self._motion_is_gone = True
+            self._watch.lose()
+            return self._watch.state == "idle"
+        if GOODBYE in words:
+            return True
+        for word in words:
+            self._watch.hear(bytes([word]), time.monotonic())
+        with contextlib.suppress(OSError):
+            self._line.send(words[-1:], socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
+        return False
+
+
+def _die_last() -> None:
+    """Ask the kernel to take others first when memory runs out; only root may, and nothing hangs on it."""
+    with contextlib.suppress(OSError), open("/proc/self/oom_score_adj", "w", encoding="ascii") as score:
+        score.write("-900")
+
+
+def main(arguments: list[str]) -> int:
+    options = dict(zip(arguments[::2], arguments[1::2]))
+    for name in ("SIGINT", "SIGTSTP", "SIGHUP", "SIGTTIN", "SIGTTOU", "SIGPIPE", "SIGTERM"):
+        signal.signal(getattr(signal, name), signal.SIG_IGN)
+    _die_last()
+    line = socket.socket(fileno=int(options["--fd"]))
+    try:
+        wire = LocalWire(options["--wire"])
+        Guard(line, wire, options["--topic"], options.get("--odom", "")).run()
+    except WireError:
+        return 1  # the robot's end is gone: there is nothing left to halt
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
