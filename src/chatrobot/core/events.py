@@ -199,3 +199,47 @@ def _plain(value: Any) -> Any:
     if isinstance(value, (tuple, list)):
         return [_plain(item) for item in value]
     return value
+
+
+def event_from_json(data: Mapping[str, Any]) -> Event:
+    """The event that `to_json` made `data` of.
+
+    Raises:
+        ValueError: no event of ours has that name or those fields.
+    """
+    kind = EVENT_TYPES.get(str(data.get("event")))
+    if kind is None:
+        raise ValueError(f"no such event: {data.get('event')!r}")
+    values = {key: value for key, value in data.items() if key != "event"}
+    annotations = {f.name: str(f.type) for f in dataclasses.fields(kind)}
+    try:
+        return kind(**{key: _READERS.get(annotations[key], _as_is)(value) for key, value in values.items()})
+    except (KeyError, TypeError) as error:
+        raise ValueError(f"not a {kind.name} event: {error}") from error
+
+
+def _as_is(value: Any) -> Any:
+    return value
+
+
+def _reason(value: Any) -> Reason | None:
+    return None if value is None else Reason.from_json(value)
+
+
+_READERS: Mapping[str, Any] = {
+    "Pose": lambda value: Pose(**value),
+    "Twist": lambda value: Twist(**value),
+    "Reason": _reason,
+    "Reason | None": _reason,
+    "tuple[int, ...]": tuple,
+    "tuple[FindingSeen, ...]": lambda value: tuple(event_from_json(item) for item in value),
+    "tuple[tuple[float, float, float], ...]": lambda value: tuple(tuple(item) for item in value),
+}
+
+EVENT_TYPES: Mapping[str, type[Event]] = {
+    kind.name: kind
+    for kind in (
+        Interpreted, FindingSeen, Rehearsed, Started, Progress, Telemetry, TruePose, Limited, Said, Remembered,
+        Notice, Finished, Result,
+    )
+}  # fmt: skip

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 BEAT_HZ = 10.0
@@ -40,6 +41,12 @@ class Leases:
         lease = self._leases.get(lease_id)
         if lease is not None and now_s > lease.last_beat_s:
             lease.last_beat_s = now_s
+
+    def entrust(self, lease_id: str) -> None:
+        """An orderly goodbye: what is queued may still be done, without beats."""
+        lease = self._leases.get(lease_id)
+        if lease is not None:
+            lease.term_s = math.inf
 
     def end(self, lease_id: str) -> None:
         """For good: goodbye, end of file, or stop of a program."""

@@ -13,7 +13,7 @@ import sys
 import time
 
 from chatrobot.core.errors import WireError
-from chatrobot.guard.watch import BEAT_S, GOODBYE, Watch
+from chatrobot.guard.watch import BEAT_S, GOODBYE, TRIPPED, Watch
 from chatrobot.wire.local import LocalWire
 from chatrobot.wire.messages import Odometry, TwistMessage
 
@@ -94,8 +94,9 @@ class Guard:
             return True
         for word in words:
             self._watch.hear(bytes([word]), time.monotonic())
+        answer = TRIPPED if self._watch.state == "tripped" else words[-1:]
         with contextlib.suppress(OSError):
-            self._line.send(words[-1:], socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
+            self._line.send(answer, socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
         return False
 
 

@@ -20,6 +20,9 @@ ECHO_LOST_S = 0.3
 HANDSHAKE, BEAT, GOODBYE = b"H", b"B", b"G"
 """What Motion says to the guard, one byte each. The guard echoes each handshake and beat."""
 
+TRIPPED = b"T"
+"""What the guard answers to a beat that comes too late."""
+
 
 class Watch:
     """The guard's rule."""

@@ -50,3 +50,7 @@ class Envelope:
             and isinstance(envelope.payload, dict)
         )
         return envelope if well_formed else None
+
+
+READY = b"ready"
+"""What Motion's process says once, when it has its robot and its guard."""

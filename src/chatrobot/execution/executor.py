@@ -1,0 +1,296 @@
+"""Drives one plan: each tick asks for the twist that keeps the robot on its reference, and watches that it is.
+
+The ideal end of a motion is the reference start of the next, so errors do not add up over a plan. The executor
+compares odometry with where the reference was at the odometry's own stamp, so late odometry does no harm.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Protocol
+
+from chatrobot.core.events import Event, Outcome, Progress, Remembered, Said
+from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
+from chatrobot.core.reason import Reason
+from chatrobot.execution.estimator import Estimate
+from chatrobot.execution.health import sensor_fault, tracking_fault
+from chatrobot.execution.lookahead import free_ahead_m
+from chatrobot.execution.sensors import Sensors
+from chatrobot.execution.tracking import feedback
+from chatrobot.plan.core_motion import CoreMotion, Emit, Pause, RampedTwist
+from chatrobot.plan.trajectory import Segment
+from chatrobot.robots.profile import RobotProfile
+
+TICK_S = 0.02
+SETTLE_S = 0.8
+"""The longest wait, at the end of a plan, for the robot to be seen standing."""
+
+MEND_TRIES = 2
+MEND_SPEED_MPS = 0.08
+MEND_RATE_RADPS = 0.3
+END_TOLERANCE = (0.006, math.radians(0.4))
+"""At the end of a plan, metres and radians: a bigger rest is driven."""
+
+STEP_TOLERANCE = (0.04, math.radians(2.5))
+"""Between steps feedback does the work; only a rest this big is driven first."""
+
+
+class Walk(Protocol):
+    """A plan as it is walked: the next thing to do, given where the last one was to end."""
+
+    duration_s: float
+    step: int
+    steps: int
+
+    def next(self, reference: Pose) -> CoreMotion | Reason | None:
+        """A core motion, a reason why it cannot go on, or None at the end."""
+        ...
+
+
+class Executor:
+    """One run of one plan. `start`, then `tick` at 50 Hz until `is_done`."""
+
+    def __init__(self, profile: RobotProfile, sensors: Sensors, emit: Callable[[Event], None]) -> None:
+        self._profile = profile
+        self._sensors = sensors
+        self._emit = emit
+        self.is_done = False
+        self.reason: Reason | None = None
+        self.outcome: Outcome = "completed"
+        self.planned_m = 0.0
+        self.planned_turn_rad = 0.0
+        self._segment: Segment | None = None
+        self._segment_at_s = 0.0
+        self._last: tuple[Segment, float] | None = None
+        self._pause_until_s: float | None = None
+        self._settle_since_s: float | None = None
+        self._mends_left = MEND_TRIES
+        self._is_mending = False
+        self._first_tick = False
+        self._ending: Reason | None = None
+        self._begin: tuple[Pose, float] = (Pose(), 0.0)
+
+    def start(self, turn: int, walk: Walk, start: Pose, now_s: float) -> None:
+        """Begin at `start`, the pose the plan was rehearsed from."""
+        self._turn = turn
+        self._walk = walk
+        self._reference = start
+        self._started_s = now_s
+
+    # --- what Motion reads ---
+
+    @property
+    def step_index(self) -> int:
+        return self._walk.step
+
+    @property
+    def steps(self) -> int:
+        return self._walk.steps
+
+    @property
+    def steps_done(self) -> int:
+        return self._walk.steps if self.is_done and self.reason is None else max(0, self._walk.step - 1)
+
+    def progress(self, turn: int, now_s: float) -> Progress:
+        """How far it is, by the rehearsed duration."""
+        share = (now_s - self._started_s) / self._walk.duration_s if self._walk.duration_s > 0.0 else 1.0
+        estimate = self._sensors.estimate
+        pose, twist = (estimate.pose, estimate.twist) if estimate is not None else (self._reference, ZERO_TWIST)
+        return Progress(turn, self._walk.step, self._walk.steps, max(0.0, min(1.0, share)), pose, twist)
+
+    def note_sent(self, sent: Twist) -> None:
+        """What the governor really sent. Zero where motion was asked for more than a moment shows in odometry."""
+        self._sent = sent
+
+    # --- control ---
+
+    def ramp_down(self, reason: Reason) -> None:
+        """A controlled stop: brake along the path, then end as `stopped`."""
+        self._ending = reason
+
+    def tick(self, now_s: float) -> Twist:
+        """The twist to ask for now, in the robot's frame."""
+        fault = sensor_fault(self._sensors)
+        if fault is not None:
+            return self._end("failed", fault)
+        while not self.is_done:
+            if self._segment is not None:
+                asked = self._drive(self._segment, now_s)
+            elif self._pause_until_s is not None:
+                asked = self._pause(self._pause_until_s, now_s)
+            elif self._settle_since_s is not None:
+                return self._settle(now_s)
+            else:
+                self._take_next(now_s)
+                continue
+            if asked is not None:
+                return asked
+        return ZERO_TWIST
+
+    def _take_next(self, now_s: float) -> None:
+        if self._ending is not None:
+            self._end("stopped", self._ending)
+            return
+        motion = self._walk.next(self._reference)
+        if motion is None:
+            self._settle_since_s = now_s
+        elif isinstance(motion, Reason):
+            self._end("failed", motion)
+        elif isinstance(motion, Emit):
+            self._tell(motion)
+        elif isinstance(motion, Pause):
+            self._pause_until_s = self._free_from_s(now_s) + motion.duration_s
+        else:
+            self.planned_m += motion.twist.speed_mps * motion.hold_s
+            self.planned_turn_rad += motion.twist.wz_radps * motion.hold_s
+            self._begin_segment(Segment(motion, self._reference), now_s)
+
+    def _free_from_s(self, now_s: float) -> float:
+        """When the last motion ended, if that was within this tick: so that no time is lost between steps."""
+        if self._last is None:
+            return now_s
+        segment, at_s = self._last
+        ended_s = at_s + segment.total_s
+        return ended_s if 0.0 <= now_s - ended_s < TICK_S else now_s
+
+    def _begin_segment(self, segment: Segment, now_s: float) -> None:
+        self._segment = segment
+        self._segment_at_s = self._free_from_s(now_s)
+        self._first_tick = True
+        estimate = self._sensors.estimate
+        self._begin = (estimate.pose if estimate is not None else segment.start, self._sensors.estimator.wheel_yaw_rad)
+
+    def _drive(self, segment: Segment, now_s: float) -> Twist | None:
+        t_s = now_s - self._segment_at_s
+        segment = self._cut_short(segment, t_s)
+        if t_s >= segment.total_s:
+            return self._end_segment(segment, now_s)
+        if self._first_tick and segment.motion.asked is not None:
+            self._first_tick = False
+            return segment.motion.asked  # beyond the limits: the governor says so, once
+        self._first_tick = False
+        _, twist = segment.at(t_s + TICK_S)
+        estimate = self._sensors.estimate
+        if estimate is None or not self._sensors.has_odometry:
+            return twist
+        reference = self._reference_at(estimate.stamp_s)
+        fault = self._tracking_fault(segment, reference, estimate)
+        if fault is not None:
+            return self._end("failed", fault)
+        more = feedback(self._profile, segment, reference.relative_to(estimate.pose))
+        return Twist(twist.vx_mps + more.vx_mps, twist.vy_mps + more.vy_mps, twist.wz_radps + more.wz_radps)
+
+    def _tracking_fault(self, segment: Segment, reference: Pose, estimate: Estimate) -> Reason | None:
+        begin, wheel_yaw_rad = self._begin
+        if self._is_mending or estimate.stamp_s < self._segment_at_s:
+            return None
+        # Measured from where the robot really began: an error it brought along is not this motion's.
+        moved = reference.relative_to(segment.start)
+        return tracking_fault(
+            begin,
+            begin.compose(moved),
+            estimate.pose,
+            self._sensors.estimator.wheel_yaw_rad - wheel_yaw_rad,
+        )
+
+    def _cut_short(self, segment: Segment, t_s: float) -> Segment:
+        """Brake where the plan's condition holds, or where a controlled stop was asked for."""
+        if self._ending is not None or (segment.motion.until is not None and self._condition_holds(segment, t_s)):
+            shorter = segment.stop_early(t_s)
+            if shorter.total_s < segment.total_s:
+                if not self._is_mending:
+                    lost_s = segment.ramp.hold_s - shorter.ramp.hold_s
+                    self.planned_m -= segment.motion.twist.speed_mps * lost_s
+                    self.planned_turn_rad -= segment.motion.twist.wz_radps * lost_s
+                self._segment = shorter
+                return shorter
+        return segment
+
+    def _condition_holds(self, segment: Segment, t_s: float) -> bool:
+        condition, scan = segment.motion.until, self._sensors.scan
+        if condition is None or scan is None:
+            return False
+        twist = segment.at(t_s)[1]
+        speed = twist.speed_mps
+        limits = self._profile.limits
+        braking_m = speed * (TICK_S + limits.latency_s) + speed * speed / (2.0 * limits.acceleration_mps2)
+        full = segment.motion.twist
+        direction = math.atan2(full.vy_mps, full.vx_mps)
+        return free_ahead_m(self._profile, scan, direction) - braking_m <= condition.distance_m
+
+    def _end_segment(self, segment: Segment, now_s: float) -> Twist | None:
+        self._last = (segment, self._segment_at_s)
+        self._segment = None
+        if not self._is_mending:
+            self._reference = segment.end_pose
+            self._mends_left = MEND_TRIES
+        self._is_mending = False
+        if self._ending is None and self._mend(STEP_TOLERANCE, now_s):
+            return ZERO_TWIST
+        return None
+
+    def _pause(self, until_s: float, now_s: float) -> Twist | None:
+        if now_s < until_s and self._ending is None:
+            return ZERO_TWIST
+        self._pause_until_s = None
+        return None
+
+    def _settle(self, now_s: float) -> Twist:
+        """The plan is done: see the robot stand, and drive the rest that feedback left, if it is worth it."""
+        assert self._settle_since_s is not None
+        waited_s = now_s - self._settle_since_s
+        estimate = self._sensors.estimate
+        if not self._sensors.has_odometry or estimate is None:
+            return self._end("completed", None)
+        seen = estimate.is_standing and estimate.stamp_s > self._settle_since_s
+        if not seen and waited_s < SETTLE_S:
+            return ZERO_TWIST
+        if seen and self._last is not None and self._mend(END_TOLERANCE, now_s):
+            self._settle_since_s = None
+            return ZERO_TWIST
+        return self._end("completed", None)
+
+    def _mend(self, tolerance: tuple[float, float], now_s: float) -> bool:
+        """Begin a small motion back to the reference if the rest is beyond `tolerance`. True if begun."""
+        estimate = self._sensors.estimate
+        if estimate is None or not self._sensors.has_odometry or self._mends_left == 0:
+            return False
+        rest = self._reference_at(estimate.stamp_s).relative_to(estimate.pose)
+        x = rest.x_m
+        y = rest.y_m if self._profile.can_go_sideways else 0.0
+        yaw = rest.yaw_rad if self._profile.can_turn_on_the_spot else 0.0
+        distance_m = math.hypot(x, y)
+        if distance_m <= tolerance[0] and abs(yaw) <= tolerance[1]:
+            return False
+        self._mends_left -= 1
+        hold_s = max(distance_m / MEND_SPEED_MPS, abs(yaw) / MEND_RATE_RADPS, 0.1)
+        twist = Twist(x / hold_s, y / hold_s, yaw / hold_s)
+        self._is_mending = True
+        self._begin_segment(
+            Segment(RampedTwist.within(self._profile.limits, twist, hold_s), estimate.pose), now_s
+        )
+        return True
+
+    def _reference_at(self, stamp_s: float) -> Pose:
+        """Where the robot should have been at `stamp_s`."""
+        if self._segment is not None and stamp_s >= self._segment_at_s:
+            return self._segment.at(stamp_s - self._segment_at_s)[0]
+        if self._last is not None:
+            segment, at_s = self._last
+            if stamp_s - at_s < segment.total_s:
+                return segment.at(stamp_s - at_s)[0]
+            return self._reference
+        return self._segment.start if self._segment is not None else self._reference
+
+    def _tell(self, motion: Emit) -> None:
+        estimate = self._sensors.estimate
+        if motion.kind == "remember":
+            self._emit(Remembered(self._turn, motion.text, estimate.pose if estimate else self._reference))
+        else:
+            self._emit(Said(self._turn, motion.text))
+
+    def _end(self, outcome: Outcome, reason: Reason | None) -> Twist:
+        self.is_done = True
+        self.outcome, self.reason = outcome, reason
+        return ZERO_TWIST

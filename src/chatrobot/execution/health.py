@@ -1,0 +1,65 @@
+"""Does the robot do what it is told? What it does instead is said, never papered over."""
+
+from __future__ import annotations
+
+import math
+
+from chatrobot.core.geometry import Pose
+from chatrobot.core.reason import Reason
+from chatrobot.execution.sensors import Sensors
+
+ODOMETRY_SILENT_S = 0.3
+OFF_TRACK_M = 0.10
+OFF_TRACK_RAD = math.radians(15.0)
+OFF_TRACK_SHARE = 0.10
+SLIP_RAD = math.radians(20.0)
+SLIP_SHARE = 0.3
+
+
+def sensor_fault(sensors: Sensors) -> Reason | None:
+    """Odometry that is silent or says what cannot be."""
+    if not sensors.has_odometry:
+        return None
+    age_s = sensors.odometry_age_s()
+    if age_s > ODOMETRY_SILENT_S:
+        return Reason("odometry_silent", {"age_s": round(min(age_s, 999.0), 2)})
+    fault, sensors.estimator.fault = sensors.estimator.fault, None
+    return fault
+
+
+def tracking_fault(begin: Pose, reference: Pose, seen: Pose, wheel_turn_rad: float) -> Reason | None:
+    """What is wrong where the robot parts too far from its reference.
+
+    Args:
+        begin: pose at the start of the motion.
+        reference: where it should be now.
+        seen: where odometry and gyro say it is.
+        wheel_turn_rad: how much the wheels say it turned since `begin`.
+    """
+    asked_m, seen_m = begin.distance_to(reference), begin.distance_to(seen)
+    asked_rad, seen_rad = reference.yaw_rad - begin.yaw_rad, seen.yaw_rad - begin.yaw_rad
+    if abs(wheel_turn_rad - seen_rad) > SLIP_RAD + SLIP_SHARE * abs(wheel_turn_rad):
+        return Reason(
+            "wheels_slip",
+            {"wheels_deg": _degrees(wheel_turn_rad), "gyro_deg": _degrees(seen_rad)},
+        )
+    off_m = reference.distance_to(seen)
+    off_rad = abs(asked_rad - seen_rad)
+    if off_m <= OFF_TRACK_M + OFF_TRACK_SHARE * asked_m and off_rad <= OFF_TRACK_RAD + OFF_TRACK_SHARE * abs(asked_rad):
+        return None
+    values = {
+        "asked_m": round(asked_m, 2),
+        "seen_m": round(seen_m, 2),
+        "asked_deg": _degrees(asked_rad),
+        "seen_deg": _degrees(seen_rad),
+    }
+    if seen_m < 0.1 * asked_m + 0.01 and abs(seen_rad) < 0.1 * abs(asked_rad) + 0.02:
+        return Reason("does_not_move", values)
+    ahead = (reference.x_m - begin.x_m) * (seen.x_m - begin.x_m) + (reference.y_m - begin.y_m) * (seen.y_m - begin.y_m)
+    if ahead < -0.002 or asked_rad * seen_rad < -0.01:
+        return Reason("moves_the_other_way", values)
+    return Reason("does_not_follow", values)
+
+
+def _degrees(angle_rad: float) -> float:
+    return round(math.degrees(angle_rad), 1)

@@ -1,0 +1,64 @@
+"""What the robot tells: the newest of each sensor, and when it came."""
+
+from __future__ import annotations
+
+import math
+
+from chatrobot.core.clock import Clock
+from chatrobot.execution.estimator import Estimate, PoseEstimator
+from chatrobot.robots.profile import RobotProfile
+from chatrobot.wire.messages import Flag, Imu, LaserScan, Number, Odometry
+from chatrobot.wire.wire import Wire
+
+
+class Sensors:
+    """Listens to one robot. `attach` subscribes; the rest is reading. Ages are by the receiver's clock."""
+
+    def __init__(self, profile: RobotProfile, clock: Clock) -> None:
+        self._profile = profile
+        self._clock = clock
+        self.estimator = PoseEstimator(profile.limits)
+        self.scan: LaserScan | None = None
+        self.bumped = False
+        self.battery_percent: float | None = None
+        self._odometry_at_s = -math.inf
+
+    def attach(self, wire: Wire) -> None:
+        """Subscribe to what the profile says the robot has."""
+        wiring = self._profile.wiring
+        if wiring.odom_topic:
+            wire.subscribe(wiring.odom_topic, Odometry, self._on_odometry)
+        if wiring.imu_topic:
+            wire.subscribe(wiring.imu_topic, Imu, self.estimator.on_imu)
+        if wiring.scan_topic:
+            wire.subscribe(wiring.scan_topic, LaserScan, self._on_scan)
+        if wiring.bumper_topic:
+            wire.subscribe(wiring.bumper_topic, Flag, self._on_bumper)
+        if wiring.battery_topic:
+            wire.subscribe(wiring.battery_topic, Number, self._on_battery)
+
+    @property
+    def has_odometry(self) -> bool:
+        """True where the profile says that the robot measures its motion."""
+        return bool(self._profile.wiring.odom_topic)
+
+    @property
+    def estimate(self) -> Estimate | None:
+        return self.estimator.estimate
+
+    def odometry_age_s(self) -> float:
+        """Seconds since odometry last came; infinite before the first."""
+        return self._clock.now_s() - self._odometry_at_s
+
+    def _on_odometry(self, message: Odometry) -> None:
+        self._odometry_at_s = self._clock.now_s()
+        self.estimator.on_odometry(message)
+
+    def _on_scan(self, message: LaserScan) -> None:
+        self.scan = message
+
+    def _on_bumper(self, message: Flag) -> None:
+        self.bumped = message.data
+
+    def _on_battery(self, message: Number) -> None:
+        self.battery_percent = message.data

@@ -1,0 +1,27 @@
+"""A person's yes binds one plan, from one pose, for a short while."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from chatrobot.core.geometry import Pose
+from chatrobot.core.reason import Reason
+
+LAPSES_AFTER_S = 30.0
+LAPSES_AFTER_M = 0.05
+
+
+@dataclass(frozen=True)
+class Approval:
+    """What a yes would be good for."""
+
+    asked_s: float
+    start: Pose
+
+    def lapsed(self, now_s: float, pose: Pose) -> Reason | None:
+        """Why a yes is worth nothing any more, or None."""
+        if now_s - self.asked_s > LAPSES_AFTER_S:
+            return Reason("approval_too_late", {"limit_s": LAPSES_AFTER_S})
+        if pose.distance_to(self.start) > LAPSES_AFTER_M:
+            return Reason("approval_robot_moved", {"limit_m": LAPSES_AFTER_M})
+        return None

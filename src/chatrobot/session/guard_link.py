@@ -1,0 +1,132 @@
+"""Motion's end of the line to its guard."""
+
+from __future__ import annotations
+
+import contextlib
+import socket
+import subprocess
+import sys
+from typing import Protocol
+
+from chatrobot.core.clock import Clock
+from chatrobot.guard.watch import BEAT, ECHO_LOST_S, GOODBYE, HANDSHAKE, TRIPPED, Watch
+from chatrobot.robots.profile import Wiring
+
+
+class GuardLink(Protocol):
+    """Motion refuses to move while `is_alive` is false."""
+
+    def handshake(self) -> None: ...
+
+    def beat(self) -> None: ...
+
+    def is_alive(self) -> bool:
+        """True while the guard answers."""
+        ...
+
+    def was_tripped(self) -> bool:
+        """True once after the guard has tripped; a handshake is then due."""
+        ...
+
+    def goodbye(self) -> None: ...
+
+
+class GuardProcess:
+    """A guard in a process and session of its own.
+
+    Args:
+        wire_path: the local wire's socket.
+        wiring: names the topics it halts and watches.
+    """
+
+    def __init__(self, wire_path: str, wiring: Wiring, clock: Clock) -> None:
+        self._clock = clock
+        self._echo_at_s = float("-inf")
+        self._tripped = False
+        ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
+        ours.setblocking(False)
+        self._line = ours
+        command = [
+            *(sys.executable, "-E", "-m", "chatrobot.guard", "--wire", wire_path),
+            *("--topic", wiring.cmd_vel_topic, "--odom", wiring.odom_topic, "--fd", str(theirs.fileno())),
+        ]
+        self.process = subprocess.Popen(
+            command,
+            pass_fds=[theirs.fileno()],
+            start_new_session=True,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+        )
+        theirs.close()
+
+    def handshake(self) -> None:
+        self._tripped = False
+        self._say(HANDSHAKE)
+
+    def beat(self) -> None:
+        self._hear()
+        self._say(BEAT)
+
+    def is_alive(self) -> bool:
+        self._hear()
+        return self._clock.now_s() - self._echo_at_s < ECHO_LOST_S
+
+    def was_tripped(self) -> bool:
+        self._hear()
+        return self._tripped
+
+    def goodbye(self) -> None:
+        self._say(GOODBYE)
+        self._line.close()
+
+    def wait_until_alive(self, timeout_s: float) -> bool:
+        """Block until the guard answers its first handshake. For start-up only."""
+        self.handshake()
+        self._line.settimeout(timeout_s)
+        try:
+            self._line.recv(1, socket.MSG_PEEK)
+        except OSError:
+            return False
+        finally:
+            self._line.setblocking(False)
+        return self.is_alive()
+
+    def _say(self, word: bytes) -> None:
+        with contextlib.suppress(OSError):  # a guard that is gone shows in `is_alive`
+            self._line.send(word, socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
+
+    def _hear(self) -> None:
+        with contextlib.suppress(OSError):
+            answers = self._line.recv(4096)
+            if answers:
+                self._echo_at_s = self._clock.now_s()
+                self._tripped = self._tripped or TRIPPED in answers
+
+
+class SimulatedGuard:
+    """The guard's rule on the clock of a simulation: whoever drives that clock asks `must_halt`."""
+
+    def __init__(self, clock: Clock) -> None:
+        self._clock = clock
+        self._watch = Watch()
+        self._tripped = False
+
+    def handshake(self) -> None:
+        self._tripped = False
+        self._watch.hear(HANDSHAKE, self._clock.now_s())
+
+    def beat(self) -> None:
+        self._watch.hear(BEAT, self._clock.now_s())
+        self._tripped = self._tripped or self._watch.state == "tripped"
+
+    def is_alive(self) -> bool:
+        return True
+
+    def was_tripped(self) -> bool:
+        return self._tripped
+
+    def goodbye(self) -> None:
+        self._watch = Watch()
+
+    def must_halt(self) -> bool:
+        return self._watch.must_halt(self._clock.now_s())

@@ -1,0 +1,147 @@
+"""The joint between the two halves: envelopes one way, events the other. Two carriers, one contract suite."""
+
+from __future__ import annotations
+
+import itertools
+import uuid
+from collections import deque
+from collections.abc import Callable
+from typing import Any, Protocol
+
+from chatrobot.core.clock import VirtualClock
+from chatrobot.core.events import Event
+from chatrobot.core.reason import Reason
+from chatrobot.governor.governor import TICK_S
+from chatrobot.session.envelope import Envelope, Word
+from chatrobot.session.guard_link import SimulatedGuard
+from chatrobot.session.motion import Motion
+from chatrobot.transports.transport import ZERO
+from chatrobot.wire.wire import Wire
+
+
+class Joint(Protocol):
+    """What a session holds of Motion. `send` and `stop` may be called from any thread."""
+
+    def send(self, word: Word, turn: int = 0, **payload: Any) -> None:
+        """Say one word.
+
+        Raises:
+            JointError: Motion is gone.
+        """
+        ...
+
+    def next_event(self, timeout_s: float) -> Event | None:
+        """The next event, waiting up to `timeout_s` (of simulated time where time is simulated)."""
+        ...
+
+    def wake(self) -> None:
+        """Have a waiting `next_event` return None at once."""
+        ...
+
+    @property
+    def is_lost(self) -> bool:
+        """Motion is gone, and we did not ask it to go."""
+        ...
+
+    def close(self) -> None:
+        """Say goodbye, let what is queued be done, and end. Closing twice does no harm."""
+        ...
+
+
+class Sender:
+    """Makes the envelopes of one source."""
+
+    def __init__(self, source: str) -> None:
+        self.source = source
+        self.lease = uuid.uuid4().hex
+        self._sequence = itertools.count(1)
+
+    def envelope(self, word: Word, turn: int = 0, **payload: Any) -> Envelope:
+        return Envelope(word, self.source, self.lease, next(self._sequence), turn, payload)
+
+
+class SimulatedJoint:
+    """Motion in the caller's thread, on a virtual clock that runs only while someone waits for an event.
+
+    Args:
+        build: makes Motion, given where its events go.
+        advance: lets the simulated robot live for a while (seconds).
+        guard_wire: the guard's own end of the wire.
+        cmd_vel_topic: where the guard sends its zeros.
+    """
+
+    def __init__(
+        self,
+        build: Callable[[Callable[[Event], None]], Motion],
+        wire: Wire,
+        clock: VirtualClock,
+        advance: Callable[[float], None],
+        guard: SimulatedGuard,
+        guard_wire: Wire,
+        cmd_vel_topic: str,
+        source: str = "console",
+    ) -> None:
+        self._events: deque[Event] = deque()
+        self._motion = build(self._events.append)
+        self._clock = clock
+        self._advance = advance
+        self._guard = guard
+        self._guard_wire = guard_wire
+        self._cmd_vel_topic = cmd_vel_topic
+        self._sender = Sender(source)
+        self._closed = False
+        self._beating = True
+        self._motion.start(wire)
+        self.send("hello")
+
+    def send(self, word: Word, turn: int = 0, **payload: Any) -> None:
+        envelope = self._sender.envelope(word, turn, **payload)
+        self._motion.hear_stop(envelope)
+        self._motion.handle(envelope)
+
+    def next_event(self, timeout_s: float) -> Event | None:
+        until_s = self._clock.now_s() + timeout_s
+        while not self._events and self._clock.now_s() < until_s - 1e-9:
+            self.step()
+        return self._events.popleft() if self._events else None
+
+    def wake(self) -> None:
+        """Nothing waits here: simulated time passes in the caller's thread."""
+
+    @property
+    def is_lost(self) -> bool:
+        return False
+
+    def step(self) -> None:
+        """One period: the source beats, Motion ticks, the robot moves."""
+        if self._beating:
+            self._motion.handle(self._sender.envelope("beat"))
+        self._motion.tick()
+        if self._guard.must_halt():
+            self._guard_wire.publish(self._cmd_vel_topic, ZERO)
+        self._clock.advance(TICK_S)
+        self._advance(TICK_S)
+
+    def freeze(self) -> None:
+        """The source stops beating, as a frozen process would. For tests of both joints."""
+        self._beating = False
+
+    def lose(self) -> None:
+        """The source dies without a goodbye."""
+        self._beating = False
+        self._motion.lose(self._sender.lease)
+
+    def close(self) -> None:
+        if self._closed:
+            return
+        self._closed = True
+        self.send("goodbye")
+        while not self._motion.has_left:
+            self.step()
+
+    @property
+    def motion(self) -> Motion:
+        return self._motion
+
+    def halt(self, why: Reason) -> None:
+        self._motion.halt(why)

@@ -1,0 +1,220 @@
+"""One conversation with one robot: texts in, events out, whatever face is on top.
+
+`say`, `stop` and `emergency_stop` may be called from any thread; everything else belongs to the thread that pumps.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+from chatrobot.core.errors import JointError
+from chatrobot.core.events import Event, Finished, Interpreted, Outcome, Remembered, Result, Telemetry
+from chatrobot.core.reason import Reason
+from chatrobot.language.interpretation import Interpretation
+from chatrobot.plan.text import format_plan
+from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
+from chatrobot.session.joint import Joint
+from chatrobot.session.understanding import Understanding
+
+QUEUE_LIMIT = 10
+"""Texts that may wait while the robot moves; one more is refused rather than done in an hour."""
+
+
+@dataclass(frozen=True)
+class Options:
+    """How a session behaves.
+
+    `while_moving` decides what a new instruction does to a running one: `queue` (pipes, programs) or `replace`
+    (a person at the keyboard). `approve` asks for a yes before each plan; `rehearse_only` moves nothing.
+    """
+
+    while_moving: Literal["queue", "replace"] = "queue"
+    approve: bool = False
+    rehearse_only: bool = False
+
+
+@dataclass(frozen=True)
+class _Said:
+    turn: int
+    text: str
+    is_stop: bool = False
+
+
+class Session:
+    """See the module.
+
+    Args:
+        on_event: hears every event, in order; it only reads.
+    """
+
+    def __init__(
+        self, joint: Joint, understanding: Understanding, on_event: Callable[[Event], None], options: Options
+    ) -> None:
+        self._joint = joint
+        self.understanding = understanding
+        self._on_event = on_event
+        self._options = options
+        self._texts: deque[_Said] = deque()
+        self._in_flight: dict[int, tuple[str, Interpretation]] = {}
+        self._turns = 0
+        self._turn_lock = threading.Lock()
+        self.results: dict[int, Result] = {}
+
+    # --- from any thread ---
+
+    def say(self, text: str) -> int:
+        """Take in what a person said; the number of its turn. A stop is out before this returns."""
+        with self._turn_lock:
+            self._turns += 1
+            turn = self._turns
+        if is_emergency_stop(text):
+            self.emergency_stop(text.strip()[:80])
+            self._texts.append(_Said(turn, text, is_stop=True))
+        elif leads_with_stop(text) if self.is_moving else is_stop(text):
+            self.stop(text.strip()[:80])
+            self._texts.append(_Said(turn, text, is_stop=True))
+        else:
+            self._texts.append(_Said(turn, text))
+        self._joint.wake()
+        return turn
+
+    def stop(self, why: str = "") -> None:
+        """Stop the robot and drop what is queued."""
+        self._drop_queued()
+        self._joint.send("stop", why=why)
+
+    def emergency_stop(self, why: str = "") -> None:
+        """Stop the robot and keep it stopped until `release`."""
+        self._drop_queued()
+        self._joint.send("emergency_stop", why=why)
+
+    def release(self) -> None:
+        """Release an emergency stop. For the local console alone."""
+        self._joint.send("release")
+
+    def approve(self, turn: int, yes: bool) -> None:
+        """Answer a rehearsed plan that waits for a yes."""
+        self._joint.send("approve", turn, yes=yes)
+
+    @property
+    def is_moving(self) -> bool:
+        """True while a plan of ours runs, or is on its way to."""
+        return bool(self._in_flight)
+
+    @property
+    def is_idle(self) -> bool:
+        return not self._in_flight and not self._texts
+
+    # --- the pumping thread ---
+
+    def do(self, text: str) -> Result:
+        """Say it and see it through: the result of its turn."""
+        turn = self.say(text)
+        while turn not in self.results:
+            self.pump(0.1)
+        return self.results[turn]
+
+    def pump(self, timeout_s: float) -> None:
+        """Let things happen for up to `timeout_s`: texts are understood, events heard.
+
+        Raises:
+            JointError: Motion is gone.
+        """
+        self._take_texts()
+        event = self._joint.next_event(0.0 if self._can_take_text() else timeout_s)
+        while event is not None:
+            self._hear(event)
+            event = self._joint.next_event(0.0)
+        if self._joint.is_lost:
+            raise JointError("Motion is gone; its guard has halted the robot. Start chatrobot again.")
+        self._take_texts()
+
+    def close(self) -> None:
+        """Goodbye: what runs is still done."""
+        self._joint.close()
+
+    def _drop_queued(self) -> None:
+        """A stop clears what waits; each dropped turn gets its result."""
+        dropped = [said for said in self._texts if not said.is_stop]
+        for said in dropped:
+            with_stop = Result(said.turn, "stopped", self.understanding.word("dropped_by_stop", said.text))
+            self._dropped.append(with_stop)
+            self._texts.remove(said)
+
+    def _can_take_text(self) -> bool:
+        if not self._texts:
+            return False
+        if self._texts[0].is_stop or len(self._texts) > QUEUE_LIMIT:
+            return True
+        return not self._in_flight or self._options.while_moving == "replace"
+
+    def _take_texts(self) -> None:
+        while self._can_take_text():
+            if len(self._texts) > QUEUE_LIMIT and self._in_flight:
+                said = self._texts.pop()
+                self._conclude(said.turn, "refused", self.understanding.word("queue_full", said.text))
+                continue
+            said = self._texts.popleft()
+            if said.is_stop:
+                self._emit(Interpreted(said.turn, "reflex", "", ""))
+                self._conclude(said.turn, "stopped", self.understanding.stop_reply(said.text))
+            else:
+                self._understand(said)
+
+    def _understand(self, said: _Said) -> None:
+        meant = self.understanding.interpret(said.text)
+        plan_text = format_plan(meant.plan) if meant.plan is not None else ""
+        self._emit(Interpreted(said.turn, "offline", plan_text, meant.reply))
+        if meant.outcome == "stop":
+            self.stop(said.text[:80])
+            self._conclude(said.turn, "stopped", meant.reply)
+        elif meant.outcome != "plan":
+            self.understanding.note_unmoved(said.text, meant)
+            self._conclude(said.turn, meant.outcome, meant.reply)
+        else:
+            mode = "append" if meant.append else self._options.while_moving
+            self._in_flight[said.turn] = (said.text, meant)
+            self._joint.send(
+                "plan",
+                said.turn,
+                plan_text=plan_text,
+                mode=mode,
+                approve=self._options.approve,
+                rehearse_only=self._options.rehearse_only,
+            )
+
+    def _hear(self, event: Event) -> None:
+        if isinstance(event, Telemetry):
+            self.understanding.note_telemetry(event)
+        elif isinstance(event, Remembered):
+            self.understanding.note_place(event)
+        self._emit(event)
+        if isinstance(event, Finished) and event.turn in self._in_flight:
+            text, meant = self._in_flight.pop(event.turn)
+            reply = self.understanding.note_finished(text, meant, event, self._options.rehearse_only)
+            self._conclude(event.turn, event.outcome, reply, event)
+
+    def _conclude(self, turn: int, outcome: Outcome, reply: str, finished: Finished | None = None) -> None:
+        pose = self.understanding.pose
+        result = Result(turn, outcome, reply, pose)
+        if finished is not None:
+            result = Result(
+                turn,
+                outcome,
+                reply,
+                finished.pose,
+                finished.turned_rad,
+                finished.path_m,
+                finished.duration_s,
+                finished.paused_s,
+                finished.reason,
+            )
+        self.results[turn] = result
+        self._emit(result)
+
+    def _emit(self, event: Event) -> None:
+        self._on_event(event)
