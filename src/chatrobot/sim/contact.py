@@ -25,7 +25,7 @@ class Surroundings:
     """The shapes of a world and those added to it, and how far a footprint can go among them."""
 
     def __init__(self, footprint: tuple[Point, ...], shapes: Sequence[Shape]) -> None:
-        self._footprint = footprint
+        self._points = footprint
         self._reach_m = max(math.hypot(x, y) for x, y in footprint)
         self._fixed = tuple(shapes)
         self._edges: Edges | None = None
@@ -39,9 +39,10 @@ class Surroundings:
         self.is_empty = not shapes
         self._free_m = 0.0
         if shapes:
-            from chatrobot.sim.edges import Edges
+            from chatrobot.sim.edges import Edges, Footprint
 
             self._edges = Edges(shapes)
+            self._footprint = Footprint(self._points)
         else:
             self._edges = None
 

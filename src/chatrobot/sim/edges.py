@@ -15,6 +15,17 @@ from chatrobot.sim.shapes import Circle, Point, Polygon, Shape
 Floats = NDArray[np.float64]
 
 
+class Footprint:
+    """A convex, counter-clockwise polygon as half-planes: inside is where `normals @ p <= offsets`."""
+
+    def __init__(self, points: tuple[Point, ...]) -> None:
+        self.corners = np.array(points, dtype=float)  # [sides, 2]
+        self.sides = np.roll(self.corners, -1, axis=0) - self.corners
+        outward = np.stack((self.sides[:, 1], -self.sides[:, 0]), axis=1)
+        self.normals = outward / np.linalg.norm(outward, axis=1, keepdims=True)
+        self.offsets = np.einsum("ij,ij->i", self.normals, self.corners)
+
+
 class Edges:
     """The outlines of shapes: `_starts`, `_vectors` [m, 2] of polygon edges, `_centres` [k, 2], `_radii`
     [k]."""
@@ -46,48 +57,34 @@ class Edges:
             nearest_m = min(nearest_m, float(np.abs(to_centre - self._radii).min()))
         return nearest_m
 
-    def touch(self, footprint: tuple[Point, ...], pose: Pose) -> bool:
-        """Whether any outline meets the convex, counter-clockwise `footprint` of a robot at `pose`.
-
-        Edges are clipped against the footprint's half-planes: Cyrus and Beck (1978), for all edges at once.
-        """
+    def touch(self, body: Footprint, pose: Pose) -> bool:
+        """Whether any outline meets the footprint of a robot at `pose`."""
         cos, sin = math.cos(pose.yaw_rad), math.sin(pose.yaw_rad)
         turn = np.array(((cos, -sin), (sin, cos)))
         position = np.array((pose.x_m, pose.y_m))
-        corners = np.array(footprint)
-        sides = np.roll(corners, -1, axis=0) - corners
-        normals = np.stack((sides[:, 1], -sides[:, 0]), axis=1)
-        normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-        offsets = np.einsum("ij,ij->i", normals, corners)
-        return self._edges_inside(turn, position, normals, offsets) or self._circles_inside(
-            turn, position, corners, normals, offsets
-        )
+        return self._edges_touch(body, turn, position) or self._circles_touch(body, turn, position)
 
-    def _edges_inside(self, turn: Floats, position: Floats, normals: Floats, offsets: Floats) -> bool:
+    def _edges_touch(self, body: Footprint, turn: Floats, position: Floats) -> bool:
+        """Clip all edges against the footprint's half-planes at once: Cyrus and Beck (1978)."""
         if not len(self._starts):
             return False
-        starts = (self._starts - position) @ turn @ normals.T - offsets  # [m, sides], above 0 is outside
-        slopes = self._vectors @ turn @ normals.T
-        with np.errstate(divide="ignore", invalid="ignore"):
-            crossings = -starts / slopes
-        parallel = np.abs(slopes) < 1e-12
-        enters = np.where(
-            parallel, np.where(starts > 0.0, np.inf, 0.0), np.where(slopes < 0.0, crossings, 0.0)
-        )
-        leaves = np.where(parallel, 1.0, np.where(slopes > 0.0, crossings, 1.0))
-        return bool(np.any(np.maximum(enters.max(axis=1), 0.0) <= np.minimum(leaves.min(axis=1), 1.0)))
+        into_normals = turn @ body.normals.T
+        gaps = (self._starts - position) @ into_normals - body.offsets  # [m, sides], above 0 is outside
+        slopes = self._vectors @ into_normals
+        slopes[np.abs(slopes) < 1e-12] = 1e-12  # parallel: crosses far away, on the right side
+        crossings = -gaps / slopes
+        enters = np.where(slopes < 0.0, crossings, 0.0).max(axis=1)
+        leaves = np.where(slopes > 0.0, crossings, 1.0).min(axis=1)
+        return bool(np.any(np.maximum(enters, 0.0) <= np.minimum(leaves, 1.0)))
 
-    def _circles_inside(
-        self, turn: Floats, position: Floats, corners: Floats, normals: Floats, offsets: Floats
-    ) -> bool:
+    def _circles_touch(self, body: Footprint, turn: Floats, position: Floats) -> bool:
         if not len(self._radii):
             return False
         centres = (self._centres - position) @ turn
-        inside = np.all(centres @ normals.T <= offsets, axis=1)
-        sides = np.roll(corners, -1, axis=0) - corners
-        to_centre = centres[:, None, :] - corners[None, :, :]
-        along = np.einsum("ijk,jk->ij", to_centre, sides) / np.einsum("jk,jk->j", sides, sides)
-        gaps = to_centre - np.clip(along, 0.0, 1.0)[:, :, None] * sides[None, :, :]
+        inside = np.all(centres @ body.normals.T <= body.offsets, axis=1)
+        to_centre = centres[:, None, :] - body.corners[None, :, :]
+        along = np.einsum("ijk,jk->ij", to_centre, body.sides) / np.einsum("jk,jk->j", body.sides, body.sides)
+        gaps = to_centre - np.clip(along, 0.0, 1.0)[:, :, None] * body.sides[None, :, :]
         distances = np.linalg.norm(gaps, axis=2).min(axis=1)
         return bool(np.any(inside | (distances <= self._radii)))
 

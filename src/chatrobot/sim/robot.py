@@ -82,6 +82,11 @@ class SimRobot:
         return self._in_contact
 
     @property
+    def start_s(self) -> float:
+        """When its first tick began; ticks come every `TICK_S` from there."""
+        return self._start_s
+
+    @property
     def now_s(self) -> float:
         """The time it has been stepped to."""
         return self._now_s
