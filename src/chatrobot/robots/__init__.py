@@ -1,1 +1,1 @@
-"""Level 1: robot profiles. `load_profile(name_or_path)` is the door."""
+"""Level 1: robot profiles. `chatrobot.robots.load.load_profile(name_or_path)` is the door."""

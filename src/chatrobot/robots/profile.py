@@ -14,8 +14,8 @@ Point = tuple[float, float]
 class Limits:
     """What the governor holds the robot to. All positive; planar, in the robot's frame.
 
-    `max_speed_mps` bounds the combined linear speed hypot(vx, vy) too. `deceleration_mps2` and `latency_s` are
-    what braking distance is computed from: v * latency + v^2 / (2 * deceleration).
+    `max_speed_mps` bounds the combined linear speed hypot(vx, vy) too. `deceleration_mps2` and `latency_s`
+    are what braking distance is computed from: v * latency + v^2 / (2 * deceleration).
     `min_turning_radius_m` is 0 for a base that can turn on the spot.
     """
 
@@ -56,12 +56,16 @@ class Lidar:
 class Wiring:
     """Topics, types and habits of the base. Nothing here bounds a motion.
 
-    `base_timeout_s` is how long the base holds its last command; None means for ever.
+    Topics are ROS names, None where the robot has no such sensor. Their types: imu sensor_msgs/Imu, scan
+    sensor_msgs/LaserScan, bumper std_msgs/Bool, battery sensor_msgs/BatteryState, camera sensor_msgs/Image;
+    odometry as `odom_type` says. `base_timeout_s` is how long the base holds its last command; None means
+    for ever.
     """
 
     cmd_vel_topic: str = "cmd_vel"
     cmd_vel_type: Literal["Twist", "TwistStamped"] = "Twist"
     odom_topic: str = "odom"
+    odom_type: Literal["Odometry", "turtlesim/Pose"] = "Odometry"
     imu_topic: str | None = None
     scan_topic: str | None = None
     bumper_topic: str | None = None
@@ -72,10 +76,11 @@ class Wiring:
 
 @dataclass(frozen=True)
 class RobotProfile:
-    """One robot. `footprint` is a convex polygon in the robot's frame, metres, counter-clockwise.
+    """One robot. `footprint` is a convex polygon around (0, 0), counter-clockwise, metres, robot frame.
 
-    `sources` tells for every limit where its number comes from. `approval` says whether a plan needs a person's
-    yes before it runs where nothing else is said.
+    `name` is that of the file it was read from. `sources` tells for every limit, by the name of its field in
+    `Limits`, where its number comes from. `approval` says whether a plan needs a person's yes before it runs
+    where nothing else is said.
     """
 
     name: str

@@ -1,0 +1,137 @@
+"""The text of a profile to a `RobotProfile`: which fields there are, and which values each may have alone.
+
+What must hold between fields is in `rules`. The format is described in docs/robots.md.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import re
+import sys
+from typing import Any
+
+from chatrobot.robots.fields import Range, Source, Table
+from chatrobot.robots.profile import Defaults, Lidar, Limits, RobotProfile, Wiring
+from chatrobot.robots.rules import check
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+# Wide enough for any robot that fits through a door, narrow enough to catch mm/s and degrees.
+LIMIT_RANGES = {
+    "max_speed_mps": Range(0.0, 10.0, "m/s"),
+    "max_sideways_mps": Range(0.0, 10.0, "m/s", with_low=True),
+    "max_rate_radps": Range(0.0, 20.0, "rad/s"),
+    "acceleration_mps2": Range(0.0, 50.0, "m/s²"),
+    "angular_acceleration_radps2": Range(0.0, 200.0, "rad/s²"),
+    "deceleration_mps2": Range(0.0, 50.0, "m/s²"),
+    "latency_s": Range(0.0, 2.0, "s", with_low=True),
+    "min_turning_radius_m": Range(0.0, 20.0, "m", with_low=True),
+}
+DEFAULT_RANGES = {
+    "speed_mps": Range(0.0, 10.0, "m/s"),
+    "rate_radps": Range(0.0, 20.0, "rad/s"),
+    "distance_m": Range(0.0, 100.0, "m"),
+    "turn_rad": Range(0.0, 2.0 * math.pi, "rad"),
+}
+LIDAR_RANGES = {
+    "x_m": Range(-5.0, 5.0, "m", with_low=True),
+    "y_m": Range(-5.0, 5.0, "m", with_low=True),
+    "yaw_rad": Range(-2.0 * math.pi, 2.0 * math.pi, "rad", with_low=True),
+    "min_range_m": Range(0.0, 100.0, "m", with_low=True),
+    "max_range_m": Range(0.0, 1000.0, "m"),
+    "rate_hz": Range(0.0, 1000.0, "Hz"),
+}
+TIMEOUT_RANGE = Range(0.0, 60.0, 's, or "forever"')
+FOOTPRINT_RANGE = Range(-5.0, 5.0, "m", with_low=True)
+WIRING_CHOICES = {"cmd_vel_type": ("Twist", "TwistStamped"), "odom_type": ("Odometry", "turtlesim/Pose")}
+FOREVER = "forever"
+
+SOURCE_MEANING = "where the number comes from: a document, a measurement, or that it is a cautious guess"
+_OPTIONAL_LIMIT = "min_turning_radius_m"
+_TOP = ("title", "kinematics", "approval", "footprint", "limits", "defaults", "lidar", "wiring")
+_LINE = re.compile(r"at line (\d+)")
+
+
+def parse_profile(text: str, name: str, file: str = "") -> RobotProfile:
+    """The profile called `name` in TOML `text`; `file` is what errors call it (`name` if empty).
+
+    Raises ProfileError: no TOML, a field missing, unknown, of the wrong kind or out of range, or fields that
+    contradict each other.
+    """
+    source = Source(file or name, text)
+    top = Table(_toml(source), source)
+    top.only(_TOP)
+    limits, sources = _limits(top.table("limits"))
+    profile = RobotProfile(
+        name=name,
+        title=top.text("title", "a name that people read"),
+        kinematics=_literal(top.choice("kinematics", ("differential", "mecanum", "ackermann"))),
+        limits=limits,
+        defaults=Defaults(**_numbers(top.table("defaults"), DEFAULT_RANGES)),
+        footprint=top.points("footprint", FOOTPRINT_RANGE),
+        wiring=_wiring(top.table("wiring")) if "wiring" in top else Wiring(),
+        lidar=_lidar(top.table("lidar")) if "lidar" in top else None,
+        approval=_literal(top.choice("approval", ("plan", "stream"))) if "approval" in top else "plan",
+        sources=sources,
+    )
+    check(profile, source.fail)
+    return profile
+
+
+def _literal(choice: str) -> Any:
+    """A checked choice as the Literal it is: the type checker cannot follow the check."""
+    return choice
+
+
+def _toml(source: Source) -> dict[str, Any]:
+    try:
+        return tomllib.loads(source.text)
+    except ValueError as error:
+        line = _LINE.search(str(error))
+        where = dataclasses.replace(source, file=f"{source.file}:{line[1]}") if line else source
+        where.fail("", f"this is not TOML: {error}", "see docs/robots.md and the built-in profiles")
+
+
+def _numbers(table: Table, ranges: dict[str, Range]) -> dict[str, float]:
+    table.only(tuple(ranges))
+    return {key: table.number(key, allowed) for key, allowed in ranges.items()}
+
+
+def _limits(table: Table) -> tuple[Limits, dict[str, str]]:
+    table.only(tuple(LIMIT_RANGES))
+    values: dict[str, float] = {}
+    sources: dict[str, str] = {}
+    for key, allowed in LIMIT_RANGES.items():
+        if key == _OPTIONAL_LIMIT and key not in table:
+            continue
+        limit = table.table(key)
+        limit.only(("value", "source"))
+        values[key] = limit.number("value", allowed)
+        sources[key] = limit.text("source", SOURCE_MEANING)
+    return Limits(**values), sources
+
+
+def _lidar(table: Table) -> Lidar:
+    table.only((*LIDAR_RANGES, "beams"))
+    numbers = {key: table.number(key, allowed) for key, allowed in LIDAR_RANGES.items()}
+    return Lidar(**numbers, beams=table.integer("beams", 1, 100_000))
+
+
+def _wiring(table: Table) -> Wiring:
+    known = tuple(field.name for field in dataclasses.fields(Wiring))
+    table.only(known)
+    values: dict[str, Any] = {}
+    for key in known:
+        if key not in table:
+            continue
+        if key == "base_timeout_s":
+            values[key] = None if table.is_text(key, FOREVER) else table.number(key, TIMEOUT_RANGE)
+        elif key in WIRING_CHOICES:
+            values[key] = table.choice(key, WIRING_CHOICES[key])
+        else:
+            values[key] = table.topic(key)
+    return Wiring(**values)
