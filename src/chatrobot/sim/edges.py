@@ -1,0 +1,131 @@
+"""Edges and circles as arrays: clearance, contact with a footprint, and rays, all at once for a whole
+world."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from chatrobot.core.geometry import Pose
+from chatrobot.sim.shapes import Circle, Point, Polygon, Shape
+
+Floats = NDArray[np.float64]
+
+
+class Footprint:
+    """A convex, counter-clockwise polygon as half-planes: inside is where `normals @ p <= offsets`."""
+
+    def __init__(self, points: tuple[Point, ...]) -> None:
+        self.corners = np.array(points, dtype=float)  # [sides, 2]
+        self.sides = np.roll(self.corners, -1, axis=0) - self.corners
+        outward = np.stack((self.sides[:, 1], -self.sides[:, 0]), axis=1)
+        self.normals = outward / np.linalg.norm(outward, axis=1, keepdims=True)
+        self.offsets = np.einsum("ij,ij->i", self.normals, self.corners)
+
+
+class Edges:
+    """The outlines of shapes: `_starts`, `_vectors` [m, 2] of polygon edges, `_centres` [k, 2], `_radii`
+    [k]."""
+
+    def __init__(self, shapes: Sequence[Shape]) -> None:
+        corners = [
+            (a, (b[0] - a[0], b[1] - a[1]))
+            for shape in shapes
+            if isinstance(shape, Polygon)
+            for a, b in zip(shape.points, shape.points[1:] + shape.points[:1])
+        ]
+        circles = [shape for shape in shapes if isinstance(shape, Circle)]
+        self._starts = np.array([a for a, _ in corners], dtype=float).reshape(-1, 2)
+        self._vectors = np.array([v for _, v in corners], dtype=float).reshape(-1, 2)
+        self._lengths_squared = np.maximum(np.einsum("ij,ij->i", self._vectors, self._vectors), 1e-18)
+        self._centres = np.array([(c.x_m, c.y_m) for c in circles], dtype=float).reshape(-1, 2)
+        self._radii = np.array([c.radius_m for c in circles], dtype=float)
+
+    def clearance_m(self, x_m: float, y_m: float) -> float:
+        """From a point to the nearest outline."""
+        nearest_m = math.inf
+        if len(self._starts):
+            to_point = np.array((x_m, y_m)) - self._starts
+            along = np.einsum("ij,ij->i", to_point, self._vectors) / self._lengths_squared
+            gap = to_point - np.clip(along, 0.0, 1.0)[:, None] * self._vectors
+            nearest_m = math.sqrt(float(np.einsum("ij,ij->i", gap, gap).min()))
+        if len(self._radii):
+            to_centre = np.hypot(self._centres[:, 0] - x_m, self._centres[:, 1] - y_m)
+            nearest_m = min(nearest_m, float(np.abs(to_centre - self._radii).min()))
+        return nearest_m
+
+    def touch(self, body: Footprint, pose: Pose) -> bool:
+        """Whether any outline meets the footprint of a robot at `pose`."""
+        cos, sin = math.cos(pose.yaw_rad), math.sin(pose.yaw_rad)
+        turn = np.array(((cos, -sin), (sin, cos)))
+        position = np.array((pose.x_m, pose.y_m))
+        return self._edges_touch(body, turn, position) or self._circles_touch(body, turn, position)
+
+    def _edges_touch(self, body: Footprint, turn: Floats, position: Floats) -> bool:
+        """Clip all edges against the footprint's half-planes at once: Cyrus and Beck (1978)."""
+        if not len(self._starts):
+            return False
+        into_normals = turn @ body.normals.T
+        gaps = (self._starts - position) @ into_normals - body.offsets  # [m, sides], above 0 is outside
+        slopes = self._vectors @ into_normals
+        slopes[np.abs(slopes) < 1e-12] = 1e-12  # parallel: crosses far away, on the right side
+        crossings = -gaps / slopes
+        enters = np.where(slopes < 0.0, crossings, 0.0).max(axis=1)
+        leaves = np.where(slopes > 0.0, crossings, 1.0).min(axis=1)
+        return bool(np.any(np.maximum(enters, 0.0) <= np.minimum(leaves, 1.0)))
+
+    def _circles_touch(self, body: Footprint, turn: Floats, position: Floats) -> bool:
+        if not len(self._radii):
+            return False
+        centres = (self._centres - position) @ turn
+        inside = np.all(centres @ body.normals.T <= body.offsets, axis=1)
+        to_centre = centres[:, None, :] - body.corners[None, :, :]
+        along = np.einsum("ijk,jk->ij", to_centre, body.sides) / np.einsum("jk,jk->j", body.sides, body.sides)
+        gaps = to_centre - np.clip(along, 0.0, 1.0)[:, :, None] * body.sides[None, :, :]
+        distances = np.linalg.norm(gaps, axis=2).min(axis=1)
+        return bool(np.any(inside | (distances <= self._radii)))
+
+    def raycast(self, eye: Pose, beams: int) -> Floats:
+        """Metres along `beams` equally spaced directions, the first at -pi in the frame of `eye`.
+
+        Returns:
+            [beams]; inf where a ray meets nothing.
+        """
+        angles = eye.yaw_rad - math.pi + math.tau / beams * np.arange(beams)
+        directions = np.stack((np.cos(angles), np.sin(angles)), axis=1)
+        ranges = np.full(beams, np.inf)
+        if len(self._starts):
+            ranges = np.minimum(ranges, self._ray_to_edges(eye, directions))
+        if len(self._radii):
+            ranges = np.minimum(ranges, self._ray_to_circles(eye, directions))
+        return ranges
+
+    def _ray_to_edges(self, eye: Pose, directions: Floats) -> Floats:
+        """Ray eye + r d meets edge a + u e where r = (a x e) / (d x e) and u = (a x d) / (d x e)."""
+        to_start = self._starts - np.array((eye.x_m, eye.y_m))
+        ax, ay = to_start[:, 0], to_start[:, 1]
+        ex, ey = self._vectors[:, 0], self._vectors[:, 1]
+        d_cross_e = directions @ np.stack((ey, -ex))  # [beams, m]
+        a_cross_d = directions @ np.stack((-ay, ax))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            inverse = 1.0 / d_cross_e
+            ranges = (ax * ey - ay * ex) * inverse
+            along = a_cross_d * inverse
+        miss = (along < 0.0) | (along > 1.0) | ~(ranges >= 0.0)
+        ranges[miss] = np.inf
+        nearest: Floats = ranges.min(axis=1)
+        return nearest
+
+    def _ray_to_circles(self, eye: Pose, directions: Floats) -> Floats:
+        to_centre = self._centres - np.array((eye.x_m, eye.y_m))
+        along = directions @ to_centre.T  # [beams, k]
+        beside_squared = np.einsum("ij,ij->i", to_centre, to_centre) - along**2
+        half_chord = np.sqrt(np.maximum(self._radii**2 - beside_squared, 0.0))
+        ranges = along - half_chord
+        ranges = np.where(ranges >= 0.0, ranges, along + half_chord)  # from within: the far rim
+        ranges[(beside_squared > self._radii**2) | (ranges < 0.0)] = np.inf
+        nearest: Floats = ranges.min(axis=1)
+        return nearest

@@ -1,0 +1,69 @@
+"""The simulated robot in real time, on a local wire whose hub it runs."""
+
+from __future__ import annotations
+
+import math
+import signal
+from types import FrameType
+
+from chatrobot.core.clock import Clock
+from chatrobot.sim.robot import TICK_S, SimRobot
+from chatrobot.wire.local import LocalHub
+
+LAST_CLIENT_GONE_S = 2.0
+"""It ends so long after its last client has left."""
+FIRST_CLIENT_S = 15.0
+"""It ends if nobody comes within this time."""
+GAP_S = 0.5
+"""A pause this long was a frozen process (Ctrl-Z, a sleeping laptop): physics resumes where it was. A shorter
+one was a busy machine: physics catches up."""
+
+
+class SimServer:
+    """Lets a simulated robot live in real time as long as somebody is there."""
+
+    def __init__(self, robot: SimRobot, hub: LocalHub, clock: Clock) -> None:
+        self._robot = robot
+        self._hub = hub
+        self._clock = clock
+        self._terminated = False
+        self._alone_since_s = clock.now_s()
+
+    def catch_up(self) -> None:
+        """Bring the robot to the present, so that what happens next happens now."""
+        behind_s = self._clock.now_s() - self._robot.now_s
+        if behind_s > GAP_S:
+            self._robot.skip(behind_s)
+            self._alone_since_s += behind_s
+        elif behind_s > 0.0:
+            self._robot.step(behind_s)
+
+    def run(self) -> None:
+        """Until everybody has left, nobody came or SIGTERM; the hub is closed then.
+
+        A terminal's signals are for whoever talks to a person: the robot goes on, as a real one would.
+        """
+        for ignored in (signal.SIGINT, signal.SIGTSTP, signal.SIGHUP):
+            signal.signal(ignored, signal.SIG_IGN)
+        signal.signal(signal.SIGTERM, self._on_terminate)
+        try:
+            while not self._terminated and not self._deserted():
+                self.catch_up()
+                self._hub.poll(self._until_next_tick_s())
+        finally:
+            self._hub.close()
+
+    def _until_next_tick_s(self) -> float:
+        elapsed_s = self._clock.now_s() - self._robot.start_s
+        return (math.floor(elapsed_s / TICK_S) + 1) * TICK_S - elapsed_s
+
+    def _deserted(self) -> bool:
+        now_s = self._clock.now_s()
+        if self._hub.client_count:
+            self._alone_since_s = now_s
+            return False
+        patience_s = LAST_CLIENT_GONE_S if self._hub.ever_connected else FIRST_CLIENT_S
+        return now_s - self._alone_since_s > patience_s
+
+    def _on_terminate(self, _signal: int, _frame: FrameType | None) -> None:
+        self._terminated = True

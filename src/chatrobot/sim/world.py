@@ -1,0 +1,132 @@
+"""What stands around the robot and what places are called.
+
+A world is expressed in the frame the robot starts in: the robot begins every run at (0, 0, 0), so that here
+the frame of the world and `odom` are the same.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from chatrobot.core.errors import WorldError
+from chatrobot.core.geometry import Pose
+from chatrobot.sim.shapes import Point, Polygon, Shape
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from chatrobot.sim.distance_field import DistanceField
+
+
+@dataclass(frozen=True)
+class Obstacle:
+    """Something with a name that a robot cannot drive through."""
+
+    name: str
+    shape: Shape
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """The axis-aligned box that holds a world."""
+
+    min_x_m: float
+    min_y_m: float
+    max_x_m: float
+    max_y_m: float
+
+
+@dataclass(frozen=True)
+class World:
+    """Obstacles and named places, in the frame of the start.
+
+    `places` maps each place's main name to where a robot stands there. `aliases` maps every name a person may
+    say (English or Chinese, casefolded; the main names too) to a main name. `allowed_area` is the polygon the
+    robot is to stay in, if the world has one; it is a rule, not a wall: neither lidar nor collisions know it.
+    """
+
+    name: str
+    obstacles: tuple[Obstacle, ...] = ()
+    places: Mapping[str, Pose] = field(default_factory=dict)
+    aliases: Mapping[str, str] = field(default_factory=dict)
+    allowed_area: Polygon | None = None
+
+    @property
+    def is_empty(self) -> bool:
+        """Nothing stands here."""
+        return not self.obstacles
+
+    def place(self, name: str) -> Pose | None:
+        """The pose of a place by any of its names; None where nobody knows it."""
+        main_name = self.aliases.get(name.strip().casefold(), name.strip())
+        return self.places.get(main_name)
+
+    def obstacle_name_at(self, x_m: float, y_m: float) -> str:
+        """The name of the obstacle that is there, or nearest to there; empty in an empty world."""
+        if not self.obstacles:
+            return ""
+        return min(self.obstacles, key=lambda obstacle: obstacle.shape.distance_m(x_m, y_m)).name
+
+    def outline(self) -> list[tuple[str, tuple[Point, ...]]]:
+        """Every obstacle as a named polygon, for drawing a map."""
+        return [(obstacle.name, obstacle.shape.outline()) for obstacle in self.obstacles]
+
+    @cached_property
+    def bounds(self) -> Bounds | None:
+        """The box that holds all obstacles, places, the allowed area and the start; None in an empty
+        world."""
+        points = [point for _, outline in self.outline() for point in outline]
+        points += [(pose.x_m, pose.y_m) for pose in self.places.values()]
+        points += self.allowed_area.points if self.allowed_area else ()
+        if not points:
+            return None
+        xs, ys = zip(*points, (0.0, 0.0))
+        return Bounds(min(xs), min(ys), max(xs), max(ys))
+
+    @cached_property
+    def distance_field(self) -> DistanceField:
+        """How far it is to the nearest obstacle, on a grid; computed once, at the first look."""
+        from chatrobot.sim.distance_field import build_distance_field
+
+        return build_distance_field(tuple(obstacle.shape for obstacle in self.obstacles))
+
+    def clearance_m(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Metres from each point to the nearest obstacle, never more than it is (see `DistanceField`).
+
+        Args:
+            points: [n, 2], metres, in the world's frame.
+
+        Returns:
+            [n]; zero or less inside an obstacle, `FAR_M` everywhere in an empty world.
+        """
+        return self.distance_field.clearance_m(points)
+
+
+EMPTY_WORLD = World("empty")
+
+_BUILT_IN = Path(__file__).with_name("worlds")
+
+
+def load_world(name_or_path: str) -> World:
+    """The world of that name, or in that YAML file (anything with a slash, or ending in .yaml or .yml).
+
+    Raises:
+        WorldError: there is none, or it cannot be used; names file, line, field and what is allowed.
+    """
+    if name_or_path == EMPTY_WORLD.name:
+        return EMPTY_WORLD
+    from chatrobot.sim.world_file import read_world
+
+    if "/" in name_or_path or name_or_path.endswith((".yaml", ".yml")):
+        return read_world(Path(name_or_path))
+    path = _BUILT_IN / f"{name_or_path}.yaml"
+    if path.is_file():
+        return read_world(path)
+    names = sorted(file.stem for file in _BUILT_IN.glob("*.yaml"))
+    allowed = f"{', '.join((EMPTY_WORLD.name, *names))}, or a path to a .yaml file"
+    raise WorldError(f"there is no world named {name_or_path!r}", allowed=allowed)
