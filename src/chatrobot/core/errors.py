@@ -1,15 +1,15 @@
 """The whole tree of errors. Being limited, refused or stopped is a value and an event, never one of these.
 
-    ChatRobotError                 something broke or was given to us broken
-    ├── InputError                 a person can mend it: it names the place, what is wrong and what is allowed
-    │   ├── ProfileError           a robot profile
-    │   ├── WorldError             a world file
-    │   ├── PlanTextError          a line of plan text (or its JSON form)
-    │   ├── CorpusError            a file for `chatrobot eval`
-    │   └── UsageError             a command-line option or an API argument
-    ├── WireError                  the publish/subscribe layer lost its other end
-    ├── JointError                 Motion could not be started or does not answer
-    └── SafetyError                a rule of the safety design would be broken: never caught, always fatal
+ChatRobotError                 something broke or was given to us broken
+├── InputError                 a person can mend it: it names the place, what is wrong and what is allowed
+│   ├── ProfileError           a robot profile
+│   ├── WorldError             a world file
+│   ├── PlanTextError          a line of plan text (or its JSON form)
+│   ├── CorpusError            a file for `chatrobot eval`
+│   └── UsageError             a command-line option or an API argument
+├── WireError                  the publish/subscribe layer lost its other end
+├── JointError                 Motion could not be started or does not answer
+└── SafetyError                a rule of the safety design would be broken: never caught, always fatal
 """
 
 from __future__ import annotations

@@ -29,7 +29,10 @@ class Event:
     name: ClassVar[str] = ""
 
     def to_json(self) -> dict[str, Any]:
-        return {"event": self.name, **{f.name: _plain(getattr(self, f.name)) for f in dataclasses.fields(self)}}
+        return {
+            "event": self.name,
+            **{f.name: _plain(getattr(self, f.name)) for f in dataclasses.fields(self)},
+        }
 
 
 @dataclass(frozen=True)

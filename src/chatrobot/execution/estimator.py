@@ -143,4 +143,3 @@ class PoseEstimator:
     def _is_resting(self, stamp_s: float) -> bool:
         """Standing for a moment already: what the gyro shows now is bias."""
         return stamp_s - self._standing_since_s > 0.06
-

@@ -96,7 +96,9 @@ class Executor:
         """How far it is, by the rehearsed duration."""
         share = (now_s - self._started_s) / self._walk.duration_s if self._walk.duration_s > 0.0 else 1.0
         estimate = self._sensors.estimate
-        pose, twist = (estimate.pose, estimate.twist) if estimate is not None else (self._reference, ZERO_TWIST)
+        pose, twist = (
+            (estimate.pose, estimate.twist) if estimate is not None else (self._reference, ZERO_TWIST)
+        )
         return Progress(turn, self._walk.step, self._walk.steps, max(0.0, min(1.0, share)), pose, twist)
 
     def note_sent(self, sent: Twist) -> None:
@@ -159,7 +161,10 @@ class Executor:
         self._segment_at_s = self._free_from_s(now_s)
         self._first_tick = True
         estimate = self._sensors.estimate
-        self._begin = (estimate.pose if estimate is not None else segment.start, self._sensors.estimator.wheel_yaw_rad)
+        self._begin = (
+            estimate.pose if estimate is not None else segment.start,
+            self._sensors.estimator.wheel_yaw_rad,
+        )
 
     def _drive(self, segment: Segment, now_s: float) -> Twist | None:
         t_s = now_s - self._segment_at_s
@@ -196,7 +201,9 @@ class Executor:
 
     def _cut_short(self, segment: Segment, t_s: float) -> Segment:
         """Brake where the plan's condition holds, or where a controlled stop was asked for."""
-        if self._ending is not None or (segment.motion.until is not None and self._condition_holds(segment, t_s)):
+        if self._ending is not None or (
+            segment.motion.until is not None and self._condition_holds(segment, t_s)
+        ):
             shorter = segment.stop_early(t_s)
             if shorter.total_s < segment.total_s:
                 if not self._is_mending:

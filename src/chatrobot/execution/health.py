@@ -45,7 +45,9 @@ def tracking_fault(begin: Pose, reference: Pose, seen: Pose, wheel_turn_rad: flo
         )
     off_m = reference.distance_to(seen)
     off_rad = abs(asked_rad - seen_rad)
-    if off_m <= OFF_TRACK_M + OFF_TRACK_SHARE * asked_m and off_rad <= OFF_TRACK_RAD + OFF_TRACK_SHARE * abs(asked_rad):
+    if off_m <= OFF_TRACK_M + OFF_TRACK_SHARE * asked_m and off_rad <= OFF_TRACK_RAD + OFF_TRACK_SHARE * abs(
+        asked_rad
+    ):
         return None
     values = {
         "asked_m": round(asked_m, 2),
@@ -55,7 +57,9 @@ def tracking_fault(begin: Pose, reference: Pose, seen: Pose, wheel_turn_rad: flo
     }
     if seen_m < 0.1 * asked_m + 0.01 and abs(seen_rad) < 0.1 * abs(asked_rad) + 0.02:
         return Reason("does_not_move", values)
-    ahead = (reference.x_m - begin.x_m) * (seen.x_m - begin.x_m) + (reference.y_m - begin.y_m) * (seen.y_m - begin.y_m)
+    ahead = (reference.x_m - begin.x_m) * (seen.x_m - begin.x_m) + (reference.y_m - begin.y_m) * (
+        seen.y_m - begin.y_m
+    )
     if ahead < -0.002 or asked_rad * seen_rad < -0.01:
         return Reason("moves_the_other_way", values)
     return Reason("does_not_follow", values)

@@ -19,7 +19,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.execution.executor import Executor
 from chatrobot.execution.lookahead import nearest_m
 from chatrobot.execution.sensors import Sensors
-from chatrobot.governor.governor import TICK_S, Governor
+from chatrobot.governor.governor import Governor
 from chatrobot.governor.lease import LOCAL_TERM_S
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.approval import Approval
@@ -129,7 +129,9 @@ class Motion:
         if envelope.word == "emergency_stop":
             self._governor.latch(envelope.source, str(envelope.payload.get("why", "")))
         if envelope.word in ("stop", "emergency_stop"):
-            self.halt(Reason("stopped_by", {"source": envelope.source, "why": str(envelope.payload.get("why", ""))}))
+            self.halt(
+                Reason("stopped_by", {"source": envelope.source, "why": str(envelope.payload.get("why", ""))})
+            )
             return True
         return False
 
@@ -255,7 +257,9 @@ class Motion:
         if now_s - job.received_s < ODOMETRY_WAIT_S:
             return True
         self._jobs.popleft()
-        self._finish_unstarted(job, "failed", Reason("no_odometry", {"topic": self._profile.wiring.odom_topic}))
+        self._finish_unstarted(
+            job, "failed", Reason("no_odometry", {"topic": self._profile.wiring.odom_topic})
+        )
         return True
 
     def _on_planned(self, job: Job, planned: Planned) -> None:
@@ -392,7 +396,15 @@ class Motion:
         pose = estimate.pose if estimate is not None else ORIGIN
         self._emit(
             Finished(
-                job.turn, outcome, reason, start=pose, pose=pose, turned_rad=0.0, path_m=0.0, duration_s=0.0, paused_s=0.0
+                job.turn,
+                outcome,
+                reason,
+                start=pose,
+                pose=pose,
+                turned_rad=0.0,
+                path_m=0.0,
+                duration_s=0.0,
+                paused_s=0.0,
             )
         )
 

@@ -34,7 +34,6 @@ from chatrobot.wire.local import PACKET_BYTES, LocalWire
 from chatrobot.wire.messages import Text
 from chatrobot.wire.runtime_dir import runtime_dir
 
-
 OUTBOX_LIMIT = 200
 CONNECT_S = 20.0
 SWITCH_INTERVAL_S = 0.0005
@@ -77,7 +76,13 @@ class MotionProcess:
         self._wake = threading.Event()
         self._plans: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self.motion = Motion(
-            profile, self._wire, clock, Planner(profile, world), self._guard, self._outbox.put, self._plans.put
+            profile,
+            self._wire,
+            clock,
+            Planner(profile, world),
+            self._guard,
+            self._outbox.put,
+            self._plans.put,
         )
         self._lease = ""
         self._said_goodbye = False

@@ -13,7 +13,6 @@ from typing import Literal
 
 from chatrobot.core.errors import JointError
 from chatrobot.core.events import Event, Finished, Interpreted, Outcome, Remembered, Result, Telemetry
-from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
@@ -37,11 +36,14 @@ class Options:
     rehearse_only: bool = False
 
 
+_Kind = Literal["text", "stop", "dropped", "too_many"]
+
+
 @dataclass(frozen=True)
 class _Said:
     turn: int
     text: str
-    is_stop: bool = False
+    kind: _Kind = "text"
 
 
 class Session:
@@ -61,36 +63,39 @@ class Session:
         self._texts: deque[_Said] = deque()
         self._in_flight: dict[int, tuple[str, Interpretation]] = {}
         self._turns = 0
-        self._turn_lock = threading.Lock()
+        self._lock = threading.Lock()
         self.results: dict[int, Result] = {}
 
     # --- from any thread ---
 
     def say(self, text: str) -> int:
         """Take in what a person said; the number of its turn. A stop is out before this returns."""
-        with self._turn_lock:
-            self._turns += 1
-            turn = self._turns
         if is_emergency_stop(text):
             self.emergency_stop(text.strip()[:80])
-            self._texts.append(_Said(turn, text, is_stop=True))
+            kind: _Kind = "stop"
         elif leads_with_stop(text) if self.is_moving else is_stop(text):
             self.stop(text.strip()[:80])
-            self._texts.append(_Said(turn, text, is_stop=True))
+            kind = "stop"
         else:
-            self._texts.append(_Said(turn, text))
+            kind = "text"
+        with self._lock:
+            self._turns += 1
+            turn = self._turns
+            if kind == "text" and self._count_waiting() >= QUEUE_LIMIT and self.is_moving:
+                kind = "too_many"
+            self._texts.append(_Said(turn, text, kind))
         self._joint.wake()
         return turn
 
     def stop(self, why: str = "") -> None:
         """Stop the robot and drop what is queued."""
-        self._drop_queued()
         self._joint.send("stop", why=why)
+        self._drop_waiting()
 
     def emergency_stop(self, why: str = "") -> None:
         """Stop the robot and keep it stopped until `release`."""
-        self._drop_queued()
         self._joint.send("emergency_stop", why=why)
+        self._drop_waiting()
 
     def release(self) -> None:
         """Release an emergency stop. For the local console alone."""
@@ -137,33 +142,34 @@ class Session:
         """Goodbye: what runs is still done."""
         self._joint.close()
 
-    def _drop_queued(self) -> None:
-        """A stop clears what waits; each dropped turn gets its result."""
-        dropped = [said for said in self._texts if not said.is_stop]
-        for said in dropped:
-            with_stop = Result(said.turn, "stopped", self.understanding.word("dropped_by_stop", said.text))
-            self._dropped.append(with_stop)
-            self._texts.remove(said)
+    def _count_waiting(self) -> int:
+        return sum(said.kind == "text" for said in self._texts)
+
+    def _drop_waiting(self) -> None:
+        """A stop clears what waits; each dropped turn still gets its result."""
+        with self._lock:
+            for index, said in enumerate(self._texts):
+                if said.kind == "text":
+                    self._texts[index] = _Said(said.turn, said.text, "dropped")
 
     def _can_take_text(self) -> bool:
-        if not self._texts:
-            return False
-        if self._texts[0].is_stop or len(self._texts) > QUEUE_LIMIT:
-            return True
-        return not self._in_flight or self._options.while_moving == "replace"
+        return bool(self._texts) and (
+            self._texts[0].kind != "text" or not self._in_flight or self._options.while_moving == "replace"
+        )
 
     def _take_texts(self) -> None:
         while self._can_take_text():
-            if len(self._texts) > QUEUE_LIMIT and self._in_flight:
-                said = self._texts.pop()
-                self._conclude(said.turn, "refused", self.understanding.word("queue_full", said.text))
-                continue
-            said = self._texts.popleft()
-            if said.is_stop:
-                self._emit(Interpreted(said.turn, "reflex", "", ""))
-                self._conclude(said.turn, "stopped", self.understanding.stop_reply(said.text))
-            else:
+            with self._lock:
+                said = self._texts.popleft()
+            if said.kind == "text":
                 self._understand(said)
+            elif said.kind == "stop":
+                self._emit(Interpreted(said.turn, "reflex", "", ""))
+                self._conclude(said.turn, "stopped", self.understanding.say("stopped_now", said.text))
+            elif said.kind == "dropped":
+                self._conclude(said.turn, "stopped", self.understanding.say("dropped_by_stop", said.text))
+            else:
+                self._conclude(said.turn, "refused", self.understanding.say("queue_full", said.text))
 
     def _understand(self, said: _Said) -> None:
         meant = self.understanding.interpret(said.text)

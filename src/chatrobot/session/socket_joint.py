@@ -15,8 +15,8 @@ from typing import Any
 from chatrobot.core.errors import JointError
 from chatrobot.core.events import Event, event_from_json
 from chatrobot.governor.lease import LOCAL_BEAT_HZ, LOCAL_TERM_S
-from chatrobot.session.joint import Sender
 from chatrobot.session.envelope import READY, Word
+from chatrobot.session.joint import Sender
 from chatrobot.wire.local import PACKET_BYTES
 
 START_TIMEOUT_S = 20.0

@@ -16,7 +16,11 @@ def runtime_dir() -> Path:
         WireError: somebody else owns the folder, or it is open to others.
     """
     base = os.environ.get("XDG_RUNTIME_DIR")
-    path = Path(base) / "chatrobot" if base and os.access(base, os.W_OK) else Path(f"/tmp/chatrobot-{os.getuid()}")
+    path = (
+        Path(base) / "chatrobot"
+        if base and os.access(base, os.W_OK)
+        else Path(f"/tmp/chatrobot-{os.getuid()}")
+    )
     path.mkdir(mode=0o700, exist_ok=True)
     info = path.lstat()
     if not stat.S_ISDIR(info.st_mode) or info.st_uid != os.getuid():

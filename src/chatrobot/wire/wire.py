@@ -14,8 +14,8 @@ class Wire(Protocol):
     """One process's end of a wire.
 
     Topics are relative names without a leading slash (`cmd_vel`). Nothing blocks: a message for a receiver that
-    does not read is dropped, the newest that fits is kept in order. A sender that listens hears itself. Callbacks come on a thread of the backend
-    (the memory wire: the publisher's) and must return at once.
+    does not read is dropped, the rest stays in order. A sender that listens hears itself. Callbacks come on a
+    thread of the backend (the memory wire: the publisher's) and must return at once.
     """
 
     def publish(self, topic: str, message: Message) -> None:
