@@ -5,8 +5,6 @@ Console, web, MCP and the Python API all begin here; nothing below knows how it 
 
 from __future__ import annotations
 
-import contextlib
-import os
 import subprocess
 import sys
 import threading
@@ -21,7 +19,7 @@ from chatrobot.core.errors import JointError, UsageError
 from chatrobot.core.events import Event, TruePose
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.session.joint import Joint, SimulatedJoint
+from chatrobot.session.joint import SimulatedJoint
 from chatrobot.session.session import Options, Session
 from chatrobot.session.understanding import Understanding
 from chatrobot.sim.lies import SimLies
@@ -116,9 +114,7 @@ def _connect_simulated(
         planner = Planner(profile, world)
         return Motion(profile, wire, clock, planner, guard, emit, lambda job: job())
 
-    joint = SimulatedJoint(
-        build, wire, clock, robot.step, guard, hub.connect(), profile.wiring.cmd_vel_topic
-    )
+    joint = SimulatedJoint(build, wire, clock, robot.step, guard, hub.connect(), profile.wiring.cmd_vel_topic)
     joint.next_event(SETTLE_S)
     session = Session(joint, understanding, on_event, setup.options)
     return Connection(session, profile, world, session.close)

@@ -81,7 +81,9 @@ class Executor:
         """How far it is, by the rehearsed duration."""
         share = (now_s - self._started_s) / self._duration_s if self._duration_s > 0.0 else 1.0
         estimate = self._sensors.estimate
-        pose, twist = (estimate.pose, estimate.twist) if estimate is not None else (self._reference, ZERO_TWIST)
+        pose, twist = (
+            (estimate.pose, estimate.twist) if estimate is not None else (self._reference, ZERO_TWIST)
+        )
         return Progress(turn, self.step, self.steps, max(0.0, min(1.0, share)), pose, twist)
 
     # --- control ---

@@ -23,7 +23,9 @@ def _require(condition: bool, problem: str) -> None:
 
 def _positive(name: str, value: float | None) -> None:
     if value is not None:
-        _require(math.isfinite(value) and value > 0.0, f"{name} must be a finite number above zero, not {value}")
+        _require(
+            math.isfinite(value) and value > 0.0, f"{name} must be a finite number above zero, not {value}"
+        )
 
 
 def _finite(name: str, value: float) -> None:
@@ -175,7 +177,9 @@ class Wait:
 
     def __post_init__(self) -> None:
         _positive("duration_s", self.duration_s)
-        _require(self.duration_s <= MAX_WAIT_S, f"a wait is at most {MAX_WAIT_S:g} s, not {self.duration_s:g}")
+        _require(
+            self.duration_s <= MAX_WAIT_S, f"a wait is at most {MAX_WAIT_S:g} s, not {self.duration_s:g}"
+        )
 
 
 @dataclass(frozen=True)
