@@ -68,7 +68,7 @@ class Totals:
     paused_s: float = 0.0
     pending_pause_s: float = 0.0
     has_moved: bool = False
-    limited: set[str] = field(default_factory=set)
+    limited: set[int] = field(default_factory=set)
 
 
 class Motion:
@@ -303,7 +303,7 @@ class Motion:
         assert job.planned is not None
         estimate = self._sensors.estimate
         self._executor = Executor(self._profile, self._sensors, self._emit)
-        self._executor.start(job.turn, job.planned.walk(), job.start, now_s)
+        self._executor.start(job.turn, job.planned.walk(), job.planned.duration_s, now_s)
         self._totals = Totals(now_s, job.start, estimate.path_m if estimate is not None else 0.0, now_s)
         self._emit(Started(job.turn, job.start))
         self._run(now_s)
@@ -338,10 +338,9 @@ class Motion:
             return
         verdict = self._governor.govern(asked, job.lease, now_s)
         self._transport.send(verdict.sent)
-        executor.note_sent(verdict.sent.twist)
         self._count(verdict.sent.twist.is_zero, now_s)
         if verdict.action == "limited" and verdict.rule == "speed" and self._totals is not None:
-            key = f"{executor.step_index}"
+            key = executor.step
             if key not in self._totals.limited:
                 self._totals.limited.add(key)
                 self._emit(Limited(job.turn, verdict.rule, asked, verdict.sent.twist))

@@ -41,7 +41,7 @@ class SocketJoint:
         ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self._line = ours
         command = [
-            *(sys.executable, "-E", "-m", "chatrobot.session.motion_process", "--fd", str(theirs.fileno())),
+            *(sys.executable, "-m", "chatrobot.session.motion_process", "--fd", str(theirs.fileno())),
             *("--profile", profile, "--world", world, "--wire", wire_path),
         ]
         self.process = subprocess.Popen(

@@ -1,0 +1,74 @@
+"""What every step of a plan is made from: the base classes, the frames, the conditions and the checks on numbers."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, ClassVar, Literal
+
+Frame = Literal["odom", "start"]
+"""`odom`: where odometry began. `start`: the robot's pose at the moment this plan starts to move."""
+
+
+def require(condition: bool, problem: str) -> None:
+    """Raise ValueError with `problem` unless `condition` holds."""
+    if not condition:
+        raise ValueError(problem)
+
+
+def require_positive(name: str, value: float | None) -> None:
+    """None passes: the field was left out."""
+    if value is not None:
+        require(
+            math.isfinite(value) and value > 0.0, f"{name} must be a finite number above zero, not {value}"
+        )
+
+
+def require_finite(name: str, value: float) -> None:
+    require(math.isfinite(value), f"{name} must be a finite number, not {value}")
+
+
+class Step:
+    """One line of a plan. Every primitive is a frozen dataclass on top of this, with a `kind` of its own."""
+
+    kind: str
+    __pydantic_config__: ClassVar[dict[str, Any]] = {"extra": "forbid", "allow_inf_nan": False}
+
+    @classmethod
+    def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> Any:
+        """A field typed `Step` takes a step that was read already (the JSON form reads from the inside out)."""
+        if cls is not Step:
+            return handler(source)
+        from pydantic_core import core_schema
+
+        return core_schema.is_instance_schema(Step)
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: Any) -> Any:
+        return {"$ref": "#/$defs/Step"} if cls is Step else handler(schema)
+
+
+class Block(Step):
+    """A step that holds other steps and is closed by `end`."""
+
+    steps: tuple[Step, ...]
+
+    @property
+    def times(self) -> int:
+        """How often the steps inside are done."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class ObstacleWithin:
+    """True once the lidar sees something nearer than `distance_m` ahead of the footprint in the way of travel."""
+
+    distance_m: float
+    kind: Literal["obstacle_within"] = "obstacle_within"
+    __pydantic_config__: ClassVar[dict[str, Any]] = {"extra": "forbid", "allow_inf_nan": False}
+
+    def __post_init__(self) -> None:
+        require_positive("distance_m", self.distance_m)
+
+
+Condition = ObstacleWithin

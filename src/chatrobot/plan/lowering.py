@@ -1,0 +1,108 @@
+"""From a plan to core motions, lazily, step by step, chained at their ideal ends.
+
+Rehearsal and executor walk the same walk, so what was rehearsed is what is driven. Each motion starts at the ideal
+end of the one before: what the loop missed in one step is made good in the next instead of adding up.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Union
+
+from chatrobot.core.geometry import Pose
+from chatrobot.plan.base import Block, Step
+from chatrobot.plan.context import Impossible, Lowered, LoweringContext
+from chatrobot.plan.core_motion import CoreMotion
+from chatrobot.plan.primitive import BlockPrimitive
+from chatrobot.plan.registry import for_step
+from chatrobot.plan.steps import Plan, count_steps
+
+
+def lower(step: Step, context: LoweringContext) -> Lowered:
+    """The core motions of one step (not of a block: `iterate_core` walks those), or why it is impossible.
+
+    Raises:
+        TypeError: for a block.
+    """
+    primitive = for_step(step)
+    if isinstance(primitive, BlockPrimitive):
+        raise TypeError(f"{type(step).__name__} is a block: walk it with iterate_core")
+    return primitive.lower(step, context)
+
+
+@dataclass(frozen=True)
+class PlannedMotion:
+    """One core motion in its place in the plan.
+
+    `index` is the path of the step: (2, 0) is the first step inside the third. `number` of `total` counts steps
+    with repeats done, from 1. `first` and `last` mark the ends of the step; a step that needs no motion at all
+    (facing where it faces already) has one item with `motion` None. Poses are ideal ones, in the odom frame.
+    """
+
+    index: tuple[int, ...]
+    number: int
+    total: int
+    step: Step
+    motion: CoreMotion | None
+    start: Pose
+    end: Pose
+    first: bool
+    last: bool
+
+
+CoreItem = Union[PlannedMotion, Impossible]
+
+
+class CoreWalk(Iterator[CoreItem]):
+    """Iterates over the motions of a plan; ends after the first `Impossible`.
+
+    The next step is lowered only when it is asked for, from `pose`.
+    """
+
+    def __init__(self, plan: Plan, context: LoweringContext) -> None:
+        self.pose = context.pose
+        self._context = context
+        self._total = count_steps(plan.steps)
+        self._items = self._walk(plan)
+
+    def __next__(self) -> CoreItem:
+        return next(self._items)
+
+    def ended_at(self, pose: Pose) -> None:
+        """The last motion was cut short (its condition came true) or led elsewhere: go on from `pose`."""
+        self.pose = pose
+
+    def _walk(self, plan: Plan) -> Iterator[CoreItem]:
+        for number, (index, step) in enumerate(_expanded(plan.steps, ()), start=1):
+            motions = lower(step, replace(self._context, pose=self.pose))
+            if isinstance(motions, Impossible):
+                yield Impossible(motions.reason, index)
+                return
+            yield from self._motions(index, number, step, motions)
+
+    def _motions(
+        self, index: tuple[int, ...], number: int, step: Step, motions: Sequence[CoreMotion]
+    ) -> Iterator[CoreItem]:
+        if not motions:
+            yield PlannedMotion(index, number, self._total, step, None, self.pose, self.pose, True, True)
+        for position, motion in enumerate(motions):
+            start = self.pose
+            self.pose = end = motion.end(start)
+            first, last = position == 0, position == len(motions) - 1
+            yield PlannedMotion(index, number, self._total, step, motion, start, end, first, last)
+
+
+def iterate_core(plan: Plan, context: LoweringContext) -> CoreWalk:
+    """Walk `plan` from `context.pose`."""
+    return CoreWalk(plan, context)
+
+
+def _expanded(steps: Sequence[Step], path: tuple[int, ...]) -> Iterator[tuple[tuple[int, ...], Step]]:
+    for position, step in enumerate(steps):
+        index = (*path, position)
+        if isinstance(step, Block):
+            for _ in range(step.times):
+                yield from _expanded(step.steps, index)
+        else:
+            yield index, step

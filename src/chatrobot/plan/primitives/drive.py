@@ -1,0 +1,139 @@
+"""drive: straight, keeping the heading, for a distance or a time and/or until something is near."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+from chatrobot.core.geometry import Twist
+from chatrobot.core.reason import Reason
+from chatrobot.plan.base import Condition, ObstacleWithin, Step, require, require_finite, require_positive
+from chatrobot.plan.context import Impossible, Lowered, LoweringContext
+from chatrobot.plan.core_motion import RampedTwist
+from chatrobot.plan.primitive import Primitive
+from chatrobot.plan.reader import LineReader
+from chatrobot.plan.speeds import choose_speed
+from chatrobot.plan.units import angle_text, number_text
+
+UNTIL_AT_MOST_M = 20.0
+"""How far a drive that has only a condition goes when the condition never comes true."""
+
+_DIRECTIONS = {"forward": 0.0, "left": math.pi / 2, "right": -math.pi / 2, "back": math.pi}
+_SPELLINGS = {**_DIRECTIONS, "forwards": 0.0, "ahead": 0.0, "backward": math.pi, "backwards": math.pi}
+_ALLOWED = "forward, back, left, right, 'toward 45 deg', 'at 0.2 m/s' or 'until obstacle within 0.5 m'"
+
+
+@dataclass(frozen=True)
+class Drive(Step):
+    """Go straight, keeping the heading: a distance or a time, and/or until a condition holds.
+
+    `direction_rad` is the direction of travel in the robot's frame, 0 forward, pi/2 left, pi backward.
+    At least one of `distance_m`, `duration_s`, `until`; not both distance and duration. With `until`, the
+    distance or duration is the most it will do.
+    """
+
+    distance_m: float | None = None
+    duration_s: float | None = None
+    direction_rad: float = 0.0
+    speed_mps: float | None = None
+    until: Condition | None = None
+    kind: Literal["drive"] = "drive"
+
+    def __post_init__(self) -> None:
+        require_positive("distance_m", self.distance_m)
+        require_positive("duration_s", self.duration_s)
+        require_positive("speed_mps", self.speed_mps)
+        require_finite("direction_rad", self.direction_rad)
+        require(
+            not (self.distance_m is None and self.duration_s is None and self.until is None),
+            "a drive needs a distance, a duration or a condition",
+        )
+        require(
+            self.distance_m is None or self.duration_s is None,
+            "a drive has a distance or a duration, not both (say the speed instead)",
+        )
+
+
+class DrivePrimitive(Primitive[Drive]):
+    kind = verb = "drive"
+    step_type = Drive
+    usage = (
+        "drive [DISTANCE | TIME] [forward | back | left | right | toward ANGLE] [at SPEED] "
+        "[until obstacle within DISTANCE]"
+    )
+    help = "Go straight, keeping the heading; the directions are the robot's own."
+    examples = (
+        "drive 1 m",
+        "drive 2 s left at 0.2 m/s",
+        "drive 1 m back",
+        "drive 1 m toward 45 deg",
+        "drive forward until obstacle within 0.5 m",
+    )
+
+    def parse(self, line: LineReader) -> Drive:
+        distance: float | None = None
+        duration: float | None = None
+        direction = 0.0
+        speed: float | None = None
+        until: ObstacleWithin | None = None
+        if line.at_end:
+            line.fail_here(f"a distance such as 1 m, a time such as 2 s, {_ALLOWED}")
+        while not line.at_end:
+            line.accept("for")
+            if line.number_follows and distance is None and duration is None:
+                distance, duration = line.length_or_duration()
+            elif line.accept("toward", "towards"):
+                direction = line.angle_rad()
+            elif line.accept("at"):
+                speed = line.speed_mps()
+            elif line.accept("until"):
+                line.expect("obstacle")
+                line.expect("within")
+                until = ObstacleWithin(line.length_m())
+            elif word := line.accept(*_SPELLINGS):
+                direction = _SPELLINGS[word]
+            else:
+                line.fail_here(_ALLOWED)
+        return Drive(distance, duration, direction, speed, until)
+
+    def format(self, step: Drive) -> str:
+        words = ["drive"]
+        if step.distance_m is not None:
+            words.append(f"{number_text(step.distance_m)} m")
+        if step.duration_s is not None:
+            words.append(f"{number_text(step.duration_s)} s")
+        named = {angle: word for word, angle in _DIRECTIONS.items()}
+        if step.direction_rad not in named:
+            words.append(f"toward {angle_text(step.direction_rad)}")
+        elif step.direction_rad != 0.0 or len(words) == 1:
+            words.append(named[step.direction_rad])
+        if step.speed_mps is not None:
+            words.append(f"at {number_text(step.speed_mps)} m/s")
+        if step.until is not None:
+            words.append(f"until obstacle within {number_text(step.until.distance_m)} m")
+        return " ".join(words)
+
+    def lower(self, step: Drive, context: LoweringContext) -> Lowered:
+        profile = context.profile
+        if step.until is not None and profile.lidar is None:
+            return Impossible(Reason("needs_lidar"))
+        speed = choose_speed(profile, step.speed_mps, step.direction_rad)
+        if isinstance(speed, Impossible):
+            return speed
+        twist = straight_twist(speed, step.direction_rad)
+        if step.duration_s is not None:
+            hold_s = step.duration_s
+        else:
+            hold_s = (step.distance_m if step.distance_m is not None else UNTIL_AT_MOST_M) / speed
+        return [RampedTwist.within(profile.limits, twist, hold_s, until=step.until)]
+
+
+def straight_twist(speed_mps: float, direction_rad: float) -> Twist:
+    """Without the 1e-17 sideways that cos and sin of a named direction would leave."""
+    vx, vy = speed_mps * math.cos(direction_rad), speed_mps * math.sin(direction_rad)
+    tiny = 1e-9 * speed_mps
+    return Twist(vx if abs(vx) > tiny else 0.0, vy if abs(vy) > tiny else 0.0, 0.0)
+
+
+PRIMITIVE = DrivePrimitive()

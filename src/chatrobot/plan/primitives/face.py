@@ -1,0 +1,60 @@
+"""face: turn on the spot, the short way, to a heading."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from chatrobot.plan.base import Frame, Step, require_finite, require_positive
+from chatrobot.plan.context import Lowered, LoweringContext
+from chatrobot.plan.legs import turn_to
+from chatrobot.plan.primitive import Primitive
+from chatrobot.plan.reader import LineReader
+from chatrobot.plan.units import angle_text
+
+
+@dataclass(frozen=True)
+class Face(Step):
+    """Turn on the spot, the short way, until the heading in `frame` is `yaw_rad`."""
+
+    yaw_rad: float
+    frame: Frame = "start"
+    rate_radps: float | None = None
+    kind: Literal["face"] = "face"
+
+    def __post_init__(self) -> None:
+        require_finite("yaw_rad", self.yaw_rad)
+        require_positive("rate_radps", self.rate_radps)
+
+
+class FacePrimitive(Primitive[Face]):
+    kind = verb = "face"
+    step_type = Face
+    usage = "face ANGLE [from start] [at RATE]"
+    help = "Turn the short way to a heading of the map, or ('from start') of where this plan began."
+    examples = ("face 90 deg", "face 0 deg from start")
+
+    def parse(self, line: LineReader) -> Face:
+        yaw = line.angle_rad()
+        frame: Frame = "odom"
+        if line.accept("from"):
+            line.expect("start")
+            frame = "start"
+        rate = line.rate_radps() if line.accept("at") else None
+        line.finish("'from start', 'at 0.5 rad/s' or the end of the line")
+        return Face(yaw, frame, rate)
+
+    def format(self, step: Face) -> str:
+        words = ["face", angle_text(step.yaw_rad)]
+        if step.frame == "start":
+            words.append("from start")
+        if step.rate_radps is not None:
+            words.append(f"at {angle_text(step.rate_radps, suffix='/s', prefer_degrees=False)}")
+        return " ".join(words)
+
+    def lower(self, step: Face, context: LoweringContext) -> Lowered:
+        heading = context.frame_pose(step.frame).yaw_rad + step.yaw_rad
+        return turn_to(context.profile, context.pose, heading, step.rate_radps)
+
+
+PRIMITIVE = FacePrimitive()

@@ -1,0 +1,168 @@
+"""Reads one line of plan text token by token, and says on a mistake what is allowed at that place."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from typing import NoReturn
+
+from chatrobot.core.errors import PlanTextError
+from chatrobot.plan.units import ANGLES, LENGTHS, RATES, SPEEDS, TIMES, Convert
+
+_TOKEN = re.compile(
+    r"""\s*(?:
+      (?P<comment>\#.*)
+    | "(?P<quoted>(?:[^"\\]|\\.)*)"
+    | (?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)
+    | (?P<word>[^\W\d_]+(?:/[^\W\d_]+)?|°(?:/s)?)
+    | (?P<ignored>[,()])
+    | (?P<other>\S)
+    )""",
+    re.VERBOSE | re.IGNORECASE,
+)
+_ESCAPE = re.compile(r"\\(.)")
+
+
+def quote(text: str) -> str:
+    """`text` as a quoted token. The text must be printable."""
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{escaped}"'
+
+
+class LineReader:
+    """The tokens of one line. Methods that read take the next token or raise PlanTextError.
+
+    Words and units are case-insensitive; commas and brackets between numbers count as spaces; `# …` is a comment.
+    """
+
+    def __init__(self, line: str, line_number: int = 0) -> None:
+        self.line = line
+        self.line_number = line_number
+        self._tokens: list[tuple[str, str, int]] = []
+        self._next = 0
+        for match in _TOKEN.finditer(line):
+            kind = str(match.lastgroup)
+            if kind == "comment":
+                break
+            if kind != "ignored":
+                self._tokens.append((kind, match.group(kind), match.start(kind)))
+
+    @property
+    def at_end(self) -> bool:
+        return self._next >= len(self._tokens)
+
+    def fail(self, problem: str, allowed: str = "") -> NoReturn:
+        raise PlanTextError(problem, line_number=self.line_number, line=self.line, allowed=allowed)
+
+    def fail_here(self, allowed: str) -> NoReturn:
+        """The next token (or the end of the line) is not what may stand here."""
+        if self.at_end:
+            self.fail("something is missing at the end", allowed)
+        self.fail(f"{self._tokens[self._next][1]!r} is not understood here", allowed)
+
+    def finish(self, allowed: str) -> None:
+        """Nothing may be left. `allowed` names what else could have stood here."""
+        if not self.at_end:
+            self.fail_here(allowed)
+
+    def peek_word(self) -> str:
+        """The next token in lower case if it is a word, else ""."""
+        if self.at_end:
+            return ""
+        kind, text, _ = self._tokens[self._next]
+        return text.lower() if kind == "word" else ""
+
+    def accept(self, *words: str) -> str:
+        """Take the next token if it is one of these words (and say which), else leave it and say ""."""
+        word = self.peek_word()
+        if word and word in words:
+            self._next += 1
+            return word
+        return ""
+
+    def expect(self, *words: str) -> str:
+        return self.accept(*words) or self.fail_here(" or ".join(repr(word) for word in words))
+
+    @property
+    def number_follows(self) -> bool:
+        return not self.at_end and self._tokens[self._next][0] == "number"
+
+    def number(self, allowed: str = "a number") -> float:
+        """A finite number."""
+        if not self.number_follows:
+            self.fail_here(allowed)
+        value = float(self._tokens[self._next][1])
+        if not math.isfinite(value):
+            self.fail_here("a number that is not too large")
+        self._next += 1
+        return value
+
+    def whole_number(self, allowed: str) -> int:
+        value = self.number(allowed)
+        if value != int(value):
+            self._next -= 1
+            self.fail_here(allowed)
+        return int(value)
+
+    def _quantity(self, units: Mapping[str, Convert], default: str, allowed: str) -> float:
+        value = self.number(allowed)
+        unit = self.peek_word()
+        if unit in units:
+            self._next += 1
+        elif default:
+            unit = default
+        else:
+            self.fail_here(allowed)
+        converted = units[unit](value)
+        if not math.isfinite(converted):
+            self.fail("the number is too large")
+        return converted
+
+    def length_m(self) -> float:
+        return self._quantity(LENGTHS, "m", "a length such as 0.5 m")
+
+    def duration_s(self) -> float:
+        return self._quantity(TIMES, "s", "a time such as 3 s")
+
+    def angle_rad(self) -> float:
+        return self._quantity(ANGLES, "", "an angle such as 90 deg or 0.5 rad")
+
+    def speed_mps(self) -> float:
+        return self._quantity(SPEEDS, "m/s", "a speed such as 0.2 m/s")
+
+    def rate_radps(self) -> float:
+        return self._quantity(RATES, "", "a rate such as 0.5 rad/s or 30 deg/s")
+
+    def length_or_duration(self) -> tuple[float | None, float | None]:
+        """(metres, None) or (None, seconds), by the unit."""
+        return self._either(LENGTHS, TIMES, "a distance such as 1 m or a time such as 2 s")
+
+    def angle_or_duration(self) -> tuple[float | None, float | None]:
+        """(radians, None) or (None, seconds), by the unit."""
+        return self._either(ANGLES, TIMES, "an angle such as 90 deg or a time such as 2 s")
+
+    def _either(
+        self, first: Mapping[str, Convert], second: Mapping[str, Convert], allowed: str
+    ) -> tuple[float | None, float | None]:
+        start = self._next
+        self.number(allowed)
+        unit = self.peek_word()
+        self._next = start
+        if unit in second:
+            return None, self._quantity(second, "", allowed)
+        return self._quantity(first, "", allowed), None
+
+    def text(self, allowed: str) -> str:
+        """A quoted text, or everything up to the end of the line (a comment apart)."""
+        if self.at_end:
+            self.fail_here(allowed)
+        kind, text, start = self._tokens[self._next]
+        if kind == "quoted":
+            self._next += 1
+            return _ESCAPE.sub(r"\1", text)
+        if kind == "other" and text == '"':
+            self.fail("a quotation mark is not closed", allowed)
+        rest = self.line[start:].partition("#")[0].strip()
+        self._next = len(self._tokens)
+        return rest
