@@ -157,6 +157,10 @@ def test_the_bias_of_a_noisy_gyro_is_small_and_its_own_for_each_seed(seed: int) 
     assert lies.bias_radps == SimLies(noise=True, seed=seed).bias_radps
 
 
+def test_gyros_of_different_seeds_have_different_biases() -> None:
+    assert len({SimLies(noise=True, seed=seed).bias_radps for seed in range(20)}) == 20
+
+
 def test_a_bias_that_is_given_holds_without_noise() -> None:
     rig = Rig("gyro_bias_radps=0.02")
     rig.run(0.1)

@@ -179,6 +179,17 @@ def test_a_sleep_of_the_machine_moves_nothing() -> None:
     assert rig.odometry[-1].stamp_s == pytest.approx(3601.05)
 
 
+def test_a_sleep_of_the_machine_does_not_use_up_a_command() -> None:
+    rig = Rig(profile=replace(PROFILE, wiring=replace(PROFILE.wiring, base_timeout_s=0.3)))
+    rig.command(0.5)
+    rig.run(0.29)
+    rig.robot.skip(10.0)
+    rig.run(0.005, 0.005)
+    assert rig.robot.true_twist.vx_mps == 0.5
+    rig.run(1.0)
+    assert rig.robot.true_twist.is_zero
+
+
 def test_time_that_passes_in_one_piece_still_gives_every_message() -> None:
     rig = Rig()
     rig.command(0.5)

@@ -210,6 +210,22 @@ def test_a_file_is_seen_from_its_start() -> None:
     assert world.allowed_area.distance_m(0.0, 0.0) == pytest.approx(-1.0)
 
 
+def test_walls_that_meet_at_a_point_leave_no_gap_at_the_corner() -> None:
+    world = parse_world(
+        "obstacles:\n"
+        "  - {name: a, wall: {from: [0, 0], to: [2, 0], thickness_m: 0.2}}\n"
+        "  - {name: b, wall: {from: [2, 0], to: [2, 2], thickness_m: 0.2}}\n",
+        "corner.yaml",
+    )
+    assert min(obstacle.shape.distance_m(2.05, -0.05) for obstacle in world.obstacles) < 0.0
+
+
+def test_polygons_are_counter_clockwise_however_they_were_given() -> None:
+    corners = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))
+    assert polygon(corners).points == corners
+    assert polygon(corners[::-1]).points == corners
+
+
 @pytest.mark.parametrize(
     ("old", "new", "line", "named"),
     [
