@@ -81,7 +81,7 @@ def _left(frame: Frame) -> bool | None:
 
 
 def _is_turn(frame: Frame, state: State) -> bool:
-    if frame.verb in TURN or (frame.rot and frame.verb not in GO):
+    if frame.verb in TURN or frame.rot and frame.verb not in GO:
         return True
     if "angle" in frame.q or "turns" in frame.q:
         return frame.direction not in DIAGONALS.values() and "diagonal" not in frame.flags
@@ -98,7 +98,7 @@ def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if "length" in frame.q or "speed" in frame.q:
         raise Unclear("length_for_turn", frame.text)
     rate = pace.rate(frame)
-    angle = frame.q.get("angle") or frame.q.get("turns")
+    angle = (frame.q.get("angle") or frame.q.get("turns"))
     left = _left(frame)
     if left is None and not frame.moves:
         left = state.left
@@ -142,7 +142,7 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if not direction:
         if frame.verb == "slide" or "sideways" in frame.flags:
             raise Unclear("which_side", frame.text)
-        if (frame.verb in GO and frame.verb != "shift") or "more" in frame.flags or not frame.verb:
+        if frame.verb in GO and frame.verb != "shift" or "more" in frame.flags or not frame.verb:
             direction = state.direction if state.last == "drive" and not frame.verb else "forward"
         elif frame.has_extent and frame.verb:
             direction = "forward"
@@ -164,10 +164,7 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if length is not None:
         if seconds is not None and "speed" not in frame.q:
             speed = length.number / seconds.number
-        elif (
-            seconds is not None
-            and abs(frame.q["speed"].number * seconds.number - length.number) > 0.1 * length.number
-        ):
+        elif seconds is not None and abs(frame.q["speed"].number * seconds.number - length.number) > 0.1 * length.number:
             raise Unclear("contradiction", frame.text)
         return [Drive(length.number, direction_rad=angle, speed_mps=speed)]
     if seconds is not None:
@@ -211,11 +208,7 @@ def _face(frame: Frame, pace: Pace) -> list[Step]:
         return [Face(0.0, frame="start", rate_radps=pace.rate(frame))]
     if frame.direction in SIDES:
         angle = frame.q.get("angle") or frame.q.get("turns")
-        size = (
-            angle.number
-            if angle
-            else pace.profile.defaults.turn_rad * (0.5 if {"bit", "more"} & frame.flags else 1)
-        )
+        size = angle.number if angle else pace.profile.defaults.turn_rad * (0.5 if {"bit", "more"} & frame.flags else 1)
         return [Turn(size, left=frame.direction == "left", rate_radps=pace.rate(frame))]
     if frame.direction == "back":
         return [Turn(math.pi, rate_radps=pace.rate(frame))]
@@ -258,7 +251,7 @@ def _arc(frame: Frame, pace: Pace) -> list[Step]:
 
 
 def _return(frame: Frame, state: State, pace: Pace) -> list[Step]:
-    if frame.direction or (frame.has_extent and frame.verb != "return"):
+    if frame.direction or frame.has_extent and frame.verb != "return":
         raise Unclear("unclear_motion", frame.text)
     speed = pace.speed(frame)
     if "same_way" in frame.flags:

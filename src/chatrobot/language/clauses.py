@@ -68,15 +68,7 @@ def _split(atoms: list[Atom]) -> list[Frame]:
     for i, atom in enumerate(atoms):
         if atom.kind in ("filler", "glue", "sep", "reason"):
             continue
-        if atom.kind in (
-            "unknown",
-            "unit_length",
-            "unit_angle",
-            "unit_time",
-            "unit_percent",
-            "scale",
-            "fraction",
-        ):
+        if atom.kind in ("unknown", "unit_length", "unit_angle", "unit_time", "unit_percent", "scale", "fraction"):
             raise Unclear("unknown_part", _around(atoms, i))
         if not current.add(atom):
             if _is_bare_direction(current):
@@ -92,12 +84,8 @@ def _split(atoms: list[Atom]) -> list[Frame]:
 
 def _is_bare_direction(frame: Frame) -> bool:
     """A direction and nothing else right before something that contradicts it: `forward backward 1 m`."""
-    return (
-        bool(frame.direction)
-        and not frame.has_extent
-        and frame.verb not in TURN
-        and frame.verb != "slide"
-        and (not frame.pace and not frame.flags)
+    return bool(frame.direction) and not frame.has_extent and frame.verb not in TURN and frame.verb != "slide" and (
+        not frame.pace and not frame.flags
     )
 
 
@@ -126,13 +114,7 @@ def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
         return None
     if "again" in first.flags or is_times_only(first) or is_times_only(last) or last.flags & {"again", "all"}:
         return None
-    if (
-        {"between", "after_each"} & last.flags
-        and not first.moves
-        and first.has_extent
-        and last.moves
-        and last.has_extent
-    ):
+    if {"between", "after_each"} & last.flags and not first.moves and first.has_extent and last.moves and last.has_extent:
         return None
     both = merged(last, first)
     if both is None:
@@ -174,16 +156,12 @@ def _belongs(last: Frame, first: Frame) -> bool:
     if not first.moves:
         return not (set(first.q) & set(EXTENTS) and last.has_extent and not _adds_time(last, first))
     if last.is_arc or first.is_arc:
-        return not (
-            last.has_extent and first.verb and "until" not in first.flags and first.has_extent and last.verb
-        )
+        return not (last.has_extent and first.verb and "until" not in first.flags and first.has_extent and last.verb)
     if not last.moves:
         return True
     if first.verb and last.verb:
-        return (
-            not last.has_extent
-            and (not first.direction or first.direction == last.direction)
-            and (last.verb != "turn" or first.verb == "turn")
+        return not last.has_extent and (not first.direction or first.direction == last.direction) and (
+            last.verb != "turn" or first.verb == "turn"
         )
     if (first.direction or first.rot) and not first.has_extent and not first.verb:
         return _direction_follows(last, first)

@@ -61,12 +61,7 @@ class Frame:
 
     @property
     def is_arc(self) -> bool:
-        return (
-            self.verb == "curve"
-            or "radius" in self.roles
-            or "diameter" in self.roles
-            or "while" in self.flags
-        )
+        return self.verb == "curve" or "radius" in self.roles or "diameter" in self.roles or "while" in self.flags
 
     @property
     def turning(self) -> bool:
@@ -116,29 +111,18 @@ class Frame:
 
     def _put_verb(self, verb: str) -> bool:
         old = self.verb
-        if (
-            old == verb
-            and verb in ("go", "turn", "shift", "slide", "wait", "halt", "face", "make", "curve")
-            and (not self.has_extent)
+        if old == verb and verb in ("go", "turn", "shift", "slide", "wait", "halt", "face", "make", "curve") and (
+            not self.has_extent
         ):
             return True
-        if (
-            not old
-            or old == "make"
-            or (old in ("go", "shift") and not self.has_extent and not self.direction)
-        ):
+        if not old or old == "make" or (old in ("go", "shift") and not self.has_extent and not self.direction):
             if verb in TURN and "length" in self.q and not self.is_arc:
                 return False
-            if (
-                verb in GO
-                and ("angle" in self.q or "turns" in self.q)
-                and not self.is_arc
-                and not self._heading()
-            ):
+            if verb in GO and ("angle" in self.q or "turns" in self.q) and not self.is_arc and not self._heading():
                 return False
             if verb in (*GO, *STILL, "return", "face", "uturn") and self.rot and not self.is_arc:
                 return False
-            if verb in ("wait", "return", "uturn") and ((self.direction and not old) or "length" in self.q):
+            if verb in ("wait", "return", "uturn") and (self.direction and not old or "length" in self.q):
                 return verb == "uturn" and self.direction in SIDES and self._set_verb(verb)
             if verb in TURN and self.direction in ("forward", "back") and not self.is_arc:
                 return False
@@ -147,11 +131,7 @@ class Frame:
             return not self.has_extent
         if old in TURN and verb in ("curve", *TURN) and not self.has_extent:
             return self._set_verb("curve" if verb == "curve" else old)
-        if (
-            old == "curve"
-            and verb in ("turn", "go")
-            and not (verb == "go" and "angle" in self.q and "length" in self.q)
-        ):
+        if old == "curve" and verb in ("turn", "go") and not (verb == "go" and "angle" in self.q and "length" in self.q):
             return True
         if "while" in self.flags and {old, verb} <= {*GO, *TURN}:
             return self._set_verb("curve")
@@ -235,7 +215,7 @@ class Frame:
             return True
         if name == "length" and ("angle" in self.q or "turns" in self.q) and not self._heading():
             return False
-        if name == "length" and (self.turning or ("rate" in self.q and not self.verb)):
+        if name == "length" and (self.turning or "rate" in self.q and not self.verb):
             return False
         if rotating and "length" in self.q and not self._heading():
             return False

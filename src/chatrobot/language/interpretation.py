@@ -59,9 +59,7 @@ class OfflineInterpreter:
             return Interpretation("plan", "ok", language, Plan(tuple(steps)))
         except Unclear as problem:
             outcome: Literal["unclear", "refused"] = "refused" if problem.refused else "unclear"
-            return Interpretation(
-                outcome, f"{problem.code} {problem.part}", language, unaccounted=problem.part
-            )
+            return Interpretation(outcome, f"{problem.code} {problem.part}", language, unaccounted=problem.part)
 
     def _pace(self, context: Context) -> Pace:
         return Pace(self._profile, context.dialogue.default_speed_mps, context.dialogue.default_rate_radps)

@@ -11,9 +11,7 @@ from chatrobot.language.data_files import load_table
 MAX_CHARACTERS = 2000
 """More than anybody says in one breath. Longer text is answered at once."""
 
-_QUOTES = str.maketrans(
-    {"’": "'", "‘": "'", "`": "`", "´": "'", "−": "-", "‐": "-", "‑": "-", "×": "x", "·": " "}
-)
+_QUOTES = str.maketrans({"’": "'", "‘": "'", "`": "`", "´": "'", "−": "-", "‐": "-", "‑": "-", "×": "x", "·": " "})
 _ELLIPSIS = re.compile(r"\.{2,}|…+")
 _HAN = re.compile(r"[\u3400-\u9fff]")
 _SPACES = re.compile(r"[ \t\u3000]+")

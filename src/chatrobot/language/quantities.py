@@ -93,18 +93,16 @@ def _skip(atoms: Sequence[Atom], i: int) -> tuple[int, list[Atom]]:
     start = i
     while i < len(atoms):
         atom = atoms[i]
-        if (
-            atom.kind in ("rot", "pace")
-            or (atom.kind == "dir" and atom.value in ("left", "right"))
-            or (atom.kind == "flag" and atom.value == "more")
-        ):
+        if atom.kind in ("rot", "pace") or (atom.kind == "dir" and atom.value in ("left", "right")):
             kept.append(atom)
-        elif not (atom.text in _SKIPPED or (atom.kind == "num" and atom.value in ("article", "ge", "of"))):
+        elif atom.kind == "flag" and atom.value == "more":
+            kept.append(atom)
+        elif not (
+            atom.text in _SKIPPED or atom.kind == "num" and atom.value in ("article", "ge", "of")
+        ):
             break
         i += 1
-    if _unit(atoms, i) is None or (
-        kept and _unit(atoms, i)[0] not in ("turns", "count", "length", "angle", "time")
-    ):  # type: ignore[index]
+    if _unit(atoms, i) is None or (kept and _unit(atoms, i)[0] not in ("turns", "count", "length", "angle", "time")):  # type: ignore[index]
         return start, []
     if any(a.kind != "flag" for a in kept) and _unit(atoms, i)[0] not in ("turns", "count"):  # type: ignore[index]
         return start, []
@@ -166,12 +164,7 @@ def _misheard(atoms: Sequence[Atom], i: int) -> tuple[list[Atom], int] | None:
         return None
     if not atoms[i + 1].text.endswith(("s", "feet")) or len(atoms[i + 1].text) < 3:
         return None
-    if (
-        number == 4
-        and unit[0] == "time"
-        and atoms[i].text == "for"
-        and not (i and atoms[i - 1].text == "for")
-    ):
+    if number == 4 and unit[0] == "time" and atoms[i].text == "for" and not (i and atoms[i - 1].text == "for"):
         return None
     text = f"{atoms[i].text} {atoms[i + 1].text}"
     return [quantity(unit[0], number * unit[1], text)], i + 2
@@ -251,9 +244,7 @@ def _summed(atoms: list[Atom]) -> list[Atom]:
                 follows = next((a for a in atoms[i + 1 :] if a.kind not in ("glue", "num")), None)
                 if not (joined and follows and follows.kind in ("dir", "verb", "rot", "flag")):
                     del out[-2 if joined else -1 :]
-                    out.append(
-                        quantity(atom.value, before.number + atom.number, f"{before.text} {atom.text}")
-                    )
+                    out.append(quantity(atom.value, before.number + atom.number, f"{before.text} {atom.text}"))
                     i += 1
                     continue
         out.append(atom)

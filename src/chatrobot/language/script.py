@@ -51,12 +51,7 @@ def _shared(frames: list[Frame]) -> list[Frame]:
     """`…, both forward`, 都往左转: a clause that holds for all the others."""
     kept: list[Frame] = []
     for frame in frames:
-        if (
-            "all" not in frame.flags
-            or frame.q
-            or not (frame.direction or frame.rot or frame.pace)
-            or frame.shape
-        ):
+        if "all" not in frame.flags or frame.q or not (frame.direction or frame.rot or frame.pace) or frame.shape:
             kept.append(frame)
             continue
         for other in kept:
@@ -72,11 +67,7 @@ def _shared(frames: list[Frame]) -> list[Frame]:
 
 def _leading_count(frames: list[Frame]) -> tuple[int | None, list[Frame]]:
     """`Twice: …`, `the following three times: …`."""
-    if (
-        len(frames) > 1
-        and is_times_only(frames[0])
-        and frames[1].joined in ("colon", "weak", "none", "strong")
-    ):
+    if len(frames) > 1 and is_times_only(frames[0]) and frames[1].joined in ("colon", "weak", "none", "strong"):
         return _count(frames[0]), frames[1:]
     return None, frames
 
@@ -95,9 +86,7 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
         end, steps = draw(frames, i, script.pace)
         _finish(script, frame, [steps])
         return end
-    if is_times_only(frame) or (
-        "again" in frame.flags and not frame.moves and {"times", "count"} & set(frame.q)
-    ):
+    if is_times_only(frame) or ("again" in frame.flags and not frame.moves and {"times", "count"} & set(frame.q)):
         script.units = _repeated(script.units, _count(frame))
     elif "again" in frame.flags and not frame.moves and not frame.has_extent:
         if not script.units:

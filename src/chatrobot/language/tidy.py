@@ -23,9 +23,7 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
     atom = atoms[i]
     if atom.kind == "num":
         if atom.value == "point":
-            return (
-                Atom("flag", "bit", atom.text) if is_chinese(atom.text) else Atom("verb", "face", atom.text)
-            )
+            return Atom("flag", "bit", atom.text) if is_chinese(atom.text) else Atom("verb", "face", atom.text)
         if atom.value == "minus" or atom.value == "parts":
             return Atom("unknown", atom.text, atom.text)
         return Atom("glue", "x", atom.text)
@@ -33,11 +31,7 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
         return Atom("conn", "then", atom.text)
     if atom.kind == "counter":
         if atom.text in ("step", "pace", "steps"):
-            return (
-                Atom("verb", "go", atom.text)
-                if is_kind(atoms, i + 1, "dir")
-                else Atom("glue", "x", atom.text)
-            )
+            return Atom("verb", "go", atom.text) if is_kind(atoms, i + 1, "dir") else Atom("glue", "x", atom.text)
         return Atom("role", atom.value, atom.text)
     if atom.kind == "per" or (atom.kind == "unit_times" and atom.text in ("time", "回", "次", "下来")):
         return Atom("glue", "x", atom.text)
@@ -63,10 +57,8 @@ def _relative_speeds(atoms: Sequence[Atom]) -> list[Atom]:
         if fraction and is_kind(atoms, j, "pace", "max"):
             out.append(quantity("percent", atom.number, f"{atom.text} {atoms[j].text}"))
             i = j + 1
-        elif (
-            is_kind(atoms, i, "pace", "max")
-            and is_kind(atoms, j, "q")
-            and (atoms[j].value == "percent" or (atoms[j].value == "number" and 0 < atoms[j].number < 1))
+        elif is_kind(atoms, i, "pace", "max") and is_kind(atoms, j, "q") and (
+            atoms[j].value == "percent" or (atoms[j].value == "number" and 0 < atoms[j].number < 1)
         ):
             out.append(quantity("percent", atoms[j].number, f"{atom.text} {atoms[j].text}"))
             i = j + 1
@@ -93,9 +85,7 @@ def _fractions_of(atoms: Sequence[Atom]) -> list[Atom]:
             and is_kind(atoms, j, "q") and atoms[j].value in ("length", "time", "turns", "angle")
             and atoms[j].text.startswith(("a ", "an ", "one "))
         ):  # fmt: skip
-            out.append(
-                quantity(atoms[j].value, atom.number * atoms[j].number, f"{atom.text} of {atoms[j].text}")
-            )
+            out.append(quantity(atoms[j].value, atom.number * atoms[j].number, f"{atom.text} of {atoms[j].text}"))
             i = j + 1
         else:
             out.append(atom)
