@@ -84,8 +84,8 @@ class Understanding:
             self._learn(meant)
             if meant.remember_place:
                 self._places.add(meant.remember_place, self._state.pose)
-        outcome: Outcome = "stopped" if meant.outcome in ("stop", "plan") else meant.outcome
-        self._record(TurnRecord(text, outcome))
+        outcomes: dict[str, Outcome] = {"unclear": "unclear", "refused": "refused", "answered": "answered"}
+        self._record(TurnRecord(text, outcomes.get(meant.outcome, "stopped")))
         pending = text if meant.outcome == "unclear" else ""
         self._dialogue = replace(self._dialogue, pending=pending)
 
