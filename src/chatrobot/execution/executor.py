@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Protocol
 
 from chatrobot.core.events import Event, Outcome, Progress, Remembered, Said
 from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
@@ -18,7 +17,9 @@ from chatrobot.execution.health import sensor_fault, tracking_fault
 from chatrobot.execution.lookahead import free_ahead_m
 from chatrobot.execution.sensors import Sensors
 from chatrobot.execution.tracking import feedback
+from chatrobot.plan.context import Impossible
 from chatrobot.plan.core_motion import CoreMotion, Emit, Pause, RampedTwist
+from chatrobot.plan.lowering import CoreWalk
 from chatrobot.plan.trajectory import Segment
 from chatrobot.robots.profile import RobotProfile
 
@@ -36,18 +37,6 @@ STEP_TOLERANCE = (0.04, math.radians(2.5))
 """Between steps feedback does the work; only a rest this big is driven first."""
 
 
-class Walk(Protocol):
-    """A plan as it is walked: the next thing to do, given where the last one was to end."""
-
-    duration_s: float
-    step: int
-    steps: int
-
-    def next(self, reference: Pose) -> CoreMotion | Reason | None:
-        """A core motion, a reason why it cannot go on, or None at the end."""
-        ...
-
-
 class Executor:
     """One run of one plan. `start`, then `tick` at 50 Hz until `is_done`."""
 
@@ -58,6 +47,8 @@ class Executor:
         self.is_done = False
         self.reason: Reason | None = None
         self.outcome: Outcome = "completed"
+        self.step = 0
+        self.steps = 0
         self.planned_m = 0.0
         self.planned_turn_rad = 0.0
         self._segment: Segment | None = None
@@ -71,39 +62,29 @@ class Executor:
         self._ending: Reason | None = None
         self._begin: tuple[Pose, float] = (Pose(), 0.0)
 
-    def start(self, turn: int, walk: Walk, start: Pose, now_s: float) -> None:
-        """Begin at `start`, the pose the plan was rehearsed from."""
+    def start(self, turn: int, walk: CoreWalk, duration_s: float, now_s: float) -> None:
+        """Begin `walk` at its pose, the one the plan was rehearsed from; rehearsal expects `duration_s`."""
         self._turn = turn
         self._walk = walk
-        self._reference = start
+        self._duration_s = duration_s
+        self._reference = walk.pose
         self._started_s = now_s
 
     # --- what Motion reads ---
 
     @property
-    def step_index(self) -> int:
-        return self._walk.step
-
-    @property
-    def steps(self) -> int:
-        return self._walk.steps
-
-    @property
     def steps_done(self) -> int:
-        return self._walk.steps if self.is_done and self.reason is None else max(0, self._walk.step - 1)
+        """Steps finished, repeats counted each time."""
+        return self.steps if self.is_done and self.reason is None else max(0, self.step - 1)
 
     def progress(self, turn: int, now_s: float) -> Progress:
         """How far it is, by the rehearsed duration."""
-        share = (now_s - self._started_s) / self._walk.duration_s if self._walk.duration_s > 0.0 else 1.0
+        share = (now_s - self._started_s) / self._duration_s if self._duration_s > 0.0 else 1.0
         estimate = self._sensors.estimate
         pose, twist = (
             (estimate.pose, estimate.twist) if estimate is not None else (self._reference, ZERO_TWIST)
         )
-        return Progress(turn, self._walk.step, self._walk.steps, max(0.0, min(1.0, share)), pose, twist)
-
-    def note_sent(self, sent: Twist) -> None:
-        """What the governor really sent. Zero where motion was asked for more than a moment shows in odometry."""
-        self._sent = sent
+        return Progress(turn, self.step, self.steps, max(0.0, min(1.0, share)), pose, twist)
 
     # --- control ---
 
@@ -134,16 +115,22 @@ class Executor:
         if self._ending is not None:
             self._end("stopped", self._ending)
             return
-        motion = self._walk.next(self._reference)
-        if motion is None:
+        item = next(self._walk, None)
+        if item is None:
             self._settle_since_s = now_s
-        elif isinstance(motion, Reason):
-            self._end("failed", motion)
-        elif isinstance(motion, Emit):
+        elif isinstance(item, Impossible):
+            self._end("failed", item.reason)
+        else:
+            self.step, self.steps = item.number, item.total
+            self._reference = item.start
+            self._begin_motion(item.motion, now_s)
+
+    def _begin_motion(self, motion: CoreMotion | None, now_s: float) -> None:
+        if isinstance(motion, Emit):
             self._tell(motion)
         elif isinstance(motion, Pause):
             self._pause_until_s = self._free_from_s(now_s) + motion.duration_s
-        else:
+        elif motion is not None:
             self.planned_m += motion.twist.speed_mps * motion.hold_s
             self.planned_turn_rad += motion.twist.wz_radps * motion.hold_s
             self._begin_segment(Segment(motion, self._reference), now_s)
@@ -175,7 +162,7 @@ class Executor:
             self._first_tick = False
             return segment.motion.asked  # beyond the limits: the governor says so, once
         self._first_tick = False
-        _, twist = segment.at(t_s + TICK_S)
+        _, twist = segment.at(t_s + TICK_S / 2.0)  # the mean over the tick it will be held for
         estimate = self._sensors.estimate
         if estimate is None or not self._sensors.has_odometry:
             return twist
@@ -231,6 +218,7 @@ class Executor:
         self._segment = None
         if not self._is_mending:
             self._reference = segment.end_pose
+            self._walk.ended_at(self._reference)
             self._mends_left = MEND_TRIES
         self._is_mending = False
         if self._ending is None and self._mend(STEP_TOLERANCE, now_s):

@@ -12,8 +12,8 @@ ODOMETRY_SILENT_S = 0.3
 OFF_TRACK_M = 0.10
 OFF_TRACK_RAD = math.radians(15.0)
 OFF_TRACK_SHARE = 0.10
-SLIP_RAD = math.radians(20.0)
-SLIP_SHARE = 0.3
+SLIP_SHARE = 0.5
+"""Where the heading is off and the wheels claim at least this share of what is missing, they slip."""
 
 
 def sensor_fault(sensors: Sensors) -> Reason | None:
@@ -38,17 +38,14 @@ def tracking_fault(begin: Pose, reference: Pose, seen: Pose, wheel_turn_rad: flo
     """
     asked_m, seen_m = begin.distance_to(reference), begin.distance_to(seen)
     asked_rad, seen_rad = reference.yaw_rad - begin.yaw_rad, seen.yaw_rad - begin.yaw_rad
-    if abs(wheel_turn_rad - seen_rad) > SLIP_RAD + SLIP_SHARE * abs(wheel_turn_rad):
-        return Reason(
-            "wheels_slip",
-            {"wheels_deg": _degrees(wheel_turn_rad), "gyro_deg": _degrees(seen_rad)},
-        )
     off_m = reference.distance_to(seen)
     off_rad = abs(asked_rad - seen_rad)
     if off_m <= OFF_TRACK_M + OFF_TRACK_SHARE * asked_m and off_rad <= OFF_TRACK_RAD + OFF_TRACK_SHARE * abs(
         asked_rad
     ):
         return None
+    if off_rad > OFF_TRACK_RAD and abs(wheel_turn_rad - seen_rad) > SLIP_SHARE * off_rad:
+        return Reason("wheels_slip", {"wheels_deg": _degrees(wheel_turn_rad), "gyro_deg": _degrees(seen_rad)})
     values = {
         "asked_m": round(asked_m, 2),
         "seen_m": round(seen_m, 2),

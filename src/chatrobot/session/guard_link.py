@@ -47,7 +47,7 @@ class GuardProcess:
         ours.setblocking(False)
         self._line = ours
         command = [
-            *(sys.executable, "-E", "-m", "chatrobot.guard", "--wire", wire_path),
+            *(sys.executable, "-m", "chatrobot.guard", "--wire", wire_path),
             *("--topic", wiring.cmd_vel_topic, "--odom", wiring.odom_topic, "--fd", str(theirs.fileno())),
         ]
         self.process = subprocess.Popen(

@@ -1,0 +1,116 @@
+"""The half that understands: text to a reply and a plan, with what was said and done before."""
+
+from __future__ import annotations
+
+import uuid
+from dataclasses import replace
+from pathlib import Path
+
+from chatrobot.core.events import Finished, Outcome, Remembered, Telemetry
+from chatrobot.core.geometry import ZERO_TWIST, Pose
+from chatrobot.language.context import Context, Dialogue, RobotState, TurnRecord
+from chatrobot.language.interpretation import Interpretation, LanguageCode, OfflineInterpreter
+from chatrobot.language.phrases import say
+from chatrobot.robots.profile import RobotProfile
+from chatrobot.session.places import Places
+from chatrobot.session.replies import describe_end
+from chatrobot.sim.world import World
+
+REMEMBERED_TURNS = 50
+"""Older turns are forgotten: nobody says "again" about what was fifty instructions ago."""
+
+
+class Understanding:
+    """Interprets texts and keeps the dialogue. Used by one thread.
+
+    Args:
+        world: its named places can be gone to.
+        folder: where places live between sessions; None for nowhere.
+    """
+
+    def __init__(self, profile: RobotProfile, world: World, folder: Path | None) -> None:
+        self._interpreter = OfflineInterpreter(profile)
+        self._dialogue = Dialogue()
+        self._state = RobotState()
+        self._world_places = {alias: world.places[main] for alias, main in world.aliases.items()}
+        # The simulated robot's odometry begins anew with every session, as a real one's does at power-on.
+        self._places = Places(folder, profile.name, uuid.uuid4().hex)
+        self._started = False
+        self.language: LanguageCode = "en"
+
+    @property
+    def pose(self) -> Pose:
+        """Where the robot last said it was."""
+        return self._state.pose
+
+    @property
+    def places(self) -> Places:
+        return self._places
+
+    @property
+    def world_places(self) -> dict[str, Pose]:
+        return self._world_places
+
+    def interpret(self, text: str) -> Interpretation:
+        """What `text` means now."""
+        dialogue = replace(self._dialogue, places=self._places.all())
+        meant = self._interpreter.interpret(text, Context(dialogue, self._state, self._world_places))
+        self.language = meant.language
+        return meant
+
+    def say(self, code: str, text: str, **values: float | str) -> str:
+        """A phrase in the language of the last question."""
+        return say(self.language, code, text=text[:80], **values)
+
+    def note_telemetry(self, event: Telemetry) -> None:
+        self._state = RobotState(
+            event.pose,
+            event.twist,
+            event.moving,
+            event.path_m,
+            event.battery_percent,
+            event.nearest_obstacle_m,
+        )
+        if not self._started:
+            self._started = True
+            self._dialogue = replace(self._dialogue, start_pose=event.pose)
+
+    def note_place(self, event: Remembered) -> None:
+        self._places.add(event.place, event.pose)
+
+    def note_unmoved(self, text: str, meant: Interpretation) -> None:
+        """A turn that ended without motion: refused, unclear or answered; it may still have taught us something."""
+        if meant.outcome == "answered":
+            self._learn(meant)
+            if meant.remember_place:
+                self._places.add(meant.remember_place, self._state.pose)
+        outcomes: dict[str, Outcome] = {"unclear": "unclear", "refused": "refused", "answered": "answered"}
+        self._record(TurnRecord(text, outcomes.get(meant.outcome, "stopped")))
+        pending = text if meant.outcome == "unclear" else ""
+        self._dialogue = replace(self._dialogue, pending=pending)
+
+    def note_finished(self, text: str, meant: Interpretation, finished: Finished, rehearse_only: bool) -> str:
+        """A plan's turn has ended: remember it as it really went. Returns the reply."""
+        if finished.outcome == "completed":
+            self._learn(meant)
+        self._state = replace(self._state, pose=finished.pose, twist=ZERO_TWIST, moving=False)
+        outcome: Outcome = finished.outcome
+        plan = meant.plan if outcome in ("completed", "stopped", "failed") and not rehearse_only else None
+        self._record(TurnRecord(text, outcome, plan, finished.start, finished.pose))
+        self._dialogue = replace(self._dialogue, pending="")
+        if rehearse_only and outcome == "completed":
+            return say(meant.language, "only_rehearsed")
+        return describe_end(finished, meant.language)
+
+    def _learn(self, meant: Interpretation) -> None:
+        dialogue = self._dialogue
+        self._dialogue = replace(
+            dialogue,
+            words={**dialogue.words, **meant.define},
+            default_speed_mps=meant.default_speed_mps or dialogue.default_speed_mps,
+            default_rate_radps=meant.default_rate_radps or dialogue.default_rate_radps,
+        )
+
+    def _record(self, record: TurnRecord) -> None:
+        turns = (*self._dialogue.turns, record)[-REMEMBERED_TURNS:]
+        self._dialogue = replace(self._dialogue, turns=turns)

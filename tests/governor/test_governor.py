@@ -1,0 +1,94 @@
+"""Leases, the latch, the stop epoch and the verdicts of the governor."""
+
+from __future__ import annotations
+
+import math
+
+from chatrobot.core.geometry import ZERO_TWIST, Twist
+from chatrobot.core.governed import StopEpoch
+from chatrobot.governor.governor import LONGEST_STEP_S, TICK_S, Governor
+from chatrobot.robots.load import load_profile
+
+PROFILE = load_profile("wheeltec_mini_mec")
+SLOW = Twist(0.3, 0.0, 0.0)
+
+
+def governor_with_lease(term_s: float = 0.3) -> tuple[Governor, StopEpoch]:
+    epoch = StopEpoch()
+    governor = Governor(PROFILE, epoch)
+    governor.leases.open("lease", "test", term_s, 0.0)
+    return governor, epoch
+
+
+def test_nothing_moves_without_a_lease() -> None:
+    governor = Governor(PROFILE, StopEpoch())
+    verdict = governor.govern(SLOW, "nobody's", 0.0)
+    assert (verdict.action, verdict.rule) == ("refused", "lease_lapsed")
+    assert verdict.sent.twist.is_zero
+
+
+def test_a_lease_without_beats_ends_after_its_term_and_a_beat_revives_it() -> None:
+    governor, _ = governor_with_lease()
+    assert governor.govern(SLOW, "lease", 0.3).action != "refused"
+    assert governor.govern(SLOW, "lease", 0.31).action == "refused"
+    governor.leases.beat("lease", 0.4)
+    assert governor.govern(SLOW, "lease", 0.4).action != "refused"
+
+
+def test_a_beat_from_the_past_does_not_lengthen_a_lease() -> None:
+    governor, _ = governor_with_lease()
+    governor.leases.beat("lease", -5.0)
+    assert governor.govern(SLOW, "lease", 0.31).action == "refused"
+
+
+def test_an_ended_lease_cannot_be_beaten_back_to_life() -> None:
+    governor, _ = governor_with_lease()
+    governor.leases.end("lease")
+    governor.leases.beat("lease", 0.1)
+    assert governor.govern(SLOW, "lease", 0.1).action == "refused"
+
+
+def test_the_first_tick_moves_at_once() -> None:
+    governor, _ = governor_with_lease()
+    sent = governor.govern(SLOW, "lease", 0.0).sent.twist
+    assert sent.vx_mps == PROFILE.limits.acceleration_mps2 * TICK_S
+
+
+def test_a_late_tick_buys_no_jump_in_velocity() -> None:
+    governor, _ = governor_with_lease(term_s=10.0)
+    first = governor.govern(SLOW, "lease", 0.0).sent.twist
+    second = governor.govern(Twist(1.0, 0.0, 0.0), "lease", 5.0).sent.twist
+    step = second.vx_mps - first.vx_mps
+    assert step <= PROFILE.limits.acceleration_mps2 * LONGEST_STEP_S + 1e-9
+
+
+def test_a_clock_that_goes_back_never_speeds_the_robot_up() -> None:
+    governor, _ = governor_with_lease(term_s=math.inf)
+    first = governor.govern(SLOW, "lease", 1.0).sent.twist
+    assert governor.govern(SLOW, "lease", 0.5).sent.twist == first
+
+
+def test_an_emergency_stop_holds_until_it_is_released_and_says_who_set_it() -> None:
+    governor, _ = governor_with_lease()
+    governor.latch("console", "not-aus")
+    assert governor.govern(SLOW, "lease", 0.0).rule == "emergency_stop"
+    assert governor.latched is not None
+    assert governor.latched.values["source"] == "console"
+    governor.release()
+    assert governor.govern(SLOW, "lease", 0.0).action == "limited"
+
+
+def test_after_a_stop_ramps_begin_at_zero_again() -> None:
+    governor, epoch = governor_with_lease(term_s=10.0)
+    for tick in range(30):
+        governor.govern(SLOW, "lease", tick * TICK_S)
+    epoch.stop()
+    assert governor.govern(SLOW, "lease", 30 * TICK_S).sent.twist.vx_mps <= 0.02 + 1e-9
+
+
+def test_what_was_limited_says_by_which_rule() -> None:
+    governor, _ = governor_with_lease(term_s=10.0)
+    assert governor.govern(Twist(99.0, 0.0, 0.0), "lease", 0.0).rule == "speed"
+    assert governor.govern(SLOW, "lease", TICK_S).rule == "acceleration"
+    assert governor.govern(Twist(math.nan, 0.0, 0.0), "lease", 2 * TICK_S).rule == "not_finite"
+    assert governor.govern(ZERO_TWIST, "lease", 3 * TICK_S).action == "passed"

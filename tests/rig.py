@@ -1,0 +1,72 @@
+"""A simulated robot, a governor and an executor on one virtual clock: what the tests of motion stand on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from chatrobot.core.clock import VirtualClock
+from chatrobot.core.events import Event
+from chatrobot.core.geometry import ORIGIN, Twist
+from chatrobot.core.governed import StopEpoch
+from chatrobot.execution.executor import Executor
+from chatrobot.execution.sensors import Sensors
+from chatrobot.governor.governor import TICK_S, Governor
+from chatrobot.plan.context import LoweringContext
+from chatrobot.plan.lowering import iterate_core
+from chatrobot.plan.steps import Plan
+from chatrobot.robots.load import load_profile
+from chatrobot.sim.lies import SimLies
+from chatrobot.sim.robot import SimRobot
+from chatrobot.sim.world import load_world
+from chatrobot.transports.transport import WireTransport
+from chatrobot.wire.memory import MemoryHub
+
+
+class Rig:
+    """Runs plans on the executor as Motion would, without Motion."""
+
+    def __init__(self, profile: str = "wheeltec_mini_mec", lies: str = "", world: str = "empty") -> None:
+        self.profile = load_profile(profile)
+        self.clock = VirtualClock()
+        hub = MemoryHub()
+        self.robot = SimRobot(
+            self.profile, load_world(world), SimLies.parse(lies), wire=hub.connect(), clock=self.clock
+        )
+        self.sensors = Sensors(self.profile, self.clock)
+        wire = hub.connect()
+        self.sensors.attach(wire)
+        epoch = StopEpoch()
+        self.governor = Governor(self.profile, epoch)
+        self.governor.leases.open("rig", "rig", float("inf"), 0.0)
+        self._transport = WireTransport(wire, self.profile.wiring, epoch)
+        self.events: list[Event] = []
+        self.sent: list[Twist] = []
+        self.live(0.5)
+
+    def live(self, duration_s: float) -> None:
+        """Let time pass."""
+        for _ in range(round(duration_s / TICK_S)):
+            self.clock.advance(TICK_S)
+            self.robot.step(TICK_S)
+
+    def run(
+        self, plan: Plan, each_tick: Callable[[float], None] | None = None, limit_s: float = 600.0
+    ) -> Executor:
+        """Run `plan` to its end; `each_tick(seconds since its start)` may meddle."""
+        estimate = self.sensors.estimate
+        start = estimate.pose if estimate is not None else ORIGIN
+        context = LoweringContext(self.profile, start, start)
+        executor = Executor(self.profile, self.sensors, self.events.append)
+        began_s = self.clock.now_s()
+        executor.start(1, iterate_core(plan, context), 10.0, began_s)
+        while self.clock.now_s() - began_s < limit_s:
+            if each_tick is not None:
+                each_tick(self.clock.now_s() - began_s)
+            asked = executor.tick(self.clock.now_s())
+            if executor.is_done:
+                return executor
+            verdict = self.governor.govern(asked, "rig", self.clock.now_s())
+            self._transport.send(verdict.sent)
+            self.sent.append(verdict.sent.twist)
+            self.live(TICK_S)
+        raise AssertionError(f"the plan did not end within {limit_s} s")
