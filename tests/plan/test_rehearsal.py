@@ -8,10 +8,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.plan.kernels import gentle_brake, half_speed, pass_all, steady
-from tests.plan.plans import plans
-from tests.plan.robots import ACKERMANN, DIFFERENTIAL, MECANUM
-from tests.plan.worlds import NOTHING, WALL_AHEAD, BoxWorld, flat
 
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.plan.findings import Finding
@@ -21,6 +17,10 @@ from chatrobot.plan.steps import Plan
 from chatrobot.plan.sweep import outline_points, transformed
 from chatrobot.plan.text import parse_plan
 from chatrobot.robots.profile import RobotProfile
+from tests.plan.kernels import gentle_brake, half_speed, pass_all, steady
+from tests.plan.plans import plans
+from tests.plan.robots import ACKERMANN, DIFFERENTIAL, MECANUM
+from tests.plan.worlds import NOTHING, WALL_AHEAD, BoxWorld, flat
 
 
 def rehearsed(

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from tests.plan.robots import MECANUM
-from tests.plan.worlds import NOTHING, BoxWorld, flat
 
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.plan.context import NoRoute, Route
 from chatrobot.plan.route import GridRoutePlanner
+from tests.plan.robots import MECANUM
+from tests.plan.worlds import NOTHING, BoxWorld, flat
 
 ROUND = replace(
     MECANUM, footprint=((0.1768, -0.1768), (0.1768, 0.1768), (-0.1768, 0.1768), (-0.1768, -0.1768))
