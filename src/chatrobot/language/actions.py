@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from chatrobot.language.frames import DIAGONALS, GO, SIDES, STILL, TURN, Frame
 from chatrobot.language.manner import Pace
+from chatrobot.language.quantities import quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Step, Turn, Wait
 
@@ -24,6 +25,7 @@ class State:
 
     steps: list[Step] = field(default_factory=list)
     direction: str = "forward"
+    unit_m: float | None = None
     left: bool | None = None
     last: str = ""
 
@@ -34,7 +36,12 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     Raises:
         Unclear: where something needed is missing or impossible.
     """
+    frame = _with_units(frame, state)
     _check_extents(frame)
+    if "there" in frame.flags and frame.verb not in STILL:
+        raise Unclear("which_place", frame.text)
+    if "until" in frame.flags and not frame.has_extent and frame.verb != "face":
+        raise Unclear("condition", frame.text)
     if "clock" in frame.q:
         steps = _clock(frame, pace)
     elif frame.verb in STILL:
@@ -54,6 +61,30 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     else:
         steps = _drive(frame, state, pace)
     return steps
+
+
+def _with_units(frame: Frame, state: State) -> Frame:
+    """A number without a unit, where only one unit can be meant: `thirty more`, `turn left 90`."""
+    length = frame.q.get("length")
+    if length is not None and length.role:
+        state.unit_m = float(length.role)
+    number = frame.q.get("number")
+    if number is None:
+        return frame
+    dimension = ""
+    if "units_said" in frame.flags:
+        dimension = "angle" if frame.turning else "length"
+        factor = math.pi / 180 if frame.turning else 1.0
+    elif frame.turning and not frame.has_extent and 15 <= number.number <= 1080 and number.number % 15 == 0:
+        dimension, factor = "angle", math.pi / 180
+    elif "more" in frame.flags and state.last == "drive" and state.unit_m and not frame.has_extent and not frame.turning:
+        dimension, factor = "length", state.unit_m
+    if not dimension:
+        return frame
+    frame = frame.copy()
+    del frame.q["number"]
+    frame.q[dimension] = quantity(dimension, number.number * factor, number.text)
+    return frame
 
 
 def _check_extents(frame: Frame) -> None:
@@ -77,6 +108,8 @@ def _still(frame: Frame) -> list[Step]:
 
 def _left(frame: Frame) -> bool | None:
     side = frame.rot or frame.direction2 or (frame.direction if frame.direction in SIDES else "")
+    if not side and frame.is_arc and frame.direction in DIAGONALS.values():
+        side = frame.direction.split("_")[1]
     return None if not side else side == "left"
 
 
@@ -150,6 +183,8 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
         raise Unclear("which_way", frame.text)
     if "sideways" in frame.flags and direction in ("forward", "back"):
         raise Unclear("contradiction", frame.text)
+    if not frame.has_extent and not frame.direction and frame.joined == "none":
+        raise Unclear("which_way", frame.text)
     if not frame.moves and not frame.has_extent and "again" not in frame.flags:
         raise Unclear("unclear_motion", frame.text)
     _check_sideways(direction, pace)
@@ -222,7 +257,7 @@ def _arc(frame: Frame, pace: Pace) -> list[Step]:
     left = _left(frame)
     if left is None:
         raise Unclear("which_side", frame.text)
-    backward = frame.direction == "back"
+    backward = frame.direction.startswith("back")
     angle = frame.q.get("angle") or frame.q.get("turns")
     length, seconds = frame.q.get("length"), frame.q.get("time")
     speed, rate = frame.q.get("speed"), frame.q.get("rate")

@@ -153,11 +153,13 @@ def _belongs(last: Frame, first: Frame) -> bool:
         return False
     if last.verb in STILL and last.has_extent and not (set(first.q) <= MANNER and not first.moves):
         return False
-    if not first.moves:
-        return not (set(first.q) & set(EXTENTS) and last.has_extent and not _adds_time(last, first))
     if last.is_arc or first.is_arc:
         return not (last.has_extent and first.verb and "until" not in first.flags and first.has_extent and last.verb)
+    if not first.moves:
+        return not (set(first.q) & set(EXTENTS) and last.has_extent and not _adds_time(last, first))
     if not last.moves:
+        return True
+    if first.verb == last.verb and first.q and set(first.q) <= MANNER and not (first.direction or first.rot):
         return True
     if first.verb and last.verb:
         return not last.has_extent and (not first.direction or first.direction == last.direction) and (

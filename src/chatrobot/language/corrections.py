@@ -23,6 +23,8 @@ def corrected(atoms: Sequence[Atom]) -> list[Atom]:
         if out[at].kind == "correction" and out[at].value == "cancel":
             if not any(a.kind in _PIECE for a in after):
                 raise Unclear("taken_back", out[at].text)
+            while after and after[0].kind in ("sep", "negation", "filler", "correction"):
+                after = after[1:]
             out = after
         else:
             out = _replaced(_trimmed(before), after)
@@ -129,6 +131,8 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
             if atom.text == "but":
                 break
             end += 1
+        if scope.verb in ("turn", "spin") and not (scope.direction or scope.rot):
+            out.append(Atom("flag", "no_turn", "don't turn"))
         if not scope.moves and not scope.pace and not scope.flags:
             raise Unclear("unknown_part", " ".join(a.text for a in atoms[i:end]))
         i = end

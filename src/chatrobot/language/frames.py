@@ -57,7 +57,7 @@ class Frame:
     @property
     def moves(self) -> bool:
         """Whether it names a motion by itself: a verb, a direction, a rotation, a shape."""
-        return bool(self.verb or self.direction or self.rot or self.shape or self.place)
+        return bool((self.verb and self.verb != "make") or self.direction or self.rot or self.shape or self.place)
 
     @property
     def is_arc(self) -> bool:
@@ -111,6 +111,8 @@ class Frame:
 
     def _put_verb(self, verb: str) -> bool:
         old = self.verb
+        if self.place and verb in ("go", "return", "shift"):
+            return True
         if old == verb and verb in ("go", "turn", "shift", "slide", "wait", "halt", "face", "make", "curve") and (
             not self.has_extent
         ):

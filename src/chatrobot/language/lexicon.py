@@ -30,12 +30,14 @@ class Lexicon:
     """`words` maps a written form, cut into units, to its meaning; `longest` is by the first unit.
 
     `guesses` holds what a speech recogniser writes for a word: looked up where the word itself is not found.
+    `latin` are single Latin words in any phrase; `known` has ordinary words besides, in which no typo is seen.
     """
 
     words: dict[Key, Meaning]
     guesses: dict[Key, Meaning]
     longest: dict[str, int]
     latin: frozenset[str]
+    known: frozenset[str]
     before_unit: dict[str, float]
 
 
@@ -63,12 +65,13 @@ def lexicon() -> Lexicon:
     for key in (*words, *guesses):
         longest[key[0]] = max(longest.get(key[0], 0), len(key))
     latin = frozenset(unit for key in words for unit in key if unit[0].isalpha() and unit.isascii())
+    ordinary = frozenset(str(load_table("en", "words")["words"]).split())
     before = {
         word: float(value)
         for value, listed in load_table("en", "homophones")["before_unit"].items()
         for word in listed
     }
-    return Lexicon(words, guesses, longest, latin, before)
+    return Lexicon(words, guesses, longest, latin, latin | ordinary, before)
 
 
 def _keys(patterns: list[str]) -> list[Key]:

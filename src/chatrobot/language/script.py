@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from chatrobot.language.actions import State, act
+from chatrobot.language.actions import State, act, inverse
 from chatrobot.language.clauses import is_times_only
 from chatrobot.language.frames import STILL, Frame
 from chatrobot.language.manner import Pace
@@ -43,6 +44,10 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
         Unclear: where a clause cannot be acted on.
     """
     frames = _shared(frames)
+    if any("units_said" in frame.flags for frame in frames):
+        frames = [f for f in frames if f.moves or f.has_extent]
+        for frame in frames:
+            frame.flags.add("units_said")
     count, frames = _leading_count(frames)
     script = Script(pace, memory, state=memory.state)
     i = 0
@@ -91,6 +96,13 @@ def _count(frame: Frame) -> int:
 
 def _take(script: Script, frames: list[Frame], i: int) -> int:
     frame = frames[i]
+    if "still_axis" in frame.flags and not frame.moves:
+        return i + 1
+    if _lists_lengths(frames, i) or _is_heading_back(script, frame):
+        return i + 1
+    if "trip" in [a.role for a in frame.q.values()]:
+        _round_trips(script, frame)
+        return i + 1
     if frame.shape:
         end, steps = draw(frames, i, script.pace)
         _finish(script, frame, [steps])
@@ -123,6 +135,52 @@ def _act(script: Script, frame: Frame) -> None:
     script.units.extend([steps] * count if steps else [])
 
 
+def _lists_lengths(frames: list[Frame], i: int) -> bool:
+    """`Three legs: half a metre, one metre, 1.5 m`: the count only announces the list."""
+    frame = frames[i]
+    if "count" not in frame.q or frame.has_extent:
+        return False
+    count = int(frame.q["count"].number)
+    listed = frames[i + 1 : i + 1 + count]
+    return len(listed) == count and all("length" in f.q and not f.verb for f in listed)
+
+
+def _round_trips(script: Script, frame: Frame) -> None:
+    """`Three round trips of one metre`."""
+    each = frame.copy()
+    trips = _count(Frame(q={"times": each.q.pop("count")}))
+    if not each.has_extent:
+        if not script.units:
+            raise Unclear("how_long_a_step", frame.text)
+        out = script.units.pop()
+    else:
+        each.roles.clear()
+        out = act(each, script.state, script.pace)
+    for _ in range(trips):
+        script.units += [out, inverse(out)]
+
+
+def _is_heading_back(script: Script, frame: Frame) -> bool:
+    """`… until you face the way you started`: as often as it takes to a full turn."""
+    if "until" not in frame.flags or "original_heading" not in frame.flags:
+        return False
+    period = _period(script.units)
+    turned = abs(total_turn([s for unit in period for s in unit]))
+    rounds = round(2 * math.pi / turned) if turned else 0
+    if rounds < 1 or abs(rounds * turned - 2 * math.pi) > 1e-6:
+        raise Unclear("condition", frame.text)
+    script.units = _repeated(period, rounds)
+    return True
+
+
+def _period(units: list[list[Step]]) -> list[list[Step]]:
+    """The shortest beginning that, repeated, gives all units."""
+    for length in range(1, len(units) + 1):
+        if len(units) % length == 0 and units[:length] * (len(units) // length) == units:
+            return units[:length]
+    return units
+
+
 def _known(frame: Frame, script: Script) -> list[Step]:
     """The steps of a word that was defined, or the way to a place that was named; else none."""
     if frame.verb == "defined":
@@ -145,6 +203,7 @@ def _finish(script: Script, frame: Frame, units: list[list[Step]]) -> None:
 def _insert(script: Script, frame: Frame) -> None:
     """A pause or a motion between the units, or after each of them."""
     steps = act(frame, script.state, script.pace)
+    script.units = [part for unit in script.units for part in _full_turns(unit)]
     moving = [u for u in script.units if not all(isinstance(s, Wait) for s in u)]
     if len(moving) < 2 and not ("after_each" in frame.flags and moving):
         raise Unclear("between_what", frame.text)
@@ -155,6 +214,15 @@ def _insert(script: Script, frame: Frame) -> None:
         if k + 1 < len(moving) or ("after_each" in frame.flags and not pause):
             units.append(steps)
     script.units = units
+
+
+def _full_turns(unit: list[Step]) -> list[list[Step]]:
+    """Several full turns in one, as one unit each: a pause fits between them."""
+    if len(unit) == 1 and isinstance(unit[0], Turn) and unit[0].angle_rad:
+        rounds = unit[0].angle_rad / (2 * math.pi)
+        if rounds > 1.5 and abs(rounds - round(rounds)) < 1e-6:
+            return [[replace(unit[0], angle_rad=2 * math.pi)]] * round(rounds)
+    return [unit]
 
 
 def _repeated(units: list[list[Step]], count: int) -> list[list[Step]]:
