@@ -282,7 +282,8 @@ def _shared_units(atoms: list[Atom]) -> list[Atom]:
             continue
         j = i + 1
         while j < len(out) and (
-            (out[j].kind == "sep" and out[j].value == "weak") or (out[j].kind == "conn" and out[j].value == "and")
+            out[j].text in ("by", "x", "乘", "*", "或")
+            or (out[j].kind == "sep" and out[j].value == "weak") or (out[j].kind == "conn" and out[j].value == "and")
         ):
             j += 1
         if i + 1 < j < len(out) and out[j].kind == "q" and out[j].value in ("length", "angle") and out[j].role:
