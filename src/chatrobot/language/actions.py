@@ -38,7 +38,7 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     """
     frame = _with_units(frame, state)
     _check_extents(frame)
-    if "there" in frame.flags and frame.verb not in STILL:
+    if "there" in frame.flags and frame.verb not in STILL and not (frame.direction or frame.rot or "length" in frame.q):
         raise Unclear("which_place", frame.text)
     if "until" in frame.flags and not frame.has_extent and frame.verb != "face":
         raise Unclear("condition", frame.text)
@@ -96,7 +96,26 @@ def _check_extents(frame: Frame) -> None:
         raise Unclear("no_unit", frame.q["number"].text)
 
 
+_SLOTS = {
+    "still": {"time"},
+    "turn": {"angle", "turns", "time", "rate", "percent", "fold", "times"},
+    "drive": {"length", "time", "speed", "percent", "fold", "times"},
+    "heading": {"length", "time", "speed", "percent", "fold", "times", "angle"},
+}
+_REFERRING = {"other_way", "short_of", "from_now_on", "same_way", "to_start", "original_heading"}
+
+
+def _all_used(frame: Frame, kind: str) -> None:
+    """No slot may be left over: what is not acted on was not understood."""
+    left_over = [q for name, q in frame.q.items() if name not in _SLOTS[kind]]
+    if left_over:
+        raise Unclear("unclear_motion", f"{frame.text}")
+    if _REFERRING & frame.flags:
+        raise Unclear("unclear_motion", frame.text)
+
+
 def _still(frame: Frame) -> list[Step]:
+    _all_used(frame, "still")
     if "time" in frame.q:
         return [Wait(frame.q["time"].number)]
     if frame.verb == "halt":
@@ -130,6 +149,7 @@ def _is_turn(frame: Frame, state: State) -> bool:
 def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if "length" in frame.q or "speed" in frame.q:
         raise Unclear("length_for_turn", frame.text)
+    _all_used(frame, "turn")
     rate = pace.rate(frame)
     angle = (frame.q.get("angle") or frame.q.get("turns"))
     left = _left(frame)
@@ -168,6 +188,7 @@ def _same_either_way(angle_rad: float) -> bool:
 
 
 def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    _all_used(frame, "heading" if frame.direction in DIAGONALS.values() else "drive")
     direction = frame.direction
     diagonal = "diagonal" in frame.flags
     if diagonal and direction not in DIAGONALS.values():
@@ -239,7 +260,7 @@ def _clock(frame: Frame, pace: Pace) -> list[Step]:
 
 
 def _face(frame: Frame, pace: Pace) -> list[Step]:
-    if "original_heading" in frame.flags or "to_start" in frame.flags:
+    if ("original_heading" in frame.flags or "to_start" in frame.flags) and not frame.has_extent:
         return [Face(0.0, frame="start", rate_radps=pace.rate(frame))]
     if frame.direction in SIDES:
         angle = frame.q.get("angle") or frame.q.get("turns")

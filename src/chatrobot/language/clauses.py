@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from chatrobot.language.frames import EXTENTS, GO, SIDES, STILL, TURN, Frame, merged
+from chatrobot.language.frames import EXTENTS, GO, SLOTTED, SIDES, STILL, TURN, Frame, merged
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 
@@ -68,7 +68,7 @@ def _split(atoms: list[Atom]) -> list[Frame]:
     for i, atom in enumerate(atoms):
         if atom.kind in ("filler", "glue", "sep", "reason"):
             continue
-        if atom.kind in ("unknown", "unit_length", "unit_angle", "unit_time", "unit_percent", "scale", "fraction"):
+        if atom.kind not in SLOTTED:
             raise Unclear("unknown_part", _around(atoms, i))
         if not current.add(atom):
             if _is_bare_direction(current):
@@ -147,6 +147,8 @@ def _completes(last: Frame, first: Frame) -> bool:
 
 def _belongs(last: Frame, first: Frame) -> bool:
     """Across a comma or an `and`."""
+    if "count" in last.q and "length" in first.q and "each" not in first.flags and not last.shape:
+        return False
     if last.shape or first.shape:
         return not (last.shape and first.verb in (*GO, *TURN, *STILL, "return") and first.has_extent)
     if first.joined == "and" and last.verb in STILL and first.moves:

@@ -16,7 +16,8 @@ DIAGONALS = {
     ("forward", "left"): "forward_left", ("forward", "right"): "forward_right",
     ("back", "left"): "back_left", ("back", "right"): "back_right",
 }  # fmt: skip
-SHARED_FLAGS = frozenset({"all", "each"})
+SLOTTED = frozenset({"verb", "dir", "rot", "q", "pace", "flag", "role", "shape", "place", "defined"})
+"""Kinds of atoms that a frame has a slot for. Every other kind must have been dealt with before."""
 
 
 @dataclass
@@ -129,6 +130,8 @@ class Frame:
             if verb in TURN and self.direction in ("forward", "back") and not self.is_arc:
                 return False
             return self._set_verb(verb if verb != "make" or not old else old)
+        if verb == "face" and old in ("return", "turn", "spin") and not self.has_extent:
+            return self._set_verb(verb)
         if verb == "make":
             return not self.has_extent
         if old in TURN and verb in ("curve", *TURN) and not self.has_extent:
@@ -234,7 +237,7 @@ def merged(first: Frame, second: Frame) -> Frame | None:
     both = first.copy()
     both.flags |= second.flags
     both.roles += second.roles
-    if second.verb and not both._put_verb(second.verb):
+    if second.verb and second.verb != both.verb and not both._put_verb(second.verb):
         return None
     for quantity in second.q.values():
         if not both._put_quantity(quantity):

@@ -9,6 +9,7 @@ from typing import Literal
 
 from chatrobot import reflex
 from chatrobot.language import forms, questions
+from chatrobot.language.arithmetic import settle_condition
 from chatrobot.language.clauses import read_frames
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.corrections import corrected, without_negated
@@ -178,7 +179,7 @@ class _Reading:
             if ability and plain.endswith("?"):
                 return Interpretation("answered", say(self.language, "answer_cannot"), self.language)
             raise Unclear(f"refuse_{refusal.value}", refusal.text, refused=True)
-        frames = read_frames(tidy(without_negated(corrected(atoms))))
+        frames = _frames(atoms)
         default = self._default(frames)
         if default is not None:
             return default
@@ -188,7 +189,7 @@ class _Reading:
     def _question(self, plain: str, atoms: list[Atom], ability: bool) -> Interpretation | None:
         """The answer, unless it is a command put as a question."""
         try:
-            frames = read_frames(tidy(without_negated(corrected(atoms))))
+            frames = _frames(atoms)
             steps = refer(frames, self.context, self.pace) or write(frames, self.pace, self._memory())
             if steps and any(f.moves or f.has_extent for f in frames):
                 return None
@@ -248,6 +249,10 @@ class _Reading:
                 places[name] = Go(place.pose.x_m, place.pose.y_m, place=name)
         words = {name: plan.steps for name, plan in dialogue.words.items()}
         return Memory(places, words, replace(state_after(self.context)))
+
+
+def _frames(atoms: list[Atom]) -> list[Frame]:
+    return read_frames(tidy(without_negated(corrected(settle_condition(atoms)))))
 
 
 def _clauses(text: str) -> list[str]:

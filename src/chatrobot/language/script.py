@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 from chatrobot.language.actions import State, act, inverse
 from chatrobot.language.clauses import is_times_only
-from chatrobot.language.frames import STILL, Frame
+from chatrobot.language.frames import STILL, Frame, merged
 from chatrobot.language.manner import Pace
 from chatrobot.language.shapes import draw
 from chatrobot.language.unclear import Unclear
@@ -100,6 +100,13 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
         return i + 1
     if _lists_lengths(frames, i) or _is_heading_back(script, frame):
         return i + 1
+    if "count" in frame.q and not frame.has_extent and not frame.flags and i + 1 < len(frames):
+        following = frames[i + 1]
+        if "length" in following.q and not following.verb and following.joined != "then":
+            both = merged(frame, following)
+            if both is not None:
+                _act(script, both)
+                return i + 2
     if "trip" in [a.role for a in frame.q.values()]:
         _round_trips(script, frame)
         return i + 1

@@ -60,6 +60,8 @@ def draw(frames: list[Frame], i: int, pace: Pace) -> tuple[int, list[Step]]:
 
 
 def _is_part(head: Frame, frame: Frame) -> bool:
+    if head.shape == "plus" and ("way" in [q.role for q in frame.q.values()] or frame.verb == "return"):
+        return True
     if frame.flags & {"between", "after_each", "to_start", "original_heading"} or frame.verb in (*STILL, "return", "face", "uturn", "remember"):
         return False
     if frame.shape and frame.shape not in ("half_circle", "quarter_circle", "circle"):
@@ -105,6 +107,8 @@ def _measure(parts: list[Frame], pace: Pace) -> Measures:
             if name == "length":
                 roles = list(part.roles) + (["side"] if "each" in part.flags or "all" in part.flags else [])
                 found.lengths.append((value, roles))
+            elif name == "number" and parts[0].shape in ("eight", "racetrack", "sbend"):
+                continue  # "its two circles"
             elif name == "count":
                 found.counts[quantity.role] = _whole(value)
             elif name in ("times", "number"):

@@ -15,7 +15,18 @@ _MOTION = ("q", "verb", "dir", "rot", "shape", "pace", "role", "number")
 
 def tidy(atoms: Sequence[Atom]) -> list[Atom]:
     """The atoms as the clause reader wants them."""
-    return _without_reasons(_fractions_of(_relative_speeds([_settled(atoms, i) for i in range(len(atoms))])))
+    settled = [_settled(atoms, i) for i in range(len(atoms))]
+    return _headings(_without_reasons(_fractions_of(_relative_speeds(settled))))
+
+
+def _headings(atoms: Sequence[Atom]) -> list[Atom]:
+    """The original heading is something to face."""
+    out: list[Atom] = []
+    for atom in atoms:
+        if atom.kind == "flag" and atom.value == "original_heading":
+            out.append(Atom("verb", "face", atom.text))
+        out.append(atom)
+    return out
 
 
 def _settled(atoms: Sequence[Atom], i: int) -> Atom:
