@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from chatrobot.language.frames import DIAGONALS, GO, SIDES, STILL, TURN, Frame
 from chatrobot.language.manner import Pace
 from chatrobot.language.quantities import quantity
+from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Step, Turn, Wait
 
@@ -26,6 +27,8 @@ class State:
     steps: list[Step] = field(default_factory=list)
     direction: str = "forward"
     unit_m: float | None = None
+    length: Atom | None = None
+    angle: Atom | None = None
     left: bool | None = None
     last: str = ""
 
@@ -68,6 +71,15 @@ def _with_units(frame: Frame, state: State) -> Frame:
     length = frame.q.get("length")
     if length is not None and length.role:
         state.unit_m = float(length.role)
+    if "same_amount" in frame.flags and not frame.has_extent:
+        before = state.angle if frame.turning else state.length
+        if before is None:
+            raise Unclear("nothing_before", frame.text)
+        frame = frame.copy()
+        frame.q[before.value] = before
+        frame.flags.discard("again")
+    state.length = frame.q.get("length", state.length)
+    state.angle = frame.q.get("angle", frame.q.get("turns", state.angle))
     number = frame.q.get("number")
     if number is None:
         return frame
@@ -75,7 +87,7 @@ def _with_units(frame: Frame, state: State) -> Frame:
     if "units_said" in frame.flags:
         dimension = "angle" if frame.turning else "length"
         factor = math.pi / 180 if frame.turning else 1.0
-    elif frame.turning and not frame.has_extent and 15 <= number.number <= 1080 and number.number % 15 == 0:
+    elif _means_degrees(frame, number.number):
         dimension, factor = "angle", math.pi / 180
     elif "more" in frame.flags and state.last == "drive" and state.unit_m and not frame.has_extent and not frame.turning:
         dimension, factor = "length", state.unit_m
@@ -85,6 +97,13 @@ def _with_units(frame: Frame, state: State) -> Frame:
     del frame.q["number"]
     frame.q[dimension] = quantity(dimension, number.number * factor, number.text)
     return frame
+
+
+def _means_degrees(frame: Frame, value: float) -> bool:
+    """`turn left 90`, `left 90`, `do a 180`: a multiple of 15 at a turn is degrees."""
+    turning = frame.turning or (not frame.verb and frame.direction in SIDES)
+    spinning = frame.verb == "make" and not frame.direction and value % 90 == 0
+    return (turning or spinning) and not frame.has_extent and 15 <= value <= 1080 and value % 15 == 0
 
 
 def _check_extents(frame: Frame) -> None:

@@ -18,6 +18,7 @@ from chatrobot.language.frames import Frame
 from chatrobot.language.lexicon import Key, Meaning, cut, lexicon
 from chatrobot.language.manner import Pace
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
+from chatrobot.language.order import in_order
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.quantities import read_quantities
 from chatrobot.language.script import Memory, write
@@ -252,7 +253,7 @@ class _Reading:
 
 
 def _frames(atoms: list[Atom]) -> list[Frame]:
-    return read_frames(tidy(without_negated(corrected(settle_condition(atoms)))))
+    return read_frames(tidy(without_negated(in_order(corrected(settle_condition(atoms))))))
 
 
 def _clauses(text: str) -> list[str]:

@@ -42,11 +42,16 @@ class Lexicon:
 
 
 _SIGN = re.compile(r"(?<![\w)])[-](?=\.?\d)")
+_LISTED = re.compile(r"(?:^|(?<=[\s;,.]))\(?[1-9]\)\s*|(?:^|(?<=\n)|(?<=[;,.] ))[1-9]\. ?(?=[^\d\s])")
+_INCHES, _FEET = re.compile(r"(\d)\s?\""), re.compile(r"(\d)\s?'(?![a-z])")
 _ORDINAL = re.compile(r"(\d+)(?:st|nd|rd|th)\b")
 
 
 def cut(text: str) -> Key:
     """The units of a normalised text. A hyphen before a number is a sign, any other is a space."""
+    text = _LISTED.sub(" ; ", text)
+    if text.count('"') == 1 or text.count("'") == 1 and _FEET.search(text):
+        text = _FEET.sub(r"\1 feet ", _INCHES.sub(r"\1 inches ", text))
     return tuple(UNIT.findall(_ORDINAL.sub(r"\1", _SIGN.sub(" minus ", text)).replace("-", " ")))
 
 

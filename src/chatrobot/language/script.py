@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 from chatrobot.language.actions import State, act, inverse
 from chatrobot.language.clauses import is_times_only
-from chatrobot.language.frames import STILL, Frame, merged
+from chatrobot.language.frames import STILL, TURN, Frame, merged
 from chatrobot.language.manner import Pace
 from chatrobot.language.shapes import draw
 from chatrobot.language.unclear import Unclear
@@ -107,9 +107,10 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
             if both is not None:
                 _act(script, both)
                 return i + 2
-    if "trip" in [a.role for a in frame.q.values()]:
-        _round_trips(script, frame)
-        return i + 1
+    if "trip" in frame.flags or "trip" in [a.role for a in frame.q.values()]:
+        both = merged(frame, frames[i + 1]) if i + 1 < len(frames) and not frames[i + 1].moves else None
+        _round_trips(script, both or frame)
+        return i + 1 + (both is not None)
     if frame.shape:
         end, steps = draw(frames, i, script.pace)
         _finish(script, frame, [steps])
@@ -155,11 +156,17 @@ def _lists_lengths(frames: list[Frame], i: int) -> bool:
 def _round_trips(script: Script, frame: Frame) -> None:
     """`Three round trips of one metre`."""
     each = frame.copy()
-    trips = _count(Frame(q={"times": each.q.pop("count")}))
+    trips = 1
+    for name in ("count", "times"):
+        if name in each.q:
+            trips = _count(Frame(q={"times": each.q.pop(name)}))
+    each.flags -= {"trip", "each"}
     if not each.has_extent:
         if not script.units:
             raise Unclear("how_long_a_step", frame.text)
         out = script.units.pop()
+    elif each.verb in TURN or each.rot:
+        raise Unclear("unclear_motion", frame.text)
     else:
         each.roles.clear()
         out = act(each, script.state, script.pace)

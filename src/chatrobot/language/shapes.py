@@ -111,6 +111,8 @@ def _measure(parts: list[Frame], pace: Pace) -> Measures:
                 continue  # "its two circles"
             elif name == "count":
                 found.counts[quantity.role] = _whole(value)
+                if quantity.role in ("lap", "loop"):
+                    found.times *= _whole(value)
             elif name in ("times", "number"):
                 _multiply(found, part, name, value)
             elif name == "angle":

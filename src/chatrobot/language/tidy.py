@@ -16,7 +16,23 @@ _MOTION = ("q", "verb", "dir", "rot", "shape", "pace", "role", "number")
 def tidy(atoms: Sequence[Atom]) -> list[Atom]:
     """The atoms as the clause reader wants them."""
     settled = [_settled(atoms, i) for i in range(len(atoms))]
+    settled = _pauses(settled)
     return _headings(_without_reasons(_fractions_of(_relative_speeds(settled))))
+
+
+def _pauses(atoms: Sequence[Atom]) -> list[Atom]:
+    """`a two second break` is `break two seconds`: the verb first, so that the time is its own."""
+    out: list[Atom] = []
+    for atom in atoms:
+        if atom.kind == "verb" and atom.value == "wait":
+            at = len(out)
+            while at and (out[at - 1].kind == "glue"):
+                at -= 1
+            if at and out[at - 1].kind == "q" and out[at - 1].value == "time" and not is_chinese(out[at - 1].text):
+                out.insert(at - 1, atom)
+                continue
+        out.append(atom)
+    return out
 
 
 def _headings(atoms: Sequence[Atom]) -> list[Atom]:
