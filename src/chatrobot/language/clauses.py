@@ -155,6 +155,8 @@ def _belongs(last: Frame, first: Frame) -> bool:
         return False
     if last.verb in STILL and last.has_extent and not (set(first.q) <= MANNER and not first.moves):
         return False
+    if last.is_arc and first.verb == "turn" and "angle" not in last.q and not (first.direction or first.rot):
+        return True
     if last.is_arc or first.is_arc:
         return not (last.has_extent and first.verb and "until" not in first.flags and first.has_extent and last.verb)
     if not first.moves:

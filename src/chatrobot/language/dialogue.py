@@ -11,6 +11,7 @@ from chatrobot.language.actions import DIRECTIONS, State, inverse
 from chatrobot.language.context import Context, TurnRecord
 from chatrobot.language.frames import GO, SIDES, Frame
 from chatrobot.language.manner import Pace
+from chatrobot.language.quantities import quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Repeat, Step, Turn, Wait
 
@@ -78,6 +79,8 @@ def _whole(frames: Sequence[Frame]) -> Frame | None:
 
 
 def _is_change(whole: Frame) -> bool:
+    if "same_amount" in whole.flags:
+        return False
     if whole.shape or whole.place or whole.verb not in ("", "make", "again"):
         repeats = "again" in whole.flags and whole.verb in (*GO, "turn") and not whole.direction and not whole.has_extent
         mirrored = "other_way" in whole.flags and not whole.has_extent and not whole.direction and whole.verb in (
@@ -225,11 +228,15 @@ def state_after(context: Context) -> State:
     for step in reversed(last.plan.steps):
         if isinstance(step, Drive):
             state.last = "drive"
+            if step.distance_m:
+                state.length = quantity("length", step.distance_m, f"{step.distance_m:g} m")
             state.direction = next(
                 (n for n, a in DIRECTIONS.items() if abs(math.remainder(a - step.direction_rad, 2 * math.pi)) < 1e-6), "forward"
             )
             break
         if isinstance(step, Turn):
             state.last, state.left = "turn", step.left
+            if step.angle_rad:
+                state.angle = quantity("angle", step.angle_rad, f"{math.degrees(step.angle_rad):g}°")
             break
     return state

@@ -62,7 +62,7 @@ class Frame:
 
     @property
     def is_arc(self) -> bool:
-        return self.verb == "curve" or "radius" in self.roles or "diameter" in self.roles or "while" in self.flags
+        return self.verb == "curve" or {"speed", "rate"} <= set(self.q) or "radius" in self.roles or "diameter" in self.roles or "while" in self.flags
 
     @property
     def turning(self) -> bool:
@@ -138,7 +138,7 @@ class Frame:
             return self._set_verb("curve" if verb == "curve" else old)
         if old == "curve" and verb in ("turn", "go") and not (verb == "go" and "angle" in self.q and "length" in self.q):
             return True
-        if "while" in self.flags and {old, verb} <= {*GO, *TURN}:
+        if (self.is_arc or "while" in self.flags) and {old, verb} <= {*GO, *TURN}:
             return self._set_verb("curve")
         if old in STILL and verb in STILL and not self.has_extent:
             return self._set_verb("wait")
@@ -171,7 +171,7 @@ class Frame:
             if ("angle" in self.q or "turns" in self.q) and new in ("forward", "back") and not self.is_arc:
                 return "diagonal" in self.flags and self._set_direction(new)
             return self._set_direction(new)
-        if old == new:
+        if old == new or (old in DIAGONALS.values() and new in old.split("_")):
             return True
         if self.is_arc or "diagonal" in self.flags or "while" in self.flags:
             return self._combine(old, new)
@@ -237,7 +237,8 @@ def merged(first: Frame, second: Frame) -> Frame | None:
     both = first.copy()
     both.flags |= second.flags
     both.roles += second.roles
-    if second.verb and second.verb != both.verb and not both._put_verb(second.verb):
+    arc = both.is_arc and second.verb == "turn" and not both.verb
+    if second.verb and second.verb != both.verb and not arc and not both._put_verb(second.verb):
         return None
     for quantity in second.q.values():
         if not both._put_quantity(quantity):

@@ -192,7 +192,8 @@ class _Reading:
         try:
             frames = _frames(atoms)
             steps = refer(frames, self.context, self.pace) or write(frames, self.pace, self._memory())
-            if steps and any(f.moves or f.has_extent for f in frames):
+            plain_question = questions.is_plain_question(plain, self.language)
+            if steps and any(f.has_extent or (f.moves and not plain_question) for f in frames):
                 return None
         except Unclear:
             pass

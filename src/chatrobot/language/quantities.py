@@ -59,6 +59,8 @@ def _quantity_at(atoms: Sequence[Atom], i: int) -> tuple[list[Atom], int] | None
     heard = _misheard(atoms, i)
     if heard:
         return heard
+    if atoms[i].kind == "fullturn":
+        return [quantity("turns", float(atoms[i].value) * 2.0 * math.pi, atoms[i].text)], i + 1
     if atoms[i].kind in ("times", "fold"):
         return [quantity(atoms[i].kind, float(atoms[i].value), atoms[i].text)], i + 1
     number = read_number(atoms, i) or _determined(atoms, i)

@@ -48,6 +48,7 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
         frames = [f for f in frames if f.moves or f.has_extent]
         for frame in frames:
             frame.flags.add("units_said")
+    frames = _shape_first(frames)
     count, frames = _leading_count(frames)
     script = Script(pace, memory, state=memory.state)
     i = 0
@@ -77,6 +78,22 @@ def _shared(frames: list[Frame]) -> list[Frame]:
                     other.verb = frame.verb
             other.pace = other.pace or frame.pace
     return kept
+
+
+def _shape_first(frames: list[Frame]) -> list[Frame]:
+    """`2 m by 1 m rectangle`: measures said before the name of the shape belong to it."""
+    out: list[Frame] = []
+    for frame in frames:
+        at = len(out)
+        while frame.shape and frame.joined in ("none", "weak", "and") and at and _is_measure(out[at - 1]):
+            at -= 1
+        out.insert(at, frame)
+    return out
+
+
+def _is_measure(frame: Frame) -> bool:
+    bare = not frame.moves or (frame.verb == "go" and not (frame.direction or frame.rot or frame.shape or frame.place))
+    return bare and "length" in frame.q and "time" not in frame.q
 
 
 def _leading_count(frames: list[Frame]) -> tuple[int | None, list[Frame]]:
