@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
+from chatrobot.core.geometry import Pose
 from chatrobot.language.frames import DIAGONALS, GO, SIDES, STILL, TURN, Frame
 from chatrobot.language.manner import Pace
 from chatrobot.language.quantities import quantity
@@ -31,6 +32,7 @@ class State:
     angle: Atom | None = None
     left: bool | None = None
     last: str = ""
+    home: Pose | None = None
 
 
 def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
@@ -52,7 +54,7 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     elif frame.verb == "return" or ("to_start" in frame.flags and frame.verb in (*GO, "", "uturn")):
         steps = _return(frame, state, pace)
     elif frame.verb == "face" or ("original_heading" in frame.flags):
-        steps = _face(frame, pace)
+        steps = _face(frame, state, pace)
     elif frame.verb == "uturn":
         steps = [Turn(math.pi, left=_left(frame) is not False, rate_radps=pace.rate(frame))]
         if frame.is_arc or "length" in frame.q:
@@ -121,7 +123,7 @@ _SLOTS = {
     "drive": {"length", "time", "speed", "percent", "fold", "times"},
     "heading": {"length", "time", "speed", "percent", "fold", "times", "angle"},
 }
-_REFERRING = {"other_way", "short_of", "from_now_on", "same_way", "to_start", "original_heading"}
+_REFERRING = {"other_way", "short_of", "from_now_on", "same_way", "to_start", "original_heading", "left_right", "right_left"}
 
 
 def _all_used(frame: Frame, kind: str) -> None:
@@ -225,7 +227,8 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
         raise Unclear("contradiction", frame.text)
     if not frame.has_extent and not frame.direction and frame.joined == "none":
         raise Unclear("which_way", frame.text)
-    if not frame.moves and not frame.has_extent and "again" not in frame.flags:
+    ellipsis = "again" in frame.flags or ("more" in frame.flags and state.last == "drive")
+    if not frame.moves and not frame.has_extent and not ellipsis:
         raise Unclear("unclear_motion", frame.text)
     _check_sideways(direction, pace)
     state.last, state.direction = "drive", direction
@@ -278,8 +281,10 @@ def _clock(frame: Frame, pace: Pace) -> list[Step]:
     return [Turn(abs(angle), left=angle > 0, rate_radps=pace.rate(frame))]
 
 
-def _face(frame: Frame, pace: Pace) -> list[Step]:
+def _face(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if ("original_heading" in frame.flags or "to_start" in frame.flags) and not frame.has_extent:
+        if state.home is not None and not state.steps:
+            return [Face(state.home.yaw_rad, frame="odom", rate_radps=pace.rate(frame))]
         return [Face(0.0, frame="start", rate_radps=pace.rate(frame))]
     if frame.direction in SIDES:
         angle = frame.q.get("angle") or frame.q.get("turns")
@@ -334,6 +339,8 @@ def _return(frame: Frame, state: State, pace: Pace) -> list[Step]:
     drives = [step for step in state.steps if not isinstance(step, Wait)]
     if drives and all(isinstance(step, Drive) and step.distance_m for step in drives):
         return inverse([drives[-1]] if len(drives) == 1 else drives, speed)
+    if state.home is not None and not drives:
+        return [Go(state.home.x_m, state.home.y_m, frame="odom", speed_mps=speed)]
     return [Go(0.0, 0.0, frame="start", speed_mps=speed)]
 
 

@@ -63,6 +63,9 @@ def _separator(atom: Atom) -> str | None:
 
 def _split(atoms: list[Atom]) -> list[Frame]:
     """The frames of a stretch without separators."""
+    curve = next((a for a in atoms if a.kind == "verb" and a.value == "curve"), None)
+    if curve is not None and not any(a.kind == "shape" for a in atoms):
+        atoms = [curve, *[a for a in atoms if a is not curve and a.value != "go"]]
     frames: list[Frame] = []
     current = Frame()
     for i, atom in enumerate(atoms):
@@ -73,6 +76,10 @@ def _split(atoms: list[Atom]) -> list[Frame]:
         if not current.add(atom):
             if _is_bare_direction(current):
                 raise Unclear("contradiction", f"{current.text} {atom.text}".strip())
+            if atom.kind == "q" and atom.value == "length" and current.verb in TURN and not current.has_extent:
+                raise Unclear("length_for_turn", f"{current.text} {atom.text}")
+            if atom.kind == "q" and atom.value in current.q and atom.value in EXTENTS and not current.shape:
+                raise Unclear("contradiction", f"{current.text} {atom.text}")
             frames.append(current)
             current = Frame(joined="none")
             if not current.add(atom):
@@ -116,6 +123,10 @@ def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
         return None
     if {"between", "after_each"} & last.flags and not first.moves and first.has_extent and last.moves and last.has_extent:
         return None
+    together = "speed" in last.q and "rate" in first.q and not last.has_extent
+    if together and joined in ("and", "weak") and last.verb in GO and first.verb in TURN:
+        last = last.copy()
+        last.flags.add("while")
     both = merged(last, first)
     if both is None:
         return None

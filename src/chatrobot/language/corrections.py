@@ -117,6 +117,11 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
     out: list[Atom] = []
     i = 0
     while i < len(atoms):
+        if i == 0 and len(atoms) > 1 and atoms[0].text in ("no", "不") and atoms[1].kind == "sep":
+            if any(a.kind == "flag" and a.value == "total" for a in atoms):
+                out.append(Atom("flag", "short_of", atoms[0].text))
+            i = 2
+            continue
         if atoms[i].kind != "negation":
             out.append(atoms[i])
             i += 1

@@ -34,6 +34,9 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
         return _same_way_back(context)
     if "short_of" in whole.flags:
         return _remainder(whole, context, pace)
+    if "original_heading" in whole.flags and ("to_start" in whole.flags or whole.verb == "return"):
+        start = context.dialogue.start_pose
+        return [Go(start.x_m, start.y_m, start.yaw_rad, frame="odom", speed_mps=pace.speed(whole))]
     if "original_heading" in whole.flags and whole.verb in ("face", "turn", "", "return", "go"):
         return [Face(context.dialogue.start_pose.yaw_rad, frame="odom", rate_radps=pace.rate(whole))]
     if (whole.verb == "return" or "to_start" in whole.flags) and not whole.has_extent and not whole.place:
@@ -88,6 +91,8 @@ def _is_change(whole: Frame) -> bool:
         )  # fmt: skip
         if not (repeats or mirrored) or whole.shape or whole.place:
             return False
+    if "times" in whole.q and "more" in whole.flags and not whole.has_extent:
+        return True
     if "other_way" in whole.flags or "again" in whole.flags:
         return True
     return "fold" in whole.q and not whole.has_extent
@@ -221,8 +226,8 @@ def _run_start(context: Context, step: Drive) -> Pose:
 
 def state_after(context: Context) -> State:
     """What the last motion leaves for an ellipsis like `thirty more`."""
-    state = State()
     last = context.dialogue.last_motion
+    state = State(home=context.dialogue.start_pose if last is not None else None)
     if last is None or last.plan is None:
         return state
     for step in reversed(last.plan.steps):

@@ -114,6 +114,9 @@ class Frame:
         old = self.verb
         if self.place and verb in ("go", "return", "shift"):
             return True
+        rotating = {"angle", "turns"} & set(self.q)
+        if verb in STILL and old not in STILL and (self.direction or self.rot or rotating or "length" in self.q):
+            return False
         if old == verb and verb in ("go", "turn", "shift", "slide", "wait", "halt", "face", "make", "curve") and (
             not self.has_extent
         ):

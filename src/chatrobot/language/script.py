@@ -137,7 +137,7 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
     elif "again" in frame.flags and not frame.moves and not frame.has_extent:
         if not script.units:
             raise Unclear("nothing_before", frame.text)
-        script.units.append(script.units[-1])
+        script.units += [list(unit) for unit in script.units]
     elif frame.flags & {"between", "after_each"}:
         _insert(script, frame)
     else:

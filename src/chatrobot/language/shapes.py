@@ -68,6 +68,9 @@ def _is_part(head: Frame, frame: Frame) -> bool:
         return False
     if head.shape in _TITLES and frame.has_extent and (frame.direction or frame.verb in GO):
         return True
+    lone_side = frame.direction in SIDES and not frame.q and frame.verb in ("", "curve", "turn")
+    if head.shape == "sbend" and (frame.shape == "quarter_circle" or lone_side):
+        return True
     if frame.joined == "then" or frame.verb in TURN:
         return False
     return not (frame.verb in GO and frame.has_extent and not frame.roles and "each" not in frame.flags and "count" not in frame.q)
@@ -119,10 +122,12 @@ def _measure(parts: list[Frame], pace: Pace) -> Measures:
                 found.angle_rad = value
             elif name == "time":
                 found.seconds = value
+        if {"left_right", "right_left"} & part.flags:
+            found.left, found.side_said = "left_right" in part.flags, True
         side = part.rot or (part.direction if part.direction in SIDES else "")
         if not side and part.direction in DIAGONALS.values():
             side = part.direction.split("_")[1]
-        if side and not (part.shape == "" and part.direction2):
+        if side and not (parts[0].shape == "sbend" and found.side_said):
             found.left, found.side_said = side == "left", True
         found.back = found.back or part.direction == "back"
         found.sliding = found.sliding or bool({"no_turn", "sideways"} & part.flags) or part.verb == "slide"

@@ -57,6 +57,8 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
     if atom.text == "后" and i and atoms[i - 1].kind in ("q", "verb", "shape") and i + 1 < len(atoms):
         if atoms[i + 1].kind in ("verb", "dir", "rot", "sep", "glue", "conn"):
             return Atom("conn", "then", atom.text)
+    if atom.kind == "filler" and atom.text.split()[-1] in ("stop", "halt") and is_kind(atoms, _next_real(atoms, i + 1), "q", "time"):
+        return Atom("verb", "wait", atom.text)
     if atom.kind == "second":
         return Atom("conn", "then", atom.text)
     if atom.kind == "counter":
