@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from chatrobot.core.geometry import Pose, Twist
-from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, RawTwist, Repeat, Step, Turn, Wait
+from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, RawTwist, Remember, Repeat, Step, Turn, Wait
 
 SPEED, RATE, ACCELERATION, ANGULAR_ACCELERATION, MAX_SPEED, MAX_RATE = 0.3, 0.6, 1.0, 2.0, 1.0, 2.0
 
@@ -29,6 +29,7 @@ class Track:
     moved: bool = False
     too_fast: bool = False
     start: Pose = field(default_factory=Pose)
+    places: dict[str, Pose] = field(default_factory=dict)
 
     def run(self, plan: Plan) -> None:
         """Do the whole plan."""
@@ -40,6 +41,8 @@ class Track:
             if isinstance(step, Repeat):
                 for _ in range(step.count):
                     self._steps(step.steps)
+            elif isinstance(step, Remember):
+                self.places[step.place] = self.pose
             elif isinstance(step, Wait):
                 self.pending_s += step.duration_s
             else:
