@@ -42,7 +42,10 @@ class Approver:
         elif self._can_ask:
             self._ask(session)
         elif not self._others_answer:
-            print("chatrobot: --approve needs a terminal to ask at; --yes does each plan unasked", file=sys.stderr)
+            print(
+                "chatrobot: --approve needs a terminal to ask at; --yes does each plan unasked",
+                file=sys.stderr,
+            )
             self.give(session, False)
 
     def give(self, session: Session, yes: bool) -> None:

@@ -57,7 +57,9 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     parser, options = _parsers()
     word = _first_word(arguments, options)
     if word in LATER:
-        raise UsageError(f"this version does not have `chatrobot {word}` yet", allowed="chatrobot --help lists what it has")
+        raise UsageError(
+            f"this version does not have `chatrobot {word}` yet", allowed="chatrobot --help lists what it has"
+        )
     if word is not None and word not in COMMANDS:
         raise UsageError(
             f"there is no command {word!r}",
@@ -99,7 +101,11 @@ def _parsers() -> tuple[_Parser, argparse.ArgumentParser]:
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", title="commands")
     for name, text in COMMANDS.items():
         command = commands.add_parser(
-            name, help=text, description=f"{text[0].upper()}{text[1:]}.", parents=[options], allow_abbrev=False
+            name,
+            help=text,
+            description=f"{text[0].upper()}{text[1:]}.",
+            parents=[options],
+            allow_abbrev=False,
         )
         _ARGUMENTS.get(name, _no_arguments)(command)
     return parser, options
@@ -110,13 +116,23 @@ def _options() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(add_help=False, argument_default=argparse.SUPPRESS, allow_abbrev=False)
     add = parser.add_argument_group("options").add_argument
     add("--on", metavar="WHERE", help="auto|sim: which robot to drive (default: the simulated one)")
-    add("--robot", metavar="PROFILE", help=f"a robot profile, by name or .toml file (default: {DEFAULT_ROBOT})")
+    add(
+        "--robot",
+        metavar="PROFILE",
+        help=f"a robot profile, by name or .toml file (default: {DEFAULT_ROBOT})",
+    )
     add("--interpreter", choices=("auto", "offline", "model"), help="who understands (default: auto)")
     add("--model", metavar="PROVIDER:NAME", help="a language model (not built in yet)")
     add("--fast", action="store_true", help="simulated time, as quick as it goes")
     add("--json", action="store_true", help="one JSON object a line; without a command: text in, events out")
-    add("--trace", action="store_true", help="with --json: the simulated robot's true pose, 50 times a second")
-    add("--sim", metavar="KEY=VALUE,…", help="how the simulated robot lies: slip=0.03,latency_s=0.05,noise=on,seed=1")
+    add(
+        "--trace", action="store_true", help="with --json: the simulated robot's true pose, 50 times a second"
+    )
+    add(
+        "--sim",
+        metavar="KEY=VALUE,…",
+        help="how the simulated robot lies: slip=0.03,latency_s=0.05,noise=on,seed=1",
+    )
     add("--world", metavar="WORLD", help="empty, home or a world file (default: home; eval: empty)")
     add("--approve", action="store_true", help="ask before each plan")
     add("--yes", action="store_true", help="do each plan without asking")
@@ -125,7 +141,9 @@ def _options() -> argparse.ArgumentParser:
 
 
 def _do(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("texts", nargs="+", metavar="TEXT", help="what to do; several are turns of one dialogue")
+    parser.add_argument(
+        "texts", nargs="+", metavar="TEXT", help="what to do; several are turns of one dialogue"
+    )
 
 
 def _plan(parser: argparse.ArgumentParser) -> None:
@@ -138,7 +156,9 @@ def _eval(parser: argparse.ArgumentParser) -> None:
 
 
 def _sim(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--socket", metavar="PATH", help="where its wire is served (default: the runtime folder)")
+    parser.add_argument(
+        "--socket", metavar="PATH", help="where its wire is served (default: the runtime folder)"
+    )
 
 
 def _no_arguments(_: argparse.ArgumentParser) -> None:

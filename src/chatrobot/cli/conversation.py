@@ -14,6 +14,7 @@ from chatrobot.cli.signals import SignalWatch
 from chatrobot.compose import Setup, connect
 from chatrobot.core.errors import JointError
 from chatrobot.core.events import EXIT_CODES, Event
+from chatrobot.language.interpretation import LanguageCode
 
 PUMP_S = 0.1
 

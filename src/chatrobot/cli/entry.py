@@ -25,7 +25,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         forget_stdout()
         return STOPPED
-    except Exception as error:  # noqa: BLE001  # the outermost boundary
+    except Exception as error:  # the outermost boundary
         if os.environ.get("CHATROBOT_DEBUG"):
             raise
         from chatrobot.core.errors import InputError

@@ -66,7 +66,9 @@ class SignalWatch:
         if number != signal.SIGTSTP and self.is_leaving:
             os._exit(QUIT_AT_ONCE)
         self.is_leaving = self.is_leaving or number != signal.SIGTSTP
-        with contextlib.suppress(JointError):  # Motion is gone: its guard halts, and the main thread will tell
+        with contextlib.suppress(
+            JointError
+        ):  # Motion is gone: its guard halts, and the main thread will tell
             self._stop(_WATCHED[number])
         if number == signal.SIGTSTP:
             os.kill(os.getpid(), signal.SIGSTOP)

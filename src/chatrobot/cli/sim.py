@@ -38,5 +38,7 @@ def run(args: argparse.Namespace) -> int:
             return code  # it has said what was wrong
         raise JointError("the simulated robot did not start")
     print(f"the simulated {args.robot} answers on {path}", flush=True)
-    print("it ends with Ctrl-C, 15 s after now if nobody comes, or 2 s after the last one has left", flush=True)
+    print(
+        "it ends with Ctrl-C, 15 s after now if nobody comes, or 2 s after the last one has left", flush=True
+    )
     return robot.wait()

@@ -57,5 +57,7 @@ def _report(path: Path, caller: socket.socket, deadline_s: float) -> int:
         return 0
     if not path.exists():
         return 0  # it was just leaving, and leaves only when the robot stands
-    print(f"{process}: no answer within {ANSWER_S:g} s; its guard halts the robot if it froze", file=sys.stderr)
+    print(
+        f"{process}: no answer within {ANSWER_S:g} s; its guard halts the robot if it froze", file=sys.stderr
+    )
     return 1

@@ -11,8 +11,7 @@ from chatrobot.cli.approver import Approver
 from chatrobot.cli.choices import setup_from
 from chatrobot.cli.conversation import Conversation
 from chatrobot.cli.lines import LineReader
-from chatrobot.cli.printer import Printer
-from chatrobot.cli.printer import printer_for
+from chatrobot.cli.printer import Printer, printer_for
 from chatrobot.core.events import Notice
 from chatrobot.core.reason import Reason
 
@@ -27,7 +26,9 @@ def run(args: argparse.Namespace) -> int:
     printer = printer_for(args)
     approver = Approver(yes=args.yes, can_ask=False, others_answer=args.json)
     with Conversation(setup, printer, approver) as conversation:
-        reader = LineReader(JsonInput(conversation, approver, printer).hear if args.json else conversation.hear)
+        reader = LineReader(
+            JsonInput(conversation, approver, printer).hear if args.json else conversation.hear
+        )
         reader.start()
         while not conversation.is_leaving and not reader.has_ended:
             conversation.wait() if conversation.session.is_idle else conversation.step()
@@ -56,7 +57,9 @@ class JsonInput:
             approved = yes
             self._conversation.post(lambda: self._approver.give(self._conversation.session, approved))
         else:
-            notice = Notice(0, Reason("bad_input_line", {"line": line[:80]}), 'not {"text": …} nor {"approve": …}')
+            notice = Notice(
+                0, Reason("bad_input_line", {"line": line[:80]}), 'not {"text": …} nor {"approve": …}'
+            )
             self._conversation.post(lambda: self._printer.show(notice))
 
 

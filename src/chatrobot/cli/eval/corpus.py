@@ -63,13 +63,15 @@ def load_corpus(path: Path) -> list[Item]:
     import yaml
 
     try:
-        data = yaml.load(path.read_bytes(), getattr(yaml, "CSafeLoader", yaml.SafeLoader))  # noqa: S506
+        data = yaml.load(path.read_bytes(), getattr(yaml, "CSafeLoader", yaml.SafeLoader))
     except OSError as error:
         raise CorpusError("cannot be read", where=str(path), allowed=error.strerror or "") from error
     except (yaml.YAMLError, UnicodeDecodeError, RecursionError) as error:
         raise CorpusError(f"is not YAML: {error}", where=str(path)) from error
     if not isinstance(data, list) or not data:
-        raise CorpusError("must be a list of items", where=str(path), allowed="- id: …, category: …, say: …, expect: …")
+        raise CorpusError(
+            "must be a list of items", where=str(path), allowed="- id: …, category: …, say: …, expect: …"
+        )
     items = [_Reader(f"{path}: item {number}", str(path)).item(entry) for number, entry in enumerate(data, 1)]
     seen: set[str] = set()
     for item in items:

@@ -60,7 +60,9 @@ def judge(item: Item, records: Sequence[Record]) -> Verdict:
     for number, (turn, record) in enumerate(zip(item.turns, records), 1):
         trace.extend(record.trace)
         expectations = [turn.expect, item.expect if number == len(item.turns) else None]
-        verdicts += [judge_turn(expect, record, measure(trace)) for expect in expectations if expect is not None]
+        verdicts += [
+            judge_turn(expect, record, measure(trace)) for expect in expectations if expect is not None
+        ]
     for kind in ("wrong", "abstained"):
         matching = [verdict for verdict in verdicts if verdict.kind == kind]
         if matching:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -74,7 +75,7 @@ def measure(trace: Sequence[Sample]) -> Measured:
         x=end.x_m,
         y=end.y_m,
         turned_deg=math.degrees(end.yaw_rad),
-        path_m=sum(math.hypot(b.x_m - a.x_m, b.y_m - a.y_m) for a, b in zip(trace, trace[1:])),
+        path_m=sum(math.hypot(b.x_m - a.x_m, b.y_m - a.y_m) for a, b in itertools.pairwise(trace)),
         duration_s=duration_s,
         pause_s=pause_s,
         max_speed=max(sample.speed_mps for sample in trace),
@@ -99,7 +100,7 @@ def has_moved(trace: Sequence[Sample]) -> bool:
 def _times(trace: Sequence[Sample]) -> tuple[float, float]:
     """(seconds in motion, seconds standing between motions). A rest shorter than `PAUSE_S` counts as motion."""
     motion_s = pause_s = rest_s = 0.0
-    for before, after in zip(trace, trace[1:]):
+    for before, after in itertools.pairwise(trace):
         step_s = after.t_s - before.t_s
         if not after.is_moving:
             rest_s += step_s
