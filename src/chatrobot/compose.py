@@ -140,7 +140,7 @@ def _connect_real_time(
 
     wire_path = runtime_dir() / f"sim-{uuid.uuid4().hex[:12]}.wire"
     profile_argument = _profile_argument(setup)
-    robot = _spawn_simulated_robot(setup, profile_argument, wire_path)
+    robot = spawn_simulated_robot(setup, profile_argument, wire_path)
     joint: SocketJoint | None = None
     try:
         joint = SocketJoint(str(wire_path), profile_argument, setup.world)
@@ -167,7 +167,7 @@ def _connect_real_time(
     return Connection(session, profile, world, close)
 
 
-def _spawn_simulated_robot(setup: Setup, profile: str, wire_path: Path) -> subprocess.Popen[bytes]:
+def spawn_simulated_robot(setup: Setup, profile: str, wire_path: Path) -> subprocess.Popen[bytes]:
     """In a session of its own: Ctrl-C at the console must not kill the robot before it stands."""
     return subprocess.Popen(
         [

@@ -6,12 +6,12 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tests.plan.plans import plans
 
 from chatrobot.core.errors import PlanTextError
 from chatrobot.plan.json_form import VERSION, plan_from_json, plan_schema, plan_to_json
 from chatrobot.plan.registry import primitives
 from chatrobot.plan.steps import Drive, Plan
+from tests.plan.plans import plans
 
 
 @given(plans)

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Literal
 
 import pytest
-from tests.plan.robots import MECANUM
 
 from chatrobot.core.errors import UsageError
 from chatrobot.core.geometry import Twist
@@ -20,6 +19,7 @@ from chatrobot.plan.primitive import Primitive
 from chatrobot.plan.reader import LineReader
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
+from tests.plan.robots import MECANUM
 
 
 @dataclass(frozen=True)

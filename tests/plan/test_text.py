@@ -7,7 +7,6 @@ import sys
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tests.plan.plans import plans
 
 from chatrobot.core.errors import PlanTextError
 from chatrobot.plan.registry import primitives
@@ -27,6 +26,7 @@ from chatrobot.plan.steps import (
     Wait,
 )
 from chatrobot.plan.text import MAX_LINE_CHARS, StreamParser, format_plan, format_step, parse_plan
+from tests.plan.plans import plans
 
 CANONICAL: list[tuple[str, Step]] = [
     ("drive 1 m", Drive(distance_m=1)),

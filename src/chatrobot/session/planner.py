@@ -86,5 +86,7 @@ class Planner:
             plan = parse_plan(plan_text)
         except PlanTextError as error:
             return Planned(turn, None, Reason("plan_text", {"problem": str(error)}))
-        rehearsal = rehearse(plan, self._profile, self._world, start, self._kernel, route_planner=self._routes)
+        rehearsal = rehearse(
+            plan, self._profile, self._world, start, self._kernel, route_planner=self._routes
+        )
         return Planned(turn, rehearsal)
