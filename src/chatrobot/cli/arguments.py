@@ -152,7 +152,7 @@ def _plan(parser: argparse.ArgumentParser) -> None:
 
 
 def _eval(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("files", nargs="+", metavar="FILE", help="a corpus in YAML (docs/corpus-format.md)")
+    parser.add_argument("files", nargs="+", metavar="FILE", help="a corpus in YAML")
 
 
 def _sim(parser: argparse.ArgumentParser) -> None:

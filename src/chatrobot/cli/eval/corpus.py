@@ -1,4 +1,4 @@
-"""Corpus files: what people say and what must then happen, read and checked. Format: docs/corpus-format.md."""
+"""Corpus files: what people say and what must then happen, read and checked. Format: tests/corpus/FORMAT.md."""
 
 from __future__ import annotations
 
