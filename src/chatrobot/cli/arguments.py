@@ -72,7 +72,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     return parsed
 
 
-def _first_word(arguments: Sequence[str], options: argparse.ArgumentParser) -> str | None:
+def _first_word(arguments: Sequence[str], options: _Parser) -> str | None:
     """The first argument that is neither an option nor the value of one."""
     takes_value = {
         name for action in options._actions if action.nargs is None for name in action.option_strings
@@ -86,7 +86,7 @@ def _first_word(arguments: Sequence[str], options: argparse.ArgumentParser) -> s
     return None
 
 
-def _parsers() -> tuple[_Parser, argparse.ArgumentParser]:
+def _parsers() -> tuple[_Parser, _Parser]:
     options = _options()
     parser = _Parser(
         prog="chatrobot",
@@ -111,9 +111,9 @@ def _parsers() -> tuple[_Parser, argparse.ArgumentParser]:
     return parser, options
 
 
-def _options() -> argparse.ArgumentParser:
+def _options() -> _Parser:
     """Good before and after the command: hence no defaults here, the one would undo the other."""
-    parser = argparse.ArgumentParser(add_help=False, argument_default=argparse.SUPPRESS, allow_abbrev=False)
+    parser = _Parser(add_help=False, argument_default=argparse.SUPPRESS, allow_abbrev=False)
     add = parser.add_argument_group("options").add_argument
     add("--on", metavar="WHERE", help="auto|sim: which robot to drive (default: the simulated one)")
     add(

@@ -11,7 +11,7 @@ from chatrobot.cli.approver import Approver
 from chatrobot.cli.entry import STOPPED, forget_stdout
 from chatrobot.cli.printer import Printer
 from chatrobot.cli.signals import SignalWatch
-from chatrobot.compose import Setup, connect
+from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.errors import JointError
 from chatrobot.core.events import EXIT_CODES, Event
 from chatrobot.language.interpretation import LanguageCode
@@ -33,6 +33,7 @@ class Conversation:
         self._posted: queue.SimpleQueue[Callable[[], object]] = queue.SimpleQueue()
         self._watch = SignalWatch(self.stop)
         self._is_cut_off = False
+        self._connection: Connection | None = None
 
     def __enter__(self) -> Conversation:
         self._connection = connect(self._setup, self._on_event)
@@ -46,7 +47,8 @@ class Conversation:
         if kind is not None:
             with contextlib.suppress(JointError):
                 self.session.stop("chatrobot broke")
-        self._connection.close()
+        if self._connection is not None:
+            self._connection.close()
         self._watch.__exit__(kind, error, trace)
         if self._printer.is_broken:
             forget_stdout()
@@ -67,6 +69,8 @@ class Conversation:
     @property
     def language(self) -> LanguageCode:
         """Of the last question."""
+        if self._connection is None:
+            return "en"  # the first true poses come while it connects
         return self._connection.session.understanding.language
 
     # --- from any thread ---
@@ -131,6 +135,10 @@ class Conversation:
         while not self._posted.empty():
             self._posted.get()()
 
+    def show(self, event: Event) -> None:
+        """Have it printed."""
+        self._printer.show(event, self.language)
+
     def _on_event(self, event: Event) -> None:
         self._approver.hear(event)
-        self._printer.show(event, self.language)
+        self.show(event)

@@ -11,7 +11,7 @@ from chatrobot.cli.approver import Approver
 from chatrobot.cli.choices import setup_from
 from chatrobot.cli.conversation import Conversation
 from chatrobot.cli.lines import LineReader
-from chatrobot.cli.printer import Printer, printer_for
+from chatrobot.cli.printer import printer_for
 from chatrobot.core.events import Notice
 from chatrobot.core.reason import Reason
 
@@ -26,9 +26,7 @@ def run(args: argparse.Namespace) -> int:
     printer = printer_for(args)
     approver = Approver(yes=args.yes, can_ask=False, others_answer=args.json)
     with Conversation(setup, printer, approver) as conversation:
-        reader = LineReader(
-            JsonInput(conversation, approver, printer).hear if args.json else conversation.hear
-        )
+        reader = LineReader(JsonInput(conversation, approver).hear if args.json else conversation.hear)
         reader.start()
         while not conversation.is_leaving and not reader.has_ended:
             conversation.wait() if conversation.session.is_idle else conversation.step()
@@ -39,10 +37,9 @@ def run(args: argparse.Namespace) -> int:
 class JsonInput:
     """Lines of a `--json` session: text as it is, {"text": …}, or {"approve": true|false} for a plan that waits."""
 
-    def __init__(self, conversation: Conversation, approver: Approver, printer: Printer) -> None:
+    def __init__(self, conversation: Conversation, approver: Approver) -> None:
         self._conversation = conversation
         self._approver = approver
-        self._printer = printer
 
     def hear(self, line: str) -> None:
         """Called by the reader's thread."""
@@ -60,7 +57,7 @@ class JsonInput:
             notice = Notice(
                 0, Reason("bad_input_line", {"line": line[:80]}), 'not {"text": …} nor {"approve": …}'
             )
-            self._conversation.post(lambda: self._printer.show(notice))
+            self._conversation.post(lambda: self._conversation.show(notice))
 
 
 def _read_object(line: str) -> dict[str, Any]:
