@@ -66,6 +66,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
             allowed=f'commands: {", ".join(COMMANDS)}; to tell the robot something: chatrobot do "{word} …"',
         )
     parsed = parser.parse_args(list(arguments))
+    parsed.command = parsed.command or ""
     for name, value in DEFAULTS.items():
         if not hasattr(parsed, name):
             setattr(parsed, name, value)
@@ -96,7 +97,6 @@ def _parsers() -> tuple[_Parser, _Parser]:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
-    parser.set_defaults(command="")
     parser.add_argument("--version", action="version", version=f"chatrobot {__version__}")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", title="commands")
     for name, text in COMMANDS.items():

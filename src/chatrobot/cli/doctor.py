@@ -63,10 +63,10 @@ def _try(name: str, check: Callable[[], str]) -> Check:
 
 def _settings(args: argparse.Namespace) -> str:
     folder = config_folder(args)
-    folder.mkdir(parents=True, exist_ok=True)
-    if not os.access(folder, os.W_OK):
+    there = next(path for path in (folder, *folder.absolute().parents) if path.exists())
+    if not (there.is_dir() and os.access(there, os.W_OK)):
         raise ChatRobotError(f"{folder} cannot be written: choose another with --config-dir")
-    return str(folder)
+    return str(folder) if there == folder else f"{folder} (made when there is something to keep)"
 
 
 def _simulated_robot(args: argparse.Namespace) -> str:
