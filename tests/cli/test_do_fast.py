@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 from pathlib import Path
@@ -42,8 +43,8 @@ def test_a_trace_begins_at_the_origin_and_runs_on_through_all_turns(chatrobot: C
     done = chatrobot("do", "forward 1 m", "turn left 90 degrees", "--json", "--trace", *FAST)
     poses = done.named("pose")
     assert (poses[0]["x_m"], poses[0]["y_m"], poses[0]["yaw_rad"]) == (0.0, 0.0, 0.0)
-    gaps = [after["t_s"] - before["t_s"] for before, after in zip(poses, poses[1:])]
-    assert 0.0 < min(gaps)
+    gaps = [after["t_s"] - before["t_s"] for before, after in itertools.pairwise(poses)]
+    assert min(gaps) > 0.0
     assert max(gaps) <= 0.05 + 1e-6
     assert poses[-1]["x_m"] == pytest.approx(1.0, abs=0.03)
     assert poses[-1]["yaw_rad"] == pytest.approx(math.pi / 2, abs=0.03)

@@ -24,18 +24,23 @@ class Approver:
         self._yes = yes
         self._can_ask = can_ask
         self._others_answer = others_answer
-        self.waiting_turn: int | None = None
+        self._turn: int | None = None
         self._has_asked = False
+
+    @property
+    def is_waiting(self) -> bool:
+        """A plan waits for an answer."""
+        return self._turn is not None
 
     def hear(self, event: Event) -> None:
         if isinstance(event, Rehearsed) and event.needs_approval:
-            self.waiting_turn, self._has_asked = event.turn, False
-        elif isinstance(event, Finished) and event.turn == self.waiting_turn:
-            self.waiting_turn = None
+            self._turn, self._has_asked = event.turn, False
+        elif isinstance(event, Finished) and event.turn == self._turn:
+            self._turn = None
 
     def answer(self, session: Session) -> None:
         """Answer what waits, if there is an answer by now. Never blocks."""
-        if self.waiting_turn is None:
+        if self._turn is None:
             return
         if self._yes:
             self.give(session, True)
@@ -50,9 +55,9 @@ class Approver:
 
     def give(self, session: Session, yes: bool) -> None:
         """Answer the plan that waits."""
-        if self.waiting_turn is not None:
-            session.approve(self.waiting_turn, yes)
-            self.waiting_turn = None
+        if self._turn is not None:
+            session.approve(self._turn, yes)
+            self._turn = None
 
     def _ask(self, session: Session) -> None:
         if not self._has_asked:

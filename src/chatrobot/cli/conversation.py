@@ -119,17 +119,25 @@ class Conversation:
         if self._printer.is_broken and not self._is_cut_off:
             self._is_cut_off = True
             self.session.stop("nobody reads")
-        self.session.pump(PUMP_S)
         self._approver.answer(self.session)
+        if self._setup.fast and self._approver.is_waiting and self._wait_for_posted():
+            return  # a virtual half minute is over before a person has read the question: time stands
+        self.session.pump(PUMP_S)
 
     def wait(self) -> None:
         """Nothing is to be done: wait for a moment. Simulated time stands meanwhile."""
         if not self._setup.fast:
             self.step()
-            return
-        with contextlib.suppress(queue.Empty):
+        elif self._wait_for_posted():
+            self._is_cut_off = self._is_cut_off or self._printer.is_broken
+
+    def _wait_for_posted(self) -> bool:
+        """Do what another thread asks for; True where nothing came."""
+        try:
             self._posted.get(timeout=PUMP_S)()
-        self._is_cut_off = self._is_cut_off or self._printer.is_broken
+        except queue.Empty:
+            return True
+        return False
 
     def _do_posted(self) -> None:
         while not self._posted.empty():
