@@ -70,5 +70,7 @@ def run_item(item: Mapping[str, Any]) -> tuple[Verdict, str]:
             return "wrong", why
         return ("correct" if meant.outcome == ANSWERS[expect["answer"]] else "abstained"), why
     if meant.outcome in ("unclear", "refused", "answered") and expect.get("motion") != "none":
-        return ("abstained" if not talk.track.moved or wrong else "correct"), f"{meant.outcome}: {meant.reply}"
+        return (
+            "abstained" if not talk.track.moved or wrong else "correct"
+        ), f"{meant.outcome}: {meant.reply}"
     return ("wrong" if wrong else "correct"), why + (f" | {meant.plan}" if wrong else "")

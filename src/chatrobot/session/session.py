@@ -14,6 +14,7 @@ from typing import Literal
 from chatrobot.core.errors import JointError
 from chatrobot.core.events import Event, Finished, Interpreted, Outcome, Remembered, Result, Telemetry
 from chatrobot.language.interpretation import Interpretation
+from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
 from chatrobot.session.joint import Joint
@@ -44,6 +45,7 @@ class _Said:
     turn: int
     text: str
     kind: _Kind = "text"
+    plan: Plan | None = None
 
 
 class Session:
@@ -78,12 +80,19 @@ class Session:
             kind = "stop"
         else:
             kind = "text"
+        return self._take_in(text, kind)
+
+    def run(self, plan: Plan) -> int:
+        """Take in a plan that needs no understanding; the number of its turn."""
+        return self._take_in(format_plan(plan), "text", plan)
+
+    def _take_in(self, text: str, kind: _Kind, plan: Plan | None = None) -> int:
         with self._lock:
             self._turns += 1
             turn = self._turns
             if kind == "text" and self._count_waiting() >= QUEUE_LIMIT and self.is_moving:
                 kind = "too_many"
-            self._texts.append(_Said(turn, text, kind))
+            self._texts.append(_Said(turn, text, kind, plan))
         self._joint.wake()
         return turn
 
@@ -172,7 +181,8 @@ class Session:
                 self._conclude(said.turn, "refused", self.understanding.say("queue_full", said.text))
 
     def _understand(self, said: _Said) -> None:
-        meant = self.understanding.interpret(said.text)
+        understanding = self.understanding
+        meant = understanding.interpret(said.text) if said.plan is None else understanding.accept(said.plan)
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         self._emit(Interpreted(said.turn, "offline", plan_text, meant.reply))
         if meant.outcome == "stop":
