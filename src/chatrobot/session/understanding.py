@@ -11,9 +11,9 @@ from chatrobot.core.geometry import Pose
 from chatrobot.language.context import Context, Dialogue, RobotState, TurnRecord
 from chatrobot.language.interpretation import Interpretation, LanguageCode, OfflineInterpreter
 from chatrobot.language.phrases import say
-from chatrobot.language.results import describe_end, describe_rehearsal_end
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.places import Places
+from chatrobot.session.replies import describe_end
 from chatrobot.sim.world import World
 
 REMEMBERED_TURNS = 50
@@ -95,7 +95,7 @@ class Understanding:
         self._record(TurnRecord(text, outcome, plan, finished.start, finished.pose))
         self._dialogue = replace(self._dialogue, pending="")
         if rehearse_only and outcome == "completed":
-            return describe_rehearsal_end(meant.language)
+            return say(meant.language, "only_rehearsed")
         return describe_end(finished, meant.language)
 
     def _learn(self, meant: Interpretation) -> None:

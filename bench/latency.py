@@ -1,0 +1,86 @@
+"""From a typed line to the wire, measured at a subscriber in another process. Run: python -m bench.latency
+
+Prints medians and 99th percentiles over many repetitions, and each as a ratio to one hop over the same wire (a
+publisher and a subscriber in two processes with nothing between), so that figures of different machines compare.
+"""
+
+from __future__ import annotations
+
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from chatrobot.wire.local import LocalWire
+from chatrobot.wire.messages import TwistMessage
+from tests.realtime import RunningRobot
+
+REPETITIONS = 60
+
+
+def percentile(values: list[float], share: float) -> float:
+    ordered = sorted(values)
+    return ordered[min(len(ordered) - 1, round(share * (len(ordered) - 1)))]
+
+
+def line(name: str, values: list[float], hop_s: float) -> None:
+    median, p99 = statistics.median(values), percentile(values, 0.99)
+    print(f"{name:58s} {median * 1e3:7.2f} ms {p99 * 1e3:7.2f} ms {median / hop_s:7.1f} x", flush=True)
+
+
+def one_hop(folder: Path) -> list[float]:
+    """A velocity from a process through the hub (a second process) and back."""
+    path = folder / "hop.wire"
+    serve = "import sys\nfrom chatrobot.wire.local import LocalHub\nhub = LocalHub(sys.argv[1])\nprint(flush=True)\n"
+    hub = subprocess.Popen([sys.executable, "-c", serve + "while True: hub.poll(1.0)", str(path)], stdout=subprocess.PIPE)
+    assert hub.stdout is not None
+    hub.stdout.readline()
+    wire, heard = LocalWire(path), []
+    wire.subscribe("cmd_vel", TwistMessage, lambda _: heard.append(time.monotonic()))
+    took = []
+    for _ in range(300):
+        count, began_s = len(heard), time.monotonic()
+        wire.publish("cmd_vel", TwistMessage(0.1, 0.0, 0.0))
+        while len(heard) == count:
+            time.sleep(0.0005)
+        took.append(heard[-1] - began_s)
+    wire.close()
+    hub.kill()
+    hub.wait()
+    return took
+
+
+def motion_and_stop(robot: RunningRobot) -> tuple[list[float], list[float]]:
+    """Text to the first velocity, and stop to the first zero."""
+    starts, stops = [], []
+    for turn in range(1, 2 * REPETITIONS, 2):
+        said_s = robot.say("forward 1 m")
+        starts.append(robot.ear.wait_for_motion(said_s) - said_s)
+        said_s = robot.say("stop")
+        stops.append(robot.ear.wait_for(lambda message: not any(message), said_s) - said_s)
+        robot.wait_for_event("result", turn=turn)
+        robot.wait_for_event("result", turn=turn + 1)
+        robot.ear.velocities.clear()
+    return starts, stops
+
+
+def main() -> None:
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        hop = one_hop(folder)
+        hop_s = statistics.median(hop)
+        print(f"{'':58s} {'median':>10s} {'p99':>10s} {'x hop':>9s}")
+        line("one hop over the same wire", hop, hop_s)
+        robot = RunningRobot(folder / "robot")
+        try:
+            starts, stops = motion_and_stop(robot)
+        finally:
+            robot.close()
+        line("one-step sentence -> first velocity at a subscriber", starts, hop_s)
+        line("typed stop -> zero at a subscriber", stops, hop_s)
+
+
+if __name__ == "__main__":
+    main()

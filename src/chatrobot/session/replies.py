@@ -1,0 +1,33 @@
+"""The sentence at the end of a turn: what was measured, and why it ended, in the language of the question."""
+
+from __future__ import annotations
+
+import math
+
+from chatrobot.core.events import Finished
+from chatrobot.language.phrases import render_reason, say
+
+LEAST_DISTANCE_M = 0.005
+LEAST_ANGLE_RAD = math.radians(0.5)
+
+
+def describe_end(finished: Finished, language: str) -> str:
+    """What a plan came to: outcome, measured motion, and the reason if it did not complete."""
+    moved = _measured(finished, language)
+    if finished.outcome == "completed":
+        return say(language, "done", moved=moved) if moved else say(language, "done_standing")
+    reason = render_reason(finished.reason, language) if finished.reason is not None else ""
+    if finished.outcome == "refused":
+        return reason
+    code = "stopped_after" if finished.outcome == "stopped" else "failed_after"
+    return say(language, code, moved=moved or say(language, "nothing_moved"), reason=reason)
+
+
+def _measured(finished: Finished, language: str) -> str:
+    parts = []
+    if finished.planned_m > LEAST_DISTANCE_M:
+        code = "drove" if finished.measured else "drove_unmeasured"
+        parts.append(say(language, code, drove_m=f"{finished.path_m:.2f}", of_m=f"{finished.planned_m:.2f}"))
+    if abs(finished.planned_turn_rad) > LEAST_ANGLE_RAD or abs(finished.turned_rad) > math.radians(3.0):
+        parts.append(say(language, "turned", turned_deg=f"{math.degrees(finished.turned_rad):.1f}"))
+    return say(language, "list_comma").join(parts)

@@ -1,0 +1,71 @@
+"""Whoever dies or freezes, the robot stands within 250 ms. In real time, over a real wire, against a robot that
+holds its last command for ever."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from tests.realtime import RunningRobot
+
+pytestmark = pytest.mark.realtime
+
+PROMISE_S = 0.25
+TIMES = 4
+"""`make faults` does twenty of each."""
+
+
+@pytest.fixture
+def robot(tmp_path: Path) -> Iterator[RunningRobot]:
+    running = RunningRobot(tmp_path)
+    yield running
+    running.close()
+
+
+def seconds_to_zero_after(robot: RunningRobot, strike: Callable[[], None]) -> float:
+    import time
+
+    said_s = robot.say("forward 100 m at 0.3 m/s")
+    robot.ear.wait_for_motion(said_s)
+    began_s = time.monotonic()
+    strike()
+    return robot.ear.seconds_to_zero(began_s)
+
+
+@pytest.mark.parametrize("_", range(TIMES))
+@pytest.mark.parametrize("whom", ["console", "motion"])
+@pytest.mark.parametrize("how", ["SIGKILL", "SIGSTOP"])
+def test_the_robot_stands_within_250_ms(robot: RunningRobot, whom: str, how: str, _: int) -> None:
+    pid = robot.console.pid if whom == "console" else robot.motion_pid
+    assert seconds_to_zero_after(robot, lambda: os.kill(pid, getattr(signal, how))) <= PROMISE_S
+
+
+def test_a_motion_that_thaws_does_not_drive_on(robot: RunningRobot) -> None:
+    seconds_to_zero_after(robot, lambda: os.kill(robot.motion_pid, signal.SIGSTOP))
+    import time
+
+    thawed_s = time.monotonic()
+    os.kill(robot.motion_pid, signal.SIGCONT)
+    result = robot.wait_for_event("result", turn=1)
+    assert result["outcome"] == "failed"
+    assert robot.ear.seconds_to_zero(thawed_s) <= 0.1
+
+
+def test_after_a_thaw_the_robot_obeys_again(robot: RunningRobot) -> None:
+    seconds_to_zero_after(robot, lambda: os.kill(robot.motion_pid, signal.SIGSTOP))
+    os.kill(robot.motion_pid, signal.SIGCONT)
+    robot.wait_for_event("result", turn=1)
+    robot.say("forward 10 cm")
+    assert robot.wait_for_event("result", turn=2)["outcome"] == "completed"
+
+
+def test_a_typed_stop_stops_what_moves(robot: RunningRobot) -> None:
+    said_s = robot.say("forward 5 m")
+    robot.ear.wait_for_motion(said_s)
+    stopped_s = robot.say("stop")
+    assert robot.ear.seconds_to_zero(stopped_s) <= PROMISE_S
+    assert robot.wait_for_event("result", turn=1)["outcome"] == "stopped"
