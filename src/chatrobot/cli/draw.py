@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from pathlib import Path
 
 from chatrobot.cli.drawing import fonts
@@ -183,7 +184,7 @@ class _Picture:
         for point in standing_points(way, spacing_m):
             outline = self._points(outline_at(profile.footprint, Pose(*point)))
             self.canvas.polygon(outline, fill=(60, 80, 120, 16), edge=(60, 80, 120, 70), width_px=0.8)
-        for i, (a, b) in enumerate(zip(way, way[1:])):
+        for i, (a, b) in enumerate(pairwise(way)):
             ends = [self._at(*a[:2]), self._at(*b[:2])]
             self.canvas.line(ends, progress_colour(i / max(1, len(way) - 2)), 4.5)
         is_loop = math.dist(way[0][:2], way[-1][:2]) <= profile.footprint_radius_m

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from functools import lru_cache
+from functools import cache
 from pathlib import Path
 
 from PIL import ImageFont
@@ -51,7 +51,7 @@ def for_text(text: str, size_px: int) -> Font | None:
     return latin(size_px) if is_latin(text) else han(size_px)
 
 
-@lru_cache(maxsize=None)
+@cache
 def _find(patterns: tuple[str, ...]) -> Path | None:
     for pattern in patterns:
         for folder in _folders():
