@@ -1,0 +1,293 @@
+"""One frame → the steps it means."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+from chatrobot.language.frames import DIAGONALS, GO, SIDES, STILL, TURN, Frame
+from chatrobot.language.manner import Pace
+from chatrobot.language.unclear import Unclear
+from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Step, Turn, Wait
+
+DIRECTIONS = {
+    "forward": 0.0, "left": math.pi / 2, "back": math.pi, "right": -math.pi / 2,
+    "forward_left": math.pi / 4, "forward_right": -math.pi / 4,
+    "back_left": 3 * math.pi / 4, "back_right": -3 * math.pi / 4,
+}  # fmt: skip
+MAX_EXTENT = {"length": 1000.0, "angle": 200.0 * math.pi, "turns": 200.0 * math.pi, "time": 3600.0}
+
+
+@dataclass
+class State:
+    """What the frames before have left: for ellipsis (`thirty more`) and for the way back."""
+
+    steps: list[Step] = field(default_factory=list)
+    direction: str = "forward"
+    left: bool | None = None
+    last: str = ""
+
+
+def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    """The steps of a frame; `state` is brought up to date.
+
+    Raises:
+        Unclear: where something needed is missing or impossible.
+    """
+    _check_extents(frame)
+    if "clock" in frame.q:
+        steps = _clock(frame, pace)
+    elif frame.verb in STILL:
+        steps = _still(frame)
+    elif frame.verb == "return" or ("to_start" in frame.flags and frame.verb in (*GO, "", "uturn")):
+        steps = _return(frame, state, pace)
+    elif frame.verb == "face" or ("original_heading" in frame.flags):
+        steps = _face(frame, pace)
+    elif frame.verb == "uturn":
+        steps = [Turn(math.pi, left=_left(frame) is not False, rate_radps=pace.rate(frame))]
+        if frame.is_arc or "length" in frame.q:
+            raise Unclear("unclear_motion", frame.text)
+    elif frame.is_arc:
+        steps = _arc(frame, pace)
+    elif _is_turn(frame, state):
+        steps = _turn(frame, state, pace)
+    else:
+        steps = _drive(frame, state, pace)
+    return steps
+
+
+def _check_extents(frame: Frame) -> None:
+    for name, quantity in frame.q.items():
+        value = quantity.number
+        if name in MAX_EXTENT and (not math.isfinite(value) or not 0.0 < value <= MAX_EXTENT[name]):
+            raise Unclear("bad_number", quantity.text)
+    if "number" in frame.q:
+        raise Unclear("no_unit", frame.q["number"].text)
+
+
+def _still(frame: Frame) -> list[Step]:
+    if "time" in frame.q:
+        return [Wait(frame.q["time"].number)]
+    if frame.verb == "halt":
+        return []
+    if "bit" in frame.flags or frame.text:
+        return [Wait(1.0)]
+    raise Unclear("how_long", frame.text)
+
+
+def _left(frame: Frame) -> bool | None:
+    side = frame.rot or frame.direction2 or (frame.direction if frame.direction in SIDES else "")
+    return None if not side else side == "left"
+
+
+def _is_turn(frame: Frame, state: State) -> bool:
+    if frame.verb in TURN or frame.rot and frame.verb not in GO:
+        return True
+    if "angle" in frame.q or "turns" in frame.q:
+        return frame.direction not in DIAGONALS.values() and "diagonal" not in frame.flags
+    if "rate" in frame.q:
+        return True
+    if frame.verb in ("slide", "shift") or "sideways" in frame.flags or "no_turn" in frame.flags:
+        return False
+    if frame.direction in SIDES and "length" not in frame.q and "diagonal" not in frame.flags:
+        return not (frame.verb in GO and "time" in frame.q)
+    return not frame.moves and frame.has_extent and "time" in frame.q and state.last == "turn"
+
+
+def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    if "length" in frame.q or "speed" in frame.q:
+        raise Unclear("length_for_turn", frame.text)
+    rate = pace.rate(frame)
+    angle = (frame.q.get("angle") or frame.q.get("turns"))
+    left = _left(frame)
+    if left is None and not frame.moves:
+        left = state.left
+    if left is None and state.last == "turn" and "more" in frame.flags:
+        left = state.left
+    state.last = "turn"
+    if frame.verb == "spin" and angle is None and "times" in frame.q:
+        angle_rad: float | None = 2 * math.pi
+    elif angle is not None:
+        angle_rad = angle.number
+    else:
+        angle_rad = None
+    seconds = frame.q.get("time")
+    if left is None:
+        if angle_rad is None or not _same_either_way(angle_rad):
+            raise Unclear("which_side", frame.text)
+        left = True
+    state.left = left
+    if angle_rad is None and seconds is not None:
+        return [Turn(duration_s=seconds.number, left=left, rate_radps=rate)]
+    if angle_rad is None:
+        small = "bit" in frame.flags
+        angle_rad = pace.profile.defaults.turn_rad * (0.5 if small else 1.0)
+        if "rate" in frame.q and frame.q["rate"].role:
+            angle_rad = frame.q["rate"].number
+    if seconds is not None:
+        rate = angle_rad / seconds.number
+    return [Turn(angle_rad, left=left, rate_radps=rate)]
+
+
+def _same_either_way(angle_rad: float) -> bool:
+    half_turns = angle_rad / math.pi
+    return half_turns >= 1 and abs(half_turns - round(half_turns)) < 1e-6
+
+
+def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    direction = frame.direction
+    diagonal = "diagonal" in frame.flags
+    if diagonal and direction not in DIAGONALS.values():
+        raise Unclear("which_diagonal", frame.text)
+    if not direction:
+        if frame.verb == "slide" or "sideways" in frame.flags:
+            raise Unclear("which_side", frame.text)
+        if frame.verb in GO and frame.verb != "shift" or "more" in frame.flags or not frame.verb:
+            direction = state.direction if state.last == "drive" and not frame.verb else "forward"
+        elif frame.has_extent and frame.verb:
+            direction = "forward"
+    if not direction:
+        raise Unclear("which_way", frame.text)
+    if "sideways" in frame.flags and direction in ("forward", "back"):
+        raise Unclear("contradiction", frame.text)
+    if not frame.moves and not frame.has_extent and "again" not in frame.flags:
+        raise Unclear("unclear_motion", frame.text)
+    _check_sideways(direction, pace)
+    state.last, state.direction = "drive", direction
+    angle = DIRECTIONS[direction]
+    if "angle" in frame.q and direction in DIAGONALS.values():
+        angle = _heading_angle(direction, frame.q["angle"].number)
+    speed = pace.speed(frame)
+    length, seconds = frame.q.get("length"), frame.q.get("time")
+    if length is None and "speed" in frame.q and frame.q["speed"].role and seconds is None:
+        return [Drive(frame.q["speed"].number, direction_rad=angle, speed_mps=speed)]
+    if length is not None:
+        if seconds is not None and "speed" not in frame.q:
+            speed = length.number / seconds.number
+        elif seconds is not None and abs(frame.q["speed"].number * seconds.number - length.number) > 0.1 * length.number:
+            raise Unclear("contradiction", frame.text)
+        return [Drive(length.number, direction_rad=angle, speed_mps=speed)]
+    if seconds is not None:
+        return [Drive(duration_s=seconds.number, direction_rad=angle, speed_mps=speed)]
+    distance = pace.profile.defaults.distance_m * (0.5 if "bit" in frame.flags else 1.0)
+    return [Drive(distance, direction_rad=angle, speed_mps=speed)]
+
+
+def _heading_angle(direction: str, angle: float) -> float:
+    if not 0 < angle < math.pi / 2:
+        raise Unclear("bad_number", f"{math.degrees(angle):g}°")
+    front, side = direction.split("_")
+    signed = angle if front == "forward" else math.pi - angle
+    return signed if side == "left" else -signed
+
+
+def _check_sideways(direction: str, pace: Pace) -> None:
+    if direction not in ("forward", "back") and not pace.profile.can_go_sideways:
+        raise Unclear("cannot_go_sideways", direction, refused=True)
+
+
+def _clock(frame: Frame, pace: Pace) -> list[Step]:
+    hour = frame.q["clock"].number
+    if not 0 < hour <= 12:
+        raise Unclear("bad_number", frame.q["clock"].text)
+    angle = -hour * math.pi / 6
+    angle = angle + 2 * math.pi if angle <= -math.pi - 1e-9 else angle
+    if "length" in frame.q or "time" in frame.q or frame.verb in ("slide", "shift"):
+        _check_sideways("left", pace)
+        length, seconds = frame.q.get("length"), frame.q.get("time")
+        distance = length.number if length else None if seconds else pace.profile.defaults.distance_m
+        time_s = seconds.number if seconds and not length else None
+        return [Drive(distance, duration_s=time_s, direction_rad=angle, speed_mps=pace.speed(frame))]
+    if abs(angle) < 1e-9:
+        raise Unclear("already_facing", frame.text)
+    return [Turn(abs(angle), left=angle > 0, rate_radps=pace.rate(frame))]
+
+
+def _face(frame: Frame, pace: Pace) -> list[Step]:
+    if "original_heading" in frame.flags or "to_start" in frame.flags:
+        return [Face(0.0, frame="start", rate_radps=pace.rate(frame))]
+    if frame.direction in SIDES:
+        angle = frame.q.get("angle") or frame.q.get("turns")
+        size = angle.number if angle else pace.profile.defaults.turn_rad * (0.5 if {"bit", "more"} & frame.flags else 1)
+        return [Turn(size, left=frame.direction == "left", rate_radps=pace.rate(frame))]
+    if frame.direction == "back":
+        return [Turn(math.pi, rate_radps=pace.rate(frame))]
+    if frame.direction in DIAGONALS.values():
+        angle_rad = DIRECTIONS[frame.direction]
+        return [Turn(abs(angle_rad), left=angle_rad > 0, rate_radps=pace.rate(frame))]
+    raise Unclear("which_side", frame.text)
+
+
+def _arc(frame: Frame, pace: Pace) -> list[Step]:
+    left = _left(frame)
+    if left is None:
+        raise Unclear("which_side", frame.text)
+    backward = frame.direction == "back"
+    angle = frame.q.get("angle") or frame.q.get("turns")
+    length, seconds = frame.q.get("length"), frame.q.get("time")
+    speed, rate = frame.q.get("speed"), frame.q.get("rate")
+    if rate and (speed or "while" in frame.flags) and seconds:
+        signed = rate.number if left else -rate.number
+        forward = speed.number if speed else pace.speed(frame) or pace.profile.defaults.speed_mps
+        return [RawTwist(-forward if backward else forward, 0.0, signed, seconds.number)]
+    radius = None
+    if length is not None and ("radius" in frame.roles or "diameter" in frame.roles):
+        radius = length.number / (2 if "diameter" in frame.roles and "radius" not in frame.roles else 1)
+    elif length is not None and angle is not None:
+        radius = length.number / angle.number
+    elif length is not None:
+        radius = length.number / (math.pi / 2)
+    if radius is None and seconds is not None:
+        forward = pace.speed(frame) or pace.profile.defaults.speed_mps
+        turned = angle.number / seconds.number if angle else pace.profile.defaults.rate_radps
+        return [RawTwist(-forward if backward else forward, 0.0, turned if left else -turned, seconds.number)]
+    if radius is None:
+        radius = pace.profile.defaults.distance_m
+    sweep = angle.number if angle else math.pi / 2
+    said = pace.speed(frame)
+    if seconds is not None and said is None:
+        said = radius * sweep / seconds.number
+    return [Arc(radius, sweep, left=left, backward=backward, speed_mps=said)]
+
+
+def _return(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    if frame.direction or frame.has_extent and frame.verb != "return":
+        raise Unclear("unclear_motion", frame.text)
+    speed = pace.speed(frame)
+    if "same_way" in frame.flags:
+        return inverse(state.steps, speed)
+    drives = [step for step in state.steps if not isinstance(step, Wait)]
+    if drives and all(isinstance(step, Drive) and step.distance_m for step in drives):
+        return inverse([drives[-1]] if len(drives) == 1 else drives, speed)
+    return [Go(0.0, 0.0, frame="start", speed_mps=speed)]
+
+
+def inverse(steps: list[Step], speed_mps: float | None = None) -> list[Step]:
+    """The same way back, backwards: the last step first, each undone.
+
+    Raises:
+        Unclear: for a step that cannot be undone step by step.
+    """
+    undone: list[Step] = []
+    for step in reversed(steps):
+        undone.extend(_undone(step, speed_mps))
+    return undone
+
+
+def _undone(step: Step, speed_mps: float | None) -> list[Step]:
+    from chatrobot.plan.steps import Remember, Repeat, Say
+
+    if isinstance(step, Drive) and step.until is None:
+        back = math.remainder(step.direction_rad + math.pi, 2 * math.pi)
+        return [Drive(step.distance_m, step.duration_s, back, speed_mps or step.speed_mps)]
+    if isinstance(step, Turn):
+        return [Turn(step.angle_rad, step.duration_s, not step.left, step.rate_radps)]
+    if isinstance(step, Arc):
+        return [Arc(step.radius_m, step.angle_rad, step.left, not step.backward, speed_mps or step.speed_mps)]
+    if isinstance(step, RawTwist):
+        return [RawTwist(-step.vx_mps, -step.vy_mps, -step.wz_radps, step.duration_s)]
+    if isinstance(step, Repeat):
+        return [Repeat(step.count, tuple(inverse(list(step.steps), speed_mps)))]
+    if isinstance(step, (Wait, Say, Remember)):
+        return []
+    raise Unclear("cannot_undo")

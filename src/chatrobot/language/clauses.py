@@ -1,0 +1,183 @@
+"""Atoms → frames, one a motion: cut where a slot is filled twice, joined across commas where nothing contradicts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from chatrobot.language.frames import EXTENTS, GO, SIDES, STILL, TURN, Frame, merged
+from chatrobot.language.tokens import Atom
+from chatrobot.language.unclear import Unclear
+
+_STRENGTH = {"start": 0, "and": 1, "weak": 2, "colon": 3, "strong": 4, "then": 5}
+MANNER = frozenset({"speed", "rate", "percent", "fold"})
+
+
+@dataclass
+class Segment:
+    """What stands between two separators."""
+
+    joined: str
+    frames: list[Frame]
+
+
+def read_frames(atoms: Sequence[Atom]) -> list[Frame]:
+    """The frames of an utterance, in order.
+
+    Raises:
+        Unclear: for a word that nothing accounts for.
+    """
+    frames: list[Frame] = []
+    for segment in _segments(atoms):
+        _join(frames, segment)
+    return frames
+
+
+def _segments(atoms: Sequence[Atom]) -> list[Segment]:
+    segments: list[Segment] = []
+    joined = "start"
+    pending: list[Atom] = []
+    for atom in (*atoms, Atom("sep", "strong")):
+        separator = _separator(atom)
+        if separator is None:
+            pending.append(atom)
+            continue
+        frames = _split(pending)
+        if frames:
+            frames[0].joined = joined
+            segments.append(Segment(joined, frames))
+            joined, pending = separator, []
+        else:
+            joined = max(joined, separator, key=lambda s: _STRENGTH[s])
+            pending = []
+    return segments
+
+
+def _separator(atom: Atom) -> str | None:
+    if atom.kind == "conn":
+        return atom.value
+    if atom.kind == "sep":
+        return None if atom.value == "paren" else atom.value
+    return None
+
+
+def _split(atoms: list[Atom]) -> list[Frame]:
+    """The frames of a stretch without separators."""
+    frames: list[Frame] = []
+    current = Frame()
+    for i, atom in enumerate(atoms):
+        if atom.kind in ("filler", "glue", "sep", "reason"):
+            continue
+        if atom.kind in ("unknown", "unit_length", "unit_angle", "unit_time", "unit_percent", "scale", "fraction"):
+            raise Unclear("unknown_part", _around(atoms, i))
+        if not current.add(atom):
+            if _is_bare_direction(current):
+                raise Unclear("contradiction", f"{current.text} {atom.text}".strip())
+            frames.append(current)
+            current = Frame(joined="none")
+            if not current.add(atom):
+                raise Unclear("unknown_part", atom.text)
+    if not current.is_empty:
+        frames.append(current)
+    return frames
+
+
+def _is_bare_direction(frame: Frame) -> bool:
+    """A direction and nothing else right before something that contradicts it: `forward backward 1 m`."""
+    return bool(frame.direction) and not frame.has_extent and frame.verb not in TURN and frame.verb != "slide" and (
+        not frame.pace and not frame.flags
+    )
+
+
+def _around(atoms: list[Atom], i: int) -> str:
+    end = i
+    while end + 1 < len(atoms) and atoms[end + 1].kind == "unknown":
+        end += 1
+    texts = [a.text for a in atoms[i : end + 1]]
+    return ("" if texts and texts[0] and ord(texts[0][0]) > 0x2E7F else " ").join(texts)
+
+
+def _join(frames: list[Frame], segment: Segment) -> None:
+    first = segment.frames[0]
+    last = frames[-1] if frames else None
+    if last is not None:
+        both = _joined(last, first, segment.joined)
+        if both is not None:
+            frames[-1] = both
+            frames.extend(segment.frames[1:])
+            return
+    frames.extend(segment.frames)
+
+
+def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
+    if joined == "then" or "between" in first.flags or "after_each" in first.flags or "all" in first.flags:
+        return None
+    if "again" in first.flags or is_times_only(first) or is_times_only(last) or last.flags & {"again", "all"}:
+        return None
+    if {"between", "after_each"} & last.flags and not first.moves and first.has_extent and last.moves and last.has_extent:
+        return None
+    both = merged(last, first)
+    if both is None:
+        return None
+    if joined in ("strong", "colon"):
+        return both if _completes(last, first) else None
+    return both if _belongs(last, first) else None
+
+
+def is_times_only(frame: Frame) -> bool:
+    """`four times`, and nothing that moves."""
+    return "times" in frame.q and not frame.moves and not frame.has_extent
+
+
+def _is_fragment(frame: Frame) -> bool:
+    return not frame.verb and not frame.shape and not frame.place
+
+
+def _completes(last: Frame, first: Frame) -> bool:
+    """Across a full stop only what `last` lacks may be added: `turn right. ninety degrees.`"""
+    if last.shape and not first.direction and not first.verb:
+        return True
+    if not _is_fragment(first):
+        return not last.moves and not last.has_extent
+    if set(first.q) <= MANNER and not first.direction and not first.rot:
+        return True
+    lacks_way = not (last.direction or last.rot)
+    return not (first.has_extent and last.has_extent) and (not (first.direction or first.rot) or lacks_way)
+
+
+def _belongs(last: Frame, first: Frame) -> bool:
+    """Across a comma or an `and`."""
+    if last.shape or first.shape:
+        return not (last.shape and first.verb in (*GO, *TURN, *STILL, "return") and first.has_extent)
+    if first.joined == "and" and last.verb in STILL and first.moves:
+        return False
+    if last.verb in STILL and last.has_extent and not (set(first.q) <= MANNER and not first.moves):
+        return False
+    if not first.moves:
+        return not (set(first.q) & set(EXTENTS) and last.has_extent and not _adds_time(last, first))
+    if last.is_arc or first.is_arc:
+        return not (last.has_extent and first.verb and "until" not in first.flags and first.has_extent and last.verb)
+    if not last.moves:
+        return True
+    if first.verb and last.verb:
+        return not last.has_extent and (not first.direction or first.direction == last.direction) and (
+            last.verb != "turn" or first.verb == "turn"
+        )
+    if (first.direction or first.rot) and not first.has_extent and not first.verb:
+        return _direction_follows(last, first)
+    if first.direction and first.has_extent:
+        return not last.has_extent and not last.direction
+    return True
+
+
+def _adds_time(last: Frame, first: Frame) -> bool:
+    return set(first.q) & set(EXTENTS) == {"time"} and "time" not in last.q
+
+
+def _direction_follows(last: Frame, first: Frame) -> bool:
+    """A direction after a comma belongs to what stands before it, if that has none: `rotate 90 degrees, left`."""
+    if last.direction or last.rot:
+        return first.direction == last.direction or "diagonal" in first.flags
+    if last.verb in GO and first.direction in SIDES and "length" in last.q and first.joined == "weak":
+        return len(first.text.split()) > 1 or bool(first.flags) or last.verb != "go"
+    return True

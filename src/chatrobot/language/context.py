@@ -1,0 +1,70 @@
+"""What the session hands to the interpreter: what was said and done before, and how the robot is now."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
+from chatrobot.plan.steps import Plan
+
+Outcome = Literal["completed", "stopped", "refused", "unclear", "answered", "failed"]
+
+
+@dataclass(frozen=True)
+class Place:
+    """A remembered pose in the odom frame. `usable` is False once odometry has started anew since."""
+
+    pose: Pose
+    usable: bool = True
+
+
+@dataclass(frozen=True)
+class TurnRecord:
+    """One turn as it really ended. Poses are in the odom frame; `plan` is None where nothing was to move."""
+
+    text: str
+    outcome: Outcome
+    plan: Plan | None = None
+    start_pose: Pose = ORIGIN
+    end_pose: Pose = ORIGIN
+
+
+@dataclass(frozen=True)
+class Dialogue:
+    """What was said before. `pending` is the text of the previous turn if that was asked back about."""
+
+    turns: tuple[TurnRecord, ...] = ()
+    places: Mapping[str, Place] = field(default_factory=dict)
+    words: Mapping[str, Plan] = field(default_factory=dict)
+    default_speed_mps: float | None = None
+    default_rate_radps: float | None = None
+    start_pose: Pose = ORIGIN
+    pending: str = ""
+
+    @property
+    def last_motion(self) -> TurnRecord | None:
+        """The last turn that had a plan."""
+        return next((turn for turn in reversed(self.turns) if turn.plan is not None), None)
+
+
+@dataclass(frozen=True)
+class RobotState:
+    """How the robot is at this moment, in the odom frame. None: not known."""
+
+    pose: Pose = ORIGIN
+    twist: Twist = ZERO_TWIST
+    moving: bool = False
+    path_m: float = 0.0
+    battery_percent: float | None = None
+    obstacle_m: float | None = None
+
+
+@dataclass(frozen=True)
+class Context:
+    """All that an interpretation depends on besides the text. `world_places` are names the world's map knows."""
+
+    dialogue: Dialogue = field(default_factory=Dialogue)
+    state: RobotState = field(default_factory=RobotState)
+    world_places: Mapping[str, Pose] = field(default_factory=dict)

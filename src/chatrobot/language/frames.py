@@ -1,0 +1,253 @@
+"""A clause as a bag of slots: what to do, which way, how much, in what manner. Word order does not matter."""
+
+from __future__ import annotations
+
+import copy
+from dataclasses import dataclass, field
+
+from chatrobot.language.tokens import Atom
+
+GO = frozenset({"go", "shift", "slide"})
+TURN = frozenset({"turn", "spin"})
+STILL = frozenset({"wait", "halt"})
+EXTENTS = ("length", "angle", "time", "turns", "clock")
+SIDES = ("left", "right")
+DIAGONALS = {
+    ("forward", "left"): "forward_left", ("forward", "right"): "forward_right",
+    ("back", "left"): "back_left", ("back", "right"): "back_right",
+}  # fmt: skip
+SHARED_FLAGS = frozenset({"all", "each"})
+
+
+@dataclass
+class Frame:
+    """The slots of one clause. `q` holds at most one quantity of a dimension (and role)."""
+
+    verb: str = ""
+    direction: str = ""
+    direction2: str = ""
+    rot: str = ""
+    pace: str = ""
+    shape: str = ""
+    place: str = ""
+    words: str = ""
+    q: dict[str, Atom] = field(default_factory=dict)
+    flags: set[str] = field(default_factory=set)
+    roles: list[str] = field(default_factory=list)
+    texts: list[str] = field(default_factory=list)
+    joined: str = "start"
+    contradiction: bool = False
+    negated: bool = False
+
+    @property
+    def text(self) -> str:
+        return " ".join(self.texts)
+
+    @property
+    def has_extent(self) -> bool:
+        return any(name in self.q for name in EXTENTS)
+
+    @property
+    def is_empty(self) -> bool:
+        return not (
+            self.verb or self.direction or self.rot or self.pace or self.shape or self.place or self.q
+            or self.flags or self.roles
+        )  # fmt: skip
+
+    @property
+    def moves(self) -> bool:
+        """Whether it names a motion by itself: a verb, a direction, a rotation, a shape."""
+        return bool(self.verb or self.direction or self.rot or self.shape or self.place)
+
+    @property
+    def is_arc(self) -> bool:
+        return self.verb == "curve" or "radius" in self.roles or "diameter" in self.roles or "while" in self.flags
+
+    @property
+    def turning(self) -> bool:
+        return self.verb in TURN or (not self.verb and bool(self.rot)) or self.verb == "uturn"
+
+    def copy(self) -> Frame:
+        return copy.deepcopy(self)
+
+    def add(self, atom: Atom) -> bool:
+        """Put `atom` in its slot. False, and nothing changed, where it contradicts what is there."""
+        done = self._put(atom)
+        if done and atom.kind != "glue":
+            self.texts.append(atom.text)
+        return done
+
+    def _put(self, atom: Atom) -> bool:
+        if atom.kind == "verb":
+            return self._put_verb(atom.value)
+        if atom.kind == "dir":
+            return self._put_direction(atom.value)
+        if atom.kind == "rot":
+            return self._put_rotation(atom.value)
+        if atom.kind == "q":
+            return self._put_quantity(atom)
+        if atom.kind == "pace":
+            if self.pace and self.pace != atom.value and {self.pace, atom.value} == {"slow", "fast"}:
+                return False
+            self.pace = self.pace if self.pace in ("max", "half_max") else atom.value
+        elif atom.kind == "flag":
+            self.flags.add(atom.value)
+        elif atom.kind == "role":
+            self.roles.append(atom.value)
+        elif atom.kind == "shape":
+            if self.shape and self.shape != atom.value:
+                return False
+            self.shape = atom.value
+        elif atom.kind == "place":
+            if self.place and self.place != atom.value:
+                return False
+            self.place = atom.value
+        elif atom.kind == "defined":
+            if self.words or self.moves:
+                return False
+            self.words = atom.value
+            self.verb = "defined"
+        return True
+
+    def _put_verb(self, verb: str) -> bool:
+        old = self.verb
+        if old == verb and verb in ("go", "turn", "shift", "slide", "wait", "halt", "face", "make", "curve") and (
+            not self.has_extent
+        ):
+            return True
+        if not old or old == "make" or (old in ("go", "shift") and not self.has_extent and not self.direction):
+            if verb in TURN and "length" in self.q and not self.is_arc:
+                return False
+            if verb in GO and ("angle" in self.q or "turns" in self.q) and not self.is_arc and not self._heading():
+                return False
+            if verb in (*GO, *STILL, "return", "face", "uturn") and self.rot and not self.is_arc:
+                return False
+            if verb in ("wait", "return", "uturn") and (self.direction and not old or "length" in self.q):
+                return verb == "uturn" and self.direction in SIDES and self._set_verb(verb)
+            if verb in TURN and self.direction in ("forward", "back") and not self.is_arc:
+                return False
+            return self._set_verb(verb if verb != "make" or not old else old)
+        if verb == "make":
+            return not self.has_extent
+        if old in TURN and verb in ("curve", *TURN) and not self.has_extent:
+            return self._set_verb("curve" if verb == "curve" else old)
+        if old == "curve" and verb in ("turn", "go") and not (verb == "go" and "angle" in self.q and "length" in self.q):
+            return True
+        if "while" in self.flags and {old, verb} <= {*GO, *TURN}:
+            return self._set_verb("curve")
+        if old in STILL and verb in STILL and not self.has_extent:
+            return self._set_verb("wait")
+        if {old, verb} <= GO and not self.has_extent:
+            return self._set_verb(verb if old != "slide" else old)
+        if old in GO and verb == "curve" and not self.has_extent:
+            return self._set_verb("curve")
+        if old in ("go", "turn") and verb == "face" and not self.has_extent and not self.direction:
+            return self._set_verb("face")
+        if old == "face" and verb in ("go", "turn") and verb == "turn":
+            return self._set_verb("face")
+        return False
+
+    def _set_verb(self, verb: str) -> bool:
+        self.verb = verb
+        return True
+
+    def _heading(self) -> bool:
+        return self.direction in DIAGONALS.values() or "diagonal" in self.flags
+
+    def _put_direction(self, new: str) -> bool:
+        old = self.direction
+        if self.verb in ("wait", "return", "remember", "undo"):
+            return False
+        if not old:
+            if self.verb in TURN and new not in SIDES and not self.is_arc:
+                return False
+            if self.rot and not self.is_arc:
+                return False
+            if ("angle" in self.q or "turns" in self.q) and new in ("forward", "back") and not self.is_arc:
+                return "diagonal" in self.flags and self._set_direction(new)
+            return self._set_direction(new)
+        if old == new:
+            return True
+        if self.is_arc or "diagonal" in self.flags or "while" in self.flags:
+            return self._combine(old, new)
+        if new in DIAGONALS.values() and old in DIAGONALS and not self.has_extent:
+            return self._set_direction(new)
+        if "sideways" in self.flags and old in SIDES and new in SIDES:
+            return False
+        return False
+
+    def _combine(self, old: str, new: str) -> bool:
+        both = (old, new) if old in ("forward", "back") else (new, old)
+        if both not in DIAGONALS:
+            return False
+        if self.is_arc:
+            if self.direction2 and self.direction2 != both[1]:
+                return False
+            self.direction, self.direction2 = both
+            return True
+        return self._set_direction(DIAGONALS[both])
+
+    def _set_direction(self, new: str) -> bool:
+        self.direction = new
+        return True
+
+    def _put_rotation(self, rot: str) -> bool:
+        if self.rot and self.rot != rot:
+            return False
+        if self.verb in (*STILL, "return") or ("length" in self.q and not self.shape and not self.is_arc):
+            return False
+        if self.verb in GO and not self.is_arc and self.direction and not self.shape:
+            return False
+        self.rot = rot
+        return True
+
+    def _put_quantity(self, atom: Atom) -> bool:
+        name = atom.value
+        if name == "turns" and self.shape:
+            name = "times"
+        if name in self.q:
+            return False
+        rotating = name in ("angle", "turns")
+        if self.verb in STILL and name in ("length", "angle", "turns", "speed", "rate", "clock"):
+            return False
+        if self.shape or self.is_arc:
+            self.q[name] = atom
+            return True
+        if name == "length" and ("angle" in self.q or "turns" in self.q) and not self._heading():
+            return False
+        if name == "length" and (self.turning or "rate" in self.q and not self.verb):
+            return False
+        if rotating and "length" in self.q and not self._heading():
+            return False
+        if rotating and self.verb in GO and self.direction in ("forward", "back"):
+            return False
+        if rotating and self.direction in ("forward", "back") and not self.verb:
+            return False
+        self.q[name] = atom
+        return True
+
+
+def merged(first: Frame, second: Frame) -> Frame | None:
+    """Both frames in one, or None where a slot of `second` contradicts `first`."""
+    both = first.copy()
+    both.flags |= second.flags
+    both.roles += second.roles
+    if second.verb and not both._put_verb(second.verb):
+        return None
+    for quantity in second.q.values():
+        if not both._put_quantity(quantity):
+            return None
+    for direction in (second.direction, second.direction2):
+        if direction and not both._put_direction(direction):
+            return None
+    if second.rot and not both._put_rotation(second.rot):
+        return None
+    if second.shape and both.shape and both.shape != second.shape:
+        return None
+    if second.pace and both.pace and second.pace != both.pace:
+        return None
+    both.shape = both.shape or second.shape
+    both.place = both.place or second.place
+    both.pace = both.pace or second.pace
+    both.texts += second.texts
+    return both

@@ -1,0 +1,99 @@
+"""All known words of all languages in one trie-like table, looked up by what they are written as.
+
+Both languages share one table, since people mix them ("CW 转一圈半"). A word means one or several `(kind, value)`
+pairs. Where one writing is listed twice, the earlier file of `FILES` decides.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+from chatrobot.language.data_files import LANGUAGES, expand, load_table
+
+FILES = (
+    "numbers", "units", "motion", "shapes", "dialogue", "refusals", "questions", "corrections", "filler",
+)  # fmt: skip
+UNIT = re.compile(
+    r"\d+(?:,\d{3})+(?:\.\d+)?(?![\d,])|\d*\.?\d+(?:e[+-]?\d+)?(?![\d])|[a-zà-ÿ]+(?:'[a-z]+)*|\S|\n"
+)
+"""What text is cut into before words are looked up: a number, a Latin word, or a single character."""
+
+Meaning = tuple[tuple[str, str], ...]
+Key = tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Lexicon:
+    """`words` maps a written form, cut into units, to its meaning; `longest` is by the first unit.
+
+    `guesses` holds what a speech recogniser writes for a word: looked up where the word itself is not found.
+    """
+
+    words: dict[Key, Meaning]
+    guesses: dict[Key, Meaning]
+    longest: dict[str, int]
+    latin: frozenset[str]
+    before_unit: dict[str, float]
+
+
+_SIGN = re.compile(r"(?<![\w)])[-](?=\.?\d)")
+_ORDINAL = re.compile(r"(\d+)(?:st|nd|rd|th)\b")
+
+
+def cut(text: str) -> Key:
+    """The units of a normalised text. A hyphen before a number is a sign, any other is a space."""
+    return tuple(UNIT.findall(_ORDINAL.sub(r"\1", _SIGN.sub(" minus ", text)).replace("-", " ")))
+
+
+@lru_cache(maxsize=1)
+def lexicon() -> Lexicon:
+    """The words of every language, read once."""
+    words: dict[Key, Meaning] = {}
+    for name in FILES:
+        for language in LANGUAGES:
+            for kind, table in load_table(language, name).items():
+                for value, patterns in table.items():
+                    for key in _keys(patterns):
+                        words.setdefault(key, _meaning(kind, value))
+    guesses = _guesses(words)
+    longest: dict[str, int] = {}
+    for key in (*words, *guesses):
+        longest[key[0]] = max(longest.get(key[0], 0), len(key))
+    latin = frozenset(unit for key in words for unit in key if unit[0].isalpha() and unit.isascii())
+    before = {
+        word: float(value)
+        for value, listed in load_table("en", "homophones")["before_unit"].items()
+        for word in listed
+    }
+    return Lexicon(words, guesses, longest, latin, before)
+
+
+def _keys(patterns: list[str]) -> list[Key]:
+    return [key for pattern in patterns for written in expand(pattern) if (key := cut(written))]
+
+
+def _meaning(kind: str, value: str) -> Meaning:
+    if kind != "combo":
+        return ((kind, value),)
+    return tuple((part.split(".", 1)[0], part.split(".", 1)[1]) for part in value.split())
+
+
+def _guesses(words: dict[Key, Meaning]) -> dict[Key, Meaning]:
+    guesses: dict[Key, Meaning] = {}
+    for word, heard in load_table("en", "homophones")["words"].items():
+        for written in heard:
+            if cut(word) in words and cut(written) not in words:
+                guesses[cut(written)] = words[cut(word)]
+    sounds: dict[str, Any] = load_table("zh", "homophones")["characters"]
+    for key, meaning in list(words.items()):
+        if not 2 <= len(key) <= 4 or meaning[0][0] in ("filler", "glue", "reason", "conn"):
+            continue
+        for i, character in enumerate(key):
+            for other in sounds.get(character, ""):
+                variant = (*key[:i], other, *key[i + 1 :])
+                if variant not in words:
+                    guesses.setdefault(variant, meaning)
+    return guesses

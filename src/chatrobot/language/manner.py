@@ -1,0 +1,54 @@
+"""Speeds: what a frame says about how fast, for this robot."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from chatrobot.language.frames import Frame
+from chatrobot.language.unclear import Unclear
+from chatrobot.robots.profile import RobotProfile
+
+SLOW, FAST = 0.5, 1.7
+"""Factors of the default where somebody says slowly or fast without a number."""
+
+
+@dataclass(frozen=True)
+class Pace:
+    """The robot's limits and what counts as usual in this dialogue. None: the profile's default, unsaid."""
+
+    profile: RobotProfile
+    speed_mps: float | None = None
+    rate_radps: float | None = None
+
+    def speed(self, frame: Frame) -> float | None:
+        """The linear speed a frame asks for, m/s; None where it says nothing."""
+        limits, default = self.profile.limits, self.speed_mps or self.profile.defaults.speed_mps
+        if "speed" in frame.q:
+            return _positive(frame, "speed")
+        said = _relative(frame, default, limits.max_speed_mps)
+        return said if said is not None else self.speed_mps
+
+    def rate(self, frame: Frame) -> float | None:
+        """The turn rate a frame asks for, rad/s; None where it says nothing."""
+        limits, default = self.profile.limits, self.rate_radps or self.profile.defaults.rate_radps
+        if "rate" in frame.q:
+            return _positive(frame, "rate")
+        said = _relative(frame, default, limits.max_rate_radps)
+        return said if said is not None else self.rate_radps
+
+
+def _positive(frame: Frame, name: str) -> float:
+    value = frame.q[name].number
+    if not math.isfinite(value) or value <= 0.0:
+        raise Unclear("bad_number", frame.q[name].text)
+    return value
+
+
+def _relative(frame: Frame, default: float, maximum: float) -> float | None:
+    if "percent" in frame.q:
+        return _positive(frame, "percent") * maximum
+    if "fold" in frame.q:
+        return _positive(frame, "fold") * default
+    factors = {"slow": SLOW * default, "fast": min(FAST * default, maximum), "max": maximum, "half_max": maximum / 2}
+    return factors.get(frame.pace)

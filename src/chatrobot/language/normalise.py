@@ -1,0 +1,45 @@
+"""Text as people type it → one plain form: compatibility characters, case, simplified Chinese, no emoji."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from functools import lru_cache
+
+from chatrobot.language.data_files import load_table
+
+MAX_CHARACTERS = 2000
+"""More than anybody says in one breath. Longer text is answered at once."""
+
+_QUOTES = str.maketrans({"’": "'", "‘": "'", "`": "`", "´": "'", "−": "-", "‐": "-", "‑": "-", "×": "x", "·": " "})
+_ELLIPSIS = re.compile(r"\.{2,}|…+")
+_HAN = re.compile(r"[\u3400-\u9fff]")
+_SPACES = re.compile(r"[ \t\u3000]+")
+
+
+@lru_cache(maxsize=1)
+def _simplified() -> dict[int, str]:
+    pairs = str(load_table("zh", "traditional")["pairs"]).split()
+    return {ord(pair[0]): pair[1] for pair in pairs}
+
+
+def normalise(text: str) -> str:
+    """Lower case, compatibility forms folded, traditional → simplified, control characters and emoji dropped."""
+    # An ellipsis must not fold into full stops, and "1½" must not fold into "11/2".
+    text = re.sub(r"(?<=\d)(?=[½¼¾⅓⅔])", " ", text.translate(_QUOTES))
+    text = unicodedata.normalize("NFKC", _ELLIPSIS.sub("…", text).replace("…", "\ue000"))
+    text = text.replace("\ue000", "…").replace("⁄", "/").translate(_simplified()).lower()
+    kept = [c if _kept(c) else " " for c in text]
+    return _SPACES.sub(" ", "".join(kept)).strip()
+
+
+def _kept(character: str) -> bool:
+    if character == "\n":
+        return True
+    category = unicodedata.category(character)
+    return category[0] in "LNPZ" or category in ("Sm", "Mn", "Mc") or character in "`^|~+<>=$°º"
+
+
+def has_chinese(text: str) -> bool:
+    """Whether any character is Chinese: the question is then answered in Chinese."""
+    return _HAN.search(text) is not None

@@ -1,0 +1,257 @@
+"""Numbers and units → quantities in SI units: one atom of kind `q` whose value is its dimension."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import lru_cache
+
+from chatrobot.language.data_files import LANGUAGES, load_table
+from chatrobot.language.lexicon import lexicon
+from chatrobot.language.numbers import Number, is_chinese, is_kind, read_addition, read_number
+from chatrobot.language.tokens import Atom
+
+DIMENSIONS = {
+    "unit_length": "length", "unit_angle": "angle", "unit_time": "time", "unit_speed": "speed",
+    "unit_rate": "rate", "unit_turn": "turns", "unit_percent": "percent", "unit_times": "times",
+    "unit_clock": "clock", "unit_fold": "fold", "counter": "count",
+}  # fmt: skip
+_SKIPPED = frozenset({
+    "full", "complete", "whole", "single", "个", "整", "of", "more", "further", "tiny", "small", "big", "large",
+    "short", "little", "equal", "完整的", "的", "additional", "extra", "quick", "straight", "long", "小", "大",
+    "slow", "new", "一个完整的", "完整", "直", "complete,", "different", "separate", "identical", "entire", "wide",
+    "half", "good", "measly", "mere", "neat",
+})  # fmt: skip
+
+
+@lru_cache(maxsize=1)
+def _turn_nouns() -> frozenset[str]:
+    return frozenset(w for lang in LANGUAGES for w in load_table(lang, "turn_nouns").get("words", ()))
+
+
+def quantity(dimension: str, value: float, text: str, role: str = "") -> Atom:
+    """An atom that is a quantity in SI units."""
+    return Atom("q", dimension, text, value, role)
+
+
+def read_quantities(atoms: Sequence[Atom]) -> list[Atom]:
+    """The atoms with every number and its unit made one quantity, and speeds put together."""
+    out: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        found = _quantity_at(atoms, i)
+        if found is None:
+            out.append(atoms[i])
+            i += 1
+        else:
+            made, i = found
+            out.extend(made)
+    return _summed(_speeds(out))
+
+
+def _quantity_at(atoms: Sequence[Atom], i: int) -> tuple[list[Atom], int] | None:
+    heard = _misheard(atoms, i)
+    if heard:
+        return heard
+    if atoms[i].kind in ("times", "fold"):
+        return [quantity(atoms[i].kind, float(atoms[i].value), atoms[i].text)], i + 1
+    number = read_number(atoms, i)
+    if number is None and is_kind(atoms, i, "num", "article"):
+        number = _article(atoms, i)
+    if number is None:
+        return None
+    text = " ".join(a.text for a in atoms[i : number.end])
+    if number.percent:
+        return [quantity("percent", number.value, text)], number.end
+    at, between = _skip(atoms, number.end)
+    unit = _unit(atoms, at)
+    if unit is None:
+        return [quantity("number", number.value, text)], number.end
+    dimension, factor, noun = unit
+    text = " ".join(a.text for a in atoms[i : at + 1])
+    value, end = _unit_suffix(atoms, number.value, factor, dimension, at + 1)
+    return [*between, quantity(dimension, value, text, noun)], end
+
+
+def _article(atoms: Sequence[Atom], i: int) -> Number | None:
+    """`a metre`, `a hundred`; `a full turn`, but not `a turn`, which is a verb's noun."""
+    number = read_number(atoms, i + 1)
+    if number:
+        return number
+    at, _ = _skip(atoms, i + 1)
+    unit = _unit(atoms, at)
+    if unit is None:
+        return None
+    if unit[0] == "turns" and at == i + 1 and atoms[at].kind == "verb":
+        return None
+    return None if unit[0] in ("count", "times") and unit[2] != "tile" else Number(1.0, i + 1)
+
+
+def _skip(atoms: Sequence[Atom], i: int) -> tuple[int, list[Atom]]:
+    """Past the words that may stand between a number and its unit; rotations and more are kept."""
+    kept: list[Atom] = []
+    start = i
+    while i < len(atoms):
+        atom = atoms[i]
+        if atom.kind in ("rot", "pace") or (atom.kind == "dir" and atom.value in ("left", "right")):
+            kept.append(atom)
+        elif atom.kind == "flag" and atom.value == "more":
+            kept.append(atom)
+        elif not (
+            atom.text in _SKIPPED or atom.kind == "num" and atom.value in ("article", "ge", "of")
+        ):
+            break
+        i += 1
+    if _unit(atoms, i) is None or (kept and _unit(atoms, i)[0] not in ("turns", "count", "length", "angle", "time")):  # type: ignore[index]
+        return start, []
+    if any(a.kind != "flag" for a in kept) and _unit(atoms, i)[0] not in ("turns", "count"):  # type: ignore[index]
+        return start, []
+    return i, kept
+
+
+def _unit(atoms: Sequence[Atom], i: int) -> tuple[str, float, str] | None:
+    """Dimension, factor and noun of the unit at `i`."""
+    if not 0 <= i < len(atoms):
+        return None
+    atom = atoms[i]
+    if atom.kind == "second":
+        return "time", 1.0, ""
+    if atom.text in _turn_nouns():
+        return "turns", 2.0 * math.pi, ""
+    if atom.text == "in" and (i + 1 == len(atoms) or atoms[i + 1].kind in ("sep", "dir", "conn")):
+        return "length", 0.0254, ""
+    dimension = DIMENSIONS.get(atom.kind)
+    if dimension is None:
+        return None
+    if dimension == "count":
+        return dimension, 1.0, atom.value
+    factor = float(atom.value)
+    return dimension, factor * 2.0 * math.pi if dimension == "turns" else factor, ""
+
+
+def _unit_suffix(
+    atoms: Sequence[Atom], number: float, factor: float, dimension: str, i: int
+) -> tuple[float, int]:
+    """`a metre and a half`, 一米半, 一米二, `five foot six`."""
+    value = number * factor
+    addition = read_addition(atoms, i)
+    if addition and _unit(atoms, addition.end) is None and dimension != "count":
+        return value + addition.value * factor, addition.end
+    if addition and is_chinese(atoms[i].text):
+        return value + addition.value * factor, addition.end
+    if dimension != "length" or i >= len(atoms) or atoms[i].kind != "number":
+        return value, i
+    more = read_number(atoms, i)
+    if more is None or more.percent or _unit(atoms, _skip(atoms, more.end)[0]) or not 0 < more.value < 100:
+        return value, i
+    if is_chinese(atoms[i].text) and all(a.kind == "number" for a in atoms[i : more.end]):
+        digits = "".join(f"{float(a.value):g}" for a in atoms[i : more.end])
+        return value + float(f"0.{digits}") * factor, more.end
+    if factor == 0.3048 and more.value < 12:
+        return value + more.value * 0.0254, more.end
+    if factor == 1.0 and 10 <= more.value < 100:
+        return value + more.value / 100.0, more.end
+    return value, i
+
+
+def _misheard(atoms: Sequence[Atom], i: int) -> tuple[list[Atom], int] | None:
+    """`to meters` is two metres, `for for seconds` four; read so only right before a plural unit."""
+    number = lexicon().before_unit.get(atoms[i].text)
+    if number is None or atoms[i].kind == "q":
+        return None
+    unit = _unit(atoms, i + 1)
+    if unit is None or unit[0] not in ("length", "time", "angle") or is_kind(atoms, i - 1, "q"):
+        return None
+    if not atoms[i + 1].text.endswith(("s", "feet")) or len(atoms[i + 1].text) < 3:
+        return None
+    if number == 4 and unit[0] == "time" and atoms[i].text == "for" and not (i and atoms[i - 1].text == "for"):
+        return None
+    text = f"{atoms[i].text} {atoms[i + 1].text}"
+    return [quantity(unit[0], number * unit[1], text)], i + 2
+
+
+def _speeds(atoms: list[Atom]) -> list[Atom]:
+    """Length per time and angle per time, in either order: `10 cm a second`, 每秒十厘米."""
+    out: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        atom = atoms[i]
+        if atom.kind == "q" and atom.value in ("length", "angle", "turns"):
+            end, time_s = _per_time(atoms, i + 1)
+            if time_s:
+                kind = "speed" if atom.value == "length" else "rate"
+                text = " ".join(a.text for a in atoms[i:end])
+                out.append(quantity(kind, atom.number / time_s, text))
+                i = end
+                continue
+        end, time_s = _each_time(atoms, i)
+        if time_s and is_kind(atoms, end, "q") and atoms[end].value in ("length", "angle", "turns"):
+            kind = "speed" if atoms[end].value == "length" else "rate"
+            text = "".join(a.text for a in atoms[i : end + 1])
+            verbs = [a for a in atoms[i:end] if a.kind == "verb"]
+            role = "" if atom.kind in ("per", "flag") else atoms[end].value
+            out.extend([*verbs, quantity(kind, atoms[end].number / time_s, text, role)])
+            i = end + 1
+            continue
+        out.append(atom)
+        i += 1
+    return out
+
+
+def _per_time(atoms: list[Atom], i: int) -> tuple[int, float]:
+    """The index after `per second`, `/s`, `a second`, `each second`, and the time; (i, 0) if it is not there."""
+    if not (
+        is_kind(atoms, i, "per")
+        or is_kind(atoms, i, "num", "article")
+        or is_kind(atoms, i, "flag", "each")
+        or (is_kind(atoms, i, "q", "time") and atoms[i].text.startswith(("a ", "an ")))
+    ):
+        return i, 0.0
+    if atoms[i].kind == "q":
+        return i + 1, atoms[i].number
+    if is_kind(atoms, i + 1, "q", "time"):
+        return i + 2, atoms[i + 1].number
+    unit = _unit(atoms, i + 1)
+    return (i + 2, unit[1]) if unit and unit[0] == "time" else (i, 0.0)
+
+
+def _each_time(atoms: list[Atom], i: int) -> tuple[int, float]:
+    """每秒 [转] or 一秒 [转], `every second`, before a quantity."""
+    end, time_s = i, 0.0
+    if is_kind(atoms, i, "per") or is_kind(atoms, i, "flag", "each"):
+        unit = _unit(atoms, i + 1)
+        if unit and unit[0] == "time":
+            end, time_s = i + 2, unit[1]
+        elif is_kind(atoms, i + 1, "q", "time"):
+            end, time_s = i + 2, atoms[i + 1].number
+    elif is_kind(atoms, i, "q", "time") and is_chinese(atoms[i].text) and atoms[i].number in (1.0, 60.0):
+        end, time_s = i + 1, atoms[i].number
+    while time_s and (is_kind(atoms, end, "glue") or is_kind(atoms, end, "verb")):
+        end += 1
+    return end, time_s
+
+
+def _summed(atoms: list[Atom]) -> list[Atom]:
+    """`1 m 20 cm`, `2 minutes and 30 seconds`: one quantity, if the second is the smaller unit."""
+    out: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        atom = atoms[i]
+        if atom.kind == "q" and out and atom.value in ("length", "time") and "." not in atom.text:
+            joined = is_kind(out, len(out) - 1, "conn", "and")
+            before = out[-2] if joined and len(out) > 1 else out[-1]
+            if before.kind == "q" and before.value == atom.value and _is_part(before, atom):
+                follows = next((a for a in atoms[i + 1 :] if a.kind not in ("glue", "num")), None)
+                if not (joined and follows and follows.kind in ("dir", "verb", "rot", "flag")):
+                    del out[-2 if joined else -1 :]
+                    out.append(quantity(atom.value, before.number + atom.number, f"{before.text} {atom.text}"))
+                    i += 1
+                    continue
+        out.append(atom)
+        i += 1
+    return out
+
+
+def _is_part(whole: Atom, part: Atom) -> bool:
+    same = whole.text.split()[-1] == part.text.split()[-1]
+    return not same and 0 < part.number < whole.number and part.number < (60 if part.value == "time" else 1.0)

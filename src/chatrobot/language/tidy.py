@@ -1,0 +1,112 @@
+"""What words mean where they stand: leftovers of numbers, relative speeds, closer-to, reasons, negations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from chatrobot.language.numbers import is_chinese, is_kind
+from chatrobot.language.quantities import quantity
+from chatrobot.language.tokens import Atom
+from chatrobot.language.unclear import Unclear
+
+_HARMLESS = ("filler", "glue", "unknown", "num", "reason", "unit_times", "flag", "question")
+_MOTION = ("q", "verb", "dir", "rot", "shape", "pace", "role", "number")
+
+
+def tidy(atoms: Sequence[Atom]) -> list[Atom]:
+    """The atoms as the clause reader wants them."""
+    return _without_reasons(_fractions_of(_relative_speeds([_settled(atoms, i) for i in range(len(atoms))])))
+
+
+def _settled(atoms: Sequence[Atom], i: int) -> Atom:
+    """Words of numbers that turned out to be no number."""
+    atom = atoms[i]
+    if atom.kind == "num":
+        if atom.value == "point":
+            return Atom("flag", "bit", atom.text) if is_chinese(atom.text) else Atom("verb", "face", atom.text)
+        if atom.value == "minus" or atom.value == "parts":
+            return Atom("unknown", atom.text, atom.text)
+        return Atom("glue", "x", atom.text)
+    if atom.kind == "second":
+        return Atom("conn", "then", atom.text)
+    if atom.kind == "counter":
+        if atom.text in ("step", "pace", "steps"):
+            return Atom("verb", "go", atom.text) if is_kind(atoms, i + 1, "dir") else Atom("glue", "x", atom.text)
+        return Atom("role", atom.value, atom.text)
+    if atom.kind == "per" or (atom.kind == "unit_times" and atom.text in ("time", "回", "次", "下来")):
+        return Atom("glue", "x", atom.text)
+    if atom.kind == "unit_turn":
+        return Atom("verb", "turn", atom.text)
+    return atom
+
+
+def _next_real(atoms: Sequence[Atom], i: int) -> int:
+    while i < len(atoms) and atoms[i].kind == "glue":
+        i += 1
+    return i
+
+
+def _relative_speeds(atoms: Sequence[Atom]) -> list[Atom]:
+    """`half of your maximum speed`, `60 percent of top speed`, 最大速度的一半: one percentage."""
+    out: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        atom = atoms[i]
+        j = _next_real(atoms, i + 1)
+        fraction = atom.kind == "q" and atom.value in ("number", "percent") and 0 < atom.number <= 1
+        if fraction and is_kind(atoms, j, "pace", "max"):
+            out.append(quantity("percent", atom.number, f"{atom.text} {atoms[j].text}"))
+            i = j + 1
+        elif is_kind(atoms, i, "pace", "max") and is_kind(atoms, j, "q") and (
+            atoms[j].value == "percent" or (atoms[j].value == "number" and 0 < atoms[j].number < 1)
+        ):
+            out.append(quantity("percent", atoms[j].number, f"{atom.text} {atoms[j].text}"))
+            i = j + 1
+        elif is_kind(atoms, i, "q", "times") and is_kind(atoms, j, "pace", "default"):
+            out.append(quantity("fold", atom.number, atom.text))
+            i = j + 1
+        else:
+            out.append(atom)
+            i += 1
+    return out
+
+
+def _fractions_of(atoms: Sequence[Atom]) -> list[Atom]:
+    """`quarter of a metre`, `half of a metre`, `3/4 of a turn`: a fraction of a quantity."""
+    out: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        atom = atoms[i]
+        j = i + 1
+        while j < len(atoms) and atoms[j].kind == "glue" and atoms[j].text in ("of", "the", "a"):
+            j += 1
+        if (
+            atom.kind == "q" and atom.value == "number" and 0 < atom.number < 1 and j > i + 1
+            and is_kind(atoms, j, "q") and atoms[j].value in ("length", "time", "turns", "angle")
+            and atoms[j].text.startswith(("a ", "an ", "one "))
+        ):  # fmt: skip
+            out.append(quantity(atoms[j].value, atom.number * atoms[j].number, f"{atom.text} of {atoms[j].text}"))
+            i = j + 1
+        else:
+            out.append(atom)
+            i += 1
+    return out
+
+
+def _without_reasons(atoms: Sequence[Atom]) -> list[Atom]:
+    """A reason (`because …`, `so that I can …`, `I'm …`) changes no command: left out up to the next break,
+    unless there is a command in it."""
+    out: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        if atoms[i].kind != "reason":
+            out.append(atoms[i])
+            i += 1
+            continue
+        end = i + 1
+        while end < len(atoms) and not (atoms[end].kind in ("sep", "conn") and atoms[end].value != "paren"):
+            end += 1
+        if any(a.kind == "q" or a.kind in ("refuse", "negation", "condition") for a in atoms[i:end]):
+            raise Unclear("unknown_part", " ".join(a.text for a in atoms[i:end]))
+        i = end
+    return out

@@ -1,0 +1,89 @@
+"""Text → atoms: the known words in it, by the cheapest way to cover it; what no word covers stays `unknown`."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from chatrobot.language.lexicon import Key, Lexicon, Meaning, cut
+from chatrobot.language.typos import correct
+
+_DIGITS = frozenset("零一二两三四五六七八九十半")
+_WORD, _GUESS, _UNKNOWN = 1.0, 2.2, 6.0
+
+
+class Atom(NamedTuple):
+    """A word and what it means. `value` is the key of the data files; numbers and quantities carry `number`."""
+
+    kind: str
+    value: str = ""
+    text: str = ""
+    number: float = 0.0
+    role: str = ""
+
+
+def tokenise(text: str, words: Lexicon, names: dict[Key, Meaning]) -> list[Atom]:
+    """The atoms of a normalised text. `names` are words of this dialogue: places, words a person defined."""
+    units = _corrected(cut(text), words, names)
+    covered = _cover(units, words, names)
+    atoms: list[Atom] = []
+    for start, end, meaning in covered:
+        written = _join(units[start:end])
+        if meaning is None:
+            atoms.append(_bare(units[start]))
+        else:
+            atoms.extend(Atom(kind, value, written) for kind, value in meaning)
+    return atoms
+
+
+def _corrected(units: Key, words: Lexicon, names: dict[Key, Meaning]) -> Key:
+    known_names = {unit for key in names for unit in key}
+    return tuple(
+        unit
+        if len(unit) < 3 or unit in words.latin or unit in known_names or (unit,) in words.guesses
+        else correct(unit, words)
+        for unit in units
+    )
+
+
+def _bare(unit: str) -> Atom:
+    if unit[0].isdigit() or (unit[0] == "." and len(unit) > 1):
+        return Atom("number", unit.replace(",", ""), unit)
+    if unit == "\n":
+        return Atom("sep", "strong", unit)
+    return Atom("unknown", unit, unit)
+
+
+def _cover(units: Key, words: Lexicon, names: dict[Key, Meaning]) -> list[tuple[int, int, Meaning | None]]:
+    """Dynamic programming from the end: the fewest words, unknown units only where nothing else fits."""
+    count = len(units)
+    name_length = max((len(key) for key in names), default=0)
+    best = [0.0] * (count + 1)
+    choice: list[tuple[int, Meaning | None]] = [(0, None)] * count
+    for start in range(count - 1, -1, -1):
+        unit = units[start]
+        cost = _WORD if unit[0].isdigit() else _UNKNOWN
+        best[start], choice[start] = best[start + 1] + cost, (start + 1, None)
+        for length in range(1, max(words.longest.get(unit, 0), name_length) + 1):
+            end = start + length
+            if end > count:
+                break
+            key = units[start:end]
+            meaning = names.get(key) or words.words.get(key)
+            price = _WORD
+            if meaning is None:
+                meaning, price = words.guesses.get(key), _GUESS
+            if key[-1] == "点" and end < count and units[end] in _DIGITS and length > 1 and units[start] == "一":
+                continue  # 一点二米 is a number, not 一点
+            if meaning is not None and best[end] + price <= best[start]:
+                best[start], choice[start] = best[end] + price, (end, meaning)
+    covered = []
+    at = 0
+    while at < count:
+        end, meaning = choice[at]
+        covered.append((at, end, meaning))
+        at = end
+    return covered
+
+
+def _join(units: Key) -> str:
+    return ("" if ord(units[0][0]) > 0x2E7F else " ").join(units)

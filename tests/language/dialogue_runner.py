@@ -1,0 +1,75 @@
+"""Runs corpus items through the interpreter with an ideal robot: what a session does, without one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Literal
+
+from chatrobot.language.context import Context, Dialogue, Place, RobotState, TurnRecord
+from chatrobot.language.interpretation import Interpretation, OfflineInterpreter
+from chatrobot.plan.steps import Remember
+from tests.language.ideal_motion import Track, judge
+from tests.language.profiles import MECANUM
+
+Verdict = Literal["correct", "wrong", "abstained"]
+ANSWERS = {"clarify": "unclear", "refuse": "refused", "info": "answered"}
+
+
+class Conversation:
+    """A dialogue with an ideal robot."""
+
+    def __init__(self) -> None:
+        self.interpreter = OfflineInterpreter(MECANUM)
+        self.track = Track()
+        self.dialogue = Dialogue()
+
+    def say(self, text: str) -> Interpretation:
+        """One turn, done at once."""
+        state = RobotState(pose=self.track.pose, path_m=self.track.path_m, battery_percent=None)
+        meant = self.interpreter.interpret(text, Context(self.dialogue, state))
+        start = self.track.pose
+        if meant.plan is not None:
+            trial = Track(pose=start)
+            trial.run(meant.plan)
+            if trial.too_fast:
+                meant = Interpretation("refused", "too fast", meant.language)
+        if meant.plan is not None:
+            self.track.run(meant.plan)
+        self._remember(text, meant, start)
+        return meant
+
+    def _remember(self, text: str, meant: Interpretation, start: Any) -> None:
+        places = dict(self.dialogue.places)
+        names = [meant.remember_place] if meant.remember_place else []
+        names += [s.place for s in (meant.plan.steps if meant.plan else ()) if isinstance(s, Remember)]
+        for name in names:
+            places[name] = Place(self.track.pose)
+        outcome: Any = {"plan": "completed", "stop": "stopped"}.get(meant.outcome, meant.outcome)
+        record = TurnRecord(text, outcome, meant.plan, start, self.track.pose)
+        self.dialogue = Dialogue(
+            (*self.dialogue.turns, record),
+            places,
+            {**self.dialogue.words, **meant.define},
+            meant.default_speed_mps or self.dialogue.default_speed_mps,
+            meant.default_rate_radps or self.dialogue.default_rate_radps,
+            pending=text if meant.outcome == "unclear" else "",
+        )
+
+
+def run_item(item: Mapping[str, Any]) -> tuple[Verdict, str]:
+    """The verdict on one corpus item and why."""
+    talk = Conversation()
+    for text in item.get("turns") or [item["say"]]:
+        meant = talk.say(text)
+    expect = item["expect"]
+    if isinstance(text, dict):
+        raise ValueError("turns with their own expect are not used in this corpus")
+    wrong = judge(talk.track, expect)
+    why = "; ".join(wrong) or f"{meant.outcome}: {meant.reply}"
+    if "answer" in expect:
+        if wrong:
+            return "wrong", why
+        return ("correct" if meant.outcome == ANSWERS[expect["answer"]] else "abstained"), why
+    if meant.outcome in ("unclear", "refused", "answered") and expect.get("motion") != "none":
+        return ("abstained" if not talk.track.moved or wrong else "correct"), f"{meant.outcome}: {meant.reply}"
+    return ("wrong" if wrong else "correct"), why + (f" | {meant.plan}" if wrong else "")
