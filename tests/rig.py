@@ -49,7 +49,9 @@ class Rig:
             self.clock.advance(TICK_S)
             self.robot.step(TICK_S)
 
-    def run(self, plan: Plan, each_tick: Callable[[float], None] | None = None, limit_s: float = 600.0) -> Executor:
+    def run(
+        self, plan: Plan, each_tick: Callable[[float], None] | None = None, limit_s: float = 600.0
+    ) -> Executor:
         """Run `plan` to its end; `each_tick(seconds since its start)` may meddle."""
         estimate = self.sensors.estimate
         start = estimate.pose if estimate is not None else ORIGIN

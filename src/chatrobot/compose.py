@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.errors import JointError, UsageError
 from chatrobot.core.events import Event, TruePose
-from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
+from chatrobot.robots.load import DEFAULT_PROFILE, list_profiles, load_profile
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.joint import SimulatedJoint
 from chatrobot.session.session import Options, Session
@@ -85,6 +85,14 @@ def connect(setup: Setup, on_event: OnEvent) -> Connection:
     return _connect_real_time(setup, profile, world, understanding, on_event)
 
 
+def _profile_argument(setup: Setup) -> str:
+    """What other processes find the profile by: a user's own by its file, for they know no config folder."""
+    for entry in list_profiles(_profile_dirs(setup)):
+        if entry.name == setup.robot and entry.origin == "user":
+            return str(entry.file)
+    return setup.robot
+
+
 def _profile_dirs(setup: Setup) -> tuple[Path, ...]:
     return (setup.folder / "robots",) if setup.folder is not None else ()
 
@@ -131,10 +139,11 @@ def _connect_real_time(
     from chatrobot.wire.runtime_dir import runtime_dir
 
     wire_path = runtime_dir() / f"sim-{uuid.uuid4().hex[:12]}.wire"
-    robot = _spawn_simulated_robot(setup, wire_path)
+    profile_argument = _profile_argument(setup)
+    robot = spawn_simulated_robot(setup, profile_argument, wire_path)
     joint: SocketJoint | None = None
     try:
-        joint = SocketJoint(str(wire_path), setup.robot, setup.world)
+        joint = SocketJoint(str(wire_path), profile_argument, setup.world)
         joint.wait_until_ready()
     except JointError:
         robot.terminate()
@@ -158,12 +167,12 @@ def _connect_real_time(
     return Connection(session, profile, world, close)
 
 
-def _spawn_simulated_robot(setup: Setup, wire_path: Path) -> subprocess.Popen[bytes]:
+def spawn_simulated_robot(setup: Setup, profile: str, wire_path: Path) -> subprocess.Popen[bytes]:
     """In a session of its own: Ctrl-C at the console must not kill the robot before it stands."""
     return subprocess.Popen(
         [
             *(sys.executable, "-m", "chatrobot.sim", "--socket", str(wire_path)),
-            *("--profile", setup.robot, "--world", setup.world, "--sim", setup.sim),
+            *("--profile", profile, "--world", setup.world, "--sim", setup.sim),
         ],
         start_new_session=True,
         stdin=subprocess.DEVNULL,

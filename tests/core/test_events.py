@@ -6,7 +6,15 @@ import json
 
 import pytest
 
-from chatrobot.core.events import EXIT_CODES, Event, FindingSeen, Finished, Limited, Rehearsed, event_from_json
+from chatrobot.core.events import (
+    EXIT_CODES,
+    Event,
+    FindingSeen,
+    Finished,
+    Limited,
+    Rehearsed,
+    event_from_json,
+)
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.reason import Reason
 
@@ -35,7 +43,9 @@ def test_numbers_carry_their_units_in_their_keys() -> None:
     assert EVENTS[1].to_json()["sent"] == {"vx_mps": 1.0, "vy_mps": 0.0, "wz_radps": 0.0}
 
 
-@pytest.mark.parametrize("data", [{}, {"event": "nonsense"}, {"event": "limited"}, {"event": "said", "what": 1}])
+@pytest.mark.parametrize(
+    "data", [{}, {"event": "nonsense"}, {"event": "limited"}, {"event": "said", "what": 1}]
+)
 def test_what_is_no_event_of_ours_is_a_value_error(data: dict[str, object]) -> None:
     with pytest.raises(ValueError):
         event_from_json(data)

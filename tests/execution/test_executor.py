@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 import pytest
+from tests.rig import Rig
 
 from chatrobot.plan.steps import Drive, ObstacleWithin, Plan, RawTwist, Repeat, Turn, Wait
 from chatrobot.sim.shapes import rectangle
-from tests.rig import Rig
 
 SQUARE = Plan((Repeat(4, (Drive(distance_m=1.0), Turn(angle_rad=math.pi / 2))),))
 
@@ -36,7 +36,9 @@ def test_a_square_closes_although_wheels_slip_odometry_is_late_and_everything_is
     assert abs(off_deg) < 2.0
 
 
-@pytest.mark.parametrize("profile", ["wheeltec_mini_diff", "turtlebot3_burger", "turtlebot4", "originbot", "generic_diff"])
+@pytest.mark.parametrize(
+    "profile", ["wheeltec_mini_diff", "turtlebot3_burger", "turtlebot4", "originbot", "generic_diff"]
+)
 def test_a_square_closes_on_a_base_that_cannot_slide_sideways(profile: str) -> None:
     rig = Rig(profile)
     assert rig.run(SQUARE).outcome == "completed"

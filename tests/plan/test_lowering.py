@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import pytest
-from tests.plan.robots import ACKERMANN, DIFFERENTIAL, MECANUM
 
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.core.reason import Reason
@@ -29,6 +28,7 @@ from chatrobot.plan.steps import (
     Wait,
 )
 from chatrobot.robots.profile import RobotProfile
+from tests.plan.robots import ACKERMANN, DIFFERENTIAL, MECANUM
 
 
 def motions(

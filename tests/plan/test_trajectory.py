@@ -6,11 +6,11 @@ import time
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tests.plan.robots import MECANUM
 
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.plan.core_motion import RampedTwist
 from chatrobot.plan.trajectory import Ramp, Segment
+from tests.plan.robots import MECANUM
 
 LIMITS = MECANUM.limits
 holds = st.floats(0.001, 100.0)

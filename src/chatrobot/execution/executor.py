@@ -162,7 +162,7 @@ class Executor:
             self._first_tick = False
             return segment.motion.asked  # beyond the limits: the governor says so, once
         self._first_tick = False
-        _, twist = segment.at(t_s + TICK_S)
+        _, twist = segment.at(t_s + TICK_S / 2.0)  # the mean over the tick it will be held for
         estimate = self._sensors.estimate
         if estimate is None or not self._sensors.has_odometry:
             return twist

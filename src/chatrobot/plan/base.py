@@ -9,6 +9,8 @@ from typing import Any, ClassVar, Literal
 Frame = Literal["odom", "start"]
 """`odom`: where odometry began. `start`: the robot's pose at the moment this plan starts to move."""
 
+_FORBID = {"extra": "forbid", "allow_inf_nan": False}
+
 
 def require(condition: bool, problem: str) -> None:
     """Raise ValueError with `problem` unless `condition` holds."""
@@ -32,7 +34,7 @@ class Step:
     """One line of a plan. Every primitive is a frozen dataclass on top of this, with a `kind` of its own."""
 
     kind: str
-    __pydantic_config__: ClassVar[dict[str, Any]] = {"extra": "forbid", "allow_inf_nan": False}
+    __pydantic_config__: ClassVar[dict[str, Any]] = _FORBID
 
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> Any:
@@ -45,7 +47,7 @@ class Step:
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: Any) -> Any:
-        return {"$ref": "#/$defs/Step"} if cls is Step else handler(schema)
+        return {"type": "object"} if cls is Step else handler(schema)
 
 
 class Block(Step):
@@ -65,7 +67,7 @@ class ObstacleWithin:
 
     distance_m: float
     kind: Literal["obstacle_within"] = "obstacle_within"
-    __pydantic_config__: ClassVar[dict[str, Any]] = {"extra": "forbid", "allow_inf_nan": False}
+    __pydantic_config__: ClassVar[dict[str, Any]] = _FORBID
 
     def __post_init__(self) -> None:
         require_positive("distance_m", self.distance_m)

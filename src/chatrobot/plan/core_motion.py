@@ -64,6 +64,8 @@ class Emit:
         return start
 
 
+_STEEPEST_PER_S = 1e6  # for velocities too small to matter; keeps infinities out of the arithmetic
+
 CoreMotion = Union[RampedTwist, Pause, Emit]
 
 
@@ -80,4 +82,4 @@ def ramp_rate(limits: Limits, twist: Twist) -> float:
         rates.append(limits.angular_acceleration_radps2 / abs(twist.wz_radps))
     if not rates:
         raise ValueError("a zero twist has no ramp: use Pause")
-    return min(rates)
+    return min(*rates, _STEEPEST_PER_S)

@@ -11,12 +11,16 @@ from dataclasses import dataclass, replace
 from typing import Union
 
 from chatrobot.core.geometry import Pose
+from chatrobot.core.reason import Reason
 from chatrobot.plan.base import Block, Step
 from chatrobot.plan.context import Impossible, Lowered, LoweringContext
-from chatrobot.plan.core_motion import CoreMotion
+from chatrobot.plan.core_motion import CoreMotion, RampedTwist
 from chatrobot.plan.primitive import BlockPrimitive
 from chatrobot.plan.registry import for_step
 from chatrobot.plan.steps import Plan, count_steps
+
+MAX_MOTION_S = 3600.0
+"""A single motion longer than this is a slip of the pen; its numbers may even be beyond what floats hold."""
 
 
 def lower(step: Step, context: LoweringContext) -> Lowered:
@@ -28,7 +32,13 @@ def lower(step: Step, context: LoweringContext) -> Lowered:
     primitive = for_step(step)
     if isinstance(primitive, BlockPrimitive):
         raise TypeError(f"{type(step).__name__} is a block: walk it with iterate_core")
-    return primitive.lower(step, context)
+    lowered = primitive.lower(step, context)
+    if isinstance(lowered, Impossible):
+        return lowered
+    for motion in lowered:
+        if isinstance(motion, RampedTwist) and not motion.hold_s <= MAX_MOTION_S:
+            return Impossible(Reason("too_long", {"duration_s": motion.hold_s, "max_s": MAX_MOTION_S}))
+    return lowered
 
 
 @dataclass(frozen=True)

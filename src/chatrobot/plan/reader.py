@@ -48,7 +48,6 @@ class LineReader:
             if kind != "ignored":
                 self._tokens.append((kind, match.group(kind), match.start(kind)))
 
-    @property
     def at_end(self) -> bool:
         return self._next >= len(self._tokens)
 
@@ -57,18 +56,18 @@ class LineReader:
 
     def fail_here(self, allowed: str) -> NoReturn:
         """The next token (or the end of the line) is not what may stand here."""
-        if self.at_end:
+        if self.at_end():
             self.fail("something is missing at the end", allowed)
         self.fail(f"{self._tokens[self._next][1]!r} is not understood here", allowed)
 
     def finish(self, allowed: str) -> None:
         """Nothing may be left. `allowed` names what else could have stood here."""
-        if not self.at_end:
+        if not self.at_end():
             self.fail_here(allowed)
 
     def peek_word(self) -> str:
         """The next token in lower case if it is a word, else ""."""
-        if self.at_end:
+        if self.at_end():
             return ""
         kind, text, _ = self._tokens[self._next]
         return text.lower() if kind == "word" else ""
@@ -86,7 +85,7 @@ class LineReader:
 
     @property
     def number_follows(self) -> bool:
-        return not self.at_end and self._tokens[self._next][0] == "number"
+        return not self.at_end() and self._tokens[self._next][0] == "number"
 
     def number(self, allowed: str = "a number") -> float:
         """A finite number."""
@@ -155,7 +154,7 @@ class LineReader:
 
     def text(self, allowed: str) -> str:
         """A quoted text, or everything up to the end of the line (a comment apart)."""
-        if self.at_end:
+        if self.at_end():
             self.fail_here(allowed)
         kind, text, start = self._tokens[self._next]
         if kind == "quoted":

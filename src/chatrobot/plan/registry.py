@@ -8,7 +8,6 @@ everything is asked for, because scanning installed distributions takes longer t
 from __future__ import annotations
 
 import importlib
-import importlib.metadata
 import pkgutil
 from collections.abc import Callable
 from typing import Any, Union
@@ -98,5 +97,7 @@ def _load_third_parties() -> None:
     if ENTRY_POINT_GROUP in _loaded:
         return
     _loaded.add(ENTRY_POINT_GROUP)
+    import importlib.metadata
+
     for entry in importlib.metadata.entry_points(group=ENTRY_POINT_GROUP):
         register(entry.load())

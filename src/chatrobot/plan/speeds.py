@@ -14,6 +14,7 @@ from chatrobot.robots.profile import Limits, RobotProfile
 
 _SLACK = 1.0 + 1e-9  # a limit said in other units (36 km/h) must not fail by rounding
 _STRAIGHT_RAD = 1e-9
+_ABSURD = 1e6
 
 
 def max_speed_mps(limits: Limits, direction_rad: float) -> float:
@@ -79,6 +80,9 @@ def refuse_turn_on_the_spot(profile: RobotProfile, angle_rad: float) -> Impossib
 
 def scale_into_limits(limits: Limits, twist: Twist) -> Twist:
     """The largest twist of the same direction (all three components in proportion) within the speed limits."""
+    largest = max(abs(value) for value in twist)
+    if largest > _ABSURD:  # so that no sum of squares is infinite
+        twist = twist.scaled(_ABSURD / largest)
     factor = 1.0
     for value, most in (
         (twist.speed_mps, limits.max_speed_mps),

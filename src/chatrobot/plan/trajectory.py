@@ -13,7 +13,7 @@ import math
 from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
 from chatrobot.plan.core_motion import RampedTwist
 
-_STRAIGHT_RADPS = 1e-6  # below this the circle's centre is so far off that rounding beats the curvature
+STRAIGHT_RADPS = 1e-6  # below this the circle's centre is so far off that rounding beats the curvature
 
 
 class Ramp:
@@ -96,7 +96,7 @@ class Segment:
         self.ramp = ramp if ramp is not None else Ramp(motion.hold_s, motion.ramp_per_s)
         self._cos, self._sin = math.cos(start.yaw_rad), math.sin(start.yaw_rad)
         vx, vy, wz = motion.twist
-        if abs(wz) >= _STRAIGHT_RADPS:
+        if abs(wz) >= STRAIGHT_RADPS:
             self._center_x = start.x_m + (-self._sin * vx - self._cos * vy) / wz
             self._center_y = start.y_m + (self._cos * vx - self._sin * vy) / wz
 
@@ -112,7 +112,7 @@ class Segment:
         """The reference pose after `s` seconds of the full twist."""
         vx, vy, wz = self.motion.twist
         start = self.start
-        if abs(wz) < _STRAIGHT_RADPS:
+        if abs(wz) < STRAIGHT_RADPS:
             if wz != 0.0:
                 return start.moved(self.motion.twist, s)
             cos, sin = self._cos, self._sin

@@ -66,6 +66,8 @@ def number_text(value: float) -> str:
 def _degrees_text(angle_rad: float) -> str | None:
     """The shortest decimal of degrees that reads back as exactly `angle_rad`, if there is one."""
     degrees = math.degrees(angle_rad)
+    if abs(degrees) > 1e15:
+        return None
     for digits in (3, 6, 9, 12, 15, 16, 17):
         text = number_text(float(f"{degrees:.{digits}g}"))
         if math.radians(float(text)) == angle_rad:

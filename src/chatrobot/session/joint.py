@@ -10,7 +10,6 @@ from typing import Any, Protocol
 
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.events import Event
-from chatrobot.core.reason import Reason
 from chatrobot.governor.governor import TICK_S
 from chatrobot.session.envelope import Envelope, Word
 from chatrobot.session.guard_link import SimulatedGuard
@@ -20,7 +19,12 @@ from chatrobot.wire.wire import Wire
 
 
 class Joint(Protocol):
-    """What a session holds of Motion. `send` and `stop` may be called from any thread."""
+    """What a session holds of Motion. `send` may be called from any thread.
+
+    `beats` is true while the source keeps its lease; a source that is to be taken for frozen sets it to false.
+    """
+
+    beats: bool
 
     def send(self, word: Word, turn: int = 0, **payload: Any) -> None:
         """Say one word.
@@ -41,6 +45,10 @@ class Joint(Protocol):
     @property
     def is_lost(self) -> bool:
         """Motion is gone, and we did not ask it to go."""
+        ...
+
+    def abandon(self) -> None:
+        """Leave without a goodbye, as a crash would: Motion stops the robot at once."""
         ...
 
     def close(self) -> None:
@@ -90,14 +98,12 @@ class SimulatedJoint:
         self._cmd_vel_topic = cmd_vel_topic
         self._sender = Sender(source)
         self._closed = False
-        self._beating = True
+        self.beats = True
         self._motion.start(wire)
         self.send("hello")
 
     def send(self, word: Word, turn: int = 0, **payload: Any) -> None:
-        envelope = self._sender.envelope(word, turn, **payload)
-        self._motion.hear_stop(envelope)
-        self._motion.handle(envelope)
+        self._motion.receive(self._sender.envelope(word, turn, **payload))
 
     def next_event(self, timeout_s: float) -> Event | None:
         until_s = self._clock.now_s() + timeout_s
@@ -114,21 +120,17 @@ class SimulatedJoint:
 
     def step(self) -> None:
         """One period: the source beats, Motion ticks, the robot moves."""
-        if self._beating:
-            self._motion.handle(self._sender.envelope("beat"))
+        if self.beats:
+            self._motion.receive(self._sender.envelope("beat"))
         self._motion.tick()
         if self._guard.must_halt():
             self._guard_wire.publish(self._cmd_vel_topic, ZERO)
         self._clock.advance(TICK_S)
         self._advance(TICK_S)
 
-    def freeze(self) -> None:
-        """The source stops beating, as a frozen process would. For tests of both joints."""
-        self._beating = False
-
-    def lose(self) -> None:
-        """The source dies without a goodbye."""
-        self._beating = False
+    def abandon(self) -> None:
+        self.beats = False
+        self._closed = True
         self._motion.lose(self._sender.lease)
 
     def close(self) -> None:
@@ -138,10 +140,3 @@ class SimulatedJoint:
         self.send("goodbye")
         while not self._motion.has_left:
             self.step()
-
-    @property
-    def motion(self) -> Motion:
-        return self._motion
-
-    def halt(self, why: Reason) -> None:
-        self._motion.halt(why)

@@ -124,16 +124,16 @@ class Motion:
         """Have `action` done on the control thread with the next tick."""
         self._inbox.append(action)
 
-    def hear_stop(self, envelope: Envelope) -> bool:
-        """The shortcut for whoever reads envelopes: stops at once, ahead of the queue. True if it was a stop."""
+    def receive(self, envelope: Envelope) -> None:
+        """Take in an envelope. A stop is out before this returns; the rest is done with the next tick."""
         if envelope.word == "emergency_stop":
             self._governor.latch(envelope.source, str(envelope.payload.get("why", "")))
         if envelope.word in ("stop", "emergency_stop"):
-            self.halt(
-                Reason("stopped_by", {"source": envelope.source, "why": str(envelope.payload.get("why", ""))})
-            )
-            return True
-        return False
+            why = str(envelope.payload.get("why", ""))
+            self.halt(Reason("stopped_by", {"source": envelope.source, "why": why}))
+        # What was said before a stop must not run after it, however late it is handled.
+        epoch = self._epoch.value
+        self.post(lambda: self._handle(envelope, epoch))
 
     def lose(self, lease: str) -> None:
         """The source behind `lease` is gone without a goodbye: a loss, and it stops. From any thread."""
@@ -151,12 +151,10 @@ class Motion:
     @property
     def is_busy(self) -> bool:
         """True while anything is moving, queued, being rehearsed, awaited or zeroed."""
-        return bool(self._current or self._jobs or self._inbox or self._zeroing_since_s is not None)
-
-    @property
-    def needs_ticks(self) -> bool:
-        """True while the control loop must run at its full rate."""
-        return self.is_busy
+        unbooked_stop = self._seen_epoch != self._epoch.value
+        return bool(
+            self._current or self._jobs or self._inbox or unbooked_stop or self._zeroing_since_s is not None
+        )
 
     @property
     def has_left(self) -> bool:
@@ -167,8 +165,8 @@ class Motion:
     def sensors(self) -> Sensors:
         return self._sensors
 
-    def handle(self, envelope: Envelope) -> None:
-        """Take in one envelope. Stops have already been heard by the reader; here they are only booked."""
+    def _handle(self, envelope: Envelope, epoch: int) -> None:
+        """One envelope, received in that stop epoch. Stops have been heard already; here they are only booked."""
         if envelope.sequence <= self._sequences.get(envelope.lease, -1):
             return
         self._sequences[envelope.lease] = envelope.sequence
@@ -178,7 +176,7 @@ class Motion:
             term_s = min(float(envelope.payload.get("term_s", LOCAL_TERM_S)), 1.0)
             self._governor.leases.open(envelope.lease, envelope.source, term_s, now_s)
         elif envelope.word == "plan":
-            self._accept(envelope)
+            self._accept(envelope, epoch)
         elif envelope.word == "approve":
             self._approve(envelope.turn, bool(envelope.payload.get("yes")))
         elif envelope.word == "release":
@@ -193,6 +191,7 @@ class Motion:
         self._notice_freeze(now_s)
         self._last_tick_s = now_s
         self._guard.beat()
+        self._book_stop()
         while self._inbox:
             self._inbox.popleft()()
         self._book_stop()
@@ -203,7 +202,7 @@ class Motion:
 
     # --- plans -----------------------------------------------------------------------------------------------
 
-    def _accept(self, envelope: Envelope) -> None:
+    def _accept(self, envelope: Envelope, epoch: int) -> None:
         payload = envelope.payload
         job = Job(
             turn=envelope.turn,
@@ -211,11 +210,14 @@ class Motion:
             plan_text=str(payload.get("plan_text", "")),
             approve=bool(payload.get("approve")),
             rehearse_only=bool(payload.get("rehearse_only")),
-            epoch=self._epoch.value,
+            epoch=epoch,
             received_s=self._clock.now_s(),
         )
         if payload.get("mode") == "replace":
             self._replace()
+        if epoch != self._epoch.value:
+            self._finish_unstarted(job, "stopped", self._stop_reason)
+            return
         if len(self._jobs) >= QUEUE_LIMIT:
             self._finish_unstarted(job, "refused", Reason("queue_full", {"limit": QUEUE_LIMIT}))
             return
@@ -431,9 +433,13 @@ class Motion:
         elif self._current is not None:
             job, self._current = self._current, None
             self._finish_unstarted(job, "stopped", why)
-        for job in self._jobs:
+        self._drop_stopped_jobs(why)
+
+    def _drop_stopped_jobs(self, why: Reason) -> None:
+        """What was said before the stop is dropped; what was said after it stays."""
+        for job in [job for job in self._jobs if job.epoch != self._epoch.value]:
+            self._jobs.remove(job)
             self._finish_unstarted(job, "stopped", why)
-        self._jobs.clear()
 
     def _keep_zeroing(self, now_s: float) -> None:
         since_s = self._zeroing_since_s

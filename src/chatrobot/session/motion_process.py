@@ -108,7 +108,7 @@ class MotionProcess:
         self._wire.close()
 
     def _read(self) -> None:
-        """The joint's reader: hears stops itself, hands everything on."""
+        """The joint's reader: Motion hears a stop in this very thread."""
         while True:
             try:
                 packet = self._line.recv(PACKET_BYTES)
@@ -124,13 +124,9 @@ class MotionProcess:
                 continue
             self._lease = envelope.lease
             self._said_goodbye = self._said_goodbye or envelope.word == "goodbye"
-            self.motion.hear_stop(envelope)
-            self._hand_on(_handler(self.motion, envelope), wake=envelope.word != "beat")
-
-    def _hand_on(self, action: Callable[[], None], wake: bool = True) -> None:
-        self.motion.post(action)
-        if wake:
-            self._wake.set()
+            self.motion.receive(envelope)
+            if envelope.word != "beat":
+                self._wake.set()
 
     def _plan(self) -> None:
         while True:
@@ -166,10 +162,6 @@ class MotionProcess:
 def stop_socket_path(pid: int) -> Path:
     """Where the Motion of that process id listens for `chatrobot stop`."""
     return runtime_dir() / f"motion-{pid}.stop"
-
-
-def _handler(motion: Motion, envelope: Envelope) -> Callable[[], None]:
-    return lambda: motion.handle(envelope)
 
 
 def _connect(path: str) -> LocalWire:

@@ -38,6 +38,7 @@ class SocketJoint:
         self._events: queue.SimpleQueue[Event | None] = queue.SimpleQueue()
         self._closed = threading.Event()
         self.is_lost = False
+        self.beats = True
         ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self._line = ours
         command = [
@@ -84,6 +85,11 @@ class SocketJoint:
     def wake(self) -> None:
         self._events.put(None)
 
+    def abandon(self) -> None:
+        self._closed.set()
+        with contextlib.suppress(OSError):
+            self._line.shutdown(socket.SHUT_RDWR)
+
     def close(self) -> None:
         if self._closed.is_set():
             return
@@ -100,7 +106,8 @@ class SocketJoint:
         while not self._closed.wait(max(0.0, next_s - time.monotonic())):
             next_s = max(next_s + period_s, time.monotonic())
             try:
-                self.send("beat")
+                if self.beats:
+                    self.send("beat")
             except JointError:
                 return
 

@@ -64,7 +64,12 @@ class Understanding:
 
     def note_telemetry(self, event: Telemetry) -> None:
         self._state = RobotState(
-            event.pose, event.twist, event.moving, event.path_m, event.battery_percent, event.nearest_obstacle_m
+            event.pose,
+            event.twist,
+            event.moving,
+            event.path_m,
+            event.battery_percent,
+            event.nearest_obstacle_m,
         )
         if not self._started:
             self._started = True
@@ -83,9 +88,7 @@ class Understanding:
         pending = text if meant.outcome == "unclear" else ""
         self._dialogue = replace(self._dialogue, pending=pending)
 
-    def note_finished(
-        self, text: str, meant: Interpretation, finished: Finished, rehearse_only: bool
-    ) -> str:
+    def note_finished(self, text: str, meant: Interpretation, finished: Finished, rehearse_only: bool) -> str:
         """A plan's turn has ended: remember it as it really went. Returns the reply."""
         if finished.outcome == "completed":
             self._learn(meant)
@@ -110,5 +113,3 @@ class Understanding:
     def _record(self, record: TurnRecord) -> None:
         turns = (*self._dialogue.turns, record)[-REMEMBERED_TURNS:]
         self._dialogue = replace(self._dialogue, turns=turns)
-
-

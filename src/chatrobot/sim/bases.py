@@ -25,9 +25,8 @@ class Base:
         self._turning_radius_m = limits.min_turning_radius_m
         self._top_speed_mps = HARDWARE_MARGIN * limits.max_speed_mps
         self._top_rate_radps = HARDWARE_MARGIN * limits.max_rate_radps
-        self._acceleration_mps2 = HARDWARE_MARGIN * limits.acceleration_mps2
-        # At least what the profile promises, or every braking distance computed from it would be a lie.
-        self._deceleration_mps2 = max(limits.deceleration_mps2, self._acceleration_mps2)
+        # At least what the profile says of braking, or every braking distance computed from it would be a lie.
+        self._acceleration_mps2 = max(HARDWARE_MARGIN * limits.acceleration_mps2, limits.deceleration_mps2)
         self._angular_acceleration_radps2 = HARDWARE_MARGIN * limits.angular_acceleration_radps2
         self._target = ZERO_TWIST
         self.wheel_twist = ZERO_TWIST
@@ -66,8 +65,7 @@ class Base:
         """Up to where the first ramp, linear or angular, ends: how long that takes and what is reached."""
         now, target = self.wheel_twist, self._target
         dvx, dvy, dwz = target.vx_mps - now.vx_mps, target.vy_mps - now.vy_mps, target.wz_radps - now.wz_radps
-        braking = target.speed_mps < now.speed_mps
-        linear_s = math.hypot(dvx, dvy) / (self._deceleration_mps2 if braking else self._acceleration_mps2)
+        linear_s = math.hypot(dvx, dvy) / self._acceleration_mps2
         angular_s = abs(dwz) / self._angular_acceleration_radps2
         ramp_s = min([duration_s, *(needed_s for needed_s in (linear_s, angular_s) if needed_s > 0.0)])
         linear = ramp_s / linear_s if linear_s > ramp_s else 1.0
@@ -84,6 +82,9 @@ class Base:
         vx, vy, wz = twist
         if self._kinematics != "mecanum":
             vy = 0.0
+        largest = max(abs(vx), abs(vy))
+        if largest > self._top_speed_mps:  # first, so that no square of it overflows
+            vx, vy = vx / largest * self._top_speed_mps, vy / largest * self._top_speed_mps
         speed = math.hypot(vx, vy)
         if speed > self._top_speed_mps:
             vx, vy = vx * self._top_speed_mps / speed, vy * self._top_speed_mps / speed

@@ -20,6 +20,9 @@ CONTACT_M = 1e-4
 """How near to a contact a motion is carried; also what a blocked robot must be able to move to count as
 free."""
 
+RELEASE_M = 1e-3
+"""A robot that has moved so far from where it touched something touches it no more."""
+
 
 class Surroundings:
     """The shapes of a world and those added to it, and how far a footprint can go among them."""

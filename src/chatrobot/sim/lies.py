@@ -25,10 +25,10 @@ GYRO_NOISE_RADPS = 0.0009
 """Standard deviation of a gyro sample: 0.05 deg/s rms, total noise of an MPU-6050 (PS-MPU-6000A, 6.1)."""
 ENCODER_NOISE = 0.01
 """Standard deviation of one wheel increment relative to its size; over a metre it averages out to below a
-millimetre. Thrun, Burgard, Fox, Probabilistic Robotics (2005), 5.4, models odometry noise in this
-proportion."""
+millimetre. Proportional to the motion as in Thrun, Burgard, Fox, Probabilistic Robotics (2005), 5.4; the size
+is our choice."""
 LIDAR_NOISE_M = 0.01
-"""Standard deviation of a range: 10 mm, what LDROBOT gives for the LD06 class of hobby lidars."""
+"""Standard deviation of a range: 10 mm, from LDROBOT's data sheet of the LD19 (0.3 to 12 m)."""
 ODOM_JUMP_M = 0.5
 """How far `odom_jump_after_s` makes odometry jump to the left, all at once."""
 

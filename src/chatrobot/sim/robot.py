@@ -9,7 +9,7 @@ from chatrobot.core.clock import Clock
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.bases import Base
-from chatrobot.sim.contact import Surroundings
+from chatrobot.sim.contact import RELEASE_M, Surroundings
 from chatrobot.sim.lidar import SimLidar
 from chatrobot.sim.lies import HONEST, SimLies
 from chatrobot.sim.sensors import Gyro, WheelOdometry
@@ -64,6 +64,7 @@ class SimRobot:
         self._twist = ZERO_TWIST
         self._travelled_m = 0.0
         self._in_contact = False
+        self._contact_pose = ORIGIN
         wire.subscribe(self._wiring.cmd_vel_topic, TwistMessage, self._on_command)
 
     @property
@@ -161,6 +162,8 @@ class SimRobot:
             self._pose = self._pose.moved(body, segment_s * share)
             self._travelled_m += body.speed_mps * segment_s * share
             held = share < 1.0
+            if held:
+                self._contact_pose = self._pose
             if held and self._lies.blocked == "stall":
                 self._base.stall()
                 self._odometry.roll(wheels, segment_s * share)
@@ -179,9 +182,17 @@ class SimRobot:
             share = left_m / path_m if left_m > 0.0 else 0.0
         if not body.is_zero:
             free = self._surroundings.free_share(self._pose, body, duration_s * share)
-            self._set_contact(free < 1.0)
+            if free < 1.0:
+                self._set_contact(True)
+            elif self._in_contact and self._has_left_contact():
+                self._set_contact(False)
             share *= free
         return share
+
+    def _has_left_contact(self) -> bool:
+        turned_rad = abs(self._pose.yaw_rad - self._contact_pose.yaw_rad)
+        moved_m = self._pose.distance_to(self._contact_pose) + turned_rad * self._track_m / 2.0
+        return moved_m > RELEASE_M
 
     def _slipping(self, wheels: Twist) -> Twist:
         """What the body does when the wheels do `wheels`."""

@@ -6,11 +6,10 @@ JSON keeps it readable in a debugger and costs about as much as a hand-made bina
 from __future__ import annotations
 
 import json
-from typing import Any
+from collections.abc import Callable
+from typing import Any, get_type_hints
 
 from chatrobot.wire.messages import MESSAGE_TYPES, Message
-
-_TYPES: dict[bytes, type] = {kind.__name__.encode(): kind for kind in MESSAGE_TYPES}
 
 
 def encode(topic: str, message: Message) -> bytes:
@@ -25,14 +24,54 @@ def topic_of(packet: bytes) -> str:
 
 
 def decode(packet: bytes) -> Message | None:
-    """The message in `packet`; None where it is not one of ours (a wire never dies of a bad packet)."""
+    """The message in `packet`; None where it is not one of ours (a wire never dies of a bad packet).
+
+    What comes out has the types its fields are declared with: who receives a velocity need not ask whether it is
+    a number.
+    """
     _, _, rest = packet.partition(b"\0")
     type_name, _, body = rest.partition(b"\0")
-    kind = _TYPES.get(type_name)
-    if kind is None:
+    known = _KINDS.get(type_name)
+    if known is None:
         return None
+    kind, readers = known
     try:
         fields: Any = json.loads(body)
-        return kind(*fields)  # type: ignore[no-any-return]
-    except (ValueError, TypeError):
+        if type(fields) is not list or len(fields) != len(readers):
+            return None
+        return kind(*[read(value) for read, value in zip(readers, fields)])
+    except (ValueError, TypeError, OverflowError, RecursionError):
         return None
+
+
+def _number(value: Any) -> float:
+    if type(value) is float:
+        return value
+    if type(value) is int:
+        return float(value)
+    raise TypeError("not a number")
+
+
+def _numbers(value: Any) -> list[float]:
+    if type(value) is not list:
+        raise TypeError("not a list")
+    return value if set(map(type, value)) <= {float} else [_number(item) for item in value]
+
+
+def _text(value: Any) -> str:
+    if type(value) is not str:
+        raise TypeError("not text")
+    return value
+
+
+def _flag(value: Any) -> bool:
+    if type(value) is not bool:
+        raise TypeError("neither true nor false")
+    return value
+
+
+_READERS: dict[Any, Callable[[Any], Any]] = {float: _number, list[float]: _numbers, str: _text, bool: _flag}
+_KINDS: dict[bytes, tuple[Callable[..., Message], list[Callable[[Any], Any]]]] = {
+    kind.__name__.encode(): (kind, [_READERS[hint] for hint in get_type_hints(kind).values()])
+    for kind in MESSAGE_TYPES
+}

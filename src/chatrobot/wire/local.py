@@ -20,6 +20,8 @@ from chatrobot.wire.messages import Message
 from chatrobot.wire.wire import M
 
 PACKET_BYTES = 262_144
+_PACKETS_A_TURN = 64
+"""How many packets the hub takes from one process before it looks at the others and at the time."""
 _SUBSCRIBE = b"\0subscribe\0"
 
 
@@ -119,12 +121,15 @@ class LocalHub:
         self._poller = select.poll()
         self._poller.register(self._listener, select.POLLIN)
         self.ever_connected = False
+        self._closed = False
 
     @property
     def client_count(self) -> int:
         return len(self._clients)
 
     def publish(self, topic: str, message: Message) -> None:
+        if self._closed:
+            raise WireError("this end of the wire is closed")
         self._subscriptions.deliver(topic, message)
         packet: bytes | None = None
         for client, topics in tuple(self._clients.values()):
@@ -133,6 +138,8 @@ class LocalHub:
                 self._send(client, packet)
 
     def subscribe(self, topic: str, kind: type[M], callback: Callable[[M], None]) -> None:
+        if self._closed:
+            raise WireError("this end of the wire is closed")
         self._subscriptions.add(topic, kind, callback)
 
     def poll(self, timeout_s: float) -> None:
@@ -144,6 +151,9 @@ class LocalHub:
                 self._receive(descriptor)
 
     def close(self) -> None:
+        if self._closed:
+            return  # by now another hub may serve that path
+        self._closed = True
         for descriptor in tuple(self._clients):
             self._drop(descriptor)
         self._listener.close()
@@ -159,7 +169,7 @@ class LocalHub:
 
     def _receive(self, descriptor: int) -> None:
         client, topics = self._clients[descriptor]
-        while True:
+        for _ in range(_PACKETS_A_TURN):
             try:
                 packet = client.recv(PACKET_BYTES)
             except BlockingIOError:

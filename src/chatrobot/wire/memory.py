@@ -30,7 +30,8 @@ class MemoryWire:
     def publish(self, topic: str, message: Message) -> None:
         if self._closed:
             raise WireError("this end of the wire is closed")
-        for wire, kind, callback in self._hub.subscribers.get(topic, ()):
+        # A copy: a callback may subscribe or close while it is being called.
+        for wire, kind, callback in tuple(self._hub.subscribers.get(topic, ())):
             if type(message) is kind and not wire._closed:
                 callback(message)
 

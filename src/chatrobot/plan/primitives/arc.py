@@ -67,7 +67,11 @@ class ArcPrimitive(Primitive[Arc]):
             return speed
         vx = -speed if step.backward else speed
         wz = vx / step.radius_m if step.left else -vx / step.radius_m
-        return [RampedTwist.within(context.profile.limits, Twist(vx, 0.0, wz), step.angle_rad / abs(wz))]
+        return [
+            RampedTwist.within(
+                context.profile.limits, Twist(vx, 0.0, wz), step.angle_rad * step.radius_m / speed
+            )
+        ]
 
 
 PRIMITIVE = ArcPrimitive()

@@ -77,9 +77,9 @@ class DrivePrimitive(Primitive[Drive]):
         direction = 0.0
         speed: float | None = None
         until: ObstacleWithin | None = None
-        if line.at_end:
+        if line.at_end():
             line.fail_here(f"a distance such as 1 m, a time such as 2 s, {_ALLOWED}")
-        while not line.at_end:
+        while not line.at_end():
             line.accept("for")
             if line.number_follows and distance is None and duration is None:
                 distance, duration = line.length_or_duration()

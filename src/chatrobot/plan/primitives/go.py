@@ -59,7 +59,7 @@ class GoPrimitive(Primitive[Go]):
         yaw: float | None = None
         place = ""
         speed: float | None = None
-        while not line.at_end:
+        while not line.at_end():
             if line.accept("from"):
                 line.expect("start")
                 frame = "start"

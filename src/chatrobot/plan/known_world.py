@@ -1,0 +1,67 @@
+"""What rehearsal and route planning ask of a world and of a governor: protocols, so that neither is imported here."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, Protocol
+
+from chatrobot.core.geometry import Twist
+from chatrobot.robots.profile import Point
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+else:
+    Floats = Any
+
+GovernorKernel = Callable[[Twist, Twist, float], Twist]
+"""(what was sent last, what is asked now, seconds since) -> what may be sent now. Pure."""
+
+
+class Area(Protocol):
+    """A simple polygon, metres."""
+
+    @property
+    def points(self) -> Sequence[Point]: ...
+
+
+class Bounds(Protocol):
+    """A box along the axes, metres."""
+
+    @property
+    def min_x_m(self) -> float: ...
+    @property
+    def min_y_m(self) -> float: ...
+    @property
+    def max_x_m(self) -> float: ...
+    @property
+    def max_y_m(self) -> float: ...
+
+
+class KnownWorld(Protocol):
+    """What is known to stand around the robot, in the odom frame."""
+
+    @property
+    def is_empty(self) -> bool:
+        """Nothing is known to stand anywhere."""
+        ...
+
+    @property
+    def allowed_area(self) -> Area | None:
+        """Where the robot has to stay, if anybody said so."""
+        ...
+
+    @property
+    def bounds(self) -> Bounds | None:
+        """The box that holds all that is known; None in an empty world."""
+        ...
+
+    def clearance_m(self, points: Floats) -> Floats:
+        """Metres from each of [n, 2] points to the nearest obstacle, never more than it is; negative inside."""
+        ...
+
+    def obstacle_name_at(self, x_m: float, y_m: float) -> str:
+        """The name of the obstacle nearest to a point; empty where nobody knows one."""
+        ...

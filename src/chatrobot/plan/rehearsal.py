@@ -1,0 +1,274 @@
+"""Drives a plan in thought, before a wheel turns: the same walk, the same trajectory, the same governor.
+
+What comes out is where the robot would be at every moment, how long it takes, and whether anything speaks against
+it: something in the way of the swept footprint, a way out of the allowed area, a step this robot cannot do.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from chatrobot.core.geometry import Pose, Twist
+from chatrobot.core.reason import Reason
+from chatrobot.plan.context import Impossible, LoweringContext, RoutePlanner
+from chatrobot.plan.core_motion import Pause, RampedTwist
+from chatrobot.plan.findings import Finding, Severity
+from chatrobot.plan.governed_path import TICK_S, GovernorCheck, pose_of
+from chatrobot.plan.known_world import Floats, GovernorKernel, KnownWorld
+from chatrobot.plan.lowering import CoreWalk, PlannedMotion, iterate_core
+from chatrobot.plan.rounding import round_corners
+from chatrobot.plan.sampling import sample_poses, sample_ramp, tick_times
+from chatrobot.plan.steps import Plan
+from chatrobot.plan.sweep import Clearance, area_clearance, first_contact, free_ahead_m
+from chatrobot.plan.trajectory import Segment
+from chatrobot.robots.profile import RobotProfile
+
+MAX_DURATION_S = 3600.0
+MAX_EXTENT_M = 1000.0
+MARGIN_M = 0.02
+PAUSE_SPACING_S = 0.05
+
+
+@dataclass(frozen=True)
+class StepEnd:
+    """Where and when one step (repeats counted out) is predicted to end."""
+
+    index: tuple[int, ...]
+    number: int
+    t_s: float
+    pose: Pose
+
+
+@dataclass(frozen=True, eq=False)
+class Rehearsal:
+    """What a plan would do.
+
+    `plan` is the one to run (corners may have been rounded for a base that steers). `path` is [n, 4] of t_s, x_m,
+    y_m, yaw_rad in the odom frame, at most 50 ms apart, up to the end or to the first step that cannot be done.
+    """
+
+    plan: Plan
+    context: LoweringContext
+    path: Floats
+    length_m: float
+    findings: tuple[Finding, ...]
+    steps: tuple[StepEnd, ...]
+
+    @property
+    def ok(self) -> bool:
+        """Nothing was found that refuses it."""
+        return self.refusal is None
+
+    @property
+    def refusal(self) -> Finding | None:
+        """The first finding that refuses it."""
+        return next((finding for finding in self.findings if finding.severity == "refuse"), None)
+
+    @property
+    def duration_s(self) -> float:
+        return float(self.path[-1, 0])
+
+    @property
+    def end_pose(self) -> Pose:
+        return pose_of(self.path[-1])
+
+    def walk(self) -> CoreWalk:
+        """The very motions that were rehearsed, for the executor."""
+        return iterate_core(self.plan, self.context)
+
+
+def rehearse(
+    plan: Plan,
+    profile: RobotProfile,
+    world: KnownWorld | None,
+    start_pose: Pose,
+    governor: GovernorKernel,
+    *,
+    plan_start: Pose | None = None,
+    route_planner: RoutePlanner | None = None,
+) -> Rehearsal:
+    """Rehearse `plan` from `start_pose` (odom frame).
+
+    Args:
+        world: what is known to stand around; None where nothing is.
+        governor: what will stand between executor and robot; its kernel, made for this profile.
+        plan_start: what the frame `start` means, if the plan is the continuation of one that began elsewhere.
+        route_planner: for `go`; by default a grid search in `world`.
+    """
+    planner = route_planner
+    if planner is None and world is not None and not world.is_empty:
+        from chatrobot.plan.route import GridRoutePlanner
+
+        planner = GridRoutePlanner(world, profile)
+    context = LoweringContext(
+        profile, start_pose, plan_start if plan_start is not None else start_pose, planner
+    )
+    rounded = round_corners(plan, profile)
+    run = _Run(rounded.plan, context, world, governor)
+    run.findings += [
+        Finding(note.severity, note.reason, note.index, 0.0, start_pose) for note in rounded.notes
+    ]
+    if not any(finding.severity == "refuse" for finding in run.findings):
+        run.drive()
+    return run.result()
+
+
+@dataclass(frozen=True)
+class _Leg:
+    """Rows of the path that belong to one motion of one step."""
+
+    item: PlannedMotion
+    rows: Floats
+
+
+class _Run:
+    """One rehearsal: walks the plan, collects rows and findings, then sweeps the footprint along all of it."""
+
+    def __init__(
+        self, plan: Plan, context: LoweringContext, world: KnownWorld | None, governor: GovernorKernel
+    ) -> None:
+        self.plan = plan
+        self.context = context
+        self.world = world if world is not None and not world.is_empty else None
+        self.area = world.allowed_area if world is not None else None
+        self.governor = GovernorCheck(governor)
+        self.findings: list[Finding] = []
+        self.legs: list[_Leg] = []
+        self.steps: list[StepEnd] = []
+        self.t_s = 0.0
+
+    def drive(self) -> None:
+        walk = iterate_core(self.plan, self.context)
+        for item in walk:
+            if isinstance(item, Impossible):
+                self._find("refuse", item.reason, item.index, walk.pose)
+                break
+            if not self._is_within_bounds(item):
+                break
+            if isinstance(item.motion, RampedTwist):
+                self._move(walk, item, item.motion)
+            elif isinstance(item.motion, Pause):
+                times = self.t_s + tick_times(item.motion.duration_s, PAUSE_SPACING_S)
+                self._add(item, np.column_stack((times, np.tile(item.start, (len(times), 1)))))
+            if item.last:
+                self.steps.append(StepEnd(item.index, item.number, self.t_s, walk.pose))
+        self._sweep()
+
+    def result(self) -> Rehearsal:
+        rows = [np.array([[0.0, *self.context.pose]]), *(leg.rows for leg in self.legs)]
+        path = np.concatenate(rows)
+        length_m = float(np.hypot(*np.diff(path[:, 1:3], axis=0).T).sum())
+        findings = tuple(sorted(self.findings, key=lambda finding: finding.t_s))
+        return Rehearsal(self.plan, self.context, path, length_m, findings, tuple(self.steps))
+
+    def _find(
+        self,
+        severity: Severity,
+        reason: Reason,
+        index: tuple[int, ...],
+        where: Pose,
+        t_s: float | None = None,
+    ) -> None:
+        at_s = self.t_s if t_s is None else t_s
+        self.findings.append(Finding(severity, reason, index, at_s, where))
+
+    def _is_within_bounds(self, item: PlannedMotion) -> bool:
+        if isinstance(item.motion, RampedTwist):
+            duration_s = Segment(item.motion, item.start).total_s
+        else:
+            duration_s = item.motion.duration_s if isinstance(item.motion, Pause) else 0.0
+        if self.t_s + duration_s > MAX_DURATION_S:
+            values = {"duration_s": self.t_s + duration_s, "max_s": MAX_DURATION_S}
+            self._find("refuse", Reason("too_long", values), item.index, item.start)
+            return False
+        distance_m = item.end.distance_to(self.context.pose)
+        if distance_m > MAX_EXTENT_M:
+            values = {"distance_m": distance_m, "max_m": MAX_EXTENT_M}
+            self._find("refuse", Reason("too_far", values), item.index, item.start)
+            return False
+        return True
+
+    def _add(self, item: PlannedMotion, rows: Floats) -> None:
+        self.legs.append(_Leg(item, rows))
+        self.t_s = float(rows[-1, 0])
+
+    def _move(self, walk: CoreWalk, item: PlannedMotion, motion: RampedTwist) -> None:
+        segment = Segment(motion, item.start)
+        if motion.until is not None:
+            segment = self._until(segment, motion.until.distance_m, item)
+            walk.ended_at(segment.end_pose)
+        if motion.asked is not None:
+            self._find("note", _limited(motion.asked, motion.twist), item.index, item.start)
+        changed = self.governor.changed(segment)
+        if changed is not None:
+            sent, rows = changed
+            self._find("note", _limited(motion.twist, sent), item.index, item.start)
+            walk.ended_at(pose_of(rows[-1]))
+        else:
+            times = tick_times(segment.total_s, TICK_S)
+            rows = np.column_stack((times, sample_poses(segment, sample_ramp(segment.ramp, times)[0])))
+        rows[:, 0] += self.t_s
+        self._add(item, rows)
+
+    def _until(self, segment: Segment, distance_m: float, item: PlannedMotion) -> Segment:
+        """The segment as it will be if the lidar sees what is known, and nothing else."""
+        twist, lidar = segment.motion.twist, self.context.profile.lidar
+        if lidar is not None:
+            distance_m = min(distance_m, lidar.max_range_m)
+        most_m = twist.speed_mps * segment.ramp.hold_s
+        free_m = math.inf
+        if self.world is not None:
+            direction_rad = math.atan2(twist.vy_mps, twist.vx_mps)
+            footprint, clearance = self.context.profile.footprint, self.world.clearance_m
+            reach_m = most_m + distance_m
+            free_m = free_ahead_m(segment.start, footprint, direction_rad, clearance, reach_m)
+            free_m = math.inf if free_m >= reach_m else free_m
+        if math.isinf(free_m):
+            self._find("note", Reason("no_obstacle_known", {"distance_m": most_m}), item.index, item.start)
+            return segment
+        hold_s = max(0.0, free_m - distance_m) / twist.speed_mps
+        return Segment(
+            RampedTwist(twist, min(hold_s, segment.ramp.hold_s), segment.motion.ramp_per_s), segment.start
+        )
+
+    def _sweep(self) -> None:
+        if not self.legs:
+            return
+        rows = np.concatenate([leg.rows for leg in self.legs])
+        if self.world is not None:
+            self._check(rows, "would_collide", self.world.clearance_m, MARGIN_M)
+        if self.area is not None:
+            self._check(rows, "leaves_area", area_clearance(self.area.points), 0.0)
+
+    def _check(self, rows: Floats, code: str, clearance: Clearance, margin_m: float) -> None:
+        solid = code == "would_collide"
+        footprint = self.context.profile.footprint
+        contact = first_contact(rows[:, 1:], footprint, clearance, margin_m, core_stays_clear=solid)
+        if contact is None:
+            return
+        ends = np.cumsum([len(leg.rows) for leg in self.legs])
+        leg = self.legs[int(np.searchsorted(ends, contact.row, side="right"))]
+        item, row = leg.item, rows[contact.row]
+        driven = np.hypot(*np.diff(rows[: contact.row + 1, 1:3], axis=0).T)
+        first_row = int(ends[self.legs.index(leg)]) - len(leg.rows)
+        values: dict[str, float | int | str] = {
+            "distance_m": float(driven[first_row:].sum()),
+            "total_m": float(driven.sum()),
+        }
+        name = self.world.obstacle_name_at(contact.x_m, contact.y_m) if self.world is not None else ""
+        if solid and name:
+            values["obstacle"] = name
+        self._find("refuse", Reason(code, values), item.index, pose_of(row), float(row[0]))
+
+
+def _limited(asked: Twist, possible: Twist) -> Reason:
+    values: dict[str, float | int | str] = {
+        "asked_mps": asked.speed_mps,
+        "possible_mps": possible.speed_mps,
+        "asked_radps": abs(asked.wz_radps),
+        "possible_radps": abs(possible.wz_radps),
+    }
+    return Reason("limited", values)

@@ -1,0 +1,269 @@
+"""A way around what is known: grid search where the robot's circle fits, then as few straight legs as it allows.
+
+The search is A* (Hart, Nilsson and Raphael, 1968) on cells of the clearance map, eight neighbours each. A step costs
+more the nearer it passes to something, so that the way goes through the middle of doors; legs are then pulled
+straight wherever that comes no nearer to anything than the way did.
+"""
+
+from __future__ import annotations
+
+import heapq
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from chatrobot.core.geometry import Pose
+from chatrobot.core.reason import Reason
+from chatrobot.plan.context import NoRoute, Route
+from chatrobot.plan.known_world import Floats, KnownWorld
+from chatrobot.robots.profile import Point, RobotProfile
+
+RESOLUTION_M = 0.05
+MAX_CELLS = 250_000
+BORDER_M = 1.0
+"""How far beyond everything known, and beyond start and goal, a way may lead."""
+
+MARGIN_M = 0.03
+COMFORT_M = 0.3
+"""Clearance beyond the robot's own circle above which more of it is worth nothing."""
+
+CLOSE_COST = 3.0
+"""A cell at the very edge of fitting costs this much more than one with comfort."""
+
+NEAR_PLACE_M = 0.6
+"""How far from a named place its nearest free point may be, and how far the start's own tightness is excused."""
+
+LEG_SPACING_M = 0.025
+
+
+@dataclass(frozen=True)
+class _Grid:
+    """Clearance [ny, nx] at cell (i, j), which is the point (x0 + j * size, y0 + i * size)."""
+
+    x0_m: float
+    y0_m: float
+    size_m: float
+    clearance_m: Floats
+
+    def cell(self, x_m: float, y_m: float) -> tuple[int, int]:
+        ny, nx = self.clearance_m.shape
+        j = min(nx - 1, max(0, round((x_m - self.x0_m) / self.size_m)))
+        i = min(ny - 1, max(0, round((y_m - self.y0_m) / self.size_m)))
+        return i, j
+
+    def point(self, i: int, j: int) -> Point:
+        return self.x0_m + j * self.size_m, self.y0_m + i * self.size_m
+
+    def distance_to(self, x_m: float, y_m: float) -> Floats:
+        """Metres from every cell to a point, [ny, nx]."""
+        ny, nx = self.clearance_m.shape
+        dx = self.x0_m + self.size_m * np.arange(nx) - x_m
+        dy = self.y0_m + self.size_m * np.arange(ny) - y_m
+        distance: Floats = np.hypot(dx[None, :], dy[:, None])
+        return distance
+
+
+class GridRoutePlanner:
+    """Plans in one world for one robot.
+
+    Args:
+        world: what is known.
+        profile: whose footprint has to fit. Its whole circle does, so that the robot can turn anywhere on its way.
+    """
+
+    def __init__(self, world: KnownWorld, profile: RobotProfile) -> None:
+        self._world = world
+        self._needed_m = profile.footprint_radius_m + MARGIN_M
+        self._inner_m = _inscribed_radius(profile.footprint)
+        self._grids: dict[tuple[int, int, int, int], _Grid] = {}
+
+    def route(self, start: Pose, goal: Point, *, named_place: bool) -> Route | NoRoute:
+        """Waypoints from `start` to `goal`, both in the odom frame.
+
+        At a named place with something in it, the route ends at the nearest free point within 0.6 m. Otherwise
+        `target_blocked` (clearance_m there, needed_m) or `no_route` is the answer.
+        """
+        if self._world.is_empty:
+            return Route((goal,))
+        goal_m = self._clearance_at(goal)
+        is_tight = goal_m < (self._needed_m if named_place else self._inner_m)
+        if not is_tight and self._leg_fits((start.x_m, start.y_m), goal):
+            return Route((goal,))
+        if not self._is_searchable(start, goal):
+            return NoRoute(Reason("no_route", {"distance_m": _length((start.x_m, start.y_m), goal)}))
+        grid = self._grid(start, goal)
+        if is_tight:
+            free = self._nearest_free(grid, goal) if named_place else None
+            if free is None:
+                return NoRoute(Reason("target_blocked", {"clearance_m": goal_m, "needed_m": self._needed_m}))
+            goal = free
+        cells = self._search(grid, start, goal)
+        if cells is None:
+            return NoRoute(Reason("no_route", {"distance_m": _length((start.x_m, start.y_m), goal)}))
+        points = [(start.x_m, start.y_m), *(grid.point(*cell) for cell in cells[1:-1]), goal]
+        return Route(tuple(self._pulled_straight(points)[1:]))
+
+    def _clearance_at(self, point: Point) -> float:
+        return float(self._world.clearance_m(np.array([point]))[0])
+
+    def _is_searchable(self, start: Pose, goal: Point) -> bool:
+        """Not when start and goal are so far apart that a grid over both would have cells larger than the robot."""
+        span_m = _length((start.x_m, start.y_m), goal) + 2.0 * BORDER_M
+        return span_m * span_m / MAX_CELLS < self._inner_m**2 / 4.0
+
+    def _grid(self, start: Pose, goal: Point) -> _Grid:
+        """Over everything within a border of start, goal and what is known; kept for the next question."""
+        low, high = self._extent
+        box = (
+            math.floor(min(low[0], start.x_m, goal[0]) - BORDER_M),
+            math.floor(min(low[1], start.y_m, goal[1]) - BORDER_M),
+            math.ceil(max(high[0], start.x_m, goal[0]) + BORDER_M),
+            math.ceil(max(high[1], start.y_m, goal[1]) + BORDER_M),
+        )
+        if box not in self._grids:
+            self._grids.clear()
+            self._grids[box] = self._build(box)
+        return self._grids[box]
+
+    @cached_property
+    def _extent(self) -> tuple[Point, Point]:
+        bounds = self._world.bounds
+        if bounds is None:
+            return (math.inf, math.inf), (-math.inf, -math.inf)
+        return (bounds.min_x_m, bounds.min_y_m), (bounds.max_x_m, bounds.max_y_m)
+
+    def _build(self, box: tuple[int, int, int, int]) -> _Grid:
+        x0, y0, x1, y1 = box
+        size_m = max(RESOLUTION_M, math.sqrt((x1 - x0) * (y1 - y0) / MAX_CELLS))
+        xs, ys = np.arange(x0, x1 + size_m, size_m), np.arange(y0, y1 + size_m, size_m)
+        points = np.stack(np.meshgrid(xs, ys), axis=2)
+        clearance = self._world.clearance_m(points.reshape(-1, 2)).reshape(len(ys), len(xs))
+        return _Grid(float(x0), float(y0), size_m, clearance)
+
+    def _nearest_free(self, grid: _Grid, goal: Point) -> Point | None:
+        distance = np.where(grid.clearance_m >= self._needed_m, grid.distance_to(*goal), np.inf)
+        i, j = np.unravel_index(int(distance.argmin()), distance.shape)
+        return grid.point(int(i), int(j)) if distance[i, j] <= NEAR_PLACE_M else None
+
+    def _search(self, grid: _Grid, start: Pose, goal: Point) -> list[tuple[int, int]] | None:
+        """Cells from start to goal. Around both the robot may be as tight as it is there, but not tighter."""
+        fits = grid.clearance_m >= self._needed_m
+        for point in ((start.x_m, start.y_m), goal):
+            tight_m = min(self._needed_m, self._clearance_at(point)) - 0.5 * grid.size_m
+            fits |= (grid.distance_to(*point) <= NEAR_PLACE_M) & (grid.clearance_m >= tight_m)
+        spare = np.clip((grid.clearance_m - self._needed_m) / COMFORT_M, 0.0, 1.0)
+        cost = np.where(fits, 1.0 + CLOSE_COST * (1.0 - spare), np.inf)
+        ends = [grid.cell(start.x_m, start.y_m), grid.cell(*goal)]
+        for i, j in ends:
+            cost[i, j] = min(cost[i, j], 1.0 + CLOSE_COST)
+        return _a_star(cost, ends[0], ends[1])
+
+    def _leg_fits(self, start: Point, end: Point, least_m: float | None = None) -> bool:
+        """The robot's circle passes from `start` to `end` (near both, as tight as it is there)."""
+        needed_m = self._needed_m if least_m is None else least_m
+        along, clearance = self._along(start, end)
+        first, last = clearance[0], clearance[-1]
+        length = along[-1]
+        needed = np.full(len(along), needed_m)
+        needed[along <= NEAR_PLACE_M] = min(needed_m, first - 0.01)
+        near_end = length - along <= NEAR_PLACE_M
+        needed[near_end] = np.minimum(needed[near_end], min(needed_m, last - 0.01))
+        return bool((clearance >= needed).all())
+
+    def _along(self, start: Point, end: Point) -> tuple[Floats, Floats]:
+        """Distances from `start` and clearances, each [n], along a straight leg."""
+        length = _length(start, end)
+        count = min(MAX_CELLS, max(2, math.ceil(length / LEG_SPACING_M) + 1))
+        share = np.linspace(0.0, 1.0, count)
+        points = np.column_stack(
+            (start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1]))
+        )
+        return share * length, self._world.clearance_m(points)
+
+    def _pulled_straight(self, points: list[Point]) -> list[Point]:
+        """From each point on to the farthest one that a leg reaches without coming nearer to anything."""
+        clearance = self._world.clearance_m(np.array(points))
+        comfort_m = self._needed_m + COMFORT_M
+        pulled = [points[0]]
+        at = 0
+        while at < len(points) - 1:
+            low, high = at + 1, len(points) - 1
+            for candidate in _candidates(low, high):
+                tightest_m = min(comfort_m, float(clearance[at : candidate + 1].min()))
+                least_m = max(self._needed_m, tightest_m - 0.02)
+                if self._leg_fits(points[at], points[candidate], least_m):
+                    low = candidate
+                    break
+            pulled.append(points[low])
+            at = low
+        return pulled
+
+
+def _candidates(low: int, high: int) -> list[int]:
+    """Indices to try, farthest first, in steps that shrink towards `low`."""
+    found, gap = [], high - low
+    while gap > 0:
+        found.append(low + gap)
+        gap = min(gap - 1, int(gap * 0.9))
+    return found
+
+
+def _length(start: Point, end: Point) -> float:
+    return math.hypot(end[0] - start[0], end[1] - start[1])
+
+
+def _inscribed_radius(footprint: tuple[Point, ...]) -> float:
+    """Of the largest circle about (0, 0) inside a convex polygon."""
+    edges = zip(footprint, footprint[1:] + footprint[:1])
+    return min(abs(ax * by - ay * bx) / math.hypot(bx - ax, by - ay) for (ax, ay), (bx, by) in edges)
+
+
+def _a_star(cost: Floats, start: tuple[int, int], goal: tuple[int, int]) -> list[tuple[int, int]] | None:
+    """The cheapest way over cells of [ny, nx] costs (infinite: closed), or None. Costs are at least 1 a cell."""
+    width = cost.shape[1] + 2
+    padded = np.full((cost.shape[0] + 2, width), np.inf)
+    padded[1:-1, 1:-1] = cost
+    costs: list[float] = padded.ravel().tolist()
+    diagonal = math.sqrt(2.0)
+    moves = (
+        (1, 1.0), (-1, 1.0), (width, 1.0), (-width, 1.0),
+        (width + 1, diagonal), (width - 1, diagonal), (-width + 1, diagonal), (-width - 1, diagonal),
+    )  # fmt: skip
+    rows, columns = np.indices(padded.shape)
+    away_i, away_j = np.abs(rows - goal[0] - 1), np.abs(columns - goal[1] - 1)
+    to_go: list[float] = (
+        (np.maximum(away_i, away_j) + (diagonal - 1.0) * np.minimum(away_i, away_j)).ravel().tolist()
+    )
+    first, last = (start[0] + 1) * width + start[1] + 1, (goal[0] + 1) * width + goal[1] + 1
+    came_from = [-1] * len(costs)
+    best = [math.inf] * len(costs)
+    best[first] = 0.0
+    queue = [(to_go[first], first)]
+    done = bytearray(len(costs))
+    while queue:
+        _, here = heapq.heappop(queue)
+        if here == last:
+            return _trace(came_from, last, width)
+        if done[here]:
+            continue
+        done[here] = 1
+        so_far = best[here]
+        for offset, length in moves:
+            there = here + offset
+            total = so_far + length * costs[there]
+            if total < best[there]:
+                best[there] = total
+                came_from[there] = here
+                heapq.heappush(queue, (total + to_go[there], there))
+    return None
+
+
+def _trace(came_from: list[int], last: int, width: int) -> list[tuple[int, int]]:
+    cells = []
+    here = last
+    while here >= 0:
+        cells.append((here // width - 1, here % width - 1))
+        here = came_from[here]
+    return cells[::-1]

@@ -1,0 +1,92 @@
+"""From plan text to something that may run: read, rehearsed from where the robot stands, in the world that is known."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from chatrobot.core.errors import PlanTextError
+from chatrobot.core.events import FindingSeen, Rehearsed
+from chatrobot.core.geometry import Pose
+from chatrobot.core.reason import Reason
+from chatrobot.governor.kernel import make_kernel
+from chatrobot.plan.lowering import CoreWalk
+from chatrobot.plan.rehearsal import Rehearsal, rehearse
+from chatrobot.plan.route import GridRoutePlanner
+from chatrobot.plan.text import parse_plan
+from chatrobot.robots.profile import RobotProfile
+from chatrobot.sim.world import World
+
+DRAWN_POINTS = 400
+"""The path an event carries is thinned to about this many points: enough for any screen."""
+
+
+@dataclass(frozen=True)
+class Planned:
+    """A plan that was rehearsed, or the reason why it could not even be read."""
+
+    turn: int
+    rehearsal: Rehearsal | None
+    unreadable: Reason | None = None
+
+    @property
+    def ok(self) -> bool:
+        return self.rehearsal is not None and self.rehearsal.ok
+
+    @property
+    def refusal(self) -> Reason | None:
+        """Why it may not run."""
+        if self.rehearsal is None:
+            return self.unreadable
+        return self.rehearsal.refusal.reason if self.rehearsal.refusal is not None else None
+
+    @property
+    def duration_s(self) -> float:
+        return self.rehearsal.duration_s if self.rehearsal is not None else 0.0
+
+    def walk(self) -> CoreWalk:
+        """The very motions that were rehearsed."""
+        assert self.rehearsal is not None
+        return self.rehearsal.walk()
+
+    def event(self, needs_approval: bool) -> Rehearsed:
+        """What the faces show of it."""
+        rehearsal = self.rehearsal
+        if rehearsal is None:
+            return Rehearsed(self.turn, False, 0.0, 0.0, Pose())
+        findings = tuple(
+            FindingSeen(self.turn, found.severity, found.reason, tuple(i + 1 for i in found.index), found.t_s)
+            for found in rehearsal.findings
+        )
+        stride = max(1, len(rehearsal.path) // DRAWN_POINTS)
+        rows = [*rehearsal.path[:-1:stride].tolist(), rehearsal.path[-1].tolist()]
+        return Rehearsed(
+            self.turn,
+            rehearsal.ok,
+            rehearsal.duration_s,
+            rehearsal.length_m,
+            rehearsal.end_pose,
+            findings,
+            tuple((row[1], row[2], row[3]) for row in rows),
+            needs_approval,
+        )
+
+
+class Planner:
+    """Plans for one robot in one world. The first call for a furnished world computes its distance field."""
+
+    def __init__(self, profile: RobotProfile, world: World) -> None:
+        self._profile = profile
+        self._world = world
+        self._kernel = make_kernel(profile)
+        self._routes = None if world.is_empty else GridRoutePlanner(world, profile)
+
+    def plan(self, turn: int, plan_text: str, start: Pose) -> Planned:
+        """Read and rehearse `plan_text` from `start` (odom frame). Never raises for what a person or model wrote."""
+        try:
+            plan = parse_plan(plan_text)
+        except PlanTextError as error:
+            return Planned(turn, None, Reason("plan_text", {"problem": str(error)}))
+        rehearsal = rehearse(
+            plan, self._profile, self._world, start, self._kernel, route_planner=self._routes
+        )
+        return Planned(turn, rehearsal)

@@ -1,0 +1,133 @@
+from __future__ import annotations
+
+import itertools
+import statistics
+import time
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from tests.plan.robots import MECANUM
+from tests.plan.worlds import NOTHING, BoxWorld, flat
+
+from chatrobot.core.geometry import ORIGIN, Pose
+from chatrobot.plan.context import NoRoute, Route
+from chatrobot.plan.route import GridRoutePlanner
+
+ROUND = replace(
+    MECANUM, footprint=((0.1768, -0.1768), (0.1768, 0.1768), (-0.1768, 0.1768), (-0.1768, -0.1768))
+)
+"""Its circle has a radius of 0.25 m."""
+
+
+def route(
+    world: BoxWorld, goal: tuple[float, float], start: Pose = ORIGIN, *, named: bool = False
+) -> Route | NoRoute:
+    return GridRoutePlanner(world, ROUND).route(start, goal, named_place=named)
+
+
+def along(start: Pose, found: Route) -> np.ndarray:
+    points = np.array([(start.x_m, start.y_m), *found.waypoints])
+    legs = [np.linspace(a, b, 200) for a, b in itertools.pairwise(points)]
+    return np.concatenate(legs)
+
+
+def test_an_empty_world_is_crossed_in_a_straight_line() -> None:
+    assert route(NOTHING, (500.0, 500.0)) == Route(((500.0, 500.0),))
+
+
+def test_a_free_straight_leg_needs_no_search() -> None:
+    assert route(flat(), (0.0, 3.0)) == Route(((0.0, 3.0),))
+
+
+def test_a_door_of_eighty_centimetres_is_passed_in_its_middle_in_few_legs() -> None:
+    world = flat()
+    found = route(world, (6.0, 0.0))
+    assert isinstance(found, Route)
+    assert found.waypoints[-1] == (6.0, 0.0)
+    assert len(found.waypoints) <= 5
+    path = along(ORIGIN, found)
+    assert world.clearance_m(path).min() > 0.25 + 0.02
+    in_door = path[np.abs(path[:, 0] - 4.0) < 0.05]
+    assert np.abs(in_door[:, 1] - 3.0).max() < 0.08
+
+
+def test_a_flat_is_searched_in_fifty_milliseconds() -> None:
+    world = flat()
+    took = []
+    for _ in range(7):
+        planner = GridRoutePlanner(world, ROUND)
+        began = time.perf_counter()
+        planner.route(ORIGIN, (6.0, 0.0), named_place=False)
+        took.append(time.perf_counter() - began)
+    assert statistics.median(took) < 0.100, "fifty on an idle machine; this leaves room for a busy one"
+
+
+def test_no_way_is_said_and_not_forced() -> None:
+    found = route(flat(door_m=0.45), (6.0, 0.0))
+    assert isinstance(found, NoRoute)
+    assert found.reason.code == "no_route"
+
+
+def test_a_point_inside_something_is_refused_but_a_place_there_is_approached() -> None:
+    blocked = route(flat(), (2.0, 1.5))
+    assert isinstance(blocked, NoRoute)
+    assert blocked.reason.code == "target_blocked"
+    place = route(flat(), (2.0, 1.5), named=True)
+    assert isinstance(place, Route)
+    end = place.waypoints[-1]
+    assert 0.0 < np.hypot(end[0] - 2.0, end[1] - 1.5) <= 0.6
+    assert flat().clearance_m(np.array([end]))[0] >= 0.25
+
+
+def test_a_place_deep_inside_something_is_blocked_all_the_same() -> None:
+    found = route(BoxWorld([(1.0, -2.0, 5.0, 2.0)]), (3.0, 0.0), named=True)
+    assert isinstance(found, NoRoute)
+    assert found.reason.code == "target_blocked"
+
+
+def test_a_robot_parked_at_a_wall_finds_its_way_out_and_back() -> None:
+    parked = Pose(-1.0 + 0.2, 0.0, 0.0)
+    assert isinstance(route(flat(), (6.0, 0.0), parked), Route)
+    assert isinstance(route(flat(), (parked.x_m, parked.y_m), Pose(6, 0, 0)), Route)
+
+
+def test_a_goal_absurdly_far_behind_a_wall_is_refused_without_a_grid() -> None:
+    found = route(flat(), (1e6, 0.0))
+    assert isinstance(found, NoRoute)
+
+
+def test_the_same_question_gets_the_same_answer() -> None:
+    planner = GridRoutePlanner(flat(), ROUND)
+    first = planner.route(ORIGIN, (6.0, 0.0), named_place=False)
+    planner.route(Pose(6, 0, 0), (0.0, 4.0), named_place=False)
+    assert planner.route(ORIGIN, (6.0, 0.0), named_place=False) == first
+
+
+boxes = st.tuples(st.floats(-3, 3), st.floats(-3, 3), st.floats(0.1, 1.5), st.floats(0.1, 1.5)).map(
+    lambda b: (b[0], b[1], b[0] + b[2], b[1] + b[3])
+)
+points = st.tuples(st.floats(-4, 4), st.floats(-4, 4))
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(boxes, min_size=1, max_size=8), points, points)
+def test_a_route_never_leads_through_anything(
+    found_boxes: list[tuple[float, float, float, float]],
+    start: tuple[float, float],
+    goal: tuple[float, float],
+) -> None:
+    world = BoxWorld(found_boxes)
+    ends = world.clearance_m(np.array([start, goal]))
+    assume(ends.min() > 0.29)
+    found = route(world, goal, Pose(*start))
+    if isinstance(found, Route):
+        assert found.waypoints[-1] == goal
+        assert world.clearance_m(along(Pose(*start), found)).min() >= 0.24
+
+
+@pytest.mark.parametrize("goal", [(6.0, 0.0), (6.5, 4.5), (4.0, 3.0), (-0.5, 4.5)])
+def test_every_corner_of_the_flat_is_reached(goal: tuple[float, float]) -> None:
+    assert isinstance(route(flat(), goal), Route)

@@ -1,0 +1,110 @@
+"""The two joints, made alike for the contract: simulated time in one thread, real time in processes."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, Protocol
+
+from chatrobot.core.clock import VirtualClock
+from chatrobot.core.events import Event, Finished
+from chatrobot.robots.load import load_profile
+from chatrobot.session.guard_link import SimulatedGuard
+from chatrobot.session.joint import Joint, SimulatedJoint
+from chatrobot.session.motion import Motion
+from chatrobot.session.planner import Planner
+from chatrobot.session.socket_joint import SocketJoint
+from chatrobot.sim.lies import SimLies
+from chatrobot.sim.robot import SimRobot
+from chatrobot.sim.world import load_world
+from chatrobot.wire.local import LocalWire
+from chatrobot.wire.memory import MemoryHub
+from chatrobot.wire.messages import TwistMessage
+
+PROFILE = "wheeltec_mini_mec"
+
+
+class JointRig(Protocol):
+    """A joint to a robot in the empty world, and an ear on its wire."""
+
+    joint: Joint
+    velocities: list[TwistMessage]
+
+    def close(self) -> None: ...
+
+
+class SimulatedRig:
+    """Everything in this thread."""
+
+    def __init__(self, _folder: Path) -> None:
+        profile, clock, hub = load_profile(PROFILE), VirtualClock(), MemoryHub()
+        self.velocities: list[TwistMessage] = []
+        self.robot = SimRobot(
+            profile, load_world("empty"), SimLies.parse(""), wire=hub.connect(), clock=clock
+        )
+        hub.connect().subscribe("cmd_vel", TwistMessage, self.velocities.append)
+        wire, guard = hub.connect(), SimulatedGuard(clock)
+
+        def build(emit: Callable[[Event], None]) -> Motion:
+            planner = Planner(profile, load_world("empty"))
+            return Motion(profile, wire, clock, planner, guard, emit, lambda job: job())
+
+        self.joint: Joint = SimulatedJoint(
+            build, wire, clock, self.robot.step, guard, hub.connect(), "cmd_vel"
+        )
+        self.joint.next_event(0.3)
+
+    def close(self) -> None:
+        self.joint.close()
+
+
+class ProcessRig:
+    """The simulated robot, Motion and its guard in processes of their own."""
+
+    def __init__(self, folder: Path) -> None:
+        from chatrobot.compose import Setup, spawn_simulated_robot
+
+        path = folder / "robot.wire"
+        self._robot = spawn_simulated_robot(Setup(world="empty"), PROFILE, path)
+        joint = SocketJoint(str(path), PROFILE, "empty")
+        joint.wait_until_ready()
+        self.joint: Joint = joint
+        self.velocities: list[TwistMessage] = []
+        self._ear = LocalWire(path)
+        self._ear.subscribe("cmd_vel", TwistMessage, self.velocities.append)
+
+    def close(self) -> None:
+        self.joint.close()
+        self._ear.close()
+        self._robot.terminate()
+        self._robot.wait(10.0)
+
+
+def events_until(rig: JointRig, wanted: Callable[[Event], bool], patience_s: float = 30.0) -> list[Event]:
+    """All events up to the first wanted one."""
+    seen: list[Event] = []
+    deadline_s = time.monotonic() + patience_s
+    while time.monotonic() < deadline_s:
+        event = rig.joint.next_event(0.1)
+        if event is not None:
+            seen.append(event)
+            if wanted(event):
+                return seen
+    raise AssertionError(f"the event did not come; last seen: {seen[-3:]}")
+
+
+def finished(rig: JointRig, turn: int) -> Finished:
+    """The end of a turn."""
+    last = events_until(rig, lambda event: isinstance(event, Finished) and event.turn == turn)[-1]
+    assert isinstance(last, Finished)
+    return last
+
+
+def send_plan(rig: JointRig, turn: int, plan_text: str, mode: str = "queue", **more: Any) -> None:
+    rig.joint.send("plan", turn, plan_text=plan_text, mode=mode, **more)
+
+
+def moving(rig: JointRig, turn: int) -> None:
+    """Wait until that turn's motion shows in odometry."""
+    events_until(rig, lambda event: event.turn == turn and event.name == "progress" and event.pose.x_m > 0.05)  # type: ignore[attr-defined]

@@ -1,0 +1,33 @@
+"""docs/simulation.md says what the program does."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from pathlib import Path
+
+import pytest
+
+from chatrobot.sim.lies import SimLies
+from chatrobot.sim.world_file import parse_world
+
+DOCS = (Path(__file__).parents[2] / "docs" / "simulation.md").read_text(encoding="utf-8")
+
+
+def test_the_example_world_can_be_loaded() -> None:
+    (example,) = re.findall(r"```yaml\n(.*?)```", DOCS, re.DOTALL)
+    world = parse_world(example, "the example")
+    assert world.name == "workshop"
+    assert len(world.obstacles) == 4
+    assert world.place("工作台") is not None
+    assert world.allowed_area is not None
+
+
+@pytest.mark.parametrize("key", [field.name for field in dataclasses.fields(SimLies)])
+def test_every_lie_is_described(key: str) -> None:
+    assert f"| `{key}` |" in DOCS
+
+
+@pytest.mark.parametrize("options", re.findall(r"--sim ([a-z_]+=[^\s`]*\d)", DOCS))
+def test_the_lies_of_the_examples_are_understood(options: str) -> None:
+    assert SimLies.parse(options) != SimLies()
