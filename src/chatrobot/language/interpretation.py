@@ -2,39 +2,53 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
+from chatrobot import reflex
+from chatrobot.language import forms, questions
 from chatrobot.language.clauses import read_frames
-from chatrobot.language.context import Context
-from chatrobot.language.lexicon import Key, Meaning, lexicon
+from chatrobot.language.context import Context, Dialogue
+from chatrobot.language.corrections import corrected, without_negated
+from chatrobot.language.dialogue import refer, state_after
+from chatrobot.language.frames import Frame
+from chatrobot.language.lexicon import Key, Meaning, cut, lexicon
 from chatrobot.language.manner import Pace
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
+from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.quantities import read_quantities
-from chatrobot.language.script import write
+from chatrobot.language.script import Memory, write
 from chatrobot.language.tidy import tidy
-from chatrobot.language.tokens import tokenise
+from chatrobot.language.tokens import Atom, tokenise
+from chatrobot.language.tutorial_form import read_twist
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Plan
+from chatrobot.plan.steps import Go, Plan, Remember, Step
 from chatrobot.robots.profile import RobotProfile
 
 LanguageCode = Literal["en", "zh"]
+Outcome = Literal["plan", "stop", "unclear", "refused", "answered"]
+
+_BREAKS = re.compile(r"(?<!\d)[,.;!?](?!\d)|(?<=\d)[,.;!?](?=\s|$)|[,.;!?]\s|,|\n|\b(?:and then|then|and)\b|然后|接着|再|并且|并|之后")
 
 
 @dataclass(frozen=True)
 class Interpretation:
-    """What an utterance means. `unaccounted` is the part that nothing explains; the last fields are for memory:
+    """What an utterance means.
 
-    they hold from the moment the session accepts the turn.
+    `unaccounted` is the part that nothing explains. `append`: it goes on where the running motion ends. The last
+    five are for the dialogue's memory and hold from the moment the session accepts the turn; `remember_place` is
+    where the robot stands now.
     """
 
-    outcome: Literal["plan", "stop", "unclear", "refused", "answered"]
+    outcome: Outcome
     reply: str
     language: LanguageCode
     plan: Plan | None = None
     append: bool = False
     unaccounted: str = ""
+    code: str = ""
     define: Mapping[str, Plan] = field(default_factory=dict)
     remember_place: str = ""
     default_speed_mps: float | None = None
@@ -51,18 +65,208 @@ class OfflineInterpreter:
         """What `text` means in this context. Never raises, whatever the text."""
         language: LanguageCode = "zh" if has_chinese(text[:MAX_CHARACTERS]) else "en"
         if len(text) > MAX_CHARACTERS:
-            return Interpretation("unclear", "too long", language)
-        plain = normalise(text)
+            return Interpretation("unclear", say(language, "too_long", characters=len(text)), language, code="too_long")
         try:
-            atoms = tidy(read_quantities(tokenise(plain, lexicon(), self._names(context))))
-            steps = write(read_frames(atoms), self._pace(context))
-            return Interpretation("plan", "ok", language, Plan(tuple(steps)))
+            return _Reading(text, language, context, self._profile).interpretation()
         except Unclear as problem:
-            outcome: Literal["unclear", "refused"] = "refused" if problem.refused else "unclear"
-            return Interpretation(outcome, f"{problem.code} {problem.part}", language, unaccounted=problem.part)
+            return _asked_back(problem, language)
 
-    def _pace(self, context: Context) -> Pace:
-        return Pace(self._profile, context.dialogue.default_speed_mps, context.dialogue.default_rate_radps)
 
-    def _names(self, context: Context) -> dict[Key, Meaning]:
-        return {}
+def _asked_back(problem: Unclear, language: LanguageCode) -> Interpretation:
+    outcome: Outcome = "refused" if problem.refused else "unclear"
+    reply = say(language, problem.code, part=problem.part)
+    return Interpretation(outcome, reply, language, unaccounted=problem.part, code=problem.code)
+
+
+class _Reading:
+    """One utterance in its context."""
+
+    def __init__(self, text: str, language: LanguageCode, context: Context, profile: RobotProfile) -> None:
+        self.text, self.language, self.context, self.profile = text, language, context, profile
+        self.plain = normalise(text)
+        dialogue = context.dialogue
+        self.pace = Pace(profile, dialogue.default_speed_mps, dialogue.default_rate_radps)
+
+    def interpretation(self) -> Interpretation:
+        if not self.plain:
+            raise Unclear("empty")
+        twist = read_twist(self.plain)
+        if twist is not None:
+            return self._plan([twist])
+        if reflex.is_stop(self.text) or reflex.is_stop(self.plain):
+            return Interpretation("stop", say(self.language, "stop"), self.language)
+        definition = forms.read_definition(self.plain, self.language)
+        if definition is not None:
+            return self._defined(definition)
+        answered = self._remembering() or self._pending()
+        if answered is not None:
+            return answered
+        return self._command(self.plain)
+
+    def _defined(self, definition: forms.Definition) -> Interpretation:
+        inner = self._command(definition.body)
+        if inner.plan is None:
+            return inner
+        reply = say(self.language, "defined", name=definition.name, text=describe_plan(inner.plan, self.language))
+        return Interpretation("answered", reply, self.language, define={definition.name: inner.plan})
+
+    def _remembering(self) -> Interpretation | None:
+        """Clauses that name the place where the robot stands, before, after or between motions."""
+        whole = forms.read_place(self.plain, self.language)
+        if whole and not _BREAKS.search(self.plain.strip(" ,.!;?")):
+            return self._placed([Remember(whole)])
+        clauses = _clauses(self.plain)
+        names = [forms.read_place(clause, self.language) for clause in clauses]
+        if not any(names):
+            return self._placed([Remember(whole)]) if whole else None
+        steps: list[Step] = []
+        pending = ""
+        for k, (clause, name) in enumerate(zip(clauses, names)):
+            if name is None:
+                pending += clause
+                continue
+            steps += self._steps(pending)
+            pending = ""
+            following = names[k + 1] if k + 1 < len(names) else None
+            if not (name == forms.UNNAMED and following):
+                steps.append(Remember(name))
+        return self._placed([*steps, *self._steps(pending)])
+
+    def _placed(self, steps: list[Step]) -> Interpretation:
+        if len(steps) == 1 and isinstance(steps[0], Remember):
+            reply = say(self.language, "step_remember", place=steps[0].place)
+            return Interpretation("answered", reply, self.language, remember_place=steps[0].place)
+        return self._plan(steps)
+
+    def _steps(self, clause: str) -> list[Step]:
+        atoms = self._atoms(clause)
+        if all(a.kind in ("sep", "conn", "filler", "glue", "reason") for a in atoms):
+            return []
+        inner = self._command(clause)
+        if inner.plan is None:
+            raise Unclear(inner.code or "unknown_part", inner.unaccounted or clause.strip(), refused=inner.outcome == "refused")
+        return list(inner.plan.steps)
+
+    def _pending(self) -> Interpretation | None:
+        """A fragment answers what was asked back about the turn before."""
+        pending = self.context.dialogue.pending
+        if not pending or len(pending) + len(self.plain) > MAX_CHARACTERS:
+            return None
+        atoms = tidy(self._atoms(self.plain))
+        if any(a.kind in ("verb", "shape", "place") for a in atoms if a.text not in ("say",)):
+            return None
+        before = normalise(pending)
+        for joined in (f"{before} {self.plain}", f"{before}, {self.plain}"):
+            try:
+                found = self._command(joined)
+            except Unclear:
+                continue
+            if found.outcome == "plan":
+                return found
+        return None
+
+    def _command(self, plain: str) -> Interpretation:
+        atoms = self._atoms(plain)
+        asks = questions.is_question(plain, self.language)
+        ability = questions.asks_ability(plain, self.language)
+        refusal = next((a for a in atoms if a.kind == "refuse"), None)
+        if asks and refusal is None or (refusal is None and ability):
+            found = self._question(plain, atoms, ability)
+            if found is not None:
+                return found
+        if refusal is not None:
+            if ability and plain.endswith("?"):
+                return Interpretation("answered", say(self.language, "answer_cannot"), self.language)
+            raise Unclear(f"refuse_{refusal.value}", refusal.text, refused=True)
+        frames = read_frames(tidy(without_negated(corrected(atoms))))
+        default = self._default(frames)
+        if default is not None:
+            return default
+        steps = refer(frames, self.context, self.pace) or write(frames, self.pace, self._memory())
+        return self._plan(steps, append=_appends(atoms))
+
+    def _question(self, plain: str, atoms: list[Atom], ability: bool) -> Interpretation | None:
+        """The answer, unless it is a command put as a question."""
+        try:
+            frames = read_frames(tidy(without_negated(corrected(atoms))))
+            steps = refer(frames, self.context, self.pace) or write(frames, self.pace, self._memory())
+            if steps and any(f.moves or f.has_extent for f in frames):
+                return None
+        except Unclear:
+            pass
+        topic = questions.topic_of(plain, self.language)
+        if not topic and ability:
+            topic = "ability"
+        if not topic:
+            return None
+        reply = questions.answer(topic, self.language, self.context, self.profile)
+        return Interpretation("answered", reply, self.language)
+
+    def _default(self, frames: list[Frame]) -> Interpretation | None:
+        """`From now on drive at 10 cm/s`."""
+        if not frames or not any("from_now_on" in frame.flags for frame in frames):
+            return None
+        if len(frames) > 1 or frames[0].has_extent or frames[0].direction or frames[0].shape:
+            raise Unclear("unclear_motion", frames[0].text)
+        frame = frames[0]
+        turning = frame.turning or "rate" in frame.q
+        speed = None if turning else self.pace.speed(frame)
+        rate = self.pace.rate(frame) if turning else None
+        if speed is None and rate is None:
+            raise Unclear("unclear_motion", frame.text)
+        code, values = ("default_set", {"mps": speed}) if speed is not None else ("default_rate_set", {"radps": rate})
+        reply = say(self.language, code, **{k: f"{v:.3g}" for k, v in values.items() if v is not None})
+        return Interpretation("answered", reply, self.language, default_speed_mps=speed, default_rate_radps=rate)
+
+    def _plan(self, steps: list[Step], *, append: bool = False) -> Interpretation:
+        try:
+            plan = Plan(tuple(steps))
+        except ValueError:
+            raise Unclear("nothing_to_do") from None
+        return Interpretation("plan", describe_plan(plan, self.language), self.language, plan, append)
+
+    def _atoms(self, plain: str) -> list[Atom]:
+        return read_quantities(tokenise(plain, lexicon(), self._names()))
+
+    def _names(self) -> dict[Key, Meaning]:
+        dialogue = self.context.dialogue
+        names: dict[Key, Meaning] = {}
+        for name in (*self.context.world_places, *dialogue.places):
+            names[cut(normalise(name))] = (("place", name),)
+        for word in dialogue.words:
+            names[cut(normalise(word))] = (("defined", word),)
+        if forms.UNNAMED in dialogue.places:
+            for written in ("that place", "the place you remembered", "that spot", "the marked spot", "那个地方", "记住的地方", "刚才记住的地方", "the saved spot", "the saved place", "the marked place", "那个位置", "the remembered place", "the remembered spot", "the spot you remembered", "刚才记住的位置", "记住的位置"):
+                names[cut(written)] = (("place", forms.UNNAMED),)
+        return names
+
+    def _memory(self) -> Memory:
+        dialogue: Dialogue = self.context.dialogue
+        places = {name: Go(p.x_m, p.y_m, place=name) for name, p in self.context.world_places.items()}
+        for name, place in dialogue.places.items():
+            if place.usable:
+                places[name] = Go(place.pose.x_m, place.pose.y_m, place=name)
+        words = {name: plan.steps for name, plan in dialogue.words.items()}
+        return Memory(places, words, replace(state_after(self.context)))
+
+
+def _clauses(text: str) -> list[str]:
+    """The text cut before and after each break, nothing lost."""
+    parts, at = [], 0
+    for found in _BREAKS.finditer(text):
+        parts.append(text[at : found.start()])
+        parts.append(found.group())
+        at = found.end()
+    parts.append(text[at:])
+    merged: list[str] = []
+    for part in parts:
+        if merged and not part.strip():
+            merged[-1] += part
+        else:
+            merged.append(part)
+    return merged
+
+
+def _appends(atoms: list[Atom]) -> bool:
+    first = next((a for a in atoms if a.kind != "filler"), None)
+    return first is not None and first.kind == "conn"

@@ -14,7 +14,7 @@ from typing import Any
 from chatrobot.language.data_files import LANGUAGES, expand, load_table
 
 FILES = (
-    "numbers", "units", "motion", "shapes", "dialogue", "refusals", "questions", "corrections", "filler",
+    "numbers", "units", "motion", "shapes", "dialogue", "refusals", "corrections", "filler",
 )  # fmt: skip
 UNIT = re.compile(
     r"\d+(?:,\d{3})+(?:\.\d+)?(?![\d,])|\d*\.?\d+(?:e[+-]?\d+)?(?![\d])|[a-zà-ÿ]+(?:'[a-z]+)*|\S|\n"

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 from chatrobot.language.actions import State, act
 from chatrobot.language.clauses import is_times_only
@@ -10,9 +11,16 @@ from chatrobot.language.frames import STILL, Frame
 from chatrobot.language.manner import Pace
 from chatrobot.language.shapes import draw
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import MAX_REPEAT, Repeat, Say, Step, Turn, Wait
+from chatrobot.plan.steps import MAX_REPEAT, Go, Repeat, Say, Step, Turn, Wait
 
-Words = dict[str, tuple[Step, ...]]
+
+@dataclass
+class Memory:
+    """What this dialogue knows: places by name, words that a person defined, and what the last motion left."""
+
+    places: Mapping[str, Go] = field(default_factory=dict)
+    words: Mapping[str, tuple[Step, ...]] = field(default_factory=dict)
+    state: State = field(default_factory=State)
 
 
 @dataclass
@@ -20,6 +28,7 @@ class Script:
     """The steps so far, a unit a clause (a repeated clause counts once a time)."""
 
     pace: Pace
+    memory: Memory
     units: list[list[Step]] = field(default_factory=list)
     state: State = field(default_factory=State)
 
@@ -27,7 +36,7 @@ class Script:
         return [step for unit in self.units for step in unit]
 
 
-def write(frames: list[Frame], pace: Pace) -> list[Step]:
+def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
     """The steps of an utterance.
 
     Raises:
@@ -35,7 +44,7 @@ def write(frames: list[Frame], pace: Pace) -> list[Step]:
     """
     frames = _shared(frames)
     count, frames = _leading_count(frames)
-    script = Script(pace)
+    script = Script(pace, memory, state=memory.state)
     i = 0
     while i < len(frames):
         i = _take(script, frames, i)
@@ -109,9 +118,22 @@ def _act(script: Script, frame: Frame) -> None:
         raise Unclear("how_long_a_step", frame.q["count"].text)
     if "times" in frame.q:
         count *= _count(Frame(q={"times": frame.q["times"]}))
-    steps = act(each, script.state, script.pace)
+    steps = _known(each, script) or act(each, script.state, script.pace)
     script.state.steps.extend(steps * count)
     script.units.extend([steps] * count if steps else [])
+
+
+def _known(frame: Frame, script: Script) -> list[Step]:
+    """The steps of a word that was defined, or the way to a place that was named; else none."""
+    if frame.verb == "defined":
+        return list(script.memory.words[frame.words])
+    if not frame.place:
+        return []
+    if frame.verb not in ("", "go", "return", "make", "shift", "halt") or frame.has_extent or frame.rot:
+        raise Unclear("unclear_motion", frame.text)
+    go = script.memory.places[frame.place]
+    script.state.last = "go"
+    return [replace(go, speed_mps=script.pace.speed(frame))]
 
 
 def _finish(script: Script, frame: Frame, units: list[list[Step]]) -> None:

@@ -1,0 +1,137 @@
+"""Corrections inside a sentence: `left, sorry, I mean right`; and negations: `don't turn left. turn right.`"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from chatrobot.language.frames import EXTENTS, Frame
+from chatrobot.language.tokens import Atom
+from chatrobot.language.unclear import Unclear
+
+_NO = frozenset({"no", "nope", "不", "wait", "sorry", "oops", "whoops", "等等", "no no", "rather"})
+_PIECE = ("dir", "rot", "q", "pace", "verb", "shape")
+
+
+def corrected(atoms: Sequence[Atom]) -> list[Atom]:
+    """The atoms as if they had been said right at once."""
+    out = list(atoms)
+    while True:
+        at = next((i for i in range(len(out)) if _is_correction(out, i)), None)
+        if at is None:
+            return out
+        before, after = out[:at], out[at + 1 :]
+        if out[at].kind == "correction" and out[at].value == "cancel":
+            if not any(a.kind in _PIECE for a in after):
+                raise Unclear("taken_back", out[at].text)
+            out = after
+        else:
+            out = _replaced(_trimmed(before), after)
+
+
+def _is_correction(atoms: list[Atom], i: int) -> bool:
+    atom = atoms[i]
+    if atom.kind == "correction":
+        if atom.text in ("rather", "wrong", "make it", "还是", "算了", "不是", "应该是"):
+            return i > 0 and any(a.kind in _PIECE for a in atoms[:i])
+        return True
+    if atom.text not in _NO or atom.kind not in ("filler", "negation", "verb", "glue"):
+        return False
+    if not any(a.kind in _PIECE for a in atoms[:i]) or atoms[i - 1].kind not in ("sep", "filler"):
+        return False
+    following = atoms[i + 1 :]
+    if atom.kind == "negation" or atom.text in ("no", "nope", "不"):
+        return bool(following) and following[0].kind in ("sep", "dir", "rot", "q", "verb", "filler")
+    # `sorry, right`: only where a lone piece follows.
+    real = [a for a in following if a.kind not in ("sep", "filler", "glue")]
+    return atom.text in ("sorry", "oops", "whoops") and bool(real) and real[0].kind in ("dir", "rot", "q")
+
+
+def _trimmed(atoms: list[Atom]) -> list[Atom]:
+    while atoms and atoms[-1].kind in ("sep", "filler", "glue", "conn"):
+        atoms = atoms[:-1]
+    return atoms
+
+
+def _replaced(before: list[Atom], after: list[Atom]) -> list[Atom]:
+    start = 0
+    while start < len(after) and after[start].kind in ("sep", "filler", "glue", "negation", "correction"):
+        start += 1
+    end = start
+    while end < len(after) and not (
+        (after[end].kind == "sep" and after[end].value != "paren") or (after[end].kind == "conn" and after[end].value == "then")
+    ):
+        end += 1
+    said, rest = after[start:end], after[end:]
+    pieces = [a for a in said if a.kind in _PIECE]
+    if not pieces:
+        raise Unclear("unknown_part", " ".join(a.text for a in after[:end]))
+    if _is_clause(pieces):
+        return [*before[: _last_clause(before)], *said, *rest]
+    out = list(before)
+    added: list[Atom] = []
+    for piece in pieces:
+        at = _same_kind(out, piece)
+        if at is None:
+            added.append(piece)
+        else:
+            out[at] = piece
+    return [*out, *added, *rest]
+
+
+def _is_clause(pieces: list[Atom]) -> bool:
+    has_way = any(a.kind in ("dir", "rot") for a in pieces)
+    has_verb = any(a.kind in ("verb", "shape") for a in pieces)
+    has_extent = any(a.kind == "q" and a.value in EXTENTS for a in pieces)
+    return (has_verb and (has_way or has_extent)) or (has_way and has_extent)
+
+
+def _last_clause(atoms: list[Atom]) -> int:
+    """Where the clause that is corrected begins: after the last break that has a motion behind it."""
+    end = len(atoms)
+    for i in range(len(atoms) - 1, -1, -1):
+        breaks = atoms[i].kind == "conn" or (atoms[i].kind == "sep" and atoms[i].value != "paren")
+        if breaks and any(a.kind in ("verb", "dir", "rot", "shape") for a in atoms[i:end]):
+            return i + 1
+    return 0
+
+
+def _same_kind(atoms: list[Atom], piece: Atom) -> int | None:
+    for i in range(len(atoms) - 1, -1, -1):
+        atom = atoms[i]
+        if atom.kind == piece.kind == "q" and (atom.value in (piece.value, "number") or {atom.value, piece.value} <= {"angle", "turns"}):
+            return i
+        sideways = piece.kind in ("dir", "rot") and atom.kind in ("dir", "rot")
+        if sideways or (atom.kind == piece.kind and piece.kind in ("pace", "verb", "shape")):
+            return i
+    return None
+
+
+def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
+    """The atoms without what is forbidden. What is left must be a command of its own.
+
+    Raises:
+        Unclear: where nothing is left, or an amount is negated.
+    """
+    out: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        if atoms[i].kind != "negation":
+            out.append(atoms[i])
+            i += 1
+            continue
+        scope, end = Frame(), i + 1
+        while end < len(atoms) and atoms[end].kind not in ("sep", "conn", "negation"):
+            atom = atoms[end]
+            if atom.kind in ("unknown", "refuse", "condition") or (atom.kind == "q" and atom.value in EXTENTS):
+                raise Unclear("unknown_part", " ".join(a.text for a in atoms[i : end + 1]))
+            if atom.kind not in ("glue", "filler") and not scope.add(atom):
+                break
+            if atom.text == "but":
+                break
+            end += 1
+        if not scope.moves and not scope.pace and not scope.flags:
+            raise Unclear("unknown_part", " ".join(a.text for a in atoms[i:end]))
+        i = end
+    if len(out) < len(atoms) and not any(a.kind in ("verb", "dir", "rot", "shape") for a in out):
+        raise Unclear("only_forbidden", " ".join(a.text for a in atoms))
+    return out

@@ -1,0 +1,66 @@
+"""Sentences with a free name in them: words that a person defines, places to remember."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+from typing import NamedTuple
+
+from chatrobot.language.data_files import load_table
+
+UNNAMED = "★"
+"""The name of a place that was remembered without one: it is what `that place` means."""
+
+
+class Definition(NamedTuple):
+    """A word and the text of what it means."""
+
+    name: str
+    body: str
+
+
+@lru_cache(maxsize=None)
+def _patterns(language: str, name: str) -> tuple[re.Pattern[str], ...]:
+    return tuple(re.compile(p) for p in load_table(language, "dialogue_forms")[name])
+
+
+@lru_cache(maxsize=None)
+def _pattern(language: str, name: str) -> re.Pattern[str]:
+    return re.compile(load_table(language, "dialogue_forms")[name])
+
+
+def read_definition(text: str, language: str) -> Definition | None:
+    """`When I say shuffle, you slide left 30 cm`."""
+    for pattern in _patterns(language, "define"):
+        found = pattern.fullmatch(text.strip())
+        if found:
+            name = found["name"].strip(" ,.:'\"")
+            if name and not _pattern(language, "name_stop").search(name):
+                return Definition(name, found["body"].strip(" \"'”」"))
+    return None
+
+
+def read_place(clause: str, language: str) -> str | None:
+    """The name a clause gives to where the robot stands; UNNAMED for none; None if it is no such clause."""
+    plain = clause.strip(" ,.!;:。")
+    lead = _pattern(language, "lead")
+    while (shorter := lead.sub("", plain, count=1)) != plain:
+        plain = shorter
+    for pattern in _patterns(language, "remember_unnamed"):
+        if pattern.fullmatch(plain):
+            return UNNAMED
+    for pattern in _patterns(language, "remember"):
+        found = pattern.fullmatch(plain)
+        name = _trimmed(found["name"], language) if found else ""
+        if name:
+            return name
+    return None
+
+
+def _trimmed(name: str, language: str) -> str:
+    trim = _pattern(language, "name_trim")
+    name = name.strip(" \"'“”「」『』.,!。")
+    while (shorter := trim.sub("", name).strip(" \"'“”「」『』.,!。")) != name and shorter:
+        name = shorter
+    words = len(name.split()) if name.isascii() else len(name) / 3
+    return "" if words > 4 or _pattern(language, "name_stop").search(name) else name

@@ -1,0 +1,105 @@
+"""Codes → sentences in the language of the question, from the phrase tables of the data folder."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from functools import lru_cache
+
+from chatrobot.core.reason import Reason, Value
+from chatrobot.language.data_files import load_table
+from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, RawTwist, Remember, Repeat, Say, Step, Turn, Wait
+
+_SHOWN = 6
+"""Steps of a plan that are spelt out in a reply; the rest is counted."""
+
+
+@lru_cache(maxsize=None)
+def _phrases(language: str) -> dict[str, str]:
+    return {str(key): str(value) for key, value in load_table(language, "phrases").items()}
+
+
+class _Formatted(dict[str, Value]):
+    def __missing__(self, key: str) -> str:
+        return f"{{{key}}}"
+
+
+def say(language: str, code: str, **values: Value) -> str:
+    """The phrase of that code. An unknown code is printed with its values rather than hidden."""
+    template = _phrases(language).get(code) or _phrases("en").get(code)
+    if template is None:
+        listed = ", ".join(f"{name}={_shown(value)}" for name, value in values.items())
+        return f"{code} ({listed})" if listed else code
+    try:
+        return template.format_map(_Formatted(values))
+    except (ValueError, TypeError):
+        return template
+
+
+def _shown(value: Value) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def render_reason(reason: Reason, language: str) -> str:
+    """A reason in words."""
+    return say(language, reason.code, **dict(reason.values))
+
+
+def describe_plan(plan: Plan, language: str) -> str:
+    """One short line: what is going to happen."""
+    return describe_steps(plan.steps, language)
+
+
+def describe_steps(steps: Iterable[Step], language: str) -> str:
+    """The steps in short words, the first few of them."""
+    listed = [_step(step, language) for step in steps]
+    text = say(language, "join").join(listed[:_SHOWN])
+    return text if len(listed) <= _SHOWN else say(language, "and_more", text=text, count=len(listed) - _SHOWN)
+
+
+def _way(direction_rad: float) -> str:
+    names = ("forward", "forward_left", "left", "back_left", "back", "back_right", "right", "forward_right")
+    return f"way_{names[round(direction_rad / (math.pi / 4)) % 8]}"
+
+
+def _number(value: float) -> str:
+    return f"{value:.3g}"
+
+
+def _step(step: Step, language: str) -> str:
+    def spoken(code: str, **values: Value) -> str:
+        return say(language, code, **values)
+
+    if isinstance(step, Drive):
+        way = spoken(_way(step.direction_rad))
+        if step.distance_m is not None:
+            text = spoken("step_drive", way=way, m=_number(step.distance_m))
+        elif step.duration_s is not None:
+            text = spoken("step_drive_time", way=way, s=_number(step.duration_s))
+        else:
+            text = spoken("step_drive_until", way=way)
+        return text + (spoken("step_speed", mps=_number(step.speed_mps)) if step.speed_mps else "")
+    if isinstance(step, Turn):
+        side = spoken("way_left" if step.left else "way_right")
+        if step.angle_rad is not None:
+            return spoken("step_turn", side=side, deg=_number(math.degrees(step.angle_rad)))
+        return spoken("step_turn_time", side=side, s=_number(step.duration_s or 0.0))
+    if isinstance(step, Arc):
+        side = spoken("way_left" if step.left else "way_right")
+        return spoken("step_arc", side=side, m=_number(step.radius_m), deg=_number(math.degrees(step.angle_rad)))
+    if isinstance(step, RawTwist):
+        return spoken(
+            "step_twist", vx=_number(step.vx_mps), vy=_number(step.vy_mps), wz=_number(step.wz_radps), s=_number(step.duration_s)
+        )
+    if isinstance(step, Go):
+        return spoken("step_go", place=step.place or spoken("the_start" if step.frame == "start" else "the_point"))
+    if isinstance(step, Face):
+        return spoken("step_face")
+    if isinstance(step, Wait):
+        return spoken("step_wait", s=_number(step.duration_s))
+    if isinstance(step, Say):
+        return step.text
+    if isinstance(step, Remember):
+        return spoken("step_remember", place=step.place)
+    assert isinstance(step, Repeat)
+    return spoken("step_repeat", count=step.count, text=describe_steps(step.steps, language))

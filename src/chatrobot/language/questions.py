@@ -1,0 +1,70 @@
+"""Questions about the robot's state and abilities: what is asked, and the words that answer it."""
+
+from __future__ import annotations
+
+import math
+import re
+from functools import lru_cache
+
+from chatrobot.language.context import Context
+from chatrobot.language.data_files import load_table
+from chatrobot.language.phrases import say
+from chatrobot.robots.profile import RobotProfile
+
+
+@lru_cache(maxsize=None)
+def _topics(language: str) -> tuple[tuple[str, re.Pattern[str]], ...]:
+    return tuple((n, re.compile(p)) for n, p in load_table(language, "questions")["topics"].items())
+
+
+@lru_cache(maxsize=None)
+def _pattern(language: str, name: str) -> re.Pattern[str]:
+    return re.compile(load_table(language, "questions")[name])
+
+
+def is_question(text: str, language: str) -> bool:
+    """Whether a normalised text asks something (a polite request asks for nothing)."""
+    return _pattern(language, "ask").search(text) is not None
+
+
+def asks_ability(text: str, language: str) -> bool:
+    """`Can you …?`: a question, unless a full command follows."""
+    found = _pattern(language, "ability_ask")
+    if language == "zh":
+        return found.search(text) is not None and re.search(r"[?？吗]|会不会|能不能", text) is not None
+    return found.search(text) is not None
+
+
+def topic_of(text: str, language: str) -> str:
+    """What a question is about, or an empty string."""
+    return next((name for name, pattern in _topics(language) if pattern.search(text)), "")
+
+
+def answer(topic: str, language: str, context: Context, profile: RobotProfile) -> str:
+    """The answer in words; says so where something is not known."""
+    state = context.state
+    pose = state.pose.relative_to(context.dialogue.start_pose)
+    values: dict[str, float | int | str] = {
+        "x_m": pose.x_m,
+        "y_m": pose.y_m,
+        "yaw_deg": math.degrees(math.remainder(pose.yaw_rad, 2 * math.pi)),
+        "speed_mps": math.hypot(state.twist.vx_mps, state.twist.vy_mps),
+        "path_m": state.path_m,
+        "max_speed_mps": profile.limits.max_speed_mps,
+        "max_rate_radps": profile.limits.max_rate_radps,
+        "default_speed_mps": context.dialogue.default_speed_mps or profile.defaults.speed_mps,
+        "title": profile.title,
+        "places": ", ".join(sorted({*context.dialogue.places, *context.world_places})) or "-",
+        "last": context.dialogue.turns[-1].text if context.dialogue.turns else "-",
+    }
+    if topic == "battery":
+        if state.battery_percent is None:
+            return say(language, "answer_battery_unknown")
+        values["percent"] = state.battery_percent
+    if topic == "obstacle":
+        if state.obstacle_m is None:
+            return say(language, "answer_obstacle_unknown")
+        values["distance_m"] = state.obstacle_m
+    if topic == "moving":
+        return say(language, "answer_moving" if state.moving else "answer_standing", **values)
+    return say(language, f"answer_{topic}", **values)

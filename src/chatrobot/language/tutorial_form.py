@@ -1,0 +1,143 @@
+"""Raw velocities: the tutorial's line (`linear.x = 1,linear.y = 0,…`, one second) and other engineers' notations."""
+
+from __future__ import annotations
+
+import math
+import re
+from functools import lru_cache
+
+from chatrobot.language.data_files import LANGUAGES, expand, load_table
+from chatrobot.language.lexicon import Key, cut, lexicon
+from chatrobot.language.numbers import is_kind
+from chatrobot.language.quantities import read_quantities
+from chatrobot.language.tokens import Atom, tokenise
+from chatrobot.language.unclear import Unclear
+from chatrobot.plan.steps import RawTwist
+
+_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?"
+_ASSIGNMENT = rf"(linear|angular)\s*\.\s*([xyz])\s*=\s*({_NUMBER}|[-+]?(?:inf|nan)\w*)"
+_LINE = re.compile(rf"\s*[\"'“]?\s*{_ASSIGNMENT}(?:\s*[,，;]\s*{_ASSIGNMENT})*\s*[.,;，]?\s*[\"'”]?\s*")
+_BLOCK = re.compile(r"['\"]?(linear|angular)['\"]?\s*:\s*\{([^{}]*)\}")
+_ENTRY = re.compile(rf"['\"]?([xyz])['\"]?\s*:\s*({_NUMBER})")
+_AXES = ("vx", "vy", "wz")
+
+
+def read_twist(text: str) -> RawTwist | None:
+    """The raw velocity that `text` (normalised) is, or None where it is something else.
+
+    Raises:
+        Unclear: for a raw velocity that cannot be: not finite, out of the plane, or without a duration.
+    """
+    if "\n" not in text.strip() and _LINE.fullmatch(text):
+        found = [(f"{g}.{axis}", value) for g, axis, value in re.findall(_ASSIGNMENT, text)]
+        return _twist({name: float(value) for name, value in found}, 1.0)
+    blocks = _BLOCK.findall(text)
+    if blocks:
+        return _blocks(text, blocks)
+    if not any(mark in text for mark in _marks()):
+        return None
+    return _spoken(text)
+
+
+def _twist(values: dict[str, float], seconds: float) -> RawTwist:
+    if not all(math.isfinite(v) for v in values.values()):
+        raise Unclear("bad_number")
+    if any(values.get(name) for name in ("linear.z", "angular.x", "angular.y")):
+        raise Unclear("not_planar", refused=True)
+    return RawTwist(values.get("linear.x", 0.0), values.get("linear.y", 0.0), values.get("angular.z", 0.0), seconds)
+
+
+def _blocks(text: str, blocks: list[tuple[str, str]]) -> RawTwist:
+    values = {f"{g}.{axis}": float(v) for g, body in blocks for axis, v in _ENTRY.findall(body)}
+    rest = _BLOCK.sub(" ", text)
+    entries = sum(len(_ENTRY.findall(body)) for _, body in blocks)
+    if not entries or any(_ENTRY.sub("", body).strip(" ,") for _, body in blocks):
+        raise Unclear("unknown_part", text[:60])
+    seconds, unknown = _rest(rest)
+    if unknown:
+        raise Unclear("unknown_part", unknown)
+    if seconds is None:
+        raise Unclear("how_long", text[:60])
+    return _twist(values, seconds)
+
+
+def _rest(text: str) -> tuple[float | None, str]:
+    """The duration in what is left beside the velocities, and the first word that nothing explains."""
+    atoms = read_quantities(tokenise(re.sub(r"[{}'\"_:=/]", " ", text), lexicon(), _axis_words()))
+    seconds = None
+    for atom in atoms:
+        if atom.kind == "q" and atom.value in ("time", "number"):
+            seconds = atom.number
+        elif not (atom.kind in ("glue", "filler", "sep", "num", "conn") or atom.kind == "axis"):
+            return seconds, atom.text
+    return seconds, ""
+
+
+@lru_cache(maxsize=1)
+def _axis_words() -> dict[Key, tuple[tuple[str, str], ...]]:
+    words: dict[Key, tuple[tuple[str, str], ...]] = {}
+    for language in LANGUAGES:
+        for value, listed in load_table(language, "axes")["axis"].items():
+            for pattern in listed:
+                for written in expand(pattern):
+                    words.setdefault(cut(written), (("axis", value),))
+    return words
+
+
+@lru_cache(maxsize=1)
+def _marks() -> frozenset[str]:
+    """What makes it worth trying: words that only an engineer says."""
+    return frozenset({
+        "linear", "angular", "vx", "vy", "wz", "cmd_vel", "twist", " in x", " in y", "yaw rate", "yawrate",
+        "x velocity", "y velocity", "omega", "x方向", "线速度", "角速度", "x 方向", "转速", "y方向", "y 方向", "x=", "vth",
+    })  # fmt: skip
+
+
+def _spoken(text: str) -> RawTwist | None:
+    atoms = read_quantities(tokenise(re.sub(r"[=_:{}]", " ", text), lexicon(), _axis_words()))
+    axes = [a for a in atoms if a.kind == "axis" and a.value in (*_AXES, "none")]
+    if not axes or any(a.kind in ("dir", "verb", "rot", "shape", "role", "flag") and a.value not in ("halt", "go") for a in atoms):
+        return None
+    if not any(a.kind == "q" and a.value in ("number", "speed", "rate") for a in atoms):
+        return None
+    pairs, seconds = _paired(atoms)
+    if pairs is None:
+        return None
+    if seconds is None:
+        raise Unclear("how_long", text[:60])
+    names = {"vx": "linear.x", "vy": "linear.y", "wz": "angular.z", "none": "linear.z"}
+    return _twist({names[axis]: value for axis, value in pairs.items()}, seconds)
+
+
+def _paired(atoms: list[Atom]) -> tuple[dict[str, float] | None, float | None]:
+    """Velocities by axis, whichever of name and number comes first, and the duration."""
+    marks = [a for a in atoms if a.kind == "q" or (a.kind == "axis" and a.value in (*_AXES, "none"))]
+    name_first = bool(marks) and marks[0].kind == "axis"
+    pairs: dict[str, float] = {}
+    seconds: float | None = None
+    axis, value = "", None
+    hold = False
+    for i, atom in enumerate(atoms):
+        if atom.kind == "axis":
+            hold = atom.value == "duration" or (hold and atom.value == "send")
+            if atom.value in (*_AXES, "none"):
+                if name_first:
+                    axis = atom.value
+                elif value is not None:
+                    pairs[atom.value], value = value, None
+                else:
+                    return None, None
+        elif atom.kind == "q" and atom.value == "time":
+            seconds = atom.number
+        elif atom.kind == "q" and hold and atom.value == "number":
+            seconds = atom.number
+        elif atom.kind == "q" and atom.value in ("number", "speed", "rate"):
+            if name_first and axis and axis not in pairs:
+                pairs[axis], axis = atom.number, ""
+            elif not name_first and value is None:
+                value = atom.number
+            else:
+                return None, None
+        elif is_kind(atoms, i, "unknown") or atom.kind == "q" or atom.kind == "refuse":
+            return None, None
+    return (pairs or None) if value is None else None, seconds
