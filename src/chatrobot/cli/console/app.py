@@ -8,14 +8,15 @@ import sys
 from collections.abc import Mapping
 from dataclasses import replace
 
-from rich.console import Console
+from rich.console import Console, RenderableType
 from rich.text import Text
 
 from chatrobot.cli.console import plain
+from chatrobot.cli.console.lines import indented
 from chatrobot.cli.console.tables import example_place, place_in
 from chatrobot.cli.console.talk import Talk
 from chatrobot.cli.console.words import Words, language_of_environment
-from chatrobot.compose import Connection, Setup, connect
+from chatrobot.compose import Connection, OnEvent, Setup, connect
 from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import UsageError
 from chatrobot.core.events import Event
@@ -61,8 +62,7 @@ def can_chat(environment: Mapping[str, str] = os.environ) -> bool:
     )
 
 
-def _connect(setup: Setup, words: Words, hear: object) -> Connection:
-    assert callable(hear)
+def _connect(setup: Setup, words: Words, hear: OnEvent) -> Connection:
     console = Console(highlight=False, markup=False)
     title = load_profile(setup.robot, (setup.folder / "robots",) if setup.folder is not None else ()).title
     if not can_chat():
@@ -91,18 +91,18 @@ def _converse(talk: Talk, setup: Setup) -> int:
     return code
 
 
-def greeting(talk: Talk) -> tuple[Text, ...]:
+def greeting(talk: Talk) -> tuple[RenderableType, ...]:
     """Which robot, which world, and three things to say."""
     words, world = talk.words, talk.connection.world
     where = words.say("greeting_open") if world.is_empty else words.say("greeting_world", name=world.name)
     place = place_in(words.language, world, example_place(world))
     second = words.say("example_place", place=place) if place else words.say("example_turn")
     first, third = words.say("example_first"), words.say("example_third")
-    line = Text("  ").append(words.say("greeting_robot", title=talk.connection.profile.title, world=where))
+    line = Text(words.say("greeting_robot", title=talk.connection.profile.title, world=where))
     examples = Text("  ").append(
         words.say("greeting_examples", first=first, second=second, third=third), "dim"
     )
     for example in (first, second, third):
         examples.highlight_words([example], "not dim bold cyan")
     line.highlight_words([talk.connection.profile.title], "bold")
-    return line, examples
+    return indented(line), indented(examples)

@@ -37,10 +37,13 @@ class ChatCompleter(Completer):
         self._words = words
         self._place_names = place_names
 
-    def get_completions(self, document: Document, complete_event: CompleteEvent) -> Iterable[Completion]:  # noqa: ARG002
+    def get_completions(self, document: Document, complete_event: CompleteEvent) -> Iterable[Completion]:
+        """Commands as they are typed; everything else only when Tab asks for it."""
         text = document.text_before_cursor
         if text.startswith("/"):
             yield from self._commands(text)
+        elif complete_event.text_inserted:
+            return
         elif _HAN_TAIL.search(text):
             yield from self._ending(text, ("zh",))
         else:

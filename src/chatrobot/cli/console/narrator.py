@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from rich.console import RenderableType
 from rich.text import Text
 
+from chatrobot.cli.console.lines import indented, marked
 from chatrobot.cli.console.words import Words
 from chatrobot.core.events import (
     Event,
@@ -45,7 +47,7 @@ class Narrator:
         self._words = words
         self._plans: dict[int, Interpreted] = {}
 
-    def tell(self, event: Event) -> Iterator[Text]:
+    def tell(self, event: Event) -> Iterator[RenderableType]:
         """The lines to print for `event`; none for most."""
         match event:
             case Interpreted():
@@ -64,7 +66,9 @@ class Narrator:
                 return self._result(event)
         return iter(())
 
-    def plan(self, plan_text: str, rehearsed: Rehearsed | None, limit: int | None = None) -> Iterator[Text]:
+    def plan(
+        self, plan_text: str, rehearsed: Rehearsed | None, limit: int | None = None
+    ) -> Iterator[RenderableType]:
         """A plan's numbered lines under its predicted length and duration, and what rehearsal found."""
         head = Text("  ").append(self._words.say("plan"), "bold")
         if rehearsed is not None and rehearsed.ok:
@@ -81,7 +85,7 @@ class Narrator:
             yield Text("       ").append(self._words.say("plan_more", count=len(lines) - len(shown)), "dim")
         yield from self._findings(rehearsed)
 
-    def _findings(self, rehearsed: Rehearsed | None) -> Iterator[Text]:
+    def _findings(self, rehearsed: Rehearsed | None) -> Iterator[RenderableType]:
         """All but the first refusal: that one is the turn's result."""
         refusals = 0
         for finding in rehearsed.findings if rehearsed is not None else ():
@@ -89,42 +93,42 @@ class Narrator:
             if finding.severity != "refuse" or refusals > 1:
                 yield self.finding(finding)
 
-    def finding(self, finding: FindingSeen) -> Text:
+    def finding(self, finding: FindingSeen) -> RenderableType:
         """One thing that rehearsal found, in words."""
         mark, style = _FINDINGS[finding.severity]
-        return Text(f"  {mark} ", style).append(render_reason(finding.reason, self._words.language))
+        return marked(mark, style, render_reason(finding.reason, self._words.language))
 
     # --- one method an event ---
 
-    def _interpreted(self, event: Interpreted) -> Iterator[Text]:
+    def _interpreted(self, event: Interpreted) -> Iterator[RenderableType]:
         if event.plan_text:
             self._plans[event.turn] = event
             if event.reply:
-                yield Text(f"  {event.reply}", "cyan")
+                yield indented(Text(event.reply, "cyan"))
 
-    def _rehearsed(self, event: Rehearsed) -> Iterator[Text]:
+    def _rehearsed(self, event: Rehearsed) -> Iterator[RenderableType]:
         understood = self._plans.pop(event.turn, None)
         if understood is not None:
             yield from self.plan(understood.plan_text, event, PLAN_LINES)
 
-    def _limited(self, event: Limited) -> Iterator[Text]:
+    def _limited(self, event: Limited) -> Iterator[RenderableType]:
         asked, sent = self._twist(event.asked), self._twist(event.sent)
-        yield Text("  ! ", "yellow").append(self._words.say("limited", asked=asked, sent=sent))
+        yield marked("!", "yellow", self._words.say("limited", asked=asked, sent=sent))
 
-    def _said(self, event: Said) -> Iterator[Text]:
-        yield Text("  “", "magenta").append(event.text).append("”")
+    def _said(self, event: Said) -> Iterator[RenderableType]:
+        yield marked("»", "magenta", Text(event.text, "bold"))
 
-    def _remembered(self, event: Remembered) -> Iterator[Text]:
+    def _remembered(self, event: Remembered) -> Iterator[RenderableType]:
         words = self._words.say("remembered", place=event.place, pose=self._words.pose(event.pose))
-        yield Text("  · ", "cyan").append(words)
+        yield marked("·", "cyan", words)
 
-    def _notice(self, event: Notice) -> Iterator[Text]:
-        yield Text("  ! ", "yellow").append(event.text or render_reason(event.reason, self._words.language))
+    def _notice(self, event: Notice) -> Iterator[RenderableType]:
+        yield marked("!", "yellow", event.text or render_reason(event.reason, self._words.language))
 
-    def _result(self, event: Result) -> Iterator[Text]:
+    def _result(self, event: Result) -> Iterator[RenderableType]:
         self._plans.pop(event.turn, None)
         mark, style = _MARKS[event.outcome]
-        yield Text(f"  {mark} ", style).append(event.reply)
+        yield marked(mark, style, event.reply)
         if event.path_m > _LEAST_M or abs(event.turned_rad) > _LEAST_RAD:
             measured = self._words.say(
                 "measured",
@@ -133,7 +137,7 @@ class Narrator:
                 turned=f"{math.degrees(event.turned_rad):+.1f}",
                 duration=f"{event.duration_s:.1f}",
             )
-            yield Text(f"    {measured}", "dim")
+            yield marked("", "", Text(measured, "dim"))
 
     def _twist(self, twist: Twist) -> str:
         parts = []

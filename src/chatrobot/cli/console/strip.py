@@ -71,7 +71,7 @@ class Strip:
             say("at_pose", pose=self._words.pose(ride.pose)),
             say("speed", speed=f"{ride.twist.speed_mps:.2f}"),
         ]
-        if ride.twist.wz_radps:
+        if abs(ride.twist.wz_radps) > math.radians(1.0):
             facts.append(say("rate", rate=f"{math.degrees(ride.twist.wz_radps):+.0f}"))
         more = [say("nearest", distance=f"{ride.nearest_m:.2f}")] if ride.nearest_m is not None else []
         if ride.battery_percent is not None:

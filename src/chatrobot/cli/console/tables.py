@@ -12,6 +12,7 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from chatrobot.cli.console.lines import INDENT, indented
 from chatrobot.cli.console.words import Words
 from chatrobot.language.context import Place
 from chatrobot.robots.profile import RobotProfile
@@ -51,10 +52,10 @@ def help_table(words: Words, world: World, commands: Sequence[Command]) -> Rende
     for command in commands:
         table.add_row(Text(f"/{command.name} {command.takes}".strip(), "bold"), words.say(command.help_code))
     return Group(
-        Text(f"  {words.say('help_talk')}"),
+        indented(Text(words.say("help_talk"))),
         *examples,
-        Padding(table, (1, 0)),
-        Text(f"  {words.say('help_keys')}", "dim"),
+        Padding(table, (1, 0, 1, INDENT)),
+        indented(Text(words.say("help_keys"), "dim")),
     )
 
 
@@ -64,32 +65,32 @@ def robot_tables(words: Words, profile: RobotProfile) -> Iterator[RenderableType
     lidar = words.say("without_lidar")
     if profile.lidar is not None:
         lidar = words.say("with_lidar", range=f"{profile.lidar.max_range_m:g}")
-    yield Text("  ").append(profile.title, "bold").append(f"  {profile.name}", "dim")
-    yield Text("  ").append(
-        words.say(
-            "robot_footprint",
-            length=f"{max(xs) - min(xs):.2f}",
-            width=f"{max(ys) - min(ys):.2f}",
-            kinematics=profile.kinematics,
-            lidar=lidar,
-        )
+    yield indented(Text(profile.title, "bold").append(f"  {profile.name}", "not bold dim"))
+    footprint = words.say(
+        "robot_footprint",
+        length=f"{max(xs) - min(xs):.2f}",
+        width=f"{max(ys) - min(ys):.2f}",
+        kinematics=profile.kinematics,
+        lidar=lidar,
     )
-    defaults = profile.defaults
-    yield Text("  ").append(
-        words.say(
-            "robot_defaults",
-            speed=f"{defaults.speed_mps:g}",
-            rate=f"{math.degrees(defaults.rate_radps):.0f}",
-            distance=f"{defaults.distance_m:g}",
-            turn=f"{math.degrees(defaults.turn_rad):.0f}",
-        )
+    defaults = words.say(
+        "robot_defaults",
+        speed=f"{profile.defaults.speed_mps:g}",
+        rate=f"{math.degrees(profile.defaults.rate_radps):.0f}",
+        distance=f"{profile.defaults.distance_m:g}",
+        turn=f"{math.degrees(profile.defaults.turn_rad):.0f}",
     )
+    yield indented(Text(f"{footprint}\n{defaults}"))
     table = _table(words.say("robot_limit"), "", words.say("robot_source"))
     for field in dataclasses.fields(profile.limits):
-        name, _, unit = field.name.rpartition("_")
-        value = f"{getattr(profile.limits, field.name):g} {_UNITS[unit]}"
-        table.add_row(name.replace("_", " "), value, Text(profile.sources.get(field.name, ""), "dim"))
-    yield Padding(table, (1, 0, 0, 0))
+        number = getattr(profile.limits, field.name)
+        if not number and field.name not in profile.sources:
+            continue
+        value = f"{number:g} {_UNITS[field.name.rpartition('_')[2]]}"
+        table.add_row(
+            words.say(f"limit_{field.name}"), value, Text(profile.sources.get(field.name, ""), "dim")
+        )
+    yield Padding(table, (1, 0, 0, INDENT))
 
 
 def world_table(words: Words, world: World) -> RenderableType:
@@ -100,7 +101,7 @@ def world_table(words: Words, world: World) -> RenderableType:
 def places_table(words: Words, world: World, remembered: Mapping[str, Place]) -> RenderableType:
     """The person's own places first, then the world's."""
     if not world.places and not remembered:
-        return Text(f"  {words.say('no_places')}", "dim")
+        return indented(Text(words.say("no_places"), "dim"))
     table = _table(words.say("place_name"), words.say("place_pose"), words.say("place_also"))
     for name, place in remembered.items():
         note = words.say("place_yours" if place.usable else "place_old")
@@ -109,7 +110,7 @@ def places_table(words: Words, world: World, remembered: Mapping[str, Place]) ->
         )
     for name, pose in world.places.items():
         table.add_row(name, words.pose(pose), Text(", ".join(also_called(world, name)), "dim"))
-    return table
+    return Padding(table, (0, 0, 0, INDENT))
 
 
 def _table(*heads: str) -> Table:

@@ -14,6 +14,7 @@ from rich.text import Text
 
 from chatrobot.cli.console import commands
 from chatrobot.cli.console.clean import LONGEST_CHARS, clean
+from chatrobot.cli.console.lines import indented, marked
 from chatrobot.cli.console.maps import way_map
 from chatrobot.cli.console.narrator import Narrator
 from chatrobot.cli.console.pump import Pump
@@ -23,7 +24,7 @@ from chatrobot.cli.console.words import Words
 from chatrobot.compose import Connection
 from chatrobot.core.clock import Clock
 from chatrobot.core.errors import JointError
-from chatrobot.core.events import Event, Finished, Rehearsed, Result, Started, Telemetry
+from chatrobot.core.events import Event, Finished, Interpreted, Rehearsed, Result, Started, Telemetry
 from chatrobot.reflex import is_emergency_stop
 
 TWICE_S = 1.5
@@ -170,6 +171,8 @@ class Talk:
             if isinstance(event, Rehearsed) and event.needs_approval:
                 self._asked = event
                 lines += [way_map(self), Text(f"  {self.words.say('ask_approval')}", "bold")]
+            if isinstance(event, Interpreted) and event.by == "reflex" and self.ride.is_moving:
+                self._muted.add(event.turn)  # what was moving is about to say how it ended
             if lines and event.turn not in self._muted:
                 self.face.print(*lines)
         if (
@@ -187,14 +190,14 @@ class Talk:
 
     def lose(self, error: JointError) -> None:
         """Motion is gone: its guard has halted the robot; here is nothing left to talk to."""
-        self.face.print(Text(f"  ✗ {error}", "bold red"))
+        self.face.print(marked("✗", "bold red", str(error)))
         self.face.leave(1)
 
     # --- printing ---
 
     def tell(self, code: str, **values: object) -> None:
         """One line of the console's own words."""
-        self.face.print(Text(f"  {self.words.say(code, **values)}", "dim"))
+        self.face.print(indented(Text(self.words.say(code, **values), "dim")))
 
     def _echo(self, text: str) -> None:
         self.face.print(Text("› ", "bold blue").append(text, "bold"))
