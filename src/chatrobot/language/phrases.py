@@ -10,13 +10,15 @@ from chatrobot.core.reason import Reason, Value
 from chatrobot.language.data_files import load_table
 from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, RawTwist, Remember, Repeat, Say, Step, Turn, Wait
 
+_TABLES = ("phrases", "outcomes")
 _SHOWN = 6
 """Steps of a plan that are spelt out in a reply; the rest is counted."""
 
 
 @lru_cache(maxsize=None)
 def _phrases(language: str) -> dict[str, str]:
-    return {str(key): str(value) for key, value in load_table(language, "phrases").items()}
+    tables = (load_table(language, name) for name in _TABLES)
+    return {str(key): str(value) for table in tables for key, value in table.items()}
 
 
 class _Formatted(dict[str, Value]):

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from chatrobot.core.events import Finished, Outcome, Remembered, Telemetry
-from chatrobot.core.geometry import Pose
+from chatrobot.core.geometry import ZERO_TWIST, Pose
 from chatrobot.language.context import Context, Dialogue, RobotState, TurnRecord
 from chatrobot.language.interpretation import Interpretation, LanguageCode, OfflineInterpreter
 from chatrobot.language.phrases import say
@@ -84,7 +84,8 @@ class Understanding:
             self._learn(meant)
             if meant.remember_place:
                 self._places.add(meant.remember_place, self._state.pose)
-        self._record(TurnRecord(text, meant.outcome if meant.outcome != "plan" else "completed"))
+        outcomes: dict[str, Outcome] = {"unclear": "unclear", "refused": "refused", "answered": "answered"}
+        self._record(TurnRecord(text, outcomes.get(meant.outcome, "stopped")))
         pending = text if meant.outcome == "unclear" else ""
         self._dialogue = replace(self._dialogue, pending=pending)
 
@@ -92,7 +93,7 @@ class Understanding:
         """A plan's turn has ended: remember it as it really went. Returns the reply."""
         if finished.outcome == "completed":
             self._learn(meant)
-        self._state = replace(self._state, pose=finished.pose, moving=False)
+        self._state = replace(self._state, pose=finished.pose, twist=ZERO_TWIST, moving=False)
         outcome: Outcome = finished.outcome
         plan = meant.plan if outcome in ("completed", "stopped", "failed") and not rehearse_only else None
         self._record(TurnRecord(text, outcome, plan, finished.start, finished.pose))
