@@ -99,9 +99,7 @@ def greeting(talk: Talk) -> tuple[RenderableType, ...]:
     second = words.say("example_place", place=place) if place else words.say("example_turn")
     first, third = words.say("example_first"), words.say("example_third")
     line = Text(words.say("greeting_robot", title=talk.connection.profile.title, world=where))
-    examples = Text("  ").append(
-        words.say("greeting_examples", first=first, second=second, third=third), "dim"
-    )
+    examples = Text(words.say("greeting_examples", first=first, second=second, third=third), "dim")
     for example in (first, second, third):
         examples.highlight_words([example], "not dim bold cyan")
     line.highlight_words([talk.connection.profile.title], "bold")

@@ -101,6 +101,10 @@ class Chat:
     # --- what the face does for the talk ---
 
     @property
+    def echoes(self) -> bool:
+        return False
+
+    @property
     def width(self) -> int:
         return shutil.get_terminal_size().columns
 

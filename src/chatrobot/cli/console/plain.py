@@ -57,6 +57,10 @@ class Plain:
     # --- what the face does for the talk ---
 
     @property
+    def echoes(self) -> bool:
+        return True
+
+    @property
     def width(self) -> int:
         return shutil.get_terminal_size().columns
 

@@ -39,6 +39,11 @@ class Face(Protocol):
     """A screen. All of it may be called from any thread."""
 
     @property
+    def echoes(self) -> bool:
+        """What was typed stays to be seen without our help."""
+        ...
+
+    @property
     def width(self) -> int:
         """Columns."""
         ...
@@ -200,4 +205,5 @@ class Talk:
         self.face.print(indented(Text(self.words.say(code, **values), "dim")))
 
     def _echo(self, text: str) -> None:
-        self.face.print(Text("› ", "bold blue").append(text, "bold"))
+        if not self.face.echoes:
+            self.face.print(Text("› ", "bold blue").append(text, "bold"))

@@ -59,7 +59,8 @@ class MapText:
         self._letters: dict[tuple[int, int], Run] = {}
         if names:
             for name, pose in world.places.items():
-                self._name(name, pose)
+                if extent.holds(pose.x_m, pose.y_m):
+                    self._name(name, pose)
 
     def lines(self, *, trail: Sequence[XY] = (), pose: Pose | None = None) -> MapLines:
         """The map now: `rows` lines of runs, each line `columns` cells wide."""
