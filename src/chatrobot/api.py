@@ -19,7 +19,7 @@ from chatrobot.core.errors import ChatRobotError
 from chatrobot.core.events import Event, Result, Telemetry
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.plan.steps import Plan
-from chatrobot.plan.text import parse_plan
+from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.robots.load import DEFAULT_PROFILE
 from chatrobot.session.session import Session
 
@@ -90,7 +90,8 @@ class Robot:
             PlanTextError: the text is no plan; it names the line.
             ChatRobotError: something broke.
         """
-        return self._see_through(self._session.run(parse_plan(plan) if isinstance(plan, str) else plan))
+        text = format_plan(parse_plan(plan) if isinstance(plan, str) else plan)
+        return self._see_through(self._session.say_plan(text))
 
     def stop(self) -> None:
         """Stop now: waits for nothing that is going on. What runs ends as `stopped`."""

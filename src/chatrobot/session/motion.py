@@ -112,7 +112,7 @@ class Motion:
         self._zeroing_since_s: float | None = None
         self._last_tick_s: float | None = None
         self._next_telemetry_s = 0.0
-        self._sequences: dict[str, int] = {}
+        self._sequences: dict[tuple[str, bool], int] = {}
         self._leaving: set[str] = set()
 
     # --- from any thread -------------------------------------------------------------------------------------
@@ -169,9 +169,15 @@ class Motion:
 
     def _handle(self, envelope: Envelope, epoch: int) -> None:
         """One envelope, received in that stop epoch. Stops have been heard already; here they are only booked."""
-        if envelope.sequence <= self._sequences.get(envelope.lease, -1):
+        kind = (
+            envelope.lease,
+            envelope.word == "beat",
+        )  # a beat comes from another thread: it may overtake a plan
+        if envelope.sequence <= self._sequences.get(kind, -1):
+            if envelope.word == "plan":  # overtaken by a later word, most likely a stop: its turn ends here
+                self._finish_unstarted(self._job(envelope, epoch), "stopped", self._stop_reason)
             return
-        self._sequences[envelope.lease] = envelope.sequence
+        self._sequences[kind] = envelope.sequence
         now_s = self._clock.now_s()
         self._governor.leases.beat(envelope.lease, now_s)
         if envelope.word == "hello":
@@ -215,9 +221,9 @@ class Motion:
 
     # --- plans -----------------------------------------------------------------------------------------------
 
-    def _accept(self, envelope: Envelope, epoch: int) -> None:
+    def _job(self, envelope: Envelope, epoch: int) -> Job:
         payload = envelope.payload
-        job = Job(
+        return Job(
             turn=envelope.turn,
             lease=envelope.lease,
             plan_text=str(payload.get("plan_text", "")),
@@ -226,7 +232,10 @@ class Motion:
             epoch=epoch,
             received_s=self._clock.now_s(),
         )
-        if payload.get("mode") == "replace":
+
+    def _accept(self, envelope: Envelope, epoch: int) -> None:
+        job = self._job(envelope, epoch)
+        if envelope.payload.get("mode") == "replace":
             self._replace()
         if epoch != self._epoch.value:
             self._finish_unstarted(job, "stopped", self._stop_reason)

@@ -11,11 +11,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
-from chatrobot.core.errors import JointError
+from chatrobot.core.errors import JointError, PlanTextError
 from chatrobot.core.events import Event, Finished, Interpreted, Outcome, Remembered, Result, Telemetry
 from chatrobot.language.interpretation import Interpretation
-from chatrobot.plan.steps import Plan
-from chatrobot.plan.text import format_plan
+from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
 from chatrobot.session.joint import Joint
 from chatrobot.session.understanding import Understanding
@@ -37,7 +36,8 @@ class Options:
     rehearse_only: bool = False
 
 
-_Kind = Literal["text", "stop", "dropped", "too_many"]
+_Kind = Literal["text", "plan", "stop", "dropped", "too_many"]
+_WAITING: tuple[_Kind, ...] = ("text", "plan")
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,6 @@ class _Said:
     turn: int
     text: str
     kind: _Kind = "text"
-    plan: Plan | None = None
 
 
 class Session:
@@ -82,17 +81,17 @@ class Session:
             kind = "text"
         return self._take_in(text, kind)
 
-    def run(self, plan: Plan) -> int:
-        """Take in a plan that needs no understanding; the number of its turn."""
-        return self._take_in(format_plan(plan), "text", plan)
+    def say_plan(self, plan_text: str) -> int:
+        """Take in a plan that a person or a program wrote itself; the number of its turn."""
+        return self._take_in(plan_text, "plan")
 
-    def _take_in(self, text: str, kind: _Kind, plan: Plan | None = None) -> int:
+    def _take_in(self, text: str, kind: _Kind) -> int:
         with self._lock:
             self._turns += 1
             turn = self._turns
-            if kind == "text" and self._count_waiting() >= QUEUE_LIMIT and self.is_moving:
+            if kind in _WAITING and self._count_waiting() >= QUEUE_LIMIT and self.is_moving:
                 kind = "too_many"
-            self._texts.append(_Said(turn, text, kind, plan))
+            self._texts.append(_Said(turn, text, kind))
         self._joint.wake()
         return turn
 
@@ -152,18 +151,20 @@ class Session:
         self._joint.close()
 
     def _count_waiting(self) -> int:
-        return sum(said.kind == "text" for said in self._texts)
+        return sum(said.kind in _WAITING for said in self._texts)
 
     def _drop_waiting(self) -> None:
         """A stop clears what waits; each dropped turn still gets its result."""
         with self._lock:
             for index, said in enumerate(self._texts):
-                if said.kind == "text":
+                if said.kind in _WAITING:
                     self._texts[index] = _Said(said.turn, said.text, "dropped")
 
     def _can_take_text(self) -> bool:
         return bool(self._texts) and (
-            self._texts[0].kind != "text" or not self._in_flight or self._options.while_moving == "replace"
+            self._texts[0].kind not in _WAITING
+            or not self._in_flight
+            or self._options.while_moving == "replace"
         )
 
     def _take_texts(self) -> None:
@@ -172,6 +173,8 @@ class Session:
                 said = self._texts.popleft()
             if said.kind == "text":
                 self._understand(said)
+            elif said.kind == "plan":
+                self._read_plan(said)
             elif said.kind == "stop":
                 self._emit(Interpreted(said.turn, "reflex", "", ""))
                 self._conclude(said.turn, "stopped", self.understanding.say("stopped_now", said.text))
@@ -181,8 +184,7 @@ class Session:
                 self._conclude(said.turn, "refused", self.understanding.say("queue_full", said.text))
 
     def _understand(self, said: _Said) -> None:
-        understanding = self.understanding
-        meant = understanding.interpret(said.text) if said.plan is None else understanding.accept(said.plan)
+        meant = self.understanding.interpret(said.text)
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         self._emit(Interpreted(said.turn, "offline", plan_text, meant.reply))
         if meant.outcome == "stop":
@@ -192,16 +194,33 @@ class Session:
             self.understanding.note_unmoved(said.text, meant)
             self._conclude(said.turn, meant.outcome, meant.reply)
         else:
-            mode = "append" if meant.append else self._options.while_moving
-            self._in_flight[said.turn] = (said.text, meant)
-            self._joint.send(
-                "plan",
-                said.turn,
-                plan_text=plan_text,
-                mode=mode,
-                approve=self._options.approve,
-                rehearse_only=self._options.rehearse_only,
+            self._send_plan(said, meant, plan_text)
+
+    def _read_plan(self, said: _Said) -> None:
+        try:
+            plan = parse_plan(said.text)
+        except PlanTextError as error:
+            self._emit(Interpreted(said.turn, "offline", "", ""))
+            self._conclude(
+                said.turn, "unclear", self.understanding.say("plan_text", said.text, problem=str(error))
             )
+            return
+        meant = self.understanding.accept(plan)
+        plan_text = format_plan(plan)
+        self._emit(Interpreted(said.turn, "offline", plan_text, ""))
+        self._send_plan(said, meant, plan_text)
+
+    def _send_plan(self, said: _Said, meant: Interpretation, plan_text: str) -> None:
+        mode = "append" if meant.append else self._options.while_moving
+        self._in_flight[said.turn] = (said.text, meant)
+        self._joint.send(
+            "plan",
+            said.turn,
+            plan_text=plan_text,
+            mode=mode,
+            approve=self._options.approve,
+            rehearse_only=self._options.rehearse_only,
+        )
 
     def _hear(self, event: Event) -> None:
         if isinstance(event, Telemetry):
