@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Literal
 
-from chatrobot.language.context import Context, Dialogue, Place, RobotState, TurnRecord
-from chatrobot.language.interpretation import Interpretation, OfflineInterpreter
 from tests.language.ideal_motion import Track, judge
 from tests.language.profiles import MECANUM
+
+from chatrobot.language.context import Context, Dialogue, Place, RobotState, TurnRecord
+from chatrobot.language.interpretation import Interpretation, OfflineInterpreter
 
 Verdict = Literal["correct", "wrong", "abstained"]
 ANSWERS = {"clarify": "unclear", "refuse": "refused", "info": "answered"}
@@ -70,5 +71,7 @@ def run_item(item: Mapping[str, Any]) -> tuple[Verdict, str]:
             return "wrong", why
         return ("correct" if meant.outcome == ANSWERS[expect["answer"]] else "abstained"), why
     if meant.outcome in ("unclear", "refused", "answered") and expect.get("motion") != "none":
-        return ("abstained" if not talk.track.moved or wrong else "correct"), f"{meant.outcome}: {meant.reply}"
+        return (
+            "abstained" if not talk.track.moved or wrong else "correct"
+        ), f"{meant.outcome}: {meant.reply}"
     return ("wrong" if wrong else "correct"), why + (f" | {meant.plan}" if wrong else "")

@@ -43,10 +43,16 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     """
     frame = _with_units(frame, state)
     _check_extents(frame)
-    if "there" in frame.flags and frame.verb not in STILL and not (frame.direction or frame.rot or "length" in frame.q):
+    if (
+        "there" in frame.flags
+        and frame.verb not in STILL
+        and not (frame.direction or frame.rot or "length" in frame.q)
+    ):
         raise Unclear("which_place", frame.text)
     if "until" in frame.flags and not frame.has_extent and frame.verb != "face":
         raise Unclear("condition", frame.text)
+    if "asked_distance" in frame.flags:
+        return []  # only worked out; what is done with it comes after
     if "clock" in frame.q:
         steps = _clock(frame, pace)
     elif frame.verb in STILL:
@@ -82,6 +88,11 @@ def _with_units(frame: Frame, state: State) -> Frame:
         frame.flags.discard("again")
     state.length = frame.q.get("length", state.length)
     state.angle = frame.q.get("angle", frame.q.get("turns", state.angle))
+    if {"computed", "asked_distance"} & frame.flags and {"speed", "time"} <= set(frame.q):
+        frame = frame.copy()
+        covered = frame.q.pop("speed").number * frame.q.pop("time").number
+        frame.q["length"] = quantity("length", covered, f"{covered:g} m")
+        state.length = frame.q["length"]
     number = frame.q.get("number")
     if number is None:
         return frame
@@ -91,7 +102,13 @@ def _with_units(frame: Frame, state: State) -> Frame:
         factor = math.pi / 180 if frame.turning else 1.0
     elif _means_degrees(frame, number.number):
         dimension, factor = "angle", math.pi / 180
-    elif "more" in frame.flags and state.last == "drive" and state.unit_m and not frame.has_extent and not frame.turning:
+    elif (
+        "more" in frame.flags
+        and state.last == "drive"
+        and state.unit_m
+        and not frame.has_extent
+        and not frame.turning
+    ):
         dimension, factor = "length", state.unit_m
     if not dimension:
         return frame
@@ -123,7 +140,16 @@ _SLOTS = {
     "drive": {"length", "time", "speed", "percent", "fold", "times"},
     "heading": {"length", "time", "speed", "percent", "fold", "times", "angle"},
 }
-_REFERRING = {"other_way", "short_of", "from_now_on", "same_way", "to_start", "original_heading", "left_right", "right_left"}
+_REFERRING = {
+    "other_way",
+    "short_of",
+    "from_now_on",
+    "same_way",
+    "to_start",
+    "original_heading",
+    "left_right",
+    "right_left",
+}
 
 
 def _all_used(frame: Frame, kind: str) -> None:
@@ -154,7 +180,7 @@ def _left(frame: Frame) -> bool | None:
 
 
 def _is_turn(frame: Frame, state: State) -> bool:
-    if frame.verb in TURN or frame.rot and frame.verb not in GO:
+    if frame.verb in TURN or (frame.rot and frame.verb not in GO):
         return True
     if "angle" in frame.q or "turns" in frame.q:
         return frame.direction not in DIAGONALS.values() and "diagonal" not in frame.flags
@@ -172,7 +198,7 @@ def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
         raise Unclear("length_for_turn", frame.text)
     _all_used(frame, "turn")
     rate = pace.rate(frame)
-    angle = (frame.q.get("angle") or frame.q.get("turns"))
+    angle = frame.q.get("angle") or frame.q.get("turns")
     left = _left(frame)
     if left is None and not frame.moves:
         left = state.left
@@ -217,7 +243,7 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if not direction:
         if frame.verb == "slide" or "sideways" in frame.flags:
             raise Unclear("which_side", frame.text)
-        if frame.verb in GO and frame.verb != "shift" or "more" in frame.flags or not frame.verb:
+        if (frame.verb in GO and frame.verb != "shift") or "more" in frame.flags or not frame.verb:
             direction = state.direction if state.last == "drive" and not frame.verb else "forward"
         elif frame.has_extent and frame.verb:
             direction = "forward"
@@ -242,7 +268,10 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if length is not None:
         if seconds is not None and "speed" not in frame.q:
             speed = length.number / seconds.number
-        elif seconds is not None and abs(frame.q["speed"].number * seconds.number - length.number) > 0.1 * length.number:
+        elif (
+            seconds is not None
+            and abs(frame.q["speed"].number * seconds.number - length.number) > 0.1 * length.number
+        ):
             raise Unclear("contradiction", frame.text)
         return [Drive(length.number, direction_rad=angle, speed_mps=speed)]
     if seconds is not None:
@@ -288,7 +317,11 @@ def _face(frame: Frame, state: State, pace: Pace) -> list[Step]:
         return [Face(0.0, frame="start", rate_radps=pace.rate(frame))]
     if frame.direction in SIDES:
         angle = frame.q.get("angle") or frame.q.get("turns")
-        size = angle.number if angle else pace.profile.defaults.turn_rad * (0.5 if {"bit", "more"} & frame.flags else 1)
+        size = (
+            angle.number
+            if angle
+            else pace.profile.defaults.turn_rad * (0.5 if {"bit", "more"} & frame.flags else 1)
+        )
         return [Turn(size, left=frame.direction == "left", rate_radps=pace.rate(frame))]
     if frame.direction == "back":
         return [Turn(math.pi, rate_radps=pace.rate(frame))]
@@ -331,7 +364,7 @@ def _arc(frame: Frame, pace: Pace) -> list[Step]:
 
 
 def _return(frame: Frame, state: State, pace: Pace) -> list[Step]:
-    if frame.direction or frame.has_extent and frame.verb != "return":
+    if frame.direction or (frame.has_extent and frame.verb != "return"):
         raise Unclear("unclear_motion", frame.text)
     speed = pace.speed(frame)
     if "same_way" in frame.flags:

@@ -21,7 +21,9 @@ UNIT = re.compile(
 )
 """What text is cut into before words are looked up: a number, a Latin word, or a single character."""
 
-_NEVER_MEANT = frozenset({"refuse", "filler", "glue", "reason", "condition", "negation", "correction", "conn", "operator", "sep"})
+_NEVER_MEANT = frozenset(
+    {"refuse", "filler", "glue", "reason", "condition", "negation", "correction", "conn", "operator", "sep"}
+)
 _POLITE = frozenset({"please", "then", "after", "robot", "thanks", "could", "would", "until"})
 Meaning = tuple[tuple[str, str], ...]
 Key = tuple[str, ...]
@@ -54,7 +56,7 @@ _ORDINAL = re.compile(r"(\d+)(?:st|nd|rd|th)\b")
 def cut(text: str) -> Key:
     """The units of a normalised text. A hyphen before a number is a sign, any other is a space."""
     text = _LISTED.sub(" ; ", text)
-    if text.count('"') == 1 or text.count("'") == 1 and _FEET.search(text):
+    if text.count('"') == 1 or (text.count("'") == 1 and _FEET.search(text)):
         text = _FEET.sub(r"\1 feet ", _INCHES.sub(r"\1 inches ", text))
     text = _COMMA.sub(r"\1.\2", text)
     return tuple(UNIT.findall(_ORDINAL.sub(r"\1", _SIGN.sub(" minus ", text)).replace("-", " ")))

@@ -49,6 +49,9 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
         for frame in frames:
             frame.flags.add("units_said")
     frames = _shape_first(frames)
+    paced = _paced(frames, pace)
+    if paced is not None:
+        return paced
     count, frames = _leading_count(frames)
     script = Script(pace, memory, state=memory.state)
     i = 0
@@ -66,7 +69,12 @@ def _shared(frames: list[Frame]) -> list[Frame]:
     """`…, both forward`, 都往左转: a clause that holds for all the others."""
     kept: list[Frame] = []
     for frame in frames:
-        if "all" not in frame.flags or frame.q or not (frame.direction or frame.rot or frame.pace) or frame.shape:
+        if (
+            "all" not in frame.flags
+            or frame.q
+            or not (frame.direction or frame.rot or frame.pace)
+            or frame.shape
+        ):
             kept.append(frame)
             continue
         for other in kept:
@@ -78,6 +86,27 @@ def _shared(frames: list[Frame]) -> list[Frame]:
                     other.verb = frame.verb
             other.pace = other.pace or frame.pace
     return kept
+
+
+def _paced(frames: list[Frame], pace: Pace) -> list[Step] | None:
+    """`Every 50 cm stop for a second, two metres in total`: as many legs as fit, pauses between them."""
+    leg = next((f for f in frames if f.flags & {"each", "all"} and "length" in f.q and "total" not in f.flags), None)
+    whole = next((f for f in frames if "total" in f.flags and "length" in f.q and f is not leg), None)
+    if whole is None or len(frames) == 1:
+        return None
+    pause = next((f for f in frames if f.verb in STILL and "time" in f.q), None)
+    if leg is None or pause is None or len(frames) > 3:
+        raise Unclear("unclear_motion", whole.text)
+    count = whole.q["length"].number / leg.q["length"].number
+    if abs(count - round(count)) > 1e-6 or not 1 <= round(count) <= MAX_REPEAT:
+        raise Unclear("bad_count", leg.text)
+    drive = whole.copy()
+    drive.q["length"] = leg.q["length"]
+    drive.direction = whole.direction or leg.direction
+    drive.verb = ""
+    steps = act(drive, State(), pace)
+    rest = act(Frame(verb="wait", q={"time": pause.q["time"]}), State(), pace)
+    return [*(steps + rest) * (round(count) - 1), *steps]
 
 
 def _shape_first(frames: list[Frame]) -> list[Frame]:
@@ -92,13 +121,19 @@ def _shape_first(frames: list[Frame]) -> list[Frame]:
 
 
 def _is_measure(frame: Frame) -> bool:
-    bare = not frame.moves or (frame.verb == "go" and not (frame.direction or frame.rot or frame.shape or frame.place))
+    bare = not frame.moves or (
+        frame.verb == "go" and not (frame.direction or frame.rot or frame.shape or frame.place)
+    )
     return bare and "length" in frame.q and "time" not in frame.q
 
 
 def _leading_count(frames: list[Frame]) -> tuple[int | None, list[Frame]]:
     """`Twice: …`, `the following three times: …`."""
-    if len(frames) > 1 and is_times_only(frames[0]) and frames[1].joined in ("colon", "weak", "none", "strong"):
+    if (
+        len(frames) > 1
+        and is_times_only(frames[0])
+        and frames[1].joined in ("colon", "weak", "none", "strong")
+    ):
         return _count(frames[0]), frames[1:]
     return None, frames
 
@@ -132,7 +167,9 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
         end, steps = draw(frames, i, script.pace)
         _finish(script, frame, [steps])
         return end
-    if is_times_only(frame) or ("again" in frame.flags and not frame.moves and {"times", "count"} & set(frame.q)):
+    if is_times_only(frame) or (
+        "again" in frame.flags and not frame.moves and {"times", "count"} & set(frame.q)
+    ):
         script.units = _repeated(script.units, _count(frame))
     elif "again" in frame.flags and not frame.moves and not frame.has_extent:
         if not script.units:

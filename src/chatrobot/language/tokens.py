@@ -72,7 +72,13 @@ def _cover(units: Key, words: Lexicon, names: dict[Key, Meaning]) -> list[tuple[
             price = _WORD
             if meaning is None:
                 meaning, price = words.guesses.get(key), _GUESS
-            if key[-1] == "点" and end < count and units[end] in _DIGITS and length > 1 and units[start] == "一":
+            if (
+                key[-1] == "点"
+                and end < count
+                and units[end] in _DIGITS
+                and length > 1
+                and units[start] == "一"
+            ):
                 continue  # 一点二米 is a number, not 一点
             if meaning is not None and best[end] + price <= best[start]:
                 best[start], choice[start] = best[end] + price, (end, meaning)

@@ -44,7 +44,9 @@ def _correct(word: str) -> str:
 
 def _transpositions(word: str) -> list[str]:
     return [
-        word[:i] + word[i + 1] + word[i] + word[i + 2 :] for i in range(len(word) - 1) if word[i] != word[i + 1]
+        word[:i] + word[i + 1] + word[i] + word[i + 2 :]
+        for i in range(len(word) - 1)
+        if word[i] != word[i + 1]
     ]
 
 

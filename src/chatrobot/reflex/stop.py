@@ -9,7 +9,10 @@ from chatrobot.reflex import words_en, words_zh
 MAX_CHARACTERS = 300
 """A longer utterance is no stop as a whole; its beginning is still looked at."""
 
-_TRADITIONAL = str.maketrans("車剎動別緊煩關電機馬達執運轉終斷這裡裏給說們聽沒來對開後進過許準跑嗎讓幾點個馬請亂棄滅鎖複復", "车刹动别紧烦关电机马达执运转终断这里里给说们听没来对开后进过许准跑吗让几点个马请乱弃灭锁复复")
+_TRADITIONAL = str.maketrans(
+    "車剎動別緊煩關電機馬達執運轉終斷這裡裏給說們聽沒來對開後進過許準跑嗎讓幾點個馬請亂棄滅鎖複復",
+    "车刹动别紧烦关电机马达执运转终断这里里给说们听没来对开后进过许准跑吗让几点个马请乱弃灭锁复复",
+)
 _WORD = re.compile(r"[a-z0-9]+(?:['’][a-z]+)*|[\u3400-\u9fff]")
 _BREAK = re.compile(r"[.,;!?…。，；！？\n—]+|\s-+\s|\.\.+")
 _STRETCHED = re.compile(r"(.)\1{2,}")
@@ -52,7 +55,23 @@ _NOUNS = frozenset({"sign", "signs", "牌", "标", "watch", "light", "lights"})
 _NUMBERS = frozenset("一二两三四五六七八九十半几") | {
     "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "half", "between", "after", "every",
 }  # fmt: skip
-_NOT_LEADING = {_units(p) for p in ("不要", "别", "stop sign", "no more", "不行", "够了", "wo", "ho", "取消", "算了", "cancel", "enough")}
+_NOT_LEADING = {
+    _units(p)
+    for p in (
+        "不要",
+        "别",
+        "stop sign",
+        "no more",
+        "不行",
+        "够了",
+        "wo",
+        "ho",
+        "取消",
+        "算了",
+        "cancel",
+        "enough",
+    )
+}
 
 
 def _matches(units: Phrase, i: int, table: dict[str, set[Phrase]]) -> list[Phrase]:
@@ -119,7 +138,11 @@ def _is_no_stop(units: Phrase, after: int) -> bool:
     following = units[after]
     if following in _NOUNS or following in _NUMBERS or following[0].isdigit():
         return True
-    return following == "for" and after + 1 < len(units) and units[after + 1] not in ("now", "a", "god's", "heaven's")
+    return (
+        following == "for"
+        and after + 1 < len(units)
+        and units[after + 1] not in ("now", "a", "god's", "heaven's")
+    )
 
 
 def is_emergency_stop(text: str) -> bool:
