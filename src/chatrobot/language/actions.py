@@ -369,9 +369,9 @@ def _return(frame: Frame, state: State, pace: Pace) -> list[Step]:
     speed = pace.speed(frame)
     if "same_way" in frame.flags:
         return inverse(state.steps, speed)
-    drives = [step for step in state.steps if not isinstance(step, Wait)]
+    drives: list[Step] = [step for step in state.steps if not isinstance(step, Wait)]
     if drives and all(isinstance(step, Drive) and step.distance_m for step in drives):
-        return inverse([drives[-1]] if len(drives) == 1 else drives, speed)
+        return inverse(list(drives), speed)
     if state.home is not None and not drives:
         return [Go(state.home.x_m, state.home.y_m, frame="odom", speed_mps=speed)]
     return [Go(0.0, 0.0, frame="start", speed_mps=speed)]

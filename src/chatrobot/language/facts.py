@@ -10,7 +10,9 @@ from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.quantities import quantity
 from chatrobot.language.tokens import Atom
 
-_IS = frozenset({"being", "is", "=", "equals", "means", "are", "按", "算", "是", "为", "长", "等于", "counts as"})
+_IS = frozenset(
+    {"being", "is", "=", "equals", "means", "are", "按", "算", "是", "为", "长", "等于", "counts as"}
+)
 
 
 @lru_cache(maxsize=1)
@@ -43,7 +45,9 @@ def with_defined_units(atoms: Sequence[Atom]) -> list[Atom]:
         while role and end < len(atoms) and (atoms[end].text in _IS or atoms[end].kind == "filler"):
             end += 1
         linked = end > i + 1 or (bool(atom.text) and ord(atom.text[0]) > 0x2E7F)
-        if not (role and linked and end < len(atoms) and atoms[end].kind == "q" and atoms[end].value == "length"):
+        if not (
+            role and linked and end < len(atoms) and atoms[end].kind == "q" and atoms[end].value == "length"
+        ):
             continue
         start = i - 1 if i and atoms[i - 1].kind == "num" else i
         rest = [*atoms[:start], *atoms[end + 1 :]]

@@ -191,7 +191,7 @@ class Frame:
 
     def _put_direction(self, new: str) -> bool:
         old = self.direction
-        if self.verb in ("wait", "return", "remember", "undo"):
+        if self.verb in ("wait", "halt", "return", "remember", "undo"):
             return False
         if not old:
             if self.verb in TURN and new not in SIDES and not self.is_arc:

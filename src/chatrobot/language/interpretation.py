@@ -286,7 +286,9 @@ class _Reading:
 
 
 def _frames(atoms: list[Atom]) -> list[Frame]:
-    return read_frames(tidy(without_negated(in_order(corrected(settle_condition(with_defined_units(atoms)))))))
+    return read_frames(
+        tidy(without_negated(in_order(corrected(settle_condition(with_defined_units(atoms))))))
+    )
 
 
 def _clauses(text: str) -> list[str]:

@@ -147,11 +147,10 @@ def _skip(atoms: Sequence[Atom], i: int) -> tuple[int, list[Atom]]:
         elif not (atom.text in _SKIPPED or (atom.kind == "num" and atom.value in ("article", "ge", "of"))):
             break
         i += 1
-    if _unit(atoms, i) is None or (
-        kept and _unit(atoms, i)[0] not in ("turns", "count", "length", "angle", "time")
-    ):  # type: ignore[index]
+    unit = _unit(atoms, i)
+    if unit is None or (kept and unit[0] not in ("turns", "count", "length", "angle", "time")):
         return start, []
-    if any(a.kind != "flag" for a in kept) and _unit(atoms, i)[0] not in ("turns", "count"):  # type: ignore[index]
+    if any(a.kind != "flag" for a in kept) and unit[0] not in ("turns", "count"):
         return start, []
     return i, kept
 

@@ -90,9 +90,11 @@ def _shared(frames: list[Frame]) -> list[Frame]:
 
 def _paced(frames: list[Frame], pace: Pace) -> list[Step] | None:
     """`Every 50 cm stop for a second, two metres in total`: as many legs as fit, pauses between them."""
-    leg = next((f for f in frames if f.flags & {"each", "all"} and "length" in f.q and "total" not in f.flags), None)
+    leg = next(
+        (f for f in frames if f.flags & {"each", "all"} and "length" in f.q and "total" not in f.flags), None
+    )
     whole = next((f for f in frames if "total" in f.flags and "length" in f.q and f is not leg), None)
-    if whole is None or len(frames) == 1:
+    if whole is None or len(frames) == 1 or "count" in whole.q or any(f.shape for f in frames):
         return None
     pause = next((f for f in frames if f.verb in STILL and "time" in f.q), None)
     if leg is None or pause is None or len(frames) > 3:

@@ -80,7 +80,9 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
                 else Atom("glue", "x", atom.text)
             )
         return Atom("role", atom.value, atom.text)
-    if atom.kind == "per" or (atom.kind == "unit_times" and atom.text in ("time", "回", "次", "下来")):
+    if atom.kind == "unit_times" and atom.text == "回":
+        return Atom("verb", "return", atom.text)
+    if atom.kind == "per" or (atom.kind == "unit_times" and atom.text in ("time", "次", "下来")):
         return Atom("glue", "x", atom.text)
     if atom.kind == "unit_turn":
         return Atom("verb", "turn", atom.text)

@@ -78,6 +78,18 @@ def _matches(units: Phrase, i: int, table: dict[str, set[Phrase]]) -> list[Phras
     return [p for p in table.get(units[i], ()) if units[i : i + len(p)] == p]
 
 
+def _forbids_stopping(units: Phrase) -> bool:
+    """别停, 不要停下, `don't stop`: the opposite of a stop."""
+    joined = " ".join(units)
+    return (
+        re.search(
+            r"(?:别|不要|不许|不准|不能|don't|dont|not|never|without) (?:停|刹|stop)".replace("不", "不 ?"),
+            joined,
+        )
+        is not None
+    )
+
+
 def _consists(units: Phrase, table: dict[str, set[Phrase]]) -> bool:
     """Whether phrases of `table` (at least one) and fillers cover all of `units`."""
     reached = {0: False}
@@ -96,7 +108,7 @@ def is_stop(text: str) -> bool:
     if len(text) > MAX_CHARACTERS:
         return False
     units = _units(text)
-    return bool(units) and (_consists(units, _STOP) or _takes_back(text))
+    return bool(units) and not _forbids_stopping(units) and (_consists(units, _STOP) or _takes_back(text))
 
 
 def _takes_back(text: str) -> bool:
@@ -118,6 +130,8 @@ def leads_with_stop(text: str) -> bool:
     if is_stop(text):
         return True
     units = _units(text[:MAX_CHARACTERS])
+    if _forbids_stopping(units):
+        return False
     i = 0
     while i < len(units):
         found = [p for p in _matches(units, i, _STOP) if p not in _NOT_LEADING]
