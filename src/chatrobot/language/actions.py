@@ -51,6 +51,8 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
         raise Unclear("which_place", frame.text)
     if "until" in frame.flags and not frame.has_extent and frame.verb != "face":
         raise Unclear("condition", frame.text)
+    if _goes_back(frame, state):
+        return _return(Frame(verb="return", pace=frame.pace), state, pace)
     if "asked_distance" in frame.flags:
         return []  # only worked out; what is done with it comes after
     if "clock" in frame.q:
@@ -125,6 +127,12 @@ def _means_degrees(frame: Frame, value: float) -> bool:
     return (turning or spinning) and not frame.has_extent and 15 <= value <= 1080 and value % 15 == 0
 
 
+def _goes_back(frame: Frame, state: State) -> bool:
+    """`…, then back`: the way back, where there is a way to go back."""
+    bare = frame.verb in ("", "go") and frame.direction == "back" and not frame.q and "bit" not in frame.flags
+    return bare and bool(state.steps) and frame.texts[-1:] == ["back"]
+
+
 def _check_extents(frame: Frame) -> None:
     for name, quantity in frame.q.items():
         value = quantity.number
@@ -157,6 +165,8 @@ def _all_used(frame: Frame, kind: str) -> None:
     left_over = [q for name, q in frame.q.items() if name not in _SLOTS[kind]]
     if left_over:
         raise Unclear("unclear_motion", f"{frame.text}")
+    if "each" in frame.flags and "time" in frame.q and kind != "still" and len(frame.q) > 1:
+        raise Unclear("unclear_motion", frame.text)
     if _REFERRING & frame.flags:
         raise Unclear("unclear_motion", frame.text)
 
@@ -198,6 +208,7 @@ def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
         raise Unclear("length_for_turn", frame.text)
     _all_used(frame, "turn")
     rate = pace.rate(frame)
+    seconds = frame.q.get("time")
     angle = frame.q.get("angle") or frame.q.get("turns")
     left = _left(frame)
     if left is None and not frame.moves:
@@ -205,13 +216,14 @@ def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if left is None and state.last == "turn" and "more" in frame.flags:
         left = state.left
     state.last = "turn"
-    if frame.verb == "spin" and angle is None and "times" in frame.q:
+    around = "around" in frame.flags and seconds is None
+    left = True if left is None and around else left
+    if frame.verb == "spin" and angle is None and ("times" in frame.q or around):
         angle_rad: float | None = 2 * math.pi
     elif angle is not None:
         angle_rad = angle.number
     else:
         angle_rad = None
-    seconds = frame.q.get("time")
     if left is None:
         if angle_rad is None or not _same_either_way(angle_rad):
             raise Unclear("which_side", frame.text)
@@ -364,6 +376,8 @@ def _arc(frame: Frame, pace: Pace) -> list[Step]:
 
 
 def _return(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    if set(frame.q) - {"speed", "percent", "fold"}:
+        raise Unclear("unclear_motion", frame.text)
     if frame.direction or (frame.has_extent and frame.verb != "return"):
         raise Unclear("unclear_motion", frame.text)
     speed = pace.speed(frame)

@@ -138,6 +138,9 @@ def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
         and last.has_extent
     ):
         return None
+    if "while" in first.flags and last.verb in GO and first.verb in TURN and not last.has_extent:
+        last = last.copy()
+        last.flags.add("while")
     together = "speed" in last.q and "rate" in first.q and not last.has_extent
     if together and joined in ("and", "weak") and last.verb in GO and first.verb in TURN:
         last = last.copy()
@@ -152,7 +155,9 @@ def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
 
 def is_times_only(frame: Frame) -> bool:
     """`four times`, and nothing that moves."""
-    return "times" in frame.q and not frame.moves and not frame.has_extent
+    bare = frame.verb in ("", "make", "go", "turn", "shift", "slide")
+    way = frame.direction or frame.rot or frame.shape or frame.place
+    return "times" in frame.q and bare and not way and not frame.has_extent
 
 
 def _is_fragment(frame: Frame) -> bool:

@@ -43,7 +43,7 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
         return [Go(start.x_m, start.y_m, start.yaw_rad, frame="odom", speed_mps=pace.speed(whole))]
     if "original_heading" in whole.flags and whole.verb in ("face", "turn", "", "return", "go"):
         return [Face(context.dialogue.start_pose.yaw_rad, frame="odom", rate_radps=pace.rate(whole))]
-    if (whole.verb == "return" or "to_start" in whole.flags) and not whole.has_extent and not whole.place:
+    if (whole.verb == "return" or "to_start" in whole.flags) and not whole.q and not whole.place:
         if whole.direction and whole.direction != "back":
             return None
         start = context.dialogue.start_pose
@@ -103,17 +103,18 @@ def _is_change(whole: Frame) -> bool:
         mirrored = "other_way" in whole.flags and not whole.has_extent and not whole.direction and whole.verb in (
             *GO, "turn", "spin", "curve"
         )  # fmt: skip
-        if not (repeats or mirrored) or whole.shape or whole.place:
+        scaled = "scale" in whole.q and whole.verb in (*GO, "turn") and not whole.direction and not whole.has_extent
+        if not (repeats or mirrored or scaled) or whole.shape or whole.place:
             return False
     if "times" in whole.q and "more" in whole.flags and not whole.has_extent:
         return True
     if "other_way" in whole.flags or "again" in whole.flags:
         return True
-    return "fold" in whole.q and not whole.has_extent
+    return bool({"fold", "scale"} & set(whole.q)) and not whole.has_extent
 
 
 def _changed(last: _Last, whole: Frame, pace: Pace) -> list[Step]:
-    factor = whole.q["fold"].number if "fold" in whole.q else 1.0
+    factor = next((whole.q[name].number for name in ("scale", "fold") if name in whole.q), 1.0)
     if "percent" in whole.q:
         factor = whole.q["percent"].number
     steps = [_step(step, whole, factor, pace) for step in last.plan_steps]
@@ -230,7 +231,7 @@ def _remainder(whole: Frame, context: Context, pace: Pace) -> list[Step]:
         done = math.hypot(moved.x_m, moved.y_m)
         if "to_start" in whole.flags or "total" in whole.flags:
             done = max(done, last.end_pose.distance_to(_run_start(context, step)))
-        missing = whole.q["length"].number - done
+        missing = whole.q["length"].number - (0.0 if "more" in whole.flags else done)
         if missing > 0.005:
             return [
                 Drive(

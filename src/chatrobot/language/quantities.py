@@ -14,7 +14,7 @@ from chatrobot.language.tokens import Atom
 DIMENSIONS = {
     "unit_length": "length", "unit_angle": "angle", "unit_time": "time", "unit_speed": "speed",
     "unit_rate": "rate", "unit_turn": "turns", "unit_percent": "percent", "unit_times": "times",
-    "unit_clock": "clock", "unit_fold": "fold", "counter": "count",
+    "unit_clock": "clock", "unit_fold": "fold", "unit_scale": "scale", "counter": "count",
 }  # fmt: skip
 _SKIPPED = frozenset({
     "full", "complete", "whole", "single", "个", "整", "of", "more", "further", "tiny", "small", "big", "large",
@@ -75,8 +75,8 @@ def _quantity_at(atoms: Sequence[Atom], i: int) -> tuple[list[Atom], int] | None
         return heard
     if atoms[i].kind == "fullturn":
         return [quantity("turns", float(atoms[i].value) * 2.0 * math.pi, atoms[i].text)], i + 1
-    if atoms[i].kind in ("times", "fold"):
-        return [quantity(atoms[i].kind, float(atoms[i].value), atoms[i].text)], i + 1
+    if atoms[i].kind in ("times", "fold", "multiple"):
+        return [quantity("scale" if atoms[i].kind == "multiple" else atoms[i].kind, float(atoms[i].value), atoms[i].text)], i + 1
     number = read_number(atoms, i) or _determined(atoms, i)
     if number is None and is_kind(atoms, i, "num", "article"):
         number = _article(atoms, i)
@@ -273,7 +273,7 @@ def _each_time(atoms: list[Atom], i: int) -> tuple[int, float]:
         unit = _unit(atoms, i + 1)
         if unit and unit[0] == "time":
             end, time_s = i + 2, unit[1]
-        elif is_kind(atoms, i + 1, "q", "time"):
+        elif is_kind(atoms, i, "per") and is_kind(atoms, i + 1, "q", "time"):
             end, time_s = i + 2, atoms[i + 1].number
     elif is_kind(atoms, i, "q", "time") and is_chinese(atoms[i].text) and atoms[i].number == 1.0:
         end, time_s = i + 1, atoms[i].number

@@ -90,22 +90,22 @@ def _shared(frames: list[Frame]) -> list[Frame]:
 
 def _paced(frames: list[Frame], pace: Pace) -> list[Step] | None:
     """`Every 50 cm stop for a second, two metres in total`: as many legs as fit, pauses between them."""
-    leg = next(
-        (f for f in frames if f.flags & {"each", "all"} and "length" in f.q and "total" not in f.flags), None
-    )
-    whole = next((f for f in frames if "total" in f.flags and "length" in f.q and f is not leg), None)
+    whole = next((f for f in frames if "total" in f.flags and {"length", "angle", "turns"} & set(f.q)), None)
+    name = next((n for n in ("length", "angle", "turns") if whole and n in whole.q), "")
+    leg = next((f for f in frames if f is not whole and name in f.q), None)
     if whole is None or len(frames) == 1 or "count" in whole.q or any(f.shape for f in frames):
         return None
     pause = next((f for f in frames if f.verb in STILL and "time" in f.q), None)
     if leg is None or pause is None or len(frames) > 3:
         raise Unclear("unclear_motion", whole.text)
-    count = whole.q["length"].number / leg.q["length"].number
+    count = whole.q[name].number / leg.q[name].number
     if abs(count - round(count)) > 1e-6 or not 1 <= round(count) <= MAX_REPEAT:
         raise Unclear("bad_count", leg.text)
     drive = whole.copy()
-    drive.q["length"] = leg.q["length"]
-    drive.direction = whole.direction or leg.direction
-    drive.verb = ""
+    drive.q[name] = leg.q[name]
+    drive.direction, drive.rot = whole.direction or leg.direction, whole.rot or leg.rot
+    drive.verb = "" if name == "length" else "turn"
+    drive.flags.discard("each")
     steps = act(drive, State(), pace)
     rest = act(Frame(verb="wait", q={"time": pause.q["time"]}), State(), pace)
     return [*(steps + rest) * (round(count) - 1), *steps]
@@ -272,6 +272,8 @@ def _finish(script: Script, frame: Frame, units: list[list[Step]]) -> None:
 
 def _insert(script: Script, frame: Frame) -> None:
     """A pause or a motion between the units, or after each of them."""
+    if not frame.moves and set(frame.q) == {"time"}:
+        frame = Frame(verb="wait", q=frame.q, flags=frame.flags, texts=frame.texts)
     steps = act(frame, script.state, script.pace)
     script.units = [part for unit in script.units for part in _full_turns(unit)]
     moving = [u for u in script.units if not all(isinstance(s, Wait) for s in u)]

@@ -61,6 +61,8 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
         if atom.value == "minus" or atom.value == "parts":
             return Atom("unknown", atom.text, atom.text)
         return Atom("glue", "x", atom.text)
+    if atom.text == "以后" and i and atoms[i - 1].kind in ("q", "verb", "shape", "dir"):
+        return Atom("conn", "then", atom.text)
     if atom.text == "后" and i and atoms[i - 1].kind in ("q", "verb", "shape") and i + 1 < len(atoms):
         if atoms[i + 1].kind in ("verb", "dir", "rot", "sep", "glue", "conn"):
             return Atom("conn", "then", atom.text)

@@ -17,7 +17,7 @@ STOP = (
     "don't move", "dont move", "do not move", "don't move a muscle", "do not move a muscle", "don't move an inch", "dont move a muscle",
     "don't you move", "don't you dare move", "don't go any further", "don't go any farther", "go no further",
     "no further", "no farther", "not another inch", "not one more inch", "not an inch further", "not a step further",
-    "not another step", "not one step further", "don't take another step", "stop cold",
+    "not another step", "not one step further", "don't take another step", "stop cold", "do not move another inch", "don't move another inch", "don't move any more", "do not move any further", "don't move any further",
     "enough", "that's enough", "thats enough", "that is enough", "enough of that", "quit it", "quit", "quit that", "quit moving",
     "cease", "cease all motion", "cease moving", "cease motion", "cease all movement", "desist", "cease and desist", "cut it out",
     "cut it", "cut that out", "cut the motors", "cut the engine", "cut the engines", "cut power", "cut the power", "cut your motors",
