@@ -15,11 +15,16 @@ from chatrobot.language.interpretation import OfflineInterpreter
 
 STILL = [
     "go five", "drive over there", "go to the kitchen", "turn by 20 metres", "rotate to the left by 3 metres",
-    "go forward or backward", "go forward backward 1 m", "go 1e309 metres", "turn NaN degrees", "go forward -1 m",
-    "forward until the um until the", "do that again, only bigger", "asdf qwer", "go forward 1 m 2 m", "🙂", "\x00",
-    "turn left and mow the lawn", "drive 1 m and grab the cup", "if the door is open go forward 1 m", "follow the wall",
-    "don't go forward", "go forward 1 m unless there is someone", "north 2 m", "走20", "去那边", "前进后退一米",
-    "跟着墙走一米", "如果前面有人就前进一米", "前进一米然后唱首歌", "别往前走", "左转无限度", "前进负一米", "你跑多快",
+    "go forward or backward", "go forward backward 1 m", "go 1e309 metres", "turn NaN degrees",
+    "go forward -1 m",
+    "forward until the um until the", "do that again, only bigger", "asdf qwer", "go forward 1 m 2 m",
+    "🙂", "\x00",
+    "turn left and mow the lawn", "drive 1 m and grab the cup", "if the door is open go forward 1 m",
+    "follow the wall",
+    "don't go forward", "go forward 1 m unless there is someone", "north 2 m", "走20", "去那边",
+    "前进后退一米",
+    "跟着墙走一米", "如果前面有人就前进一米", "前进一米然后唱首歌", "别往前走", "左转无限度",
+    "前进负一米", "你跑多快",
 ]  # fmt: skip
 
 
@@ -56,7 +61,41 @@ def test_no_text_raises(text: str) -> None:
     assert OfflineInterpreter(MECANUM).interpret(text, Context()).reply
 
 
-WORDS = ["go", "turn", "left", "right", "forward", "1", "m", "90", "degrees", "then", "and", ",", ".", "twice", "no", "sorry", "back", "again", "half", "of", "a", "square", "until", "前进", "一", "米", "左转", "再", "两", "次", "不", "停", "秒"]
+WORDS = [
+    "go",
+    "turn",
+    "left",
+    "right",
+    "forward",
+    "1",
+    "m",
+    "90",
+    "degrees",
+    "then",
+    "and",
+    ",",
+    ".",
+    "twice",
+    "no",
+    "sorry",
+    "back",
+    "again",
+    "half",
+    "of",
+    "a",
+    "square",
+    "until",
+    "前进",
+    "一",
+    "米",
+    "左转",
+    "再",
+    "两",
+    "次",
+    "不",
+    "停",
+    "秒",
+]
 
 
 @settings(max_examples=500, deadline=None)

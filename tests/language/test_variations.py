@@ -12,11 +12,13 @@ from chatrobot.plan.steps import Drive, Turn
 
 LENGTHS = {
     "one metre": 1.0, "2 m": 2.0, "fifty centimetres": 0.5, "half a meter": 0.5, "two and a half feet": 0.762,
-    "1.2 metres": 1.2, "a hundred and twenty cm": 1.2, "three quarters of a metre": 0.75, "a yard and a half": 1.3716,
+    "1.2 metres": 1.2, "a hundred and twenty cm": 1.2, "three quarters of a metre": 0.75,
+    "a yard and a half": 1.3716,
     "1 m 20 cm": 1.2,
 }  # fmt: skip
 LENGTHS_ZH = {
-    "一米": 1.0, "两米": 2.0, "五十厘米": 0.5, "半米": 0.5, "一米二": 1.2, "一百二十公分": 1.2, "1.5米": 1.5, "两米半": 2.5,
+    "一米": 1.0, "两米": 2.0, "五十厘米": 0.5, "半米": 0.5, "一米二": 1.2, "一百二十公分": 1.2,
+    "1.5米": 1.5, "两米半": 2.5,
     "零点八米": 0.8, "三百毫米": 0.3,
 }  # fmt: skip
 WAYS = {"forward": 0.0, "backward": math.pi, "to the left": math.pi / 2, "to the right": -math.pi / 2}

@@ -10,13 +10,17 @@ import yaml
 from chatrobot.reflex import is_emergency_stop, is_release, is_stop, leads_with_stop
 
 STOPS = [
-    "stop", "STOP!!", "stpo", "sotp", "stoooop", "halt!!", "please stop now", "freeze", "whoa", "that's enough",
-    "hold it right there", "don't move", "never mind, stop", "cut the motors", "停", "停下来", "停知", "婷", "别动", "快停下！",
+    "stop", "STOP!!", "stpo", "sotp", "stoooop", "halt!!", "please stop now", "freeze", "whoa",
+    "that's enough",
+    "hold it right there", "don't move", "never mind, stop", "cut the motors", "停", "停下来", "停知",
+    "婷", "别动", "快停下！",
     "停車", "刹车刹车", "往前……算了算了，别走了", "往前走两米，算了", "go forward... never mind",
 ]  # fmt: skip
 NO_STOPS = [
-    "stop-sign shape", "停一秒", "don't stop", "non-stop", "drive to the bus stop", "stop for two seconds then go on",
-    "别停", "不要停", "停一秒再走", "drive forward 1 m. Stop.", "go 2 m and stop", "don't turn left. turn right.", "",
+    "stop-sign shape", "停一秒", "don't stop", "non-stop", "drive to the bus stop",
+    "stop for two seconds then go on",
+    "别停", "不要停", "停一秒再走", "drive forward 1 m. Stop.", "go 2 m and stop",
+    "don't turn left. turn right.", "",
     "往前走一米然后停下", "unstoppable", "cancel my subscription",
 ]  # fmt: skip
 

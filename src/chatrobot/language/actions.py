@@ -134,10 +134,10 @@ def _goes_back(frame: Frame, state: State) -> bool:
 
 
 def _check_extents(frame: Frame) -> None:
-    for name, quantity in frame.q.items():
-        value = quantity.number
+    for name, amount in frame.q.items():
+        value = amount.number
         if name in MAX_EXTENT and (not math.isfinite(value) or not 0.0 < value <= MAX_EXTENT[name]):
-            raise Unclear("bad_number", quantity.text)
+            raise Unclear("bad_number", amount.text)
     if "number" in frame.q:
         raise Unclear("no_unit", frame.q["number"].text)
 

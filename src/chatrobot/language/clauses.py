@@ -1,4 +1,7 @@
-"""Atoms → frames, one a motion: cut where a slot is filled twice, joined across commas where nothing contradicts."""
+"""Atoms → frames, one a motion.
+
+Cut where a slot is filled twice, joined across commas where nothing contradicts.
+"""
 
 from __future__ import annotations
 
@@ -218,7 +221,10 @@ def _adds_time(last: Frame, first: Frame) -> bool:
 
 
 def _direction_follows(last: Frame, first: Frame) -> bool:
-    """A direction after a comma belongs to what stands before it, if that has none: `rotate 90 degrees, left`."""
+    """A direction after a comma belongs to what stands before it, if that has none.
+
+    `rotate 90 degrees, left`.
+    """
     if last.direction or last.rot:
         return first.direction == last.direction or "diagonal" in first.flags
     if last.verb in GO and first.direction in SIDES and "length" in last.q and first.joined == "weak":

@@ -1,4 +1,7 @@
-"""Corrections inside a sentence: `left, sorry, I mean right`; and negations: `don't turn left. turn right.`"""
+"""Corrections inside a sentence: `left, sorry, I mean right`; and negations: `don't turn left.
+
+Turn right.`
+"""
 
 from __future__ import annotations
 

@@ -103,7 +103,12 @@ def _is_change(whole: Frame) -> bool:
         mirrored = "other_way" in whole.flags and not whole.has_extent and not whole.direction and whole.verb in (
             *GO, "turn", "spin", "curve"
         )  # fmt: skip
-        scaled = "scale" in whole.q and whole.verb in (*GO, "turn") and not whole.direction and not whole.has_extent
+        scaled = (
+            "scale" in whole.q
+            and whole.verb in (*GO, "turn")
+            and not whole.direction
+            and not whole.has_extent
+        )
         if not (repeats or mirrored or scaled) or whole.shape or whole.place:
             return False
     if "times" in whole.q and "more" in whole.flags and not whole.has_extent:

@@ -34,7 +34,8 @@ LanguageCode = Literal["en", "zh"]
 Outcome = Literal["plan", "stop", "unclear", "refused", "answered"]
 
 _BREAKS = re.compile(
-    r"(?<!\d)[,.;!?](?!\d)|(?<=\d)[,.;!?](?=\s|$)|[,.;!?]\s|,|\n|\b(?:and then|then|and)\b|然后|接着|再|并且|并|之后"
+    r"(?<!\d)[,.;!?](?!\d)|(?<=\d)[,.;!?](?=\s|$)|[,.;!?]\s|,|\n|"
+    r"\b(?:and then|then|and)\b|然后|接着|再|并且|并|之后"
 )
 
 
@@ -42,9 +43,9 @@ _BREAKS = re.compile(
 class Interpretation:
     """What an utterance means.
 
-    `unaccounted` is the part that nothing explains. `append`: it goes on where the running motion ends. The last
-    five are for the dialogue's memory and hold from the moment the session accepts the turn; `remember_place` is
-    where the robot stands now.
+    `unaccounted` is the part that nothing explains, `code` the reason in a word (see `phrases.toml`). `append`: it
+    goes on where the running motion ends. The last four are for the dialogue's memory and hold from the moment the
+    session accepts the turn; `remember_place` is where the robot stands now.
     """
 
     outcome: Outcome
@@ -61,7 +62,10 @@ class Interpretation:
 
 
 class OfflineInterpreter:
-    """Understands English and Chinese by rules over data. Keeps no state: the dialogue comes with the context."""
+    """Understands English and Chinese by rules over data. Keeps no state.
+
+    The dialogue comes with the context.
+    """
 
     def __init__(self, profile: RobotProfile) -> None:
         self._profile = profile

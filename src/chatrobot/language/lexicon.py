@@ -1,7 +1,7 @@
 """All known words of all languages in one trie-like table, looked up by what they are written as.
 
-Both languages share one table, since people mix them ("CW 转一圈半"). A word means one or several `(kind, value)`
-pairs. Where one writing is listed twice, the earlier file of `FILES` decides.
+Both languages share one table, since people mix them ("CW 转一圈半"). A word means one or several
+`(kind, value)` pairs. Where one writing is listed twice, the earlier file of `FILES` decides.
 """
 
 from __future__ import annotations
@@ -34,7 +34,8 @@ class Lexicon:
     """`words` maps a written form, cut into units, to its meaning; `longest` is by the first unit.
 
     `guesses` holds what a speech recogniser writes for a word: looked up where the word itself is not found.
-    A typo is only mended towards `core`. `latin` are single Latin words in any phrase; `known` has ordinary words besides, in which no typo is seen.
+    A typo is only mended towards `core`. `latin` are single Latin words in any phrase; `known` has ordinary
+    words besides, in which no typo is seen.
     """
 
     words: dict[Key, Meaning]

@@ -1,4 +1,7 @@
-"""Steps of a path drawn on the floor, from its measures in metres and radians. `left` is the side it turns to."""
+"""Steps of a path drawn on the floor, from its measures in metres and radians.
+
+`left` is the side it turns to.
+"""
 
 from __future__ import annotations
 

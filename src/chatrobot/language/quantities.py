@@ -17,9 +17,12 @@ DIMENSIONS = {
     "unit_clock": "clock", "unit_fold": "fold", "unit_scale": "scale", "counter": "count",
 }  # fmt: skip
 _SKIPPED = frozenset({
-    "full", "complete", "whole", "single", "个", "整", "of", "more", "further", "tiny", "small", "big", "large",
-    "short", "little", "equal", "完整的", "的", "additional", "extra", "quick", "straight", "long", "小", "大",
-    "slow", "new", "一个完整的", "完整", "直", "complete,", "different", "separate", "identical", "entire", "wide",
+    "full", "complete", "whole", "single", "个", "整", "of", "more", "further", "tiny", "small", "big",
+    "large",
+    "short", "little", "equal", "完整的", "的", "additional", "extra", "quick", "straight", "long",
+    "小", "大",
+    "slow", "new", "一个完整的", "完整", "直", "complete,", "different", "separate", "identical",
+    "entire", "wide",
     "half", "good", "measly", "mere", "neat",
 })  # fmt: skip
 
@@ -39,7 +42,8 @@ _SPEED_WORDS = frozenset(
     }
 )
 _DETERMINERS = frozenset({
-    "the first", "first", "the next", "next", "the last", "last", "the final", "another", "one more", "each", "every",
+    "the first", "first", "the next", "next", "the last", "last", "the final", "another", "one more",
+    "each", "every",
     "the second", "the third", "a further",
 })  # fmt: skip
 
@@ -76,7 +80,13 @@ def _quantity_at(atoms: Sequence[Atom], i: int) -> tuple[list[Atom], int] | None
     if atoms[i].kind == "fullturn":
         return [quantity("turns", float(atoms[i].value) * 2.0 * math.pi, atoms[i].text)], i + 1
     if atoms[i].kind in ("times", "fold", "multiple"):
-        return [quantity("scale" if atoms[i].kind == "multiple" else atoms[i].kind, float(atoms[i].value), atoms[i].text)], i + 1
+        return [
+            quantity(
+                "scale" if atoms[i].kind == "multiple" else atoms[i].kind,
+                float(atoms[i].value),
+                atoms[i].text,
+            )
+        ], i + 1
     number = read_number(atoms, i) or _determined(atoms, i)
     if number is None and is_kind(atoms, i, "num", "article"):
         number = _article(atoms, i)
@@ -250,7 +260,10 @@ def _speeds(atoms: list[Atom]) -> list[Atom]:
 
 
 def _per_time(atoms: list[Atom], i: int) -> tuple[int, float]:
-    """The index after `per second`, `/s`, `a second`, `each second`, and the time; (i, 0) if it is not there."""
+    """The index after `per second`, `/s`, `a second`, `each second`, and the time.
+
+    (i, 0) if it is not there.
+    """
     if not (
         is_kind(atoms, i, "per")
         or is_kind(atoms, i, "num", "article")

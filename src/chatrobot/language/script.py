@@ -17,7 +17,10 @@ from chatrobot.plan.steps import MAX_REPEAT, Go, Repeat, Say, Step, Turn, Wait
 
 @dataclass
 class Memory:
-    """What this dialogue knows: places by name, words that a person defined, and what the last motion left."""
+    """What this dialogue knows.
+
+    Places by name, words that a person defined, and what the last motion left.
+    """
 
     places: Mapping[str, Go] = field(default_factory=dict)
     words: Mapping[str, tuple[Step, ...]] = field(default_factory=dict)
@@ -167,7 +170,7 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
         return i + 1 + (both is not None)
     if frame.shape:
         end, steps = draw(frames, i, script.pace)
-        _finish(script, frame, [steps])
+        _finish(script, [steps])
         return end
     if is_times_only(frame) or (
         "again" in frame.flags and not frame.moves and {"times", "count"} & set(frame.q)
@@ -264,7 +267,7 @@ def _known(frame: Frame, script: Script) -> list[Step]:
     return [replace(go, speed_mps=script.pace.speed(frame))]
 
 
-def _finish(script: Script, frame: Frame, units: list[list[Step]]) -> None:
+def _finish(script: Script, units: list[list[Step]]) -> None:
     for unit in units:
         script.state.steps.extend(unit)
     script.units.extend(units)

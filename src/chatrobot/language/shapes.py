@@ -198,7 +198,7 @@ def _drawn(shape: str, found: Measures, pace: Pace, text: str) -> list[Step]:
         )
         if not 3 <= sides <= 100:
             raise Unclear("which_size", text)
-        if len({v for v in found.plain()}) > 1 and sides == 4:
+        if len(set(found.plain())) > 1 and sides == 4:
             return _rectangle(found, text)
         side = _side(found, pace, sides)
         if found.seconds and speed is None:

@@ -63,9 +63,9 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
         return Atom("glue", "x", atom.text)
     if atom.text == "以后" and i and atoms[i - 1].kind in ("q", "verb", "shape", "dir"):
         return Atom("conn", "then", atom.text)
-    if atom.text == "后" and i and atoms[i - 1].kind in ("q", "verb", "shape") and i + 1 < len(atoms):
-        if atoms[i + 1].kind in ("verb", "dir", "rot", "sep", "glue", "conn"):
-            return Atom("conn", "then", atom.text)
+    follows = i + 1 < len(atoms) and atoms[i + 1].kind in ("verb", "dir", "rot", "sep", "glue", "conn")
+    if atom.text == "后" and follows and i and atoms[i - 1].kind in ("q", "verb", "shape"):
+        return Atom("conn", "then", atom.text)
     if (
         atom.kind == "filler"
         and atom.text.split()[-1] in ("stop", "halt")

@@ -95,7 +95,8 @@ def _marks() -> frozenset[str]:
     """What makes it worth trying: words that only an engineer says."""
     return frozenset({
         "linear", "angular", "vx", "vy", "wz", "cmd_vel", "twist", " in x", " in y", "yaw rate", "yawrate",
-        "x velocity", "y velocity", "omega", "x方向", "线速度", "角速度", "x 方向", "转速", "y方向", "y 方向", "x=", "vth",
+        "x velocity", "y velocity", "omega", "x方向", "线速度", "角速度", "x 方向", "转速", "y方向",
+        "y 方向", "x=", "vth",
     })  # fmt: skip
 
 

@@ -53,7 +53,8 @@ _CANCELLED = _phrases(words_en.CANCELLED, words_zh.CANCELLED)
 _TAKEN_BACK = _phrases(words_en.TAKEN_BACK, words_zh.TAKEN_BACK)
 _NOUNS = frozenset({"sign", "signs", "牌", "标", "watch", "light", "lights"})
 _NUMBERS = frozenset("一二两三四五六七八九十半几") | {
-    "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "half", "between", "after", "every",
+    "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "half", "between",
+    "after", "every",
 }  # fmt: skip
 _NOT_LEADING = {
     _units(p)
