@@ -100,9 +100,8 @@ def _is_change(whole: Frame) -> bool:
             and not whole.direction
             and not whole.has_extent
         )
-        mirrored = "other_way" in whole.flags and not whole.has_extent and not whole.direction and whole.verb in (
-            *GO, "turn", "spin", "curve"
-        )  # fmt: skip
+        bare = not whole.has_extent and not whole.direction
+        mirrored = "other_way" in whole.flags and bare and whole.verb in (*GO, "turn", "spin", "curve")
         scaled = (
             "scale" in whole.q
             and whole.verb in (*GO, "turn")

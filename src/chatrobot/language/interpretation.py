@@ -21,6 +21,7 @@ from chatrobot.language.manner import Pace
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
 from chatrobot.language.order import in_order
 from chatrobot.language.phrases import describe_plan, say
+from chatrobot.language.program_request import read_program_request
 from chatrobot.language.quantities import read_quantities
 from chatrobot.language.script import Memory, write
 from chatrobot.language.tidy import tidy
@@ -43,9 +44,9 @@ _BREAKS = re.compile(
 class Interpretation:
     """What an utterance means.
 
-    `unaccounted` is the part that nothing explains, `code` the reason in a word (see `phrases.toml`). `append`: it
-    goes on where the running motion ends. The last four are for the dialogue's memory and hold from the moment the
-    session accepts the turn; `remember_place` is where the robot stands now.
+    `unaccounted` is the part that nothing explains, `code` the reason in a word (see `phrases.toml`).
+    `append`: it goes on where the running motion ends. The last four are for the dialogue's memory and hold
+    from the moment the session accepts the turn; `remember_place` is where the robot stands now.
     """
 
     outcome: Outcome
@@ -101,6 +102,9 @@ class _Reading:
     def interpretation(self) -> Interpretation:
         if not self.plain:
             raise Unclear("empty")
+        program = read_program_request(self.plain)
+        if program is not None:
+            return self._plan(program)
         twist = read_twist(self.plain)
         if twist is not None:
             return self._plan([twist])

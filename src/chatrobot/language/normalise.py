@@ -27,7 +27,7 @@ def _simplified() -> dict[int, str]:
 
 
 def normalise(text: str) -> str:
-    """Lower case, compatibility forms folded, traditional → simplified, control characters and emoji dropped."""
+    """Lower case, compatibility forms folded, simplified characters, no control characters, no emoji."""
     # An ellipsis must not fold into full stops, and "1½" must not fold into "11/2".
     text = re.sub(r"(?<=\d)(?=[½¼¾⅓⅔])", " ", text.translate(_QUOTES))
     text = unicodedata.normalize("NFKC", _ELLIPSIS.sub("…", text).replace("…", "\ue000"))

@@ -1,4 +1,4 @@
-"""Numbers in atoms: digits, words, fractions, of any language whose data lists digits, scales and fractions."""
+"""Numbers in atoms: digits, words, fractions, of any language whose data lists digits and scales."""
 
 from __future__ import annotations
 

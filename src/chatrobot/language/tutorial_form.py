@@ -1,4 +1,4 @@
-"""Raw velocities: the tutorial's line (`linear.x = 1,linear.y = 0,…`, one second) and other engineers' notations."""
+"""Raw velocities: the tutorial's line (`linear.x = 1,linear.y = 0,…`, one second) and other notations."""
 
 from __future__ import annotations
 

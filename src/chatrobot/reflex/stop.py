@@ -113,7 +113,7 @@ def is_stop(text: str) -> bool:
 
 
 def _takes_back(text: str) -> bool:
-    """`往前……算了算了，别走了`: something without a full command, then a break, then taken back to its end."""
+    """`往前……算了算了，别走了`: a command that breaks off, then taken back to the end."""
     parts = [part for part in _BREAK.split(text) if _units(part)]
     if len(parts) < 2 or not _consists(_units(parts[-1]), _CANCELLED):
         return False
