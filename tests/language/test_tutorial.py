@@ -6,9 +6,10 @@ from tests.language.dialogue_runner import Conversation
 
 from chatrobot.plan.steps import RawTwist, Repeat
 
-ROTATE = """Generate a ROS 2 Python program to control the car rotation. Specific requirements are as follows:
-1, the car needs to rotate at the angular speed of 0.5 for 6 seconds, after the rotation is finished, the speed
-is changed to 0.0, so that the car stops moving. The topic name should be "/cmd_vel"; Just the code."""
+ROTATE = """Generate a ROS 2 Python program to control the car rotation. Specific requirements are:
+1, the car needs to rotate at the angular speed of 0.5 for 6 seconds, after the rotation is finished,
+the speed is changed to 0.0, so that the car stops moving. The
+topic name should be "/cmd_vel"; Just the code."""
 SQUARE = """Generate a ROS 2 Python program to control the car movement. Specific requirements are as follows:
 1. The motion path is a square. The topic name should be "/cmd_vel";
 2. Use geometry_msgs/msg/twist.hpp with a linear velocity of 0.2 and a movement time of 3 seconds. The angular

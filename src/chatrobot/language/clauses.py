@@ -104,7 +104,7 @@ def _is_bare_direction(frame: Frame) -> bool:
         and not frame.has_extent
         and frame.verb not in TURN
         and frame.verb != "slide"
-        and (not frame.pace and not frame.flags)
+        and not (frame.pace or frame.flags or frame.q)
     )
 
 

@@ -16,8 +16,20 @@ _MOTION = ("q", "verb", "dir", "rot", "shape", "pace", "role", "number")
 def tidy(atoms: Sequence[Atom]) -> list[Atom]:
     """The atoms as the clause reader wants them."""
     settled = [_settled(atoms, i) for i in range(len(atoms))]
+    if any(atom.kind == "shape" for atom in settled):
+        settled = [_times_sign(settled, i) for i in range(len(settled))]
     settled = _pauses(settled)
     return _headings(_without_reasons(_fractions_of(_relative_speeds(settled))))
+
+
+def _times_sign(atoms: Sequence[Atom], i: int) -> Atom:
+    """`1 m by 50 cm`: the sides of a shape, not one length after the other."""
+    joins = (
+        atoms[i].text in ("by", "x", "乘", "乘以")
+        and is_kind(atoms, i - 1, "q")
+        and is_kind(atoms, i + 1, "q")
+    )
+    return Atom("sep", "weak", atoms[i].text) if joins else atoms[i]
 
 
 def _pauses(atoms: Sequence[Atom]) -> list[Atom]:
