@@ -126,7 +126,7 @@ class Frame:
         if (
             verb in STILL
             and old not in STILL
-            and (self.direction or self.rot or rotating or "length" in self.q)
+            and (old in GO or self.direction or self.rot or rotating or "length" in self.q)
         ):
             return False
         if (
