@@ -11,7 +11,7 @@ import yaml
 from tests.language.dialogue_runner import run_item
 
 CORPUS = Path(__file__).parent.parent / "corpus"
-LEAST_CORRECT = {"en": 124, "zh": 73}
+LEAST_CORRECT = {"en": 124, "zh": 79}
 
 
 def items(language: str) -> list[dict[str, Any]]:
@@ -37,4 +37,4 @@ def test_no_item_is_done_wrongly_and_no_fewer_are_done_right_than_before(languag
 def test_outside_of_complex_items_nothing_is_missed(language: str) -> None:
     plain = [item for item in items(language) if item["category"] != "complex"]
     missed = [item["id"] for item in plain if run_item(item)[0] != "correct"]
-    assert len(missed) <= 0.02 * len(plain), missed
+    assert missed == []
