@@ -41,6 +41,8 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     if "original_heading" in whole.flags and ("to_start" in whole.flags or whole.verb == "return"):
         start = context.dialogue.start_pose
         return [Go(start.x_m, start.y_m, start.yaw_rad, frame="odom", speed_mps=pace.speed(whole))]
+    if whole.has_extent and {"original_heading", "to_start"} & whole.flags:
+        return None  # a motion of its own comes before
     if "original_heading" in whole.flags and whole.verb in ("face", "turn", "", "return", "go"):
         return [Face(context.dialogue.start_pose.yaw_rad, frame="odom", rate_radps=pace.rate(whole))]
     if (whole.verb == "return" or "to_start" in whole.flags) and not whole.q and not whole.place:

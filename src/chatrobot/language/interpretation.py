@@ -24,6 +24,7 @@ from chatrobot.language.order import in_order
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.program_request import read_program_request
 from chatrobot.language.quantities import read_quantities
+from chatrobot.language.rephrase import rephrased
 from chatrobot.language.script import Memory, write
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import Atom, tokenise
@@ -96,7 +97,7 @@ class _Reading:
 
     def __init__(self, text: str, language: LanguageCode, context: Context, profile: RobotProfile) -> None:
         self.text, self.language, self.context, self.profile = text, language, context, profile
-        self.plain = with_known_counts(normalise(text))
+        self.plain = with_known_counts(rephrased(normalise(text), language))
         dialogue = context.dialogue
         self.pace = Pace(profile, dialogue.default_speed_mps, dialogue.default_rate_radps)
 
@@ -177,7 +178,7 @@ class _Reading:
         atoms = tidy(self._atoms(self.plain))
         if any(a.kind in ("verb", "shape", "place") for a in atoms if a.text not in ("say",)):
             return None
-        before = normalise(pending)
+        before = rephrased(normalise(pending), self.language)
         for joined in (f"{before} {self.plain}", f"{before}, {self.plain}"):
             try:
                 found = self._command(joined)

@@ -142,6 +142,9 @@ def _article(atoms: Sequence[Atom], i: int) -> Number | None:
     return None if unit[0] in ("count", "times") and unit[2] != "tile" else Number(1.0, i + 1)
 
 
+_COUNTED = ("turns", "count", "length", "angle", "time", "times")
+
+
 def _skip(atoms: Sequence[Atom], i: int) -> tuple[int, list[Atom]]:
     """Past the words that may stand between a number and its unit; rotations and more are kept."""
     kept: list[Atom] = []
@@ -158,7 +161,7 @@ def _skip(atoms: Sequence[Atom], i: int) -> tuple[int, list[Atom]]:
             break
         i += 1
     unit = _unit(atoms, i)
-    if unit is None or (kept and unit[0] not in ("turns", "count", "length", "angle", "time")):
+    if unit is None or (kept and unit[0] not in _COUNTED):
         return start, []
     if any(a.kind != "flag" for a in kept) and unit[0] not in ("turns", "count"):
         return start, []
