@@ -116,13 +116,16 @@ def _is_change(whole: Frame) -> bool:
         return True
     if "other_way" in whole.flags or "again" in whole.flags:
         return True
-    return bool({"fold", "scale"} & set(whole.q)) and not whole.has_extent
+    return bool({"fold", "scale", "faster"} & set(whole.q)) and not whole.has_extent
 
 
 def _changed(last: _Last, whole: Frame, pace: Pace) -> list[Step]:
-    factor = next((whole.q[name].number for name in ("scale", "fold") if name in whole.q), 1.0)
-    if "percent" in whole.q:
+    whole = _speed_said(whole, last)
+    factor = whole.q["scale"].number if "scale" in whole.q else 1.0
+    if "percent" in whole.q and not whole.pace:
         factor = whole.q["percent"].number
+    if "number" in whole.q or "count" in whole.q or "clock" in whole.q:
+        raise Unclear("no_unit", next(whole.q[n].text for n in ("number", "count", "clock") if n in whole.q))
     steps = [_step(step, whole, factor, pace) for step in last.plan_steps]
     count = whole.q.get("times")
     if count is not None:
@@ -132,6 +135,18 @@ def _changed(last: _Last, whole: Frame, pace: Pace) -> list[Step]:
     if any(name in whole.q for name in ("length", "angle", "turns", "time")):
         steps = _resized(steps, whole)
     return steps
+
+
+def _speed_said(whole: Frame, last: _Last) -> Frame:
+    """`once more but at 0.5`, after a motion whose speed was said: a speed."""
+    number = whole.q.get("number")
+    paced = any(isinstance(s, (Drive, Arc)) and s.speed_mps for s in last.plan_steps)
+    if number is None or not paced or not 0 < number.number < 1 or whole.q.keys() != {"number"}:
+        return whole
+    whole = whole.copy()
+    del whole.q["number"]
+    whole.q["speed"] = quantity("speed", number.number, number.text)
+    return whole
 
 
 def _step(step: Step, whole: Frame, factor: float, pace: Pace) -> Step:
@@ -180,9 +195,11 @@ def _step(step: Step, whole: Frame, factor: float, pace: Pace) -> Step:
 
 
 def _speed(old: float | None, whole: Frame, pace: Pace) -> float | None:
-    if not whole.pace and "speed" not in whole.q:
+    if not whole.pace and not {"speed", "fold", "faster"} & set(whole.q):
         return old
     usual = old or pace.speed_mps or pace.profile.defaults.speed_mps
+    if "faster" in whole.q:
+        return whole.q["faster"].number * usual
     if whole.pace == "slow":
         return usual * 0.5
     if whole.pace == "fast":

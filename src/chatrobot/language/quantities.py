@@ -14,7 +14,7 @@ from chatrobot.language.tokens import Atom
 DIMENSIONS = {
     "unit_length": "length", "unit_angle": "angle", "unit_time": "time", "unit_speed": "speed",
     "unit_rate": "rate", "unit_turn": "turns", "unit_percent": "percent", "unit_times": "times",
-    "unit_clock": "clock", "unit_fold": "fold", "unit_scale": "scale", "counter": "count",
+    "unit_clock": "clock", "unit_fold": "fold", "unit_faster": "faster", "unit_scale": "scale", "counter": "count",
 }  # fmt: skip
 _SKIPPED = frozenset({
     "full", "complete", "whole", "single", "个", "整", "of", "more", "further", "tiny", "small", "big",
@@ -79,7 +79,7 @@ def _quantity_at(atoms: Sequence[Atom], i: int) -> tuple[list[Atom], int] | None
         return heard
     if atoms[i].kind == "fullturn":
         return [quantity("turns", float(atoms[i].value) * 2.0 * math.pi, atoms[i].text)], i + 1
-    if atoms[i].kind in ("times", "fold", "multiple"):
+    if atoms[i].kind in ("times", "fold", "multiple", "faster"):
         return [
             quantity(
                 "scale" if atoms[i].kind == "multiple" else atoms[i].kind,

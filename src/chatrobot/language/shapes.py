@@ -200,7 +200,10 @@ def _drawn(shape: str, found: Measures, pace: Pace, text: str) -> list[Step]:
             raise Unclear("which_size", text)
         if len(set(found.plain())) > 1 and sides == 4:
             return _rectangle(found, text)
-        side = _side(found, pace, sides)
+        diagonal = found.with_role("diagonal")
+        side = diagonal / math.sqrt(2) if diagonal and sides == 4 else _side(found, pace, sides)
+        if diagonal and sides != 4:
+            raise Unclear("which_size", text)
         if found.seconds and speed is None:
             speed = None
         if sides == 4 and found.sliding:
