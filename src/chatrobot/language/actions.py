@@ -46,6 +46,7 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if (
         "there" in frame.flags
         and frame.verb not in STILL
+        and "clock" not in frame.q
         and not (frame.direction or frame.rot or "length" in frame.q)
     ):
         raise Unclear("which_place", frame.text)

@@ -135,7 +135,9 @@ def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
         return None
     if joined == "then" or {"between", "halfway"} & first.flags or "after_each" in first.flags or "all" in first.flags:
         return None
-    if "again" in first.flags or is_times_only(first) or is_times_only(last) or last.flags & {"again", "all"}:
+    if "again" in first.flags or is_times_only(first) or is_times_only(last):
+        return None
+    if "all" in last.flags or ("again" in last.flags and not last.has_extent):
         return None
     if (
         {"between", "after_each"} & last.flags

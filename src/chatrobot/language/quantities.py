@@ -97,6 +97,9 @@ def _quantity_at(atoms: Sequence[Atom], i: int) -> tuple[list[Atom], int] | None
         return [quantity("percent", number.value, text)], number.end
     at, between = _skip(atoms, number.end)
     unit = _unit(atoms, at)
+    if unit is None and is_kind(atoms, i, "num", "article") and number.value in _ABOUT:
+        turn = Atom("verb", "turn", text)
+        return [turn, quantity("angle", math.radians(number.value), text)], number.end
     if unit is None:
         return [quantity(_bare_dimension(atoms, i, number), number.value, text)], number.end
     dimension, factor, noun = unit
@@ -142,6 +145,8 @@ def _article(atoms: Sequence[Atom], i: int) -> Number | None:
     return None if unit[0] in ("count", "times") and unit[2] != "tile" else Number(1.0, i + 1)
 
 
+_ABOUT = (90.0, 180.0, 270.0, 360.0, 540.0, 720.0)
+"""What `a 180` can only mean in degrees."""
 _COUNTED = ("turns", "count", "length", "angle", "time", "times")
 
 
