@@ -84,7 +84,8 @@ def _about(frame: Frame, pace: Pace) -> list[Step]:
     left = _left(frame)
     if "radius" in frame.q and left is not None:
         return [Arc(frame.q["radius"].number, math.pi, left=left, speed_mps=pace.speed(frame))]
-    if frame.is_arc or "length" in frame.q or {"angle", "turns"} & set(frame.q):
+    said = frame.q.get("angle") or frame.q.get("turns")
+    if frame.is_arc or "length" in frame.q or (said and abs(said.number - math.pi) > 1e-6):
         raise Unclear("unclear_motion", frame.text)
     rate = pace.rate(frame)
     if "time" in frame.q:
@@ -246,7 +247,8 @@ def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
     state.last = "turn"
     around = "around" in frame.flags and seconds is None
     left = True if left is None and around else left
-    if frame.verb == "spin" and angle is None and ("times" in frame.q or around):
+    whole = frame.verb == "spin" or (frame.verb == "turn" and ("in_place" in frame.flags or bool(frame.rot)))
+    if whole and angle is None and ("times" in frame.q or (around and frame.verb == "spin")):
         angle_rad: float | None = 2 * math.pi
     elif angle is not None:
         angle_rad = angle.number
@@ -298,6 +300,8 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
         raise Unclear("contradiction", frame.text)
     if not frame.has_extent and not frame.direction and frame.joined == "none":
         raise Unclear("which_way", frame.text)
+    if not frame.moves and set(frame.q) == {"time"} and state.last != "drive":
+        raise Unclear("unclear_motion", frame.text)
     ellipsis = "again" in frame.flags or ("more" in frame.flags and state.last == "drive")
     if not frame.moves and not frame.has_extent and not ellipsis:
         raise Unclear("unclear_motion", frame.text)

@@ -81,6 +81,8 @@ def _whole(frames: Sequence[Frame]) -> Frame | None:
             return None
         if any(name in whole.q for name in frame.q):
             return None
+        if "again" in frame.flags and whole.has_extent and whole.moves:
+            return None  # a motion of its own, then more of it
         if whole.direction and frame.direction and whole.direction != frame.direction:
             return None
         whole.direction = whole.direction or frame.direction

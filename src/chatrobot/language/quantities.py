@@ -168,7 +168,7 @@ def _skip(atoms: Sequence[Atom], i: int) -> tuple[int, list[Atom]]:
     unit = _unit(atoms, i)
     if unit is None or (kept and unit[0] not in _COUNTED):
         return start, []
-    if any(a.kind != "flag" for a in kept) and unit[0] not in ("turns", "count"):
+    if any(a.kind in ("rot", "dir") for a in kept) and unit[0] not in ("turns", "count"):
         return start, []
     return i, kept
 
@@ -276,7 +276,7 @@ def _per_time(atoms: list[Atom], i: int) -> tuple[int, float]:
         is_kind(atoms, i, "per")
         or is_kind(atoms, i, "num", "article")
         or is_kind(atoms, i, "flag", "each")
-        or (is_kind(atoms, i, "q", "time") and atoms[i].text.startswith(("a ", "an ")))
+        or (is_kind(atoms, i, "q", "time") and atoms[i].text.startswith(("a ", "an ", "every ", "each ")))
     ):
         return i, 0.0
     if atoms[i].kind == "q":
@@ -314,7 +314,8 @@ def _summed(atoms: list[Atom]) -> list[Atom]:
             before = out[-2] if joined and len(out) > 1 else out[-1]
             if before.kind == "q" and before.value == atom.value and _is_part(before, atom):
                 follows = next((a for a in atoms[i + 1 :] if a.kind not in ("glue", "num")), None)
-                if not (joined and follows and follows.kind in ("dir", "verb", "rot", "flag")):
+                apart = follows is not None and follows.kind in ("dir", "verb", "rot", "flag")
+                if not (joined and apart and _has_way(out)):
                     del out[-2 if joined else -1 :]
                     out.append(
                         quantity(atom.value, before.number + atom.number, f"{before.text} {atom.text}")
@@ -324,6 +325,16 @@ def _summed(atoms: list[Atom]) -> list[Atom]:
         out.append(atom)
         i += 1
     return out
+
+
+def _has_way(atoms: Sequence[Atom]) -> bool:
+    """Whether the clause has its direction before the amount: `forward 1 m and 20 cm left` are two."""
+    for atom in reversed(atoms):
+        if atom.kind == "sep" or (atom.kind == "conn" and atom.value == "then"):
+            return False
+        if atom.kind in ("dir", "rot"):
+            return True
+    return False
 
 
 def _is_part(whole: Atom, part: Atom) -> bool:

@@ -181,6 +181,9 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
         if not script.units:
             raise Unclear("nothing_before", frame.text)
         script.units += [list(unit) for unit in script.units]
+    elif frame.verb in STILL and {"each", "all"} & frame.flags and script.units:
+        frame.flags.add("after_each")
+        _insert(script, frame)
     elif "halfway" in frame.flags and frame.verb in STILL:
         _halve(script, frame)
     elif frame.flags & {"between", "after_each"}:

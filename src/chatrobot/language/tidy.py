@@ -110,6 +110,8 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
         and is_kind(atoms, _next_real(atoms, i + 1), "q", "time")
     ):
         return Atom("verb", "wait", atom.text)
+    if atom.kind == "unit_length" and atom.text == "inch" and is_kind(atoms, i + 1, "dir"):
+        return Atom("verb", "shift", atom.text)
     if atom.kind == "second":
         return Atom("conn", "then", atom.text)
     if atom.kind == "letter":
