@@ -18,6 +18,7 @@ from chatrobot.language.unclear import Unclear
 _CONTENT = frozenset(
     {"q", "number", "dir", "rot", "shape", "place", "defined", "condition", "refuse", "role", "scale"}
 )
+_BEFORE_MANNER = ("verb", "dir", "rot", "q", "sep", "conn", "filler", "pace", "shape")
 _WAYS = frozenset({"q", "number", "dir", "rot", "shape", "place", "defined", "again"})
 
 
@@ -106,6 +107,7 @@ def _without_manner(atoms: Sequence[Atom], i: int) -> Atom:
     """An unknown adverb of manner (`majestically`) changes no geometry."""
     atom = atoms[i]
     manner = atom.kind == "unknown" and atom.text.endswith("ly") and len(atom.text) > 4
+    manner = manner and (i == 0 or atoms[i - 1].kind in _BEFORE_MANNER)
     return Atom("filler", "x", atom.text) if manner and atom.text not in _words()["not_manner"] else atom
 
 
