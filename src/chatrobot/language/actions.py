@@ -126,7 +126,7 @@ def _with_units(frame: Frame, state: State) -> Frame:
         state.last == "turn"
         and state.angle is not None
         and not frame.has_extent
-        and (frame.turning or frame.direction in SIDES)
+        and (frame.turning or frame.direction in SIDES or ("more" in frame.flags and not frame.moves))
         and 1 <= number.number <= 1080
         and frame.verb not in GO
     ):
@@ -188,11 +188,17 @@ _REFERRING = {
 }
 
 
+_OUTLINES = {"short", "apart", "circumference", "ends", "straights", "diagonal"}
+"""Measures that only a drawn shape has."""
+
+
 def _all_used(frame: Frame, kind: str) -> None:
     """No slot may be left over: what is not acted on was not understood."""
     left_over = [q for name, q in frame.q.items() if name not in _SLOTS[kind]]
     if left_over:
         raise Unclear("unclear_motion", f"{frame.text}")
+    if _OUTLINES & set(frame.roles):
+        raise Unclear("unknown_part", frame.text)
     if "each" in frame.flags and "time" in frame.q and kind != "still" and len(frame.q) > 1:
         raise Unclear("unclear_motion", frame.text)
     if _REFERRING & frame.flags or (kind in ("drive", "heading") and (frame.rot or frame.direction2)):

@@ -80,7 +80,8 @@ def _of_clause(clause: list[Atom]) -> list[Atom]:
 def _is_remark(clause: list[Atom]) -> bool:
     """`the baby is asleep`, `my friends are watching`: somebody else, and a verb of their own."""
     words = _words()
-    if not any(a.kind == "unknown" for a in clause) or any(is_chinese(a.text) for a in clause):
+    others = any(a.kind == "verb" and a.text.endswith("ing") for a in clause)
+    if not (others or any(a.kind == "unknown" for a in clause)) or any(is_chinese(a.text) for a in clause):
         return False
     start = 0
     while start < len(clause) and clause[start].kind in ("filler", "sep"):

@@ -89,7 +89,12 @@ def _split(atoms: list[Atom], drawing: bool = False) -> list[Frame]:
                 and not current.has_extent
             ):
                 raise Unclear("length_for_turn", f"{current.text} {atom.text}")
-            if atom.kind == "q" and atom.value in current.q and atom.value in EXTENTS and not (drawing or current.shape):
+            if (
+                atom.kind == "q"
+                and atom.value in current.q
+                and atom.value in EXTENTS
+                and not (drawing or current.shape)
+            ):
                 raise Unclear("contradiction", f"{current.text} {atom.text}")
             frames.append(current)
             current = Frame(joined="none")
@@ -134,7 +139,12 @@ def _join(frames: list[Frame], segment: Segment) -> None:
 def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
     if "trip" in last.flags and "each" in first.flags and not first.verb:
         return None
-    if joined == "then" or {"between", "halfway"} & first.flags or "after_each" in first.flags or "all" in first.flags:
+    if (
+        joined == "then"
+        or {"between", "halfway"} & first.flags
+        or "after_each" in first.flags
+        or "all" in first.flags
+    ):
         return None
     if "again" in first.flags or is_times_only(first) or is_times_only(last):
         return None
@@ -157,12 +167,24 @@ def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
     if together and joined in ("and", "weak") and last.verb in (*GO, "") and first.verb in (*TURN, ""):
         last = last.copy()
         last.flags.add("while")
+    if _says_how(last, first):
+        how = last.copy()
+        how.flags |= first.flags | {"sideways"}
+        how.texts += first.texts
+        return how
     both = merged(last, first)
     if both is None:
         return None
     if joined in ("strong", "colon"):
         return both if _completes(last, first) else None
     return both if _belongs(last, first) else None
+
+
+def _says_how(last: Frame, first: Frame) -> bool:
+    """`half a metre to the right, sliding`: the manner of what stands before it."""
+    bare = not (first.q or first.direction or first.rot or first.shape or first.place)
+    sideways = last.direction not in ("", "forward", "back") and "length" in last.q
+    return bare and first.verb == "slide" and first.text.endswith("ing") and sideways
 
 
 def is_times_only(frame: Frame) -> bool:

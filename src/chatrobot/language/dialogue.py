@@ -26,6 +26,8 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     Raises:
         Unclear: where there is nothing to refer to.
     """
+    if _goes_on_the_same_way(frames):
+        return None
     whole = _whole(frames)
     if whole is None:
         return None
@@ -53,6 +55,17 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     if _is_change(whole):
         return _changed(_last(last), whole, pace)
     return None
+
+
+def _goes_on_the_same_way(frames: Sequence[Frame]) -> bool:
+    """`another 45 the same way`: on, not back; the flag has then done its work."""
+    found = False
+    for frame in frames:
+        amount = frame.has_extent or "number" in frame.q or {"more", "bit"} & frame.flags
+        if "same_way" in frame.flags and amount and frame.verb != "return" and not frame.direction:
+            frame.flags.discard("same_way")
+            found = True
+    return found
 
 
 @dataclasses.dataclass(frozen=True)

@@ -29,9 +29,10 @@ from chatrobot.language.script import Memory, write
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import Atom, tokenise
 from chatrobot.language.tutorial_form import read_twist
-from chatrobot.language.unfinished import breaks_off
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Go, Plan, Remember, Step
+from chatrobot.language.unfinished import breaks_off
+from chatrobot.language.until import UntilObstacle, read_until
+from chatrobot.plan.steps import Drive, Go, ObstacleWithin, Plan, Remember, Step
 from chatrobot.robots.profile import RobotProfile
 
 LanguageCode = Literal["en", "zh"]
@@ -207,12 +208,30 @@ class _Reading:
         loose = "" if asks else breaks_off(plain, self.language)
         if loose and not self._known_name(loose):
             raise Unclear("unknown_part", f"{loose} …")
+        until = read_until(plain, self.language)
+        if until is not None:
+            return self._until(until)
         frames = _frames(atoms)
         default = self._default(frames)
         if default is not None:
             return default
         steps = refer(frames, self.context, self.pace) or write(frames, self.pace, self._memory())
         return self._plan(steps, append=_appends(atoms))
+
+    def _until(self, until: UntilObstacle) -> Interpretation:
+        frames = _frames(self._atoms(until.before))
+        steps = write(frames, self.pace, self._memory())
+        last = steps[-1]
+        if not isinstance(last, Drive):
+            raise Unclear("condition", until.before)
+        said = frames[-1].has_extent
+        steps[-1] = replace(
+            last,
+            distance_m=last.distance_m if said else None,
+            duration_s=last.duration_s if said else None,
+            until=ObstacleWithin(until.distance_m),
+        )
+        return self._plan([*steps, *self._steps(until.after)])
 
     def _known_name(self, words: str) -> bool:
         return any(words.split()[-1] in key for key in self._names())
@@ -225,7 +244,9 @@ class _Reading:
             return False
         others = [a for clause, stop in zip(clauses, stops) if not stop for a in self._atoms(clause)]
         moving = ("q", "dir", "rot", "shape", "place", "defined", "number", "pace", "condition")
-        return not any(a.kind in moving or (a.kind == "verb" and a.value not in (*STILL, "make")) for a in others)
+        return not any(
+            a.kind in moving or (a.kind == "verb" and a.value not in (*STILL, "make")) for a in others
+        )
 
     def _question(self, plain: str, atoms: list[Atom], ability: bool) -> Interpretation | None:
         """The answer, unless it is a command put as a question."""
@@ -319,7 +340,9 @@ class _Reading:
 
 def _frames(atoms: list[Atom]) -> list[Frame]:
     return read_frames(
-        tidy(without_negated(in_order(corrected(settle_condition(with_defined_units(without_chatter(atoms)))))))
+        tidy(
+            without_negated(in_order(corrected(settle_condition(with_defined_units(without_chatter(atoms))))))
+        )
     )
 
 

@@ -226,7 +226,9 @@ def _relative_to_last(frame: Frame, script: Script) -> Frame:
     """`…, then a metre more twice as fast`: relative to the speed said before, if there was one."""
     if "faster" not in frame.q:
         return frame
-    before = next((s for s in reversed(script.state.steps) if isinstance(s, (Drive, Arc)) and s.speed_mps), None)
+    before = next(
+        (s for s in reversed(script.state.steps) if isinstance(s, (Drive, Arc)) and s.speed_mps), None
+    )
     if before is None or before.speed_mps is None:
         return frame
     frame = frame.copy()

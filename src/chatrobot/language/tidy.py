@@ -115,7 +115,9 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
     if atom.kind == "second":
         return Atom("conn", "then", atom.text)
     if atom.kind == "letter":
-        beside = is_kind(atoms, i + 1, "q") or (is_kind(atoms, i - 1, "q") and not is_kind(atoms, i + 1, "unknown"))
+        beside = is_kind(atoms, i + 1, "q") or (
+            is_kind(atoms, i - 1, "q") and not is_kind(atoms, i + 1, "unknown")
+        )
         return Atom("dir" if beside else "unknown", atom.value if beside else atom.text, atom.text)
     if atom.kind == "counter":
         if atom.text in ("step", "pace", "steps"):

@@ -64,7 +64,8 @@ def _plainer(text: str) -> str:
             said = " ".join(f"{name} {value}" for name, value in zip(names, values))
             return f"{text[: tuple_form.start()]} {said} {text[tuple_form.end() :]}"
     text = _CALL.sub(
-        lambda m: f"{m[1]}: {{{', '.join(f'{a}: {v}' for a, v in zip('xyz', re.findall(_NUMBER, m[2])))}}}", text
+        lambda m: f"{m[1]}: {{{', '.join(f'{a}: {v}' for a, v in zip('xyz', re.findall(_NUMBER, m[2])))}}}",
+        text,
     )
     text = re.sub(r"\btwist ?\((.*)\)", r"\1", text)
     text = _DOT.sub(lambda m: _NAMES[m[1]] + " ", text)
