@@ -139,6 +139,25 @@ def test_plan_rehearses_and_moves_nothing(chatrobot: Command) -> None:
     assert done.named("result")[0]["path_m"] == 0.0
 
 
+def test_plan_draws_the_way(chatrobot: Command, tmp_path: Path) -> None:
+    file = tmp_path / "way.png"
+    assert chatrobot("plan", "forward 20 m", "--png", str(file), "--world", "home").code == 4
+    assert file.read_bytes().startswith(b"\x89PNG")
+
+
+def test_where_there_is_no_plan_there_is_no_picture(chatrobot: Command, tmp_path: Path) -> None:
+    file = tmp_path / "way.png"
+    done = chatrobot("plan", "where are you?", "--png", str(file))
+    assert "no plan to draw" in done.err
+    assert not file.exists()
+
+
+def test_a_picture_that_cannot_be_written_is_told(chatrobot: Command, tmp_path: Path) -> None:
+    done = chatrobot("plan", "forward 1 m", "--png", str(tmp_path / "no" / "such" / "way.png"))
+    assert done.code == 1
+    assert "No such file" in done.err
+
+
 def test_plan_says_what_would_be_hit(chatrobot: Command) -> None:
     done = chatrobot("plan", "forward 20 m", "--world", "home")
     assert done.code == 4
