@@ -105,7 +105,7 @@ def test_the_commands_show_robot_world_and_plan(chat, tmp_path):
     chat.enter("turn left 20 degrees")
     chat.wait_for(DONE)
     chat.enter(f"/save-plan {tmp_path / 'mine.plan'}")
-    chat.wait_for("mine.plan")
+    chat.wait_for("The plan is in")
     assert (tmp_path / "mine.plan").read_text() == "turn left 20 deg\n"
 
 
@@ -121,7 +121,11 @@ def test_after_an_emergency_stop_nothing_moves_until_it_is_released(chat):
 
 
 def test_tab_completes_commands_and_places(chat):
-    chat.type("/rel\t\r")
+    chat.type("/rel")
+    chat.wait_for("/release  release the emergency stop")
+    chat.type("\t")
+    chat.wait_for("› /release")
+    chat.type("\r")
     chat.wait_for("Released")
     chat.type("go to the kitc\t")
     chat.wait_for("› go to the kitchen")
