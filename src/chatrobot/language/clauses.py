@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from chatrobot.language.frames import EXTENTS, GO, SIDES, STILL, TURN, Frame, merged
+from chatrobot.language.frames import EXTENTS, GO, SLOTTED, SIDES, STILL, TURN, Frame, merged
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 
@@ -63,16 +63,23 @@ def _separator(atom: Atom) -> str | None:
 
 def _split(atoms: list[Atom]) -> list[Frame]:
     """The frames of a stretch without separators."""
+    curve = next((a for a in atoms if a.kind == "verb" and a.value == "curve"), None)
+    if curve is not None and not any(a.kind == "shape" for a in atoms):
+        atoms = [curve, *[a for a in atoms if a is not curve and a.value != "go"]]
     frames: list[Frame] = []
     current = Frame()
     for i, atom in enumerate(atoms):
         if atom.kind in ("filler", "glue", "sep", "reason"):
             continue
-        if atom.kind in ("unknown", "unit_length", "unit_angle", "unit_time", "unit_percent", "scale", "fraction"):
+        if atom.kind not in SLOTTED:
             raise Unclear("unknown_part", _around(atoms, i))
         if not current.add(atom):
             if _is_bare_direction(current):
                 raise Unclear("contradiction", f"{current.text} {atom.text}".strip())
+            if atom.kind == "q" and atom.value == "length" and current.verb in TURN and not current.has_extent:
+                raise Unclear("length_for_turn", f"{current.text} {atom.text}")
+            if atom.kind == "q" and atom.value in current.q and atom.value in EXTENTS and not current.shape:
+                raise Unclear("contradiction", f"{current.text} {atom.text}")
             frames.append(current)
             current = Frame(joined="none")
             if not current.add(atom):
@@ -116,6 +123,10 @@ def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
         return None
     if {"between", "after_each"} & last.flags and not first.moves and first.has_extent and last.moves and last.has_extent:
         return None
+    together = "speed" in last.q and "rate" in first.q and not last.has_extent
+    if together and joined in ("and", "weak") and last.verb in GO and first.verb in TURN:
+        last = last.copy()
+        last.flags.add("while")
     both = merged(last, first)
     if both is None:
         return None
@@ -147,17 +158,23 @@ def _completes(last: Frame, first: Frame) -> bool:
 
 def _belongs(last: Frame, first: Frame) -> bool:
     """Across a comma or an `and`."""
+    if "count" in last.q and "length" in first.q and "each" not in first.flags and not last.shape:
+        return False
     if last.shape or first.shape:
         return not (last.shape and first.verb in (*GO, *TURN, *STILL, "return") and first.has_extent)
     if first.joined == "and" and last.verb in STILL and first.moves:
         return False
     if last.verb in STILL and last.has_extent and not (set(first.q) <= MANNER and not first.moves):
         return False
-    if not first.moves:
-        return not (set(first.q) & set(EXTENTS) and last.has_extent and not _adds_time(last, first))
+    if last.is_arc and first.verb == "turn" and "angle" not in last.q and not (first.direction or first.rot):
+        return True
     if last.is_arc or first.is_arc:
         return not (last.has_extent and first.verb and "until" not in first.flags and first.has_extent and last.verb)
+    if not first.moves:
+        return not (set(first.q) & set(EXTENTS) and last.has_extent and not _adds_time(last, first))
     if not last.moves:
+        return True
+    if first.verb == last.verb and first.q and set(first.q) <= MANNER and not (first.direction or first.rot):
         return True
     if first.verb and last.verb:
         return not last.has_extent and (not first.direction or first.direction == last.direction) and (

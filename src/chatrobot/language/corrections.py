@@ -23,6 +23,8 @@ def corrected(atoms: Sequence[Atom]) -> list[Atom]:
         if out[at].kind == "correction" and out[at].value == "cancel":
             if not any(a.kind in _PIECE for a in after):
                 raise Unclear("taken_back", out[at].text)
+            while after and after[0].kind in ("sep", "negation", "filler", "correction"):
+                after = after[1:]
             out = after
         else:
             out = _replaced(_trimmed(before), after)
@@ -115,6 +117,11 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
     out: list[Atom] = []
     i = 0
     while i < len(atoms):
+        if i == 0 and len(atoms) > 1 and atoms[0].text in ("no", "不") and atoms[1].kind == "sep":
+            if any(a.kind == "flag" and a.value == "total" for a in atoms):
+                out.append(Atom("flag", "short_of", atoms[0].text))
+            i = 2
+            continue
         if atoms[i].kind != "negation":
             out.append(atoms[i])
             i += 1
@@ -129,6 +136,8 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
             if atom.text == "but":
                 break
             end += 1
+        if scope.verb in ("turn", "spin") and not (scope.direction or scope.rot):
+            out.append(Atom("flag", "no_turn", "don't turn"))
         if not scope.moves and not scope.pace and not scope.flags:
             raise Unclear("unknown_part", " ".join(a.text for a in atoms[i:end]))
         i = end

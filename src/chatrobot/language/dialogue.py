@@ -11,6 +11,7 @@ from chatrobot.language.actions import DIRECTIONS, State, inverse
 from chatrobot.language.context import Context, TurnRecord
 from chatrobot.language.frames import GO, SIDES, Frame
 from chatrobot.language.manner import Pace
+from chatrobot.language.quantities import quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Repeat, Step, Turn, Wait
 
@@ -33,6 +34,9 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
         return _same_way_back(context)
     if "short_of" in whole.flags:
         return _remainder(whole, context, pace)
+    if "original_heading" in whole.flags and ("to_start" in whole.flags or whole.verb == "return"):
+        start = context.dialogue.start_pose
+        return [Go(start.x_m, start.y_m, start.yaw_rad, frame="odom", speed_mps=pace.speed(whole))]
     if "original_heading" in whole.flags and whole.verb in ("face", "turn", "", "return", "go"):
         return [Face(context.dialogue.start_pose.yaw_rad, frame="odom", rate_radps=pace.rate(whole))]
     if (whole.verb == "return" or "to_start" in whole.flags) and not whole.has_extent and not whole.place:
@@ -78,6 +82,8 @@ def _whole(frames: Sequence[Frame]) -> Frame | None:
 
 
 def _is_change(whole: Frame) -> bool:
+    if "same_amount" in whole.flags:
+        return False
     if whole.shape or whole.place or whole.verb not in ("", "make", "again"):
         repeats = "again" in whole.flags and whole.verb in (*GO, "turn") and not whole.direction and not whole.has_extent
         mirrored = "other_way" in whole.flags and not whole.has_extent and not whole.direction and whole.verb in (
@@ -85,6 +91,8 @@ def _is_change(whole: Frame) -> bool:
         )  # fmt: skip
         if not (repeats or mirrored) or whole.shape or whole.place:
             return False
+    if "times" in whole.q and "more" in whole.flags and not whole.has_extent:
+        return True
     if "other_way" in whole.flags or "again" in whole.flags:
         return True
     return "fold" in whole.q and not whole.has_extent
@@ -218,18 +226,22 @@ def _run_start(context: Context, step: Drive) -> Pose:
 
 def state_after(context: Context) -> State:
     """What the last motion leaves for an ellipsis like `thirty more`."""
-    state = State()
     last = context.dialogue.last_motion
+    state = State(home=context.dialogue.start_pose if last is not None else None)
     if last is None or last.plan is None:
         return state
     for step in reversed(last.plan.steps):
         if isinstance(step, Drive):
             state.last = "drive"
+            if step.distance_m:
+                state.length = quantity("length", step.distance_m, f"{step.distance_m:g} m")
             state.direction = next(
                 (n for n, a in DIRECTIONS.items() if abs(math.remainder(a - step.direction_rad, 2 * math.pi)) < 1e-6), "forward"
             )
             break
         if isinstance(step, Turn):
             state.last, state.left = "turn", step.left
+            if step.angle_rad:
+                state.angle = quantity("angle", step.angle_rad, f"{math.degrees(step.angle_rad):g}°")
             break
     return state

@@ -9,6 +9,7 @@ from typing import Literal
 
 from chatrobot import reflex
 from chatrobot.language import forms, questions
+from chatrobot.language.arithmetic import settle_condition
 from chatrobot.language.clauses import read_frames
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.corrections import corrected, without_negated
@@ -17,6 +18,7 @@ from chatrobot.language.frames import Frame
 from chatrobot.language.lexicon import Key, Meaning, cut, lexicon
 from chatrobot.language.manner import Pace
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
+from chatrobot.language.order import in_order
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.quantities import read_quantities
 from chatrobot.language.script import Memory, write
@@ -178,7 +180,7 @@ class _Reading:
             if ability and plain.endswith("?"):
                 return Interpretation("answered", say(self.language, "answer_cannot"), self.language)
             raise Unclear(f"refuse_{refusal.value}", refusal.text, refused=True)
-        frames = read_frames(tidy(without_negated(corrected(atoms))))
+        frames = _frames(atoms)
         default = self._default(frames)
         if default is not None:
             return default
@@ -188,9 +190,10 @@ class _Reading:
     def _question(self, plain: str, atoms: list[Atom], ability: bool) -> Interpretation | None:
         """The answer, unless it is a command put as a question."""
         try:
-            frames = read_frames(tidy(without_negated(corrected(atoms))))
+            frames = _frames(atoms)
             steps = refer(frames, self.context, self.pace) or write(frames, self.pace, self._memory())
-            if steps and any(f.moves or f.has_extent for f in frames):
+            plain_question = questions.is_plain_question(plain, self.language)
+            if steps and any(f.has_extent or (f.moves and not plain_question) for f in frames):
                 return None
         except Unclear:
             pass
@@ -248,6 +251,10 @@ class _Reading:
                 places[name] = Go(place.pose.x_m, place.pose.y_m, place=name)
         words = {name: plan.steps for name, plan in dialogue.words.items()}
         return Memory(places, words, replace(state_after(self.context)))
+
+
+def _frames(atoms: list[Atom]) -> list[Frame]:
+    return read_frames(tidy(without_negated(in_order(corrected(settle_condition(atoms))))))
 
 
 def _clauses(text: str) -> list[str]:

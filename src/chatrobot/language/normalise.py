@@ -14,6 +14,7 @@ MAX_CHARACTERS = 2000
 _QUOTES = str.maketrans({"’": "'", "‘": "'", "`": "`", "´": "'", "−": "-", "‐": "-", "‑": "-", "×": "x", "·": " "})
 _ELLIPSIS = re.compile(r"\.{2,}|…+")
 _HAN = re.compile(r"[\u3400-\u9fff]")
+_REDOUBLED = re.compile(r"([^\W\d一二两三四五六七八九十百千半a-z])一\1")  # 挪一挪
 _SPACES = re.compile(r"[ \t\u3000]+")
 
 
@@ -29,6 +30,7 @@ def normalise(text: str) -> str:
     text = re.sub(r"(?<=\d)(?=[½¼¾⅓⅔])", " ", text.translate(_QUOTES))
     text = unicodedata.normalize("NFKC", _ELLIPSIS.sub("…", text).replace("…", "\ue000"))
     text = text.replace("\ue000", "…").replace("⁄", "/").translate(_simplified()).lower()
+    text = _REDOUBLED.sub(r"\1", text)
     kept = [c if _kept(c) else " " for c in text]
     return _SPACES.sub(" ", "".join(kept)).strip()
 

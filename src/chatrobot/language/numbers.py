@@ -56,6 +56,11 @@ def _with_fraction(atoms: Atoms, number: Number) -> Number:
         if parts == 2 and value not in (1.0, 0.0):
             return Number(value + 0.5, end + 1) if atoms[end].text == "half" else number
         return Number(value / parts, end + 1)
+    if end < len(atoms) and atoms[end].text == "又":
+        part = _fraction(atoms, end + 1) or _plain(atoms, end + 1)
+        part = _with_fraction(atoms, part) if part else None
+        if part and 0 < part.value < 1:
+            return Number(value + part.value, part.end)
     addition = read_addition(atoms, end)
     if addition:
         return Number(value + addition.value, addition.end)

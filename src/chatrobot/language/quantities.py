@@ -24,6 +24,12 @@ _SKIPPED = frozenset({
 })  # fmt: skip
 
 
+_DETERMINERS = frozenset({
+    "the first", "first", "the next", "next", "the last", "last", "the final", "another", "one more", "each", "every",
+    "the second", "the third", "a further",
+})  # fmt: skip
+
+
 @lru_cache(maxsize=1)
 def _turn_nouns() -> frozenset[str]:
     return frozenset(w for lang in LANGUAGES for w in load_table(lang, "turn_nouns").get("words", ()))
@@ -46,16 +52,18 @@ def read_quantities(atoms: Sequence[Atom]) -> list[Atom]:
         else:
             made, i = found
             out.extend(made)
-    return _summed(_speeds(out))
+    return _shared_units(_summed(_speeds(out)))
 
 
 def _quantity_at(atoms: Sequence[Atom], i: int) -> tuple[list[Atom], int] | None:
     heard = _misheard(atoms, i)
     if heard:
         return heard
+    if atoms[i].kind == "fullturn":
+        return [quantity("turns", float(atoms[i].value) * 2.0 * math.pi, atoms[i].text)], i + 1
     if atoms[i].kind in ("times", "fold"):
         return [quantity(atoms[i].kind, float(atoms[i].value), atoms[i].text)], i + 1
-    number = read_number(atoms, i)
+    number = read_number(atoms, i) or _determined(atoms, i)
     if number is None and is_kind(atoms, i, "num", "article"):
         number = _article(atoms, i)
     if number is None:
@@ -70,7 +78,18 @@ def _quantity_at(atoms: Sequence[Atom], i: int) -> tuple[list[Atom], int] | None
     dimension, factor, noun = unit
     text = " ".join(a.text for a in atoms[i : at + 1])
     value, end = _unit_suffix(atoms, number.value, factor, dimension, at + 1)
-    return [*between, quantity(dimension, value, text, noun)], end
+    role = noun or (f"{factor!r}" if dimension in ("length", "angle") else "")
+    more = [Atom("flag", "more", "another")] if atoms[i].text == "another" else []
+    return [*more, *between, quantity(dimension, value, text, role)], end
+
+
+def _determined(atoms: Sequence[Atom], i: int) -> Number | None:
+    """`the first metre`, `another metre`: one of it."""
+    if atoms[i].text not in _DETERMINERS or i + 1 >= len(atoms):
+        return None
+    unit = _unit(atoms, i + 1)
+    named = unit is not None and unit[0] in ("length", "time") and not atoms[i + 1].text.endswith(("s", "feet"))
+    return Number(1.0, i + 1) if named or (unit is not None and is_chinese(atoms[i].text)) else None
 
 
 def _article(atoms: Sequence[Atom], i: int) -> Number | None:
@@ -255,3 +274,21 @@ def _summed(atoms: list[Atom]) -> list[Atom]:
 def _is_part(whole: Atom, part: Atom) -> bool:
     same = whole.text.split()[-1] == part.text.split()[-1]
     return not same and 0 < part.number < whole.number and part.number < (60 if part.value == "time" else 1.0)
+
+
+def _shared_units(atoms: list[Atom]) -> list[Atom]:
+    """`60, 80 and 100 cm`: a number right before a quantity has its unit."""
+    out = list(atoms)
+    for i in range(len(out) - 1, -1, -1):
+        if out[i].kind != "q" or out[i].value != "number":
+            continue
+        j = i + 1
+        while j < len(out) and (
+            out[j].text in ("by", "x", "乘", "*", "或")
+            or (out[j].kind == "sep" and out[j].value == "weak") or (out[j].kind == "conn" and out[j].value == "and")
+        ):
+            j += 1
+        if i + 1 < j < len(out) and out[j].kind == "q" and out[j].value in ("length", "angle") and out[j].role:
+            factor = float(out[j].role)
+            out[i] = quantity(out[j].value, out[i].number * factor, out[i].text, out[j].role)
+    return out

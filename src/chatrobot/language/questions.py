@@ -27,6 +27,11 @@ def is_question(text: str, language: str) -> bool:
     return _pattern(language, "ask").search(text) is not None
 
 
+def is_plain_question(text: str, language: str) -> bool:
+    """Whether a question word asks for something to be told; only a full amount makes it a command."""
+    return _pattern(language, "strong").search(text) is not None
+
+
 def asks_ability(text: str, language: str) -> bool:
     """`Can you …?`: a question, unless a full command follows."""
     found = _pattern(language, "ability_ask")

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from chatrobot.language.actions import State, act
+from chatrobot.language.actions import State, act, inverse
 from chatrobot.language.clauses import is_times_only
-from chatrobot.language.frames import STILL, Frame
+from chatrobot.language.frames import STILL, TURN, Frame, merged
 from chatrobot.language.manner import Pace
 from chatrobot.language.shapes import draw
 from chatrobot.language.unclear import Unclear
@@ -43,6 +44,11 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
         Unclear: where a clause cannot be acted on.
     """
     frames = _shared(frames)
+    if any("units_said" in frame.flags for frame in frames):
+        frames = [f for f in frames if f.moves or f.has_extent]
+        for frame in frames:
+            frame.flags.add("units_said")
+    frames = _shape_first(frames)
     count, frames = _leading_count(frames)
     script = Script(pace, memory, state=memory.state)
     i = 0
@@ -74,6 +80,22 @@ def _shared(frames: list[Frame]) -> list[Frame]:
     return kept
 
 
+def _shape_first(frames: list[Frame]) -> list[Frame]:
+    """`2 m by 1 m rectangle`: measures said before the name of the shape belong to it."""
+    out: list[Frame] = []
+    for frame in frames:
+        at = len(out)
+        while frame.shape and frame.joined in ("none", "weak", "and") and at and _is_measure(out[at - 1]):
+            at -= 1
+        out.insert(at, frame)
+    return out
+
+
+def _is_measure(frame: Frame) -> bool:
+    bare = not frame.moves or (frame.verb == "go" and not (frame.direction or frame.rot or frame.shape or frame.place))
+    return bare and "length" in frame.q and "time" not in frame.q
+
+
 def _leading_count(frames: list[Frame]) -> tuple[int | None, list[Frame]]:
     """`Twice: …`, `the following three times: …`."""
     if len(frames) > 1 and is_times_only(frames[0]) and frames[1].joined in ("colon", "weak", "none", "strong"):
@@ -91,6 +113,21 @@ def _count(frame: Frame) -> int:
 
 def _take(script: Script, frames: list[Frame], i: int) -> int:
     frame = frames[i]
+    if "still_axis" in frame.flags and not frame.moves:
+        return i + 1
+    if _lists_lengths(frames, i) or _is_heading_back(script, frame):
+        return i + 1
+    if "count" in frame.q and not frame.has_extent and not frame.flags and i + 1 < len(frames):
+        following = frames[i + 1]
+        if "length" in following.q and not following.verb and following.joined != "then":
+            both = merged(frame, following)
+            if both is not None:
+                _act(script, both)
+                return i + 2
+    if "trip" in frame.flags or "trip" in [a.role for a in frame.q.values()]:
+        both = merged(frame, frames[i + 1]) if i + 1 < len(frames) and not frames[i + 1].moves else None
+        _round_trips(script, both or frame)
+        return i + 1 + (both is not None)
     if frame.shape:
         end, steps = draw(frames, i, script.pace)
         _finish(script, frame, [steps])
@@ -100,7 +137,7 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
     elif "again" in frame.flags and not frame.moves and not frame.has_extent:
         if not script.units:
             raise Unclear("nothing_before", frame.text)
-        script.units.append(script.units[-1])
+        script.units += [list(unit) for unit in script.units]
     elif frame.flags & {"between", "after_each"}:
         _insert(script, frame)
     else:
@@ -121,6 +158,58 @@ def _act(script: Script, frame: Frame) -> None:
     steps = _known(each, script) or act(each, script.state, script.pace)
     script.state.steps.extend(steps * count)
     script.units.extend([steps] * count if steps else [])
+
+
+def _lists_lengths(frames: list[Frame], i: int) -> bool:
+    """`Three legs: half a metre, one metre, 1.5 m`: the count only announces the list."""
+    frame = frames[i]
+    if "count" not in frame.q or frame.has_extent:
+        return False
+    count = int(frame.q["count"].number)
+    listed = frames[i + 1 : i + 1 + count]
+    return len(listed) == count and all("length" in f.q and not f.verb for f in listed)
+
+
+def _round_trips(script: Script, frame: Frame) -> None:
+    """`Three round trips of one metre`."""
+    each = frame.copy()
+    trips = 1
+    for name in ("count", "times"):
+        if name in each.q:
+            trips = _count(Frame(q={"times": each.q.pop(name)}))
+    each.flags -= {"trip", "each"}
+    if not each.has_extent:
+        if not script.units:
+            raise Unclear("how_long_a_step", frame.text)
+        out = script.units.pop()
+    elif each.verb in TURN or each.rot:
+        raise Unclear("unclear_motion", frame.text)
+    else:
+        each.roles.clear()
+        out = act(each, script.state, script.pace)
+    for _ in range(trips):
+        script.units += [out, inverse(out)]
+
+
+def _is_heading_back(script: Script, frame: Frame) -> bool:
+    """`… until you face the way you started`: as often as it takes to a full turn."""
+    if "until" not in frame.flags or "original_heading" not in frame.flags:
+        return False
+    period = _period(script.units)
+    turned = abs(total_turn([s for unit in period for s in unit]))
+    rounds = round(2 * math.pi / turned) if turned else 0
+    if rounds < 1 or abs(rounds * turned - 2 * math.pi) > 1e-6:
+        raise Unclear("condition", frame.text)
+    script.units = _repeated(period, rounds)
+    return True
+
+
+def _period(units: list[list[Step]]) -> list[list[Step]]:
+    """The shortest beginning that, repeated, gives all units."""
+    for length in range(1, len(units) + 1):
+        if len(units) % length == 0 and units[:length] * (len(units) // length) == units:
+            return units[:length]
+    return units
 
 
 def _known(frame: Frame, script: Script) -> list[Step]:
@@ -145,6 +234,7 @@ def _finish(script: Script, frame: Frame, units: list[list[Step]]) -> None:
 def _insert(script: Script, frame: Frame) -> None:
     """A pause or a motion between the units, or after each of them."""
     steps = act(frame, script.state, script.pace)
+    script.units = [part for unit in script.units for part in _full_turns(unit)]
     moving = [u for u in script.units if not all(isinstance(s, Wait) for s in u)]
     if len(moving) < 2 and not ("after_each" in frame.flags and moving):
         raise Unclear("between_what", frame.text)
@@ -155,6 +245,15 @@ def _insert(script: Script, frame: Frame) -> None:
         if k + 1 < len(moving) or ("after_each" in frame.flags and not pause):
             units.append(steps)
     script.units = units
+
+
+def _full_turns(unit: list[Step]) -> list[list[Step]]:
+    """Several full turns in one, as one unit each: a pause fits between them."""
+    if len(unit) == 1 and isinstance(unit[0], Turn) and unit[0].angle_rad:
+        rounds = unit[0].angle_rad / (2 * math.pi)
+        if rounds > 1.5 and abs(rounds - round(rounds)) < 1e-6:
+            return [[replace(unit[0], angle_rad=2 * math.pi)]] * round(rounds)
+    return [unit]
 
 
 def _repeated(units: list[list[Step]], count: int) -> list[list[Step]]:

@@ -15,7 +15,34 @@ _MOTION = ("q", "verb", "dir", "rot", "shape", "pace", "role", "number")
 
 def tidy(atoms: Sequence[Atom]) -> list[Atom]:
     """The atoms as the clause reader wants them."""
-    return _without_reasons(_fractions_of(_relative_speeds([_settled(atoms, i) for i in range(len(atoms))])))
+    settled = [_settled(atoms, i) for i in range(len(atoms))]
+    settled = _pauses(settled)
+    return _headings(_without_reasons(_fractions_of(_relative_speeds(settled))))
+
+
+def _pauses(atoms: Sequence[Atom]) -> list[Atom]:
+    """`a two second break` is `break two seconds`: the verb first, so that the time is its own."""
+    out: list[Atom] = []
+    for atom in atoms:
+        if atom.kind == "verb" and atom.value == "wait":
+            at = len(out)
+            while at and (out[at - 1].kind == "glue"):
+                at -= 1
+            if at and out[at - 1].kind == "q" and out[at - 1].value == "time" and not is_chinese(out[at - 1].text):
+                out.insert(at - 1, atom)
+                continue
+        out.append(atom)
+    return out
+
+
+def _headings(atoms: Sequence[Atom]) -> list[Atom]:
+    """The original heading is something to face."""
+    out: list[Atom] = []
+    for atom in atoms:
+        if atom.kind == "flag" and atom.value == "original_heading":
+            out.append(Atom("verb", "face", atom.text))
+        out.append(atom)
+    return out
 
 
 def _settled(atoms: Sequence[Atom], i: int) -> Atom:
@@ -27,6 +54,11 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
         if atom.value == "minus" or atom.value == "parts":
             return Atom("unknown", atom.text, atom.text)
         return Atom("glue", "x", atom.text)
+    if atom.text == "后" and i and atoms[i - 1].kind in ("q", "verb", "shape") and i + 1 < len(atoms):
+        if atoms[i + 1].kind in ("verb", "dir", "rot", "sep", "glue", "conn"):
+            return Atom("conn", "then", atom.text)
+    if atom.kind == "filler" and atom.text.split()[-1] in ("stop", "halt") and is_kind(atoms, _next_real(atoms, i + 1), "q", "time"):
+        return Atom("verb", "wait", atom.text)
     if atom.kind == "second":
         return Atom("conn", "then", atom.text)
     if atom.kind == "counter":

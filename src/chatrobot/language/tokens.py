@@ -39,7 +39,7 @@ def _corrected(units: Key, words: Lexicon, names: dict[Key, Meaning]) -> Key:
     known_names = {unit for key in names for unit in key}
     return tuple(
         unit
-        if len(unit) < 3 or unit in words.latin or unit in known_names or (unit,) in words.guesses
+        if len(unit) < 3 or unit in words.known or unit in known_names or (unit,) in words.guesses
         else correct(unit, words)
         for unit in units
     )

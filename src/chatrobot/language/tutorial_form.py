@@ -19,6 +19,7 @@ _ASSIGNMENT = rf"(linear|angular)\s*\.\s*([xyz])\s*=\s*({_NUMBER}|[-+]?(?:inf|na
 _LINE = re.compile(rf"\s*[\"'“]?\s*{_ASSIGNMENT}(?:\s*[,，;]\s*{_ASSIGNMENT})*\s*[.,;，]?\s*[\"'”]?\s*")
 _BLOCK = re.compile(r"['\"]?(linear|angular)['\"]?\s*:\s*\{([^{}]*)\}")
 _ENTRY = re.compile(rf"['\"]?([xyz])['\"]?\s*:\s*({_NUMBER})")
+_ROS_CLI = re.compile(r"ros2 topic pub|rostopic pub|--once|--rate \d+|-r \d+|-1\b|/?cmd_vel\b|geometry_msgs(?:/msg)?(?:/twist)?")
 _AXES = ("vx", "vy", "wz")
 
 
@@ -31,6 +32,7 @@ def read_twist(text: str) -> RawTwist | None:
     if "\n" not in text.strip() and _LINE.fullmatch(text):
         found = [(f"{g}.{axis}", value) for g, axis, value in re.findall(_ASSIGNMENT, text)]
         return _twist({name: float(value) for name, value in found}, 1.0)
+    text = _ROS_CLI.sub(" ", text)
     blocks = _BLOCK.findall(text)
     if blocks:
         return _blocks(text, blocks)

@@ -21,14 +21,14 @@ def _correct(word: str) -> str:
     words = lexicon()
     if len(word) < 3:
         return word
-    transposed = [w for w in _transpositions(word) if w in words.latin and len(w) >= 3]
+    transposed = [w for w in _transpositions(word) if w in words.core and len(w) >= 3]
     if transposed:
         return transposed[0]
     if len(word) < 4:
         return word
-    allowed = 1 if len(word) < 7 else 2
+    allowed = 1 if len(word) < 8 else 2
     near: dict[str, int] = {}
-    for known in words.latin:
+    for known in words.core:
         if known[0] == word[0] and abs(len(known) - len(word)) <= allowed and len(known) >= 4:
             distance = edit_distance(word, known, allowed)
             if distance <= allowed:

@@ -34,7 +34,8 @@ from chatrobot.plan.sweep import Clearance, area_clearance, first_contact, free_
 from chatrobot.plan.trajectory import Segment
 from chatrobot.robots.profile import RobotProfile
 
-MARGIN_M = 0.02
+MARGIN_M = 0.04
+"""A little more than the governor keeps from what the lidar sees, so that what was rehearsed is not stopped."""
 PAUSE_SPACING_S = 0.05
 
 

@@ -25,7 +25,7 @@ MAX_CELLS = 250_000
 BORDER_M = 1.0
 """How far beyond everything known, and beyond start and goal, a way may lead."""
 
-MARGIN_M = 0.03
+MARGIN_M = 0.05
 COMFORT_M = 0.3
 """Clearance beyond the robot's own circle above which more of it is worth nothing."""
 

@@ -47,6 +47,7 @@ _EMERGENCY = _phrases(words_en.EMERGENCY, words_zh.EMERGENCY)
 _RELEASE = _phrases(words_en.RELEASE, words_zh.RELEASE)
 _FILLER = _phrases(words_en.FILLER, words_zh.FILLER)
 _CANCELLED = _phrases(words_en.CANCELLED, words_zh.CANCELLED)
+_TAKEN_BACK = _phrases(words_en.TAKEN_BACK, words_zh.TAKEN_BACK)
 _NOUNS = frozenset({"sign", "signs", "牌", "标", "watch", "light", "lights"})
 _NUMBERS = frozenset("一二两三四五六七八九十半几") | {
     "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "half", "between", "after", "every",
@@ -84,10 +85,13 @@ def _takes_back(text: str) -> bool:
     parts = [part for part in _BREAK.split(text) if _units(part)]
     if len(parts) < 2 or not _consists(_units(parts[-1]), _CANCELLED):
         return False
+    broken = re.search(r"…|\.\.|—|--|\s-\s", text) is not None
+    if not broken and not _consists(_units(parts[-1]), _TAKEN_BACK):
+        return False
     tail = len(parts) - 1
     while tail > 0 and _consists(_units(parts[tail - 1]), _CANCELLED | _STOP):
         tail -= 1
-    return tail <= 1 or bool(re.search(r"…|\.\.|—|--", text))
+    return tail <= 1 or broken
 
 
 def leads_with_stop(text: str) -> bool:

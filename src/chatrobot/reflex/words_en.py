@@ -63,3 +63,6 @@ DOUBLED = ("stop", "halt", "freeze", "whoa", "no")
 
 CANCELLED = ("never mind", "nevermind", "forget it", "forget that", "forget about it", "scratch that", "cancel that", "on second thought don't", "actually don't", "actually stop", "actually no stop", "no don't", "no stop", "don't move", "don't go", "stop", "wait stop", "don't", "no wait stop", "actually no", "actually never mind", "stay there", "stay put", "hold it", "halt", "freeze")
 """What takes a sentence back when it stands at its end after a break."""
+
+TAKEN_BACK = ("never mind", "nevermind", "forget it", "forget that", "forget about it", "scratch that", "cancel that", "actually don't", "no don't", "actually never mind", "on second thought don't", "actually no stop", "no stop", "no wait stop")
+"""Of these, what takes a whole command back even where the sentence did not break off."""

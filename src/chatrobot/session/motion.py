@@ -27,6 +27,7 @@ from chatrobot.session.envelope import Envelope
 from chatrobot.session.guard_link import GuardLink
 from chatrobot.session.planner import Planned, Planner
 from chatrobot.transports.transport import WireTransport
+from chatrobot.wire.messages import LaserScan
 from chatrobot.wire.wire import Wire
 
 QUEUE_LIMIT = 10
@@ -68,7 +69,7 @@ class Totals:
     paused_s: float = 0.0
     pending_pause_s: float = 0.0
     has_moved: bool = False
-    limited: set[int] = field(default_factory=set)
+    limited: set[tuple[int, str]] = field(default_factory=set)
 
 
 class Motion:
@@ -102,6 +103,7 @@ class Motion:
         self._transport = WireTransport(wire, profile.wiring, self._epoch)
         self._governor = Governor(profile, self._epoch)
         self._sensors = Sensors(profile, clock)
+        self._looked_at: LaserScan | None = None
         self._inbox: deque[Callable[[], None]] = deque()
         self._jobs: deque[Job] = deque()
         self._current: Job | None = None
@@ -197,6 +199,7 @@ class Motion:
         self._notice_freeze(now_s)
         self._last_tick_s = now_s
         self._guard.beat()
+        self._look()
         self._book_stop()
         while self._inbox:
             self._inbox.popleft()()
@@ -205,6 +208,16 @@ class Motion:
         self._keep_zeroing(now_s)
         self._begin_next(now_s)
         self._tell(now_s)
+
+    def _look(self) -> None:
+        """Show the governor what the lidar has seen since the last tick."""
+        scan = self._sensors.scan
+        if scan is None or scan is self._looked_at:
+            return
+        self._looked_at = scan
+        pose = self._sensors.estimator.pose_at(scan.stamp_s)
+        if pose is not None:
+            self._governor.take_scan(scan, pose)
 
     # --- plans -----------------------------------------------------------------------------------------------
 
@@ -347,14 +360,18 @@ class Motion:
         if executor.is_done:
             self._end_run("completed" if executor.reason is None else executor.outcome, executor.reason)
             return
-        verdict = self._governor.govern(asked, job.lease, now_s)
+        estimate = self._sensors.estimate
+        verdict = self._governor.govern(
+            asked, job.lease, now_s, estimate.pose if estimate is not None else None
+        )
         self._transport.send(verdict.sent)
+        executor.note(verdict.rule, verdict.reason, verdict.sent.twist, now_s)
         self._count(verdict.sent.twist.is_zero, now_s)
-        if verdict.action == "limited" and verdict.rule == "speed" and self._totals is not None:
-            key = executor.step
+        if verdict.action == "limited" and verdict.rule != "acceleration" and self._totals is not None:
+            key = (executor.step, verdict.rule)
             if key not in self._totals.limited:
                 self._totals.limited.add(key)
-                self._emit(Limited(job.turn, verdict.rule, asked, verdict.sent.twist))
+                self._emit(Limited(job.turn, verdict.rule, asked, verdict.sent.twist, verdict.reason))
 
     def _count(self, standing: bool, now_s: float) -> None:
         """Time in motion, and time standing between two motions: the last pause counts once motion follows."""

@@ -205,7 +205,7 @@ class Session:
                 said.turn, "unclear", self.understanding.say("plan_text", said.text, problem=str(error))
             )
             return
-        meant = Interpretation("plan", "", self.understanding.language, plan)
+        meant = self.understanding.accept(plan)
         plan_text = format_plan(plan)
         self._emit(Interpreted(said.turn, "offline", plan_text, ""))
         self._send_plan(said, meant, plan_text)

@@ -1,0 +1,48 @@
+"""`chatrobot plan TEXT`: understand and rehearse; nothing moves, nothing is started."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+from chatrobot.cli.choices import setup_from
+from chatrobot.cli.printer import printer_for
+from chatrobot.compose import connect
+from chatrobot.core.errors import UsageError
+from chatrobot.core.events import EXIT_CODES, Event, Rehearsed
+from chatrobot.session.session import Options
+
+
+def run(args: argparse.Namespace) -> int:
+    """The exit code of the turn: 0 where the plan could be done.
+
+    Raises:
+        UsageError: `--png` names no PNG file.
+    """
+    png = Path(args.png) if args.png else None
+    if png is not None and png.suffix.lower() != ".png":
+        raise UsageError(f"{args.png!r} is no PNG file", where="--png", allowed="a name that ends in .png")
+    printer = printer_for(args)
+    rehearsed: list[Rehearsed] = []
+
+    def on_event(event: Event) -> None:
+        if isinstance(event, Rehearsed):
+            rehearsed.append(event)
+        printer.show(event, session.understanding.language)
+
+    setup = replace(setup_from(args, options=Options(rehearse_only=True)), fast=True, trace=False)
+    connection = connect(setup, lambda event: on_event(event))
+    session = connection.session
+    result = session.do(args.text)
+    connection.close()
+    if png is not None:
+        if rehearsed:
+            from chatrobot.cli.draw import draw_plan
+
+            world, profile = connection.world, connection.profile
+            draw_plan(png, world=world, profile=profile, rehearsed=rehearsed[-1], title=args.text)
+        else:
+            print("chatrobot: there is no plan to draw", file=sys.stderr)
+    return EXIT_CODES[result.outcome]
