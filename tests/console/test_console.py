@@ -6,9 +6,9 @@ import sys
 import psutil
 import pytest
 
-from .terminal import Terminal, console
+from tests.console.terminal import Terminal, console
 
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.realtime
 
 STANDING, MOVING = "standing · ", "moving  "
 PLAN, DONE, STOPPED = "plan  ", "✓", "■"
@@ -195,7 +195,7 @@ def test_when_the_terminal_is_closed_the_robot_stops_and_everything_ends(chat, n
 
 
 def test_a_plan_can_be_approved_refused_and_edited(tmp_path):
-    with console(tmp_path, approve=True) as chat:
+    with console(tmp_path, "--approve") as chat:
         chat.wait_for(STANDING)
         chat.enter("forward 0.4 m")
         chat.wait_for("Do it?")
@@ -213,7 +213,7 @@ def test_a_plan_can_be_approved_refused_and_edited(tmp_path):
 
 
 def test_an_edited_plan_with_a_mistake_moves_nothing(tmp_path):
-    with console(tmp_path, approve=True) as chat:
+    with console(tmp_path, "--approve") as chat:
         chat.wait_for(STANDING)
         chat.enter("forward 0.3 m")
         chat.wait_for("Do it?")
@@ -228,8 +228,7 @@ def test_ctrl_z_stops_the_robot_and_really_suspends(tmp_path):
     environment = {"PS1": "$ ", "HISTFILE": ""}
     with Terminal(["bash", "--norc", "--noprofile", "-i"], environment=environment) as shell:
         shell.wait_for(r"\$ ?")
-        run = "from chatrobot.cli.console.app import run_console; from chatrobot.compose import Setup; run_console(Setup())"
-        shell.enter(f'{sys.executable} -c "{run}"')
+        shell.enter(f"{sys.executable} -m chatrobot --config-dir {tmp_path}")
         shell.wait_for(STANDING)
         shell.enter("forward 2 m")
         shell.wait_for(MOVING)

@@ -47,7 +47,7 @@ def draw_plan(
     """Write the picture of `rehearsed` in `world` to `path`, a PNG.
 
     Args:
-        words: puts a finding into words for the legend; without it its code stands there.
+        words: puts a finding into words for the legend; English without it.
 
     Raises:
         OSError: the file cannot be written.

@@ -22,7 +22,7 @@ def run(args: argparse.Namespace) -> int:
     if sys.stdin.isatty() and not args.json:
         from chatrobot.cli.console.app import run_console
 
-        return run_console(setup, args)
+        return run_console(setup)
     printer = printer_for(args)
     approver = Approver(yes=args.yes, can_ask=False, others_answer=args.json)
     with Conversation(setup, printer, approver) as conversation:
