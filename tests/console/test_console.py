@@ -35,7 +35,7 @@ def test_a_motion_shows_its_plan_then_the_strip_then_what_was_measured(chat):
     chat.wait_for(r"plan  0\.40 m, \d\.\d s\s+1  drive 0\.4 m")
     chat.wait_for(MOVING)
     assert any("%" in line and "─" in line for line in chat.shown)
-    chat.wait_for(r"✓ .*\s+now at \(0\.[34]\d, -?0\.0\d\) -?\d°, 0\.[34]\d m driven")
+    chat.wait_for(r"✓ .*\s+now at \(0\.[34]\d, -?0\.0\d\) -?\d°, after \d\.\d s")
     chat.wait_for(STANDING)
 
 
