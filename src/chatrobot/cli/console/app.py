@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shutil
 import sys
@@ -18,7 +19,7 @@ from chatrobot.cli.console.talk import Talk
 from chatrobot.cli.console.words import Words, language_of_environment
 from chatrobot.compose import Connection, OnEvent, Setup, connect
 from chatrobot.core.clock import RealClock
-from chatrobot.core.errors import UsageError
+from chatrobot.core.errors import JointError, UsageError
 from chatrobot.core.events import Event
 from chatrobot.robots.load import load_profile
 
@@ -86,7 +87,10 @@ def _converse(talk: Talk, setup: Setup) -> int:
     talk.face = face
     face.print(*greeting(talk))
     code = face.run()
-    if code == 0:
+    if code != 0:
+        with contextlib.suppress(JointError):
+            talk.session.stop("the console has ended")
+    else:
         print(f"  {talk.words.say('goodbye')}")
     return code
 

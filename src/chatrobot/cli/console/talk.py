@@ -30,6 +30,8 @@ from chatrobot.reflex import is_emergency_stop
 TWICE_S = 1.5
 """Two Ctrl-C within this time leave."""
 
+ECHO_CHARS = 600
+
 YES = frozenset({"y", "yes", "ok", "okay", "do it", "go", "好", "好的", "是", "可以", "行", "执行"})
 NO = frozenset({"n", "no", "nope", "不", "不要", "否", "取消", "算了"})
 EDIT = frozenset({"e", "edit", "修改", "改"})
@@ -75,7 +77,7 @@ class Talk:
         self.ride = Ride()
         self.strip = Strip(self.ride, words, connection.world)
         self.narrator = Narrator(words)
-        self.pump = Pump(self.session, self.lose)
+        self.pump = Pump(self.session, self.lose, lambda: self.face.leave(1))
         self.latched = False
         self._clock = clock
         self._asked: Rehearsed | None = None
@@ -89,8 +91,8 @@ class Talk:
     def enter(self, raw: str) -> None:
         """A line was sent. A stop in it has gone out before this returns."""
         text = clean(raw).strip()
-        if len(text) > LONGEST_CHARS:
-            self.tell("too_long", count=len(text), limit=LONGEST_CHARS)
+        if len(raw) > LONGEST_CHARS:  # it may have been cut: never do a part of it
+            self.tell("too_long", limit=LONGEST_CHARS)
         elif text.startswith("/"):
             self._echo(text)
             commands.run(self, text)
@@ -100,7 +102,9 @@ class Talk:
     def take_edited(self, plan_text: str) -> None:
         """The plan that `Face.edit` was asked for."""
         text = clean(plan_text).strip()
-        if text:
+        if len(plan_text) > LONGEST_CHARS:
+            self.tell("too_long", limit=LONGEST_CHARS)
+        elif text:
             with self._order:
                 self.attempt(lambda: self.session.say_plan(text))
                 self._echo(self.words.say("edited"))
@@ -206,4 +210,5 @@ class Talk:
 
     def _echo(self, text: str) -> None:
         if not self.face.echoes:
-            self.face.print(Text("› ", "bold blue").append(text, "bold"))
+            shown = text if len(text) <= ECHO_CHARS else f"{text[:ECHO_CHARS]}…"
+            self.face.print(Text("› ", "bold blue").append(shown, "bold"))
