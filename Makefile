@@ -17,8 +17,8 @@ run: setup
 	@$(BIN)/chatrobot
 
 lint: setup
-	$(BIN)/ruff check src tests examples scripts
-	$(BIN)/ruff format --check src tests examples scripts
+	$(BIN)/ruff check src tests examples scripts bench
+	$(BIN)/ruff format --check src tests examples scripts bench
 	$(BIN)/mypy
 
 # Real processes in real time come after the rest, one by one: beside other work their figures mean nothing.
@@ -27,7 +27,8 @@ test: lint
 	$(BIN)/pytest -m realtime
 
 bench: setup
-	@for file in bench/bench_*.py; do echo "== $$file"; $(BIN)/python "$$file" || exit 1; done
+	@for file in bench/[a-z]*.py; do \
+		echo "== $$file"; $(BIN)/python -m "bench.$$(basename "$$file" .py)" || exit 1; done
 
 lock: setup
 	$(BIN)/python scripts/lock.py

@@ -1,4 +1,7 @@
-"""A plan's ideal geometry, without a simulator: what a perfect robot would do, and a judge after FORMAT.md."""
+"""A plan's ideal geometry, without a simulator.
+
+What a perfect robot would do, and a judge after FORMAT.md.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +20,7 @@ SPEED, RATE, ACCELERATION, ANGULAR_ACCELERATION, MAX_SPEED, MAX_RATE = 0.3, 0.6,
 class Track:
     """Where an ideal robot is and what it has done. `paused_s` counts standing between motions only."""
 
-    pose: Pose = Pose()
+    pose: Pose = field(default_factory=Pose)
     path_m: float = 0.0
     turned_rad: float = 0.0
     duration_s: float = 0.0

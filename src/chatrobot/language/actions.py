@@ -43,10 +43,18 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     """
     frame = _with_units(frame, state)
     _check_extents(frame)
-    if "there" in frame.flags and frame.verb not in STILL and not (frame.direction or frame.rot or "length" in frame.q):
+    if (
+        "there" in frame.flags
+        and frame.verb not in STILL
+        and not (frame.direction or frame.rot or "length" in frame.q)
+    ):
         raise Unclear("which_place", frame.text)
     if "until" in frame.flags and not frame.has_extent and frame.verb != "face":
         raise Unclear("condition", frame.text)
+    if _goes_back(frame, state):
+        return _return(Frame(verb="return", pace=frame.pace), state, pace)
+    if "asked_distance" in frame.flags:
+        return []  # only worked out; what is done with it comes after
     if "clock" in frame.q:
         steps = _clock(frame, pace)
     elif frame.verb in STILL:
@@ -82,6 +90,11 @@ def _with_units(frame: Frame, state: State) -> Frame:
         frame.flags.discard("again")
     state.length = frame.q.get("length", state.length)
     state.angle = frame.q.get("angle", frame.q.get("turns", state.angle))
+    if {"computed", "asked_distance"} & frame.flags and {"speed", "time"} <= set(frame.q):
+        frame = frame.copy()
+        covered = frame.q.pop("speed").number * frame.q.pop("time").number
+        frame.q["length"] = quantity("length", covered, f"{covered:g} m")
+        state.length = frame.q["length"]
     number = frame.q.get("number")
     if number is None:
         return frame
@@ -91,7 +104,13 @@ def _with_units(frame: Frame, state: State) -> Frame:
         factor = math.pi / 180 if frame.turning else 1.0
     elif _means_degrees(frame, number.number):
         dimension, factor = "angle", math.pi / 180
-    elif "more" in frame.flags and state.last == "drive" and state.unit_m and not frame.has_extent and not frame.turning:
+    elif (
+        "more" in frame.flags
+        and state.last == "drive"
+        and state.unit_m
+        and not frame.has_extent
+        and not frame.turning
+    ):
         dimension, factor = "length", state.unit_m
     if not dimension:
         return frame
@@ -108,11 +127,17 @@ def _means_degrees(frame: Frame, value: float) -> bool:
     return (turning or spinning) and not frame.has_extent and 15 <= value <= 1080 and value % 15 == 0
 
 
+def _goes_back(frame: Frame, state: State) -> bool:
+    """`…, then back`: the way back, where there is a way to go back."""
+    bare = frame.verb in ("", "go") and frame.direction == "back" and not frame.q and "bit" not in frame.flags
+    return bare and bool(state.steps) and frame.texts[-1:] == ["back"]
+
+
 def _check_extents(frame: Frame) -> None:
-    for name, quantity in frame.q.items():
-        value = quantity.number
+    for name, amount in frame.q.items():
+        value = amount.number
         if name in MAX_EXTENT and (not math.isfinite(value) or not 0.0 < value <= MAX_EXTENT[name]):
-            raise Unclear("bad_number", quantity.text)
+            raise Unclear("bad_number", amount.text)
     if "number" in frame.q:
         raise Unclear("no_unit", frame.q["number"].text)
 
@@ -123,7 +148,16 @@ _SLOTS = {
     "drive": {"length", "time", "speed", "percent", "fold", "times"},
     "heading": {"length", "time", "speed", "percent", "fold", "times", "angle"},
 }
-_REFERRING = {"other_way", "short_of", "from_now_on", "same_way", "to_start", "original_heading", "left_right", "right_left"}
+_REFERRING = {
+    "other_way",
+    "short_of",
+    "from_now_on",
+    "same_way",
+    "to_start",
+    "original_heading",
+    "left_right",
+    "right_left",
+}
 
 
 def _all_used(frame: Frame, kind: str) -> None:
@@ -131,6 +165,8 @@ def _all_used(frame: Frame, kind: str) -> None:
     left_over = [q for name, q in frame.q.items() if name not in _SLOTS[kind]]
     if left_over:
         raise Unclear("unclear_motion", f"{frame.text}")
+    if "each" in frame.flags and "time" in frame.q and kind != "still" and len(frame.q) > 1:
+        raise Unclear("unclear_motion", frame.text)
     if _REFERRING & frame.flags:
         raise Unclear("unclear_motion", frame.text)
 
@@ -154,7 +190,7 @@ def _left(frame: Frame) -> bool | None:
 
 
 def _is_turn(frame: Frame, state: State) -> bool:
-    if frame.verb in TURN or frame.rot and frame.verb not in GO:
+    if frame.verb in TURN or (frame.rot and frame.verb not in GO):
         return True
     if "angle" in frame.q or "turns" in frame.q:
         return frame.direction not in DIAGONALS.values() and "diagonal" not in frame.flags
@@ -172,20 +208,22 @@ def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
         raise Unclear("length_for_turn", frame.text)
     _all_used(frame, "turn")
     rate = pace.rate(frame)
-    angle = (frame.q.get("angle") or frame.q.get("turns"))
+    seconds = frame.q.get("time")
+    angle = frame.q.get("angle") or frame.q.get("turns")
     left = _left(frame)
     if left is None and not frame.moves:
         left = state.left
     if left is None and state.last == "turn" and "more" in frame.flags:
         left = state.left
     state.last = "turn"
-    if frame.verb == "spin" and angle is None and "times" in frame.q:
+    around = "around" in frame.flags and seconds is None
+    left = True if left is None and around else left
+    if frame.verb == "spin" and angle is None and ("times" in frame.q or around):
         angle_rad: float | None = 2 * math.pi
     elif angle is not None:
         angle_rad = angle.number
     else:
         angle_rad = None
-    seconds = frame.q.get("time")
     if left is None:
         if angle_rad is None or not _same_either_way(angle_rad):
             raise Unclear("which_side", frame.text)
@@ -217,7 +255,7 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if not direction:
         if frame.verb == "slide" or "sideways" in frame.flags:
             raise Unclear("which_side", frame.text)
-        if frame.verb in GO and frame.verb != "shift" or "more" in frame.flags or not frame.verb:
+        if (frame.verb in GO and frame.verb != "shift") or "more" in frame.flags or not frame.verb:
             direction = state.direction if state.last == "drive" and not frame.verb else "forward"
         elif frame.has_extent and frame.verb:
             direction = "forward"
@@ -242,7 +280,10 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if length is not None:
         if seconds is not None and "speed" not in frame.q:
             speed = length.number / seconds.number
-        elif seconds is not None and abs(frame.q["speed"].number * seconds.number - length.number) > 0.1 * length.number:
+        elif (
+            seconds is not None
+            and abs(frame.q["speed"].number * seconds.number - length.number) > 0.1 * length.number
+        ):
             raise Unclear("contradiction", frame.text)
         return [Drive(length.number, direction_rad=angle, speed_mps=speed)]
     if seconds is not None:
@@ -288,7 +329,11 @@ def _face(frame: Frame, state: State, pace: Pace) -> list[Step]:
         return [Face(0.0, frame="start", rate_radps=pace.rate(frame))]
     if frame.direction in SIDES:
         angle = frame.q.get("angle") or frame.q.get("turns")
-        size = angle.number if angle else pace.profile.defaults.turn_rad * (0.5 if {"bit", "more"} & frame.flags else 1)
+        size = (
+            angle.number
+            if angle
+            else pace.profile.defaults.turn_rad * (0.5 if {"bit", "more"} & frame.flags else 1)
+        )
         return [Turn(size, left=frame.direction == "left", rate_radps=pace.rate(frame))]
     if frame.direction == "back":
         return [Turn(math.pi, rate_radps=pace.rate(frame))]
@@ -331,14 +376,16 @@ def _arc(frame: Frame, pace: Pace) -> list[Step]:
 
 
 def _return(frame: Frame, state: State, pace: Pace) -> list[Step]:
-    if frame.direction or frame.has_extent and frame.verb != "return":
+    if set(frame.q) - {"speed", "percent", "fold"}:
+        raise Unclear("unclear_motion", frame.text)
+    if frame.direction or (frame.has_extent and frame.verb != "return"):
         raise Unclear("unclear_motion", frame.text)
     speed = pace.speed(frame)
     if "same_way" in frame.flags:
         return inverse(state.steps, speed)
-    drives = [step for step in state.steps if not isinstance(step, Wait)]
+    drives: list[Step] = [step for step in state.steps if not isinstance(step, Wait)]
     if drives and all(isinstance(step, Drive) and step.distance_m for step in drives):
-        return inverse([drives[-1]] if len(drives) == 1 else drives, speed)
+        return inverse(list(drives), speed)
     if state.home is not None and not drives:
         return [Go(state.home.x_m, state.home.y_m, frame="odom", speed_mps=speed)]
     return [Go(0.0, 0.0, frame="start", speed_mps=speed)]

@@ -16,7 +16,12 @@ _OPERATORS = {"plus": 1.0, "minus": -1.0}
 
 @lru_cache(maxsize=1)
 def _words() -> dict[str, str]:
-    return {word: name for lang in LANGUAGES for name, listed in load_table(lang, "sums").items() for word in listed}
+    return {
+        word: name
+        for lang in LANGUAGES
+        for name, listed in load_table(lang, "sums").items()
+        for word in listed
+    }
 
 
 def settle_condition(atoms: Sequence[Atom]) -> list[Atom]:
@@ -29,10 +34,18 @@ def settle_condition(atoms: Sequence[Atom]) -> list[Atom]:
         return list(atoms)
     relation = _words().get(atoms[left[1]].text, "")
     end = left[1] + 1
-    while end < len(atoms) and relation and atoms[end].kind in ("glue",) and not _words().get(atoms[end].text):
+    while (
+        end < len(atoms) and relation and atoms[end].kind in ("glue",) and not _words().get(atoms[end].text)
+    ):
         end += 1
     if relation in ("greater", "less", "equal", "unequal"):
-        while end < len(atoms) and _words().get(atoms[end].text) in ("equal", "than", "greater", "less", "unequal"):
+        while end < len(atoms) and _words().get(atoms[end].text) in (
+            "equal",
+            "than",
+            "greater",
+            "less",
+            "unequal",
+        ):
             relation = _words()[atoms[end].text] if _words()[atoms[end].text] != "than" else relation
             end += 1
     right = _sum(atoms, end) if relation else None
@@ -46,7 +59,10 @@ def settle_condition(atoms: Sequence[Atom]) -> list[Atom]:
     }.get(relation)
     if holds is None:
         return list(atoms)
-    otherwise = next((i for i in range(right[1], len(atoms)) if atoms[i].kind == "condition" and atoms[i].value == "else"), None)
+    otherwise = next(
+        (i for i in range(right[1], len(atoms)) if atoms[i].kind == "condition" and atoms[i].value == "else"),
+        None,
+    )
     yes = list(atoms[right[1] : otherwise])
     no = [] if otherwise is None else list(atoms[otherwise + 1 :])
     return [*atoms[:at], *(yes if holds else no)]
@@ -78,7 +94,12 @@ def _sum(atoms: Sequence[Atom], i: int) -> tuple[float, int] | None:
 def _number(atoms: Sequence[Atom], i: int) -> tuple[float, int] | None:
     if i < len(atoms) and atoms[i].kind == "q" and atoms[i].value == "number":
         return atoms[i].number, i + 1
-    if i < len(atoms) and atoms[i].kind == "q" and atoms[i].value == "times" and re.match(r"[\w ]+ (times|x)$", atoms[i].text):
+    if (
+        i < len(atoms)
+        and atoms[i].kind == "q"
+        and atoms[i].value == "times"
+        and re.match(r"[\w ]+ (times|x)$", atoms[i].text)
+    ):
         after = _number(atoms, i + 1)
         return (atoms[i].number * after[0], after[1]) if after else None
     number = read_number(atoms, i)

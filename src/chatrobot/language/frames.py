@@ -58,11 +58,19 @@ class Frame:
     @property
     def moves(self) -> bool:
         """Whether it names a motion by itself: a verb, a direction, a rotation, a shape."""
-        return bool((self.verb and self.verb != "make") or self.direction or self.rot or self.shape or self.place)
+        return bool(
+            (self.verb and self.verb != "make") or self.direction or self.rot or self.shape or self.place
+        )
 
     @property
     def is_arc(self) -> bool:
-        return self.verb == "curve" or {"speed", "rate"} <= set(self.q) or "radius" in self.roles or "diameter" in self.roles or "while" in self.flags
+        return (
+            self.verb == "curve"
+            or {"speed", "rate"} <= set(self.q)
+            or "radius" in self.roles
+            or "diameter" in self.roles
+            or "while" in self.flags
+        )
 
     @property
     def turning(self) -> bool:
@@ -115,20 +123,35 @@ class Frame:
         if self.place and verb in ("go", "return", "shift"):
             return True
         rotating = {"angle", "turns"} & set(self.q)
-        if verb in STILL and old not in STILL and (self.direction or self.rot or rotating or "length" in self.q):
+        if (
+            verb in STILL
+            and old not in STILL
+            and (old in GO or self.direction or self.rot or rotating or "length" in self.q)
+        ):
             return False
-        if old == verb and verb in ("go", "turn", "shift", "slide", "wait", "halt", "face", "make", "curve") and (
-            not self.has_extent
+        if (
+            old == verb
+            and verb in ("go", "turn", "shift", "slide", "wait", "halt", "face", "make", "curve")
+            and (not self.has_extent)
         ):
             return True
-        if not old or old == "make" or (old in ("go", "shift") and not self.has_extent and not self.direction):
+        if (
+            not old
+            or old == "make"
+            or (old in ("go", "shift") and not self.has_extent and not self.direction)
+        ):
             if verb in TURN and "length" in self.q and not self.is_arc:
                 return False
-            if verb in GO and ("angle" in self.q or "turns" in self.q) and not self.is_arc and not self._heading():
+            if (
+                verb in GO
+                and ("angle" in self.q or "turns" in self.q)
+                and not self.is_arc
+                and not self._heading()
+            ):
                 return False
             if verb in (*GO, *STILL, "return", "face", "uturn") and self.rot and not self.is_arc:
                 return False
-            if verb in ("wait", "return", "uturn") and (self.direction and not old or "length" in self.q):
+            if verb in ("wait", "return", "uturn") and ((self.direction and not old) or "length" in self.q):
                 return verb == "uturn" and self.direction in SIDES and self._set_verb(verb)
             if verb in TURN and self.direction in ("forward", "back") and not self.is_arc:
                 return False
@@ -139,7 +162,11 @@ class Frame:
             return not self.has_extent
         if old in TURN and verb in ("curve", *TURN) and not self.has_extent:
             return self._set_verb("curve" if verb == "curve" else old)
-        if old == "curve" and verb in ("turn", "go") and not (verb == "go" and "angle" in self.q and "length" in self.q):
+        if (
+            old == "curve"
+            and verb in ("turn", "go")
+            and not (verb == "go" and "angle" in self.q and "length" in self.q)
+        ):
             return True
         if (self.is_arc or "while" in self.flags) and {old, verb} <= {*GO, *TURN}:
             return self._set_verb("curve")
@@ -164,7 +191,7 @@ class Frame:
 
     def _put_direction(self, new: str) -> bool:
         old = self.direction
-        if self.verb in ("wait", "return", "remember", "undo"):
+        if self.verb in ("wait", "halt", "return", "remember", "undo"):
             return False
         if not old:
             if self.verb in TURN and new not in SIDES and not self.is_arc:
@@ -178,10 +205,6 @@ class Frame:
             return True
         if self.is_arc or "diagonal" in self.flags or "while" in self.flags:
             return self._combine(old, new)
-        if new in DIAGONALS.values() and old in DIAGONALS and not self.has_extent:
-            return self._set_direction(new)
-        if "sideways" in self.flags and old in SIDES and new in SIDES:
-            return False
         return False
 
     def _combine(self, old: str, new: str) -> bool:
@@ -223,7 +246,7 @@ class Frame:
             return True
         if name == "length" and ("angle" in self.q or "turns" in self.q) and not self._heading():
             return False
-        if name == "length" and (self.turning or "rate" in self.q and not self.verb):
+        if name == "length" and (self.turning or ("rate" in self.q and not self.verb)):
             return False
         if rotating and "length" in self.q and not self._heading():
             return False

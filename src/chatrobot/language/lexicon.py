@@ -1,7 +1,7 @@
 """All known words of all languages in one trie-like table, looked up by what they are written as.
 
-Both languages share one table, since people mix them ("CW 转一圈半"). A word means one or several `(kind, value)`
-pairs. Where one writing is listed twice, the earlier file of `FILES` decides.
+Both languages share one table, since people mix them ("CW 转一圈半"). A word means one or several
+`(kind, value)` pairs. Where one writing is listed twice, the earlier file of `FILES` decides.
 """
 
 from __future__ import annotations
@@ -21,7 +21,9 @@ UNIT = re.compile(
 )
 """What text is cut into before words are looked up: a number, a Latin word, or a single character."""
 
-_NEVER_MEANT = frozenset({"refuse", "filler", "glue", "reason", "condition", "negation", "correction", "conn", "operator", "sep"})
+_NEVER_MEANT = frozenset(
+    {"refuse", "filler", "glue", "reason", "condition", "negation", "correction", "conn", "operator", "sep"}
+)
 _POLITE = frozenset({"please", "then", "after", "robot", "thanks", "could", "would", "until"})
 Meaning = tuple[tuple[str, str], ...]
 Key = tuple[str, ...]
@@ -32,7 +34,8 @@ class Lexicon:
     """`words` maps a written form, cut into units, to its meaning; `longest` is by the first unit.
 
     `guesses` holds what a speech recogniser writes for a word: looked up where the word itself is not found.
-    A typo is only mended towards `core`. `latin` are single Latin words in any phrase; `known` has ordinary words besides, in which no typo is seen.
+    A typo is only mended towards `core`. `latin` are single Latin words in any phrase; `known` has ordinary
+    words besides, in which no typo is seen.
     """
 
     words: dict[Key, Meaning]
@@ -54,7 +57,7 @@ _ORDINAL = re.compile(r"(\d+)(?:st|nd|rd|th)\b")
 def cut(text: str) -> Key:
     """The units of a normalised text. A hyphen before a number is a sign, any other is a space."""
     text = _LISTED.sub(" ; ", text)
-    if text.count('"') == 1 or text.count("'") == 1 and _FEET.search(text):
+    if text.count('"') == 1 or (text.count("'") == 1 and _FEET.search(text)):
         text = _FEET.sub(r"\1 feet ", _INCHES.sub(r"\1 inches ", text))
     text = _COMMA.sub(r"\1.\2", text)
     return tuple(UNIT.findall(_ORDINAL.sub(r"\1", _SIGN.sub(" minus ", text)).replace("-", " ")))

@@ -1,4 +1,4 @@
-"""Numbers in atoms: digits, words, fractions, of any language whose data lists digits, scales and fractions."""
+"""Numbers in atoms: digits, words, fractions, of any language whose data lists digits and scales."""
 
 from __future__ import annotations
 
@@ -137,7 +137,13 @@ def _plain(atoms: Atoms, i: int) -> Number | None:
         i += 1
     if i == start:
         return _decimals(atoms, i, 0.0)
-    if current is not None and 1 <= current <= 9 and scale >= 100 and not after_zero and is_chinese(atoms[i - 1].text):
+    if (
+        current is not None
+        and 1 <= current <= 9
+        and scale >= 100
+        and not after_zero
+        and is_chinese(atoms[i - 1].text)
+    ):
         current *= scale / 10.0  # 一百八 is 180
     value = total + section + (current or 0.0)
     return _decimals(atoms, i, value) or Number(value, i)

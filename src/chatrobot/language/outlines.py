@@ -1,4 +1,7 @@
-"""Steps of a path drawn on the floor, from its measures in metres and radians. `left` is the side it turns to."""
+"""Steps of a path drawn on the floor, from its measures in metres and radians.
+
+`left` is the side it turns to.
+"""
 
 from __future__ import annotations
 
@@ -72,7 +75,10 @@ def plus(arm_m: float, speed: float | None) -> list[Step]:
     steps: list[Step] = []
     for out in (0.0, _QUARTER, math.pi, -_QUARTER):
         back = math.remainder(out + math.pi, 2 * math.pi)
-        steps += [Drive(arm_m, direction_rad=out, speed_mps=speed), Drive(arm_m, direction_rad=back, speed_mps=speed)]
+        steps += [
+            Drive(arm_m, direction_rad=out, speed_mps=speed),
+            Drive(arm_m, direction_rad=back, speed_mps=speed),
+        ]
     return steps
 
 
@@ -110,4 +116,10 @@ def s_bend(radius_m: float, sweep_rad: float, left: bool, speed: float | None) -
 def letter_u(depth_m: float, width_m: float, left: bool, speed: float | None) -> list[Step]:
     """Down one side, across, up the other."""
     turn = Turn(_QUARTER, left=left)
-    return [Drive(depth_m, speed_mps=speed), turn, Drive(width_m, speed_mps=speed), turn, Drive(depth_m, speed_mps=speed)]
+    return [
+        Drive(depth_m, speed_mps=speed),
+        turn,
+        Drive(width_m, speed_mps=speed),
+        turn,
+        Drive(depth_m, speed_mps=speed),
+    ]

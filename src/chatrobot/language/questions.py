@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from functools import lru_cache
+from functools import cache
 
 from chatrobot.language.context import Context
 from chatrobot.language.data_files import load_table
@@ -12,12 +12,12 @@ from chatrobot.language.phrases import say
 from chatrobot.robots.profile import RobotProfile
 
 
-@lru_cache(maxsize=None)
+@cache
 def _topics(language: str) -> tuple[tuple[str, re.Pattern[str]], ...]:
     return tuple((n, re.compile(p)) for n, p in load_table(language, "questions")["topics"].items())
 
 
-@lru_cache(maxsize=None)
+@cache
 def _pattern(language: str, name: str) -> re.Pattern[str]:
     return re.compile(load_table(language, "questions")[name])
 

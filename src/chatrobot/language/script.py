@@ -17,7 +17,10 @@ from chatrobot.plan.steps import MAX_REPEAT, Go, Repeat, Say, Step, Turn, Wait
 
 @dataclass
 class Memory:
-    """What this dialogue knows: places by name, words that a person defined, and what the last motion left."""
+    """What this dialogue knows.
+
+    Places by name, words that a person defined, and what the last motion left.
+    """
 
     places: Mapping[str, Go] = field(default_factory=dict)
     words: Mapping[str, tuple[Step, ...]] = field(default_factory=dict)
@@ -49,6 +52,9 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
         for frame in frames:
             frame.flags.add("units_said")
     frames = _shape_first(frames)
+    paced = _paced(frames, pace)
+    if paced is not None:
+        return paced
     count, frames = _leading_count(frames)
     script = Script(pace, memory, state=memory.state)
     i = 0
@@ -66,7 +72,12 @@ def _shared(frames: list[Frame]) -> list[Frame]:
     """`…, both forward`, 都往左转: a clause that holds for all the others."""
     kept: list[Frame] = []
     for frame in frames:
-        if "all" not in frame.flags or frame.q or not (frame.direction or frame.rot or frame.pace) or frame.shape:
+        if (
+            "all" not in frame.flags
+            or frame.q
+            or not (frame.direction or frame.rot or frame.pace)
+            or frame.shape
+        ):
             kept.append(frame)
             continue
         for other in kept:
@@ -78,6 +89,29 @@ def _shared(frames: list[Frame]) -> list[Frame]:
                     other.verb = frame.verb
             other.pace = other.pace or frame.pace
     return kept
+
+
+def _paced(frames: list[Frame], pace: Pace) -> list[Step] | None:
+    """`Every 50 cm stop for a second, two metres in total`: as many legs as fit, pauses between them."""
+    whole = next((f for f in frames if "total" in f.flags and {"length", "angle", "turns"} & set(f.q)), None)
+    name = next((n for n in ("length", "angle", "turns") if whole and n in whole.q), "")
+    leg = next((f for f in frames if f is not whole and name in f.q), None)
+    if whole is None or len(frames) == 1 or "count" in whole.q or any(f.shape for f in frames):
+        return None
+    pause = next((f for f in frames if f.verb in STILL and "time" in f.q), None)
+    if leg is None or pause is None or len(frames) > 3:
+        raise Unclear("unclear_motion", whole.text)
+    count = whole.q[name].number / leg.q[name].number
+    if abs(count - round(count)) > 1e-6 or not 1 <= round(count) <= MAX_REPEAT:
+        raise Unclear("bad_count", leg.text)
+    drive = whole.copy()
+    drive.q[name] = leg.q[name]
+    drive.direction, drive.rot = whole.direction or leg.direction, whole.rot or leg.rot
+    drive.verb = "" if name == "length" else "turn"
+    drive.flags.discard("each")
+    steps = act(drive, State(), pace)
+    rest = act(Frame(verb="wait", q={"time": pause.q["time"]}), State(), pace)
+    return [*(steps + rest) * (round(count) - 1), *steps]
 
 
 def _shape_first(frames: list[Frame]) -> list[Frame]:
@@ -92,13 +126,19 @@ def _shape_first(frames: list[Frame]) -> list[Frame]:
 
 
 def _is_measure(frame: Frame) -> bool:
-    bare = not frame.moves or (frame.verb == "go" and not (frame.direction or frame.rot or frame.shape or frame.place))
+    bare = not frame.moves or (
+        frame.verb == "go" and not (frame.direction or frame.rot or frame.shape or frame.place)
+    )
     return bare and "length" in frame.q and "time" not in frame.q
 
 
 def _leading_count(frames: list[Frame]) -> tuple[int | None, list[Frame]]:
     """`Twice: …`, `the following three times: …`."""
-    if len(frames) > 1 and is_times_only(frames[0]) and frames[1].joined in ("colon", "weak", "none", "strong"):
+    if (
+        len(frames) > 1
+        and is_times_only(frames[0])
+        and frames[1].joined in ("colon", "weak", "none", "strong")
+    ):
         return _count(frames[0]), frames[1:]
     return None, frames
 
@@ -130,9 +170,11 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
         return i + 1 + (both is not None)
     if frame.shape:
         end, steps = draw(frames, i, script.pace)
-        _finish(script, frame, [steps])
+        _finish(script, [steps])
         return end
-    if is_times_only(frame) or ("again" in frame.flags and not frame.moves and {"times", "count"} & set(frame.q)):
+    if is_times_only(frame) or (
+        "again" in frame.flags and not frame.moves and {"times", "count"} & set(frame.q)
+    ):
         script.units = _repeated(script.units, _count(frame))
     elif "again" in frame.flags and not frame.moves and not frame.has_extent:
         if not script.units:
@@ -225,7 +267,7 @@ def _known(frame: Frame, script: Script) -> list[Step]:
     return [replace(go, speed_mps=script.pace.speed(frame))]
 
 
-def _finish(script: Script, frame: Frame, units: list[list[Step]]) -> None:
+def _finish(script: Script, units: list[list[Step]]) -> None:
     for unit in units:
         script.state.steps.extend(unit)
     script.units.extend(units)
@@ -233,6 +275,8 @@ def _finish(script: Script, frame: Frame, units: list[list[Step]]) -> None:
 
 def _insert(script: Script, frame: Frame) -> None:
     """A pause or a motion between the units, or after each of them."""
+    if not frame.moves and set(frame.q) == {"time"}:
+        frame = Frame(verb="wait", q=frame.q, flags=frame.flags, texts=frame.texts)
     steps = act(frame, script.state, script.pace)
     script.units = [part for unit in script.units for part in _full_turns(unit)]
     moving = [u for u in script.units if not all(isinstance(s, Wait) for s in u)]

@@ -62,7 +62,13 @@ def draw(frames: list[Frame], i: int, pace: Pace) -> tuple[int, list[Step]]:
 def _is_part(head: Frame, frame: Frame) -> bool:
     if head.shape == "plus" and ("way" in [q.role for q in frame.q.values()] or frame.verb == "return"):
         return True
-    if frame.flags & {"between", "after_each", "to_start", "original_heading"} or frame.verb in (*STILL, "return", "face", "uturn", "remember"):
+    if frame.flags & {"between", "after_each", "to_start", "original_heading"} or frame.verb in (
+        *STILL,
+        "return",
+        "face",
+        "uturn",
+        "remember",
+    ):
         return False
     if frame.shape and frame.shape not in ("half_circle", "quarter_circle", "circle"):
         return False
@@ -73,12 +79,22 @@ def _is_part(head: Frame, frame: Frame) -> bool:
         return True
     if frame.joined == "then" or frame.verb in TURN:
         return False
-    return not (frame.verb in GO and frame.has_extent and not frame.roles and "each" not in frame.flags and "count" not in frame.q)
+    return not (
+        frame.verb in GO
+        and frame.has_extent
+        and not frame.roles
+        and "each" not in frame.flags
+        and "count" not in frame.q
+    )
 
 
 def _spelt_out(parts: list[Frame], pace: Pace) -> list[Step] | None:
     """`a letter L: two metres forward, then one metre to the right`; stairs may say how often."""
-    moves = [p for p in parts if p.direction and "length" in p.q and not (p.shape and p.shape != "letter_l" and p.roles)]
+    moves = [
+        p
+        for p in parts
+        if p.direction and "length" in p.q and not (p.shape and p.shape != "letter_l" and p.roles)
+    ]
     if len(moves) < 2 or any("count" in p.q and "length" in p.q for p in parts):
         return None
     if any(p.q and p not in moves and not {"count", "times"} & set(p.q) for p in parts):
@@ -175,10 +191,14 @@ def _drawn(shape: str, found: Measures, pace: Pace, text: str) -> list[Step]:
     if shape in _ROUND:
         return _round(shape, found, pace)
     if shape == "square" or shape.startswith("polygon"):
-        sides = 4 if shape == "square" else int(shape[8:] or found.counts.get("side", 0) or found.counts.get("point", 0))
+        sides = (
+            4
+            if shape == "square"
+            else int(shape[8:] or found.counts.get("side", 0) or found.counts.get("point", 0))
+        )
         if not 3 <= sides <= 100:
             raise Unclear("which_size", text)
-        if len({v for v in found.plain()}) > 1 and sides == 4:
+        if len(set(found.plain())) > 1 and sides == 4:
             return _rectangle(found, text)
         side = _side(found, pace, sides)
         if found.seconds and speed is None:
@@ -195,7 +215,12 @@ def _drawn(shape: str, found: Measures, pace: Pace, text: str) -> list[Step]:
     if shape == "stairs":
         return _stairs(found, pace, text)
     side = _side(found, pace)
-    legs = found.counts.get("leg") or found.counts.get("step") or found.counts.get("move") or found.counts.get("side")
+    legs = (
+        found.counts.get("leg")
+        or found.counts.get("step")
+        or found.counts.get("move")
+        or found.counts.get("side")
+    )
     if shape == "star":
         return outlines.star(side, left, speed)
     if shape == "plus":
@@ -220,7 +245,11 @@ def _round(shape: str, found: Measures, pace: Pace) -> list[Step]:
             raise Unclear("which_size")
         return outlines.racetrack(straight, radius, left, speed)
     if shape == "eight":
-        radii = [v / 2 if "diameter" in roles else v for v, roles in found.lengths if {"radius", "diameter"} & set(roles)]
+        radii = [
+            v / 2 if "diameter" in roles else v
+            for v, roles in found.lengths
+            if {"radius", "diameter"} & set(roles)
+        ]
         first = radii[0] if radii else _radius(found, pace)
         return outlines.eight(first, radii[1] if len(radii) > 1 else first, left, speed)
     radius = _radius(found, pace)
@@ -266,7 +295,12 @@ def _triangle(shape: str, found: Measures, pace: Pace, text: str) -> list[Step]:
 
 
 def _lawn(found: Measures, text: str) -> list[Step]:
-    passes = found.counts.get("pass") or found.counts.get("leg") or found.counts.get("lap") or found.counts.get("step")
+    passes = (
+        found.counts.get("pass")
+        or found.counts.get("leg")
+        or found.counts.get("lap")
+        or found.counts.get("step")
+    )
     spacing = found.with_role("apart") or found.with_role("diameter")
     length = next((v for v, roles in found.lengths if not {"apart", "diameter"} & set(roles)), None)
     if not passes or spacing is None or length is None:
@@ -275,7 +309,10 @@ def _lawn(found: Measures, text: str) -> list[Step]:
 
 
 def _stairs(found: Measures, pace: Pace, text: str) -> list[Step]:
-    count = next((found.counts[n] for n in ("stair", "step", "leg", "point") if n in found.counts), 0) or found.times
+    count = (
+        next((found.counts[n] for n in ("stair", "step", "leg", "point") if n in found.counts), 0)
+        or found.times
+    )
     values = found.plain()
     if not values or not pace.profile.can_go_sideways:
         raise Unclear("which_size", text)

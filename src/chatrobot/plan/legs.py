@@ -22,7 +22,7 @@ from chatrobot.robots.profile import Point, RobotProfile
 
 REVERSE_WITHIN_RAD = math.radians(10.0)
 REVERSE_AT_MOST_M = 3.0
-_THERE_M = 1e-6
+_THERE_M = 0.01  # nearer than this a robot is there: it does not turn round for a few millimetres
 _ALIGNED_RAD = 1e-6
 
 

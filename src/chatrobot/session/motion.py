@@ -114,6 +114,8 @@ class Motion:
         self._next_telemetry_s = 0.0
         self._sequences: dict[tuple[str, bool], int] = {}
         self._leaving: set[str] = set()
+        self._void_turns: dict[str, int] = {}
+        """By lease, the last turn that a stop has made void: a plan of such a turn may still be on its way."""
 
     # --- from any thread -------------------------------------------------------------------------------------
 
@@ -132,6 +134,7 @@ class Motion:
             self._governor.latch(envelope.source, str(envelope.payload.get("why", "")))
         if envelope.word in ("stop", "emergency_stop"):
             why = str(envelope.payload.get("why", ""))
+            self._void_turns[envelope.lease] = envelope.turn
             self.halt(Reason("stopped_by", {"source": envelope.source, "why": why}))
         # What was said before a stop must not run after it, however late it is handled.
         epoch = self._epoch.value
@@ -237,7 +240,7 @@ class Motion:
         job = self._job(envelope, epoch)
         if envelope.payload.get("mode") == "replace":
             self._replace()
-        if epoch != self._epoch.value:
+        if epoch != self._epoch.value or job.turn <= self._void_turns.get(job.lease, 0):
             self._finish_unstarted(job, "stopped", self._stop_reason)
             return
         if len(self._jobs) >= QUEUE_LIMIT:

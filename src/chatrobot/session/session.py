@@ -36,7 +36,7 @@ class Options:
     rehearse_only: bool = False
 
 
-_Kind = Literal["text", "plan", "stop", "dropped", "too_many"]
+_Kind = Literal["text", "plan", "stop", "too_many"]
 _WAITING: tuple[_Kind, ...] = ("text", "plan")
 
 
@@ -64,6 +64,7 @@ class Session:
         self._texts: deque[_Said] = deque()
         self._in_flight: dict[int, tuple[str, Interpretation]] = {}
         self._turns = 0
+        self._void_turn = 0
         self._lock = threading.Lock()
         self.results: dict[int, Result] = {}
 
@@ -96,14 +97,14 @@ class Session:
         return turn
 
     def stop(self, why: str = "") -> None:
-        """Stop the robot and drop what is queued."""
-        self._joint.send("stop", why=why)
-        self._drop_waiting()
+        """Stop the robot and drop what was said before this moment."""
+        self._void_turn = self._turns  # no lock: a stop waits for nothing
+        self._joint.send("stop", self._void_turn, why=why)
 
     def emergency_stop(self, why: str = "") -> None:
         """Stop the robot and keep it stopped until `release`."""
-        self._joint.send("emergency_stop", why=why)
-        self._drop_waiting()
+        self._void_turn = self._turns
+        self._joint.send("emergency_stop", self._void_turn, why=why)
 
     def release(self) -> None:
         """Release an emergency stop. For the local console alone."""
@@ -151,35 +152,33 @@ class Session:
         self._joint.close()
 
     def _count_waiting(self) -> int:
-        return sum(said.kind in _WAITING for said in self._texts)
-
-    def _drop_waiting(self) -> None:
-        """A stop clears what waits; each dropped turn still gets its result."""
-        with self._lock:
-            for index, said in enumerate(self._texts):
-                if said.kind in _WAITING:
-                    self._texts[index] = _Said(said.turn, said.text, "dropped")
+        return sum(said.kind in _WAITING and not self._is_void(said) for said in self._texts)
 
     def _can_take_text(self) -> bool:
         return bool(self._texts) and (
             self._texts[0].kind not in _WAITING
+            or self._is_void(self._texts[0])
             or not self._in_flight
             or self._options.while_moving == "replace"
         )
+
+    def _is_void(self, said: _Said) -> bool:
+        """A stop came after it was said."""
+        return said.turn <= self._void_turn and said.kind in _WAITING
 
     def _take_texts(self) -> None:
         while self._can_take_text():
             with self._lock:
                 said = self._texts.popleft()
-            if said.kind == "text":
+            if self._is_void(said):
+                self._conclude(said.turn, "stopped", self.understanding.say("dropped_by_stop", said.text))
+            elif said.kind == "text":
                 self._understand(said)
             elif said.kind == "plan":
                 self._read_plan(said)
             elif said.kind == "stop":
                 self._emit(Interpreted(said.turn, "reflex", "", ""))
                 self._conclude(said.turn, "stopped", self.understanding.say("stopped_now", said.text))
-            elif said.kind == "dropped":
-                self._conclude(said.turn, "stopped", self.understanding.say("dropped_by_stop", said.text))
             else:
                 self._conclude(said.turn, "refused", self.understanding.say("queue_full", said.text))
 
