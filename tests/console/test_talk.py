@@ -120,18 +120,27 @@ def test_two_interrupts_at_once_leave_and_two_far_apart_stop_twice(talk, log):
     assert told(log)[-1] == ("leave", 0)
 
 
-def test_leaving_waits_for_what_was_told_and_leaving_twice_does_not(talk, log):
+def test_leaving_waits_for_what_was_told(talk, log):
     talk.session.is_idle = False
     talk.leave()
     assert told(log) == []
     talk.session.is_idle = True
     talk.hear(Result(1, "completed", "done"))
     assert told(log) == [("leave", 0)]
-    log.clear()
+
+
+def test_leaving_twice_does_not_wait(talk, log):
     talk.session.is_idle = False
     talk.leave()
     talk.leave()
     assert told(log) == [("leave", 0)]
+
+
+def test_leaving_a_question_is_a_no(talk, log):
+    ask(talk)
+    talk.session.is_idle = False
+    talk.leave()
+    assert told(log) == [("approve", 1, False)]
 
 
 def test_an_interrupt_takes_a_goodbye_back(talk, log):
