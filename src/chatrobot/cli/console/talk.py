@@ -126,6 +126,10 @@ class Talk:
             self.face.leave(0)
             return
         self._leaving = True
+        asked, self._asked = self._asked, None
+        if asked is not None:
+            self.attempt(lambda: self.session.approve(asked.turn, False))
+            return
         self.tell("finishing")
 
     def stop(self, why: str) -> None:
