@@ -1,4 +1,4 @@
-"""Start-up times from cold, as whole processes. Run: python -m bench.bench_startup
+"""Start-up times from cold, as whole processes. Run: python -m bench.startup
 
 Each command is paired, run by run, with a bare `python -c pass`, so that the ratio holds on another machine.
 """

@@ -1,4 +1,4 @@
-"""From a typed line to the wire, measured at a subscriber in another process. Run: python -m bench.bench_latency
+"""From a typed line to the wire, measured at a subscriber in another process. Run: python -m bench.latency
 
 Prints medians and 99th percentiles over many repetitions, and each as a ratio to one hop over the same wire (a
 publisher and a subscriber in two processes with nothing between), so that figures of different machines compare.

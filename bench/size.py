@@ -1,6 +1,6 @@
 """What an install weighs: distributions and megabytes of the core, megabytes of memory of each process.
 
-Run: python -m bench.bench_size (makes a fresh virtual environment; takes a minute)
+Run: python -m bench.size (makes a fresh virtual environment; takes a minute)
 """
 
 from __future__ import annotations
