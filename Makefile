@@ -2,7 +2,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: help setup run test lint bench pictures lock clean faults pictures
+.PHONY: help setup run test lint bench pictures lock clean faults
 
 help:
 	@echo "make setup   .venv with everything in it        make run    talk to the simulated robot"
