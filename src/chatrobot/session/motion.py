@@ -374,7 +374,7 @@ class Motion:
             key = (executor.step, verdict.rule)
             if key not in self._totals.limited:
                 self._totals.limited.add(key)
-                self._emit(Limited(job.turn, verdict.rule, asked, verdict.sent.twist, verdict.reason))
+                self._emit(Limited(job.turn, verdict.rule, asked, verdict.allowed, verdict.reason))
 
     def _count(self, standing: bool, now_s: float) -> None:
         """Time in motion, and time standing between two motions: the last pause counts once motion follows."""

@@ -121,7 +121,7 @@ def _estop(talk: Talk, _: str) -> None:
 
 def _release(talk: Talk, _: str) -> None:
     talk.release()
-    talk.tell("released")
+    talk.tell("estop_released")
 
 
 def _quit(talk: Talk, _: str) -> None:

@@ -92,7 +92,7 @@ class Talk:
         """A line was sent. A stop in it has gone out before this returns."""
         text = clean(raw).strip()
         if len(raw) > LONGEST_CHARS:  # it may have been cut: never do a part of it
-            self.tell("too_long", limit=LONGEST_CHARS)
+            self.tell("line_too_long", limit=LONGEST_CHARS)
         elif text.startswith("/"):
             self._echo(text)
             commands.run(self, text)
@@ -103,7 +103,7 @@ class Talk:
         """The plan that `Face.edit` was asked for."""
         text = clean(plan_text).strip()
         if len(plan_text) > LONGEST_CHARS:
-            self.tell("too_long", limit=LONGEST_CHARS)
+            self.tell("line_too_long", limit=LONGEST_CHARS)
         elif text:
             with self._order:
                 self.attempt(lambda: self.session.say_plan(text))
