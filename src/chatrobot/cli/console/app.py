@@ -74,7 +74,8 @@ def _connect(setup: Setup, words: Words, hear: OnEvent) -> Connection:
 
 def _converse(talk: Talk, setup: Setup) -> int:
     def hang_up() -> None:
-        talk.stop("terminal closed")
+        with contextlib.suppress(JointError):  # nothing is said: nobody is there to read it
+            talk.session.stop("terminal closed")
         talk.connection.close()
 
     if can_chat():
