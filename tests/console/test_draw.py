@@ -13,7 +13,7 @@ from chatrobot.core.events import FindingSeen, Rehearsed
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.robots.load import load_profile
-from chatrobot.sim.world import load_world
+from chatrobot.sim.load import load_world
 
 PROFILE = load_profile("wheeltec_mini_mec")
 WAY = tuple((x / 20, 0.0, 0.0) for x in range(41))

@@ -35,7 +35,8 @@ from chatrobot.language.context import Context
 from chatrobot.language.data_files import load_table
 from chatrobot.language.interpretation import OfflineInterpreter
 from chatrobot.robots.load import load_profile
-from chatrobot.sim.world import EMPTY_WORLD, load_world
+from chatrobot.sim.load import load_world
+from chatrobot.sim.world import EMPTY_WORLD
 
 HOME = load_world("home")
 WAY = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import pytest
 from rich.text import Text
 
+from chatrobot.cli.console import commands
 from chatrobot.cli.console.clean import LONGEST_CHARS
 from chatrobot.cli.console.talk import TWICE_S, Talk
 from chatrobot.cli.console.words import Words
@@ -13,7 +14,7 @@ from chatrobot.core.errors import JointError
 from chatrobot.core.events import Finished, Interpreted, Rehearsed, Result, Started
 from chatrobot.core.geometry import Pose
 from chatrobot.robots.load import load_profile
-from chatrobot.sim.world import load_world
+from chatrobot.sim.load import load_world
 
 
 class FakeSession:
@@ -80,7 +81,7 @@ def talk(log):
     connection = SimpleNamespace(
         session=FakeSession(log), world=load_world("home"), profile=load_profile("wheeltec_mini_mec")
     )
-    talk = Talk(connection, Words(), VirtualClock())
+    talk = Talk(connection, Words(), VirtualClock(), commands.run)
     talk.face = FakeFace(log)
     return talk
 

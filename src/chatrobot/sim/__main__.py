@@ -11,9 +11,9 @@ from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import ChatRobotError, InputError
 from chatrobot.sim.control import SimControl
 from chatrobot.sim.lies import SimLies
+from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import SimRobot
 from chatrobot.sim.server import SimServer
-from chatrobot.sim.world import load_world
 from chatrobot.wire.local import LocalHub
 from chatrobot.wire.messages import TwistMessage
 

@@ -12,7 +12,7 @@ from dataclasses import replace
 from rich.console import Console, RenderableType
 from rich.text import Text
 
-from chatrobot.cli.console import plain
+from chatrobot.cli.console import commands, plain
 from chatrobot.cli.console.lines import indented
 from chatrobot.cli.console.tables import example_place, place_in
 from chatrobot.cli.console.talk import Talk
@@ -44,7 +44,7 @@ def run_console(setup: Setup) -> int:
         talk.hear(event)
 
     connection = _connect(setup, words, hear)
-    talk = Talk(connection, words, RealClock())
+    talk = Talk(connection, words, RealClock(), commands.run)
     try:
         code = _converse(talk, setup)
     finally:

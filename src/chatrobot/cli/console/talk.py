@@ -12,7 +12,6 @@ from typing import Protocol
 from rich.console import RenderableType
 from rich.text import Text
 
-from chatrobot.cli.console import commands
 from chatrobot.cli.console.clean import LONGEST_CHARS, clean
 from chatrobot.cli.console.lines import indented, marked
 from chatrobot.cli.console.maps import way_map
@@ -66,11 +65,18 @@ class Face(Protocol):
 
 
 class Talk:
-    """See the module. `face` is attached once it exists."""
+    """See the module. `face` is attached once it exists; `run_command` does a line that begins with a slash."""
 
     face: Face
 
-    def __init__(self, connection: Connection, words: Words, clock: Clock) -> None:
+    def __init__(
+        self,
+        connection: Connection,
+        words: Words,
+        clock: Clock,
+        run_command: Callable[[Talk, str], None],
+    ) -> None:
+        self._run_command = run_command
         self.connection = connection
         self.session = connection.session
         self.words = words
@@ -95,7 +101,7 @@ class Talk:
             self.tell("line_too_long", limit=LONGEST_CHARS)
         elif text.startswith("/"):
             self._echo(text)
-            commands.run(self, text)
+            self._run_command(self, text)
         elif text and not self._answer(text):
             self._say(text)
 
@@ -183,7 +189,10 @@ class Talk:
             lines: list[RenderableType] = list(self.narrator.tell(event))
             if isinstance(event, Rehearsed) and event.needs_approval:
                 self._asked = event
-                lines += [way_map(self), Text(f"  {self.words.say('ask_approval')}", "bold")]
+                lines += [
+                    way_map(self.ride, self.connection.world),
+                    Text(f"  {self.words.say('ask_approval')}", "bold"),
+                ]
             if isinstance(event, Interpreted) and event.by == "reflex" and self.ride.is_moving:
                 self._muted.add(event.turn)  # what was moving is about to say how it ended
             if lines and event.turn not in self._muted:
