@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
+from chatrobot.plan.core_motion import RAMP_SHARE
 from chatrobot.plan.findings import Finding
 from chatrobot.plan.lowering import PlannedMotion
 from chatrobot.plan.rehearsal import MARGIN_M, Rehearsal, rehearse
