@@ -1,0 +1,154 @@
+"""Who is on the domain, and how we appear to the others (`ros2 node list`, `ros2 topic info`)."""
+
+from __future__ import annotations
+
+import os
+import socket
+import uuid
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from cyclonedds.builtin import (
+    BuiltinDataReader,
+    BuiltinTopicDcpsParticipant,
+    BuiltinTopicDcpsPublication,
+)
+from cyclonedds.core import Policy, Qos
+from cyclonedds.domain import DomainParticipant
+from cyclonedds.pub import DataWriter
+from cyclonedds.sub import DataReader
+from cyclonedds.topic import Topic
+
+from chatrobot.wire.dds.discovery import LOOPBACK, machine_addresses
+from chatrobot.wire.dds.ros_types import MALFORMED, RosTypes
+
+_INFO_TOPIC = "ros_discovery_info"
+_INFO_TYPE = "rmw_dds_common/msg/ParticipantEntitiesInfo"
+_INFO_QOS = Qos(Policy.Reliability.Reliable(0), Policy.Durability.TransientLocal, Policy.History.KeepLast(1))
+_MANY = 1000
+_OWN_ID = "CHATROBOT_ID"
+
+
+def own_id() -> str:
+    """What marks the processes of one session as ours: made once, inherited by the processes we start."""
+    return os.environ.setdefault(_OWN_ID, uuid.uuid4().hex)
+
+
+def participant_qos() -> Qos:
+    """How a participant of ours introduces itself."""
+    return Qos(Policy.Userdata(f"enclave=/;chatrobot={own_id()};".encode()))
+
+
+@dataclass(frozen=True)
+class Stranger:
+    """A participant that is not ours, as far as it tells."""
+
+    host: str
+    addresses: frozenset[str]
+    process: str
+    chatrobot_id: str
+
+    def is_elsewhere(self) -> bool:
+        """Known to be on another machine."""
+        if self.addresses:
+            return self.addresses.isdisjoint({LOOPBACK, "localprocess", *machine_addresses()})
+        return self.host not in ("", socket.gethostname())
+
+
+class Graph:
+    """The participants and endpoints seen from one participant of ours.
+
+    Args:
+        name: our node's name.
+        namespace: our node's namespace, `/` or `/robot1`.
+    """
+
+    def __init__(self, participant: DomainParticipant, types: RosTypes, name: str, namespace: str) -> None:
+        self._types = types
+        self._name, self._namespace = name, namespace
+        self._guid = participant.get_guid()
+        topic = Topic(participant, _INFO_TOPIC, types.topic_type(_INFO_TYPE))
+        self._writer = DataWriter(participant, topic, _INFO_QOS)
+        self._infos = DataReader(participant, topic, _INFO_QOS)
+        self._participants = BuiltinDataReader(participant, BuiltinTopicDcpsParticipant)
+        self._publications = BuiltinDataReader(participant, BuiltinTopicDcpsPublication)
+
+    def announce(self, readers: Iterable[uuid.UUID], writers: Iterable[uuid.UUID]) -> None:
+        """Say which endpoints are our node's; ROS lists a node once it has heard this."""
+        node = {
+            "node_namespace": self._namespace,
+            "node_name": self._name,
+            "reader_gid_seq": [self._gid(guid) for guid in readers],
+            "writer_gid_seq": [self._gid(guid) for guid in writers],
+        }
+        fields = {"gid": self._gid(self._guid), "node_entities_info_seq": [node]}
+        self._writer.write(self._types.sample(_INFO_TYPE, fields))
+
+    def publishers_of(self, dds_topic: str) -> list[str]:
+        """Who else publishes there, sorted: node names where they tell them, otherwise process and host.
+
+        Processes of the same session as this one (`own_id`) are left out.
+        """
+        strangers = self.strangers()
+        nodes = self._nodes()
+        return sorted(
+            {
+                nodes.get(publication.key) or strangers[publication.participant_key].process
+                for publication in _alive(self._publications)
+                if publication.topic_name == dds_topic and publication.participant_key in strangers
+            }
+        )
+
+    def strangers(self) -> dict[uuid.UUID, Stranger]:
+        """The participants that are not of our session, by GUID."""
+        seen = {participant.key: _introduced(participant.qos) for participant in _alive(self._participants)}
+        return {key: stranger for key, stranger in seen.items() if stranger.chatrobot_id != own_id()}
+
+    def is_elsewhere(self, publication_handle: int) -> bool:
+        """Whether that publication (by the handle in a sample's info) is known to be on another machine."""
+        key = next(
+            (
+                publication.participant_key
+                for publication in _alive(self._publications)
+                if publication.sample_info.instance_handle == publication_handle
+            ),
+            None,
+        )
+        stranger = None if key is None else self.strangers().get(key)
+        return stranger is not None and stranger.is_elsewhere()
+
+    def _nodes(self) -> dict[uuid.UUID, str]:
+        """Node names by the GUID of their writers."""
+        named: dict[uuid.UUID, str] = {}
+        for sample in _alive(self._infos):
+            try:
+                info = self._types.read(_INFO_TYPE, sample.cdr)
+                for node in info.node_entities_info_seq:
+                    full_name = f"{node.node_namespace.rstrip('/')}/{node.node_name}"
+                    for gid in node.writer_gid_seq:
+                        named[uuid.UUID(bytes=bytes(gid.data)[:16])] = full_name
+            except MALFORMED:
+                continue  # another distribution's length of GIDs
+        return named
+
+    def _gid(self, guid: uuid.UUID) -> dict[str, Any]:
+        length = len(self._types.message("rmw_dds_common/msg/Gid", {}).data)
+        return {"data": list(guid.bytes.ljust(length, b"\0"))}
+
+
+def _alive(reader: Any) -> list[Any]:
+    return [sample for sample in reader.read(_MANY) if sample.sample_info.valid_data]
+
+
+def _introduced(qos: Qos) -> Stranger:
+    properties = {policy.key: policy.value for policy in qos if isinstance(policy, Policy.Property)}
+    userdata = Policy.Userdata
+    text = next((bytes(p.data).decode(errors="replace") for p in qos if isinstance(p, userdata)), "")
+    pairs = dict(pair.split("=", 1) for pair in text.split(";") if "=" in pair)
+    host = properties.get("__Hostname") or properties.get("fastdds.physical_data.host", "")
+    process = properties.get("__ProcessName") or properties.get("fastdds.physical_data.process", "")
+    pid = properties.get("__Pid", "")
+    addresses = properties.get("__NetworkAddresses", "").split(",")
+    named = f"{process or 'a process'} {pid}".strip() + (f" on {host}" if host else "")
+    return Stranger(host, frozenset(filter(None, addresses)), named, pairs.get("chatrobot", ""))
