@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from chatrobot.robots.profile import Wiring
 from chatrobot.wire.messages import Flag, Imu, LaserScan, Message, Number, Odometry, Text, TwistMessage
 
 ODOM_FRAME, BASE_FRAME, LASER_FRAME = "odom", "base_link", "laser"
 
+T = TypeVar("T")
 _STAMPED = (Odometry, Imu, LaserScan)
 
 
@@ -32,7 +33,7 @@ class RosForm(NamedTuple):
     from_ros: Callable[[Any], Message | None]
 
 
-def ros_form(topic: str, kind: type[Message], wiring: Wiring) -> RosForm:
+def ros_form(topic: str, kind: type[Any], wiring: Wiring) -> RosForm:
     """What `kind` is on `topic` of a robot wired like this."""
     if kind is TwistMessage and topic == wiring.cmd_vel_topic and wiring.cmd_vel_type == "TwistStamped":
         return _TWIST_STAMPED
@@ -43,7 +44,7 @@ def ros_form(topic: str, kind: type[Message], wiring: Wiring) -> RosForm:
     return _PLAIN[kind]
 
 
-def is_sensor(topic: str, kind: type[Message], wiring: Wiring) -> bool:
+def is_sensor(topic: str, kind: type[Any], wiring: Wiring) -> bool:
     """Whether robots may publish this with ROS's sensor QoS (best effort)."""
     sensors = (
         wiring.odom_topic,
@@ -82,7 +83,7 @@ def _stamp_s(message: Any) -> float:
 
 
 def _quaternion(yaw_rad: float) -> dict[str, float]:
-    return {"z": math.sin(yaw_rad / 2.0), "w": math.cos(yaw_rad / 2.0)}
+    return {"x": 0.0, "y": 0.0, "z": math.sin(yaw_rad / 2.0), "w": math.cos(yaw_rad / 2.0)}
 
 
 def _yaw_rad(q: Any) -> float:
@@ -169,6 +170,16 @@ def _range_m(value: Any) -> float:
     return math.nan if value is None else float(value)
 
 
+def _data_to(message: Flag | Number | Text) -> dict[str, Any]:
+    return {"data": message.data}
+
+
+def _of(kind: type[T], value: Any) -> T:
+    if not isinstance(value, kind):
+        raise TypeError(f"not a {kind.__name__}")
+    return value
+
+
 def _battery_from(message: Any) -> Number | None:
     """`percentage` is 0 to 1, NaN or null where unmeasured; drivers that mean per cent say more than 1."""
     share = math.nan if message.percentage is None else float(message.percentage)
@@ -195,7 +206,7 @@ _PLAIN: dict[type[Message], RosForm] = {
         lambda message: Imu(_stamp_s(message), float(message.angular_velocity.z)),
     ),
     LaserScan: RosForm("sensor_msgs/msg/LaserScan", _scan_to, _scan_from),
-    Flag: RosForm("std_msgs/msg/Bool", lambda m: {"data": m.data}, lambda m: Flag(bool(m.data))),
-    Number: RosForm("std_msgs/msg/Float64", lambda m: {"data": m.data}, lambda m: Number(float(m.data))),
-    Text: RosForm("std_msgs/msg/String", lambda m: {"data": m.data}, lambda m: Text(str(m.data))),
+    Flag: RosForm("std_msgs/msg/Bool", _data_to, lambda message: Flag(_of(bool, message.data))),
+    Number: RosForm("std_msgs/msg/Float64", _data_to, lambda message: Number(float(message.data))),
+    Text: RosForm("std_msgs/msg/String", _data_to, lambda message: Text(_of(str, message.data))),
 }

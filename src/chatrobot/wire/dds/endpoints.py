@@ -81,7 +81,8 @@ class Writer:
 
     def listener_count(self) -> int:
         """How many listeners are known."""
-        return int(self._writer.get_publication_matched_status().current_count)
+        status: Any = self._writer.get_publication_matched_status()  # type: ignore[no-untyped-call]
+        return int(status.current_count)
 
     def wait_for_listeners(self, count: int, timeout_s: float) -> bool:
         """Block until at least `count` listen; False where they don't in time."""

@@ -129,9 +129,9 @@ class RosTypes:
         if kind == Nodetype.NAME:
             return self._make(detail)
         inner, length = detail
-        return (
-            idl.array[self._idl(inner), length] if kind == Nodetype.ARRAY else idl.sequence[self._idl(inner)]
-        )
+        if kind == Nodetype.ARRAY:
+            return idl.array[self._idl(inner), length]  # type: ignore[misc]
+        return idl.sequence[self._idl(inner)]  # type: ignore[misc]
 
 
 _NUMPY_NAMES = {"byte": "uint8", "char": "uint8"}

@@ -6,6 +6,7 @@ import contextlib
 import os
 import threading
 from collections.abc import Callable, Iterator
+from typing import Any
 
 from cyclonedds.core import DDSException, GuardCondition, WaitSet
 from cyclonedds.domain import Domain, DomainParticipant
@@ -143,7 +144,7 @@ class DdsWire:
             raise WireError("this end of the wire is closed")
         return self._participant, self._waitset, self._graph
 
-    def _port(self, topic: str, kind: type[Message]) -> Port:
+    def _port(self, topic: str, kind: type[Any]) -> Port:
         form = ros_form(topic, kind, self._wiring)
         return Port(dds_topic_name(topic, self._namespace), form, is_sensor(topic, kind, self._wiring))
 
