@@ -39,6 +39,7 @@ class Rig:
         self.governor = Governor(self.profile, epoch)
         self.governor.leases.open("rig", "rig", float("inf"), 0.0)
         self._transport = WireTransport(wire, self.profile.wiring, epoch)
+        self._looked_at: object = None
         self.events: list[Event] = []
         self.sent: list[Twist] = []
         self.live(0.5)
@@ -65,8 +66,20 @@ class Rig:
             asked = executor.tick(self.clock.now_s())
             if executor.is_done:
                 return executor
-            verdict = self.governor.govern(asked, "rig", self.clock.now_s())
+            self._look()
+            estimate = self.sensors.estimate
+            verdict = self.governor.govern(
+                asked, "rig", self.clock.now_s(), estimate.pose if estimate else None
+            )
             self._transport.send(verdict.sent)
+            executor.note(verdict.rule, verdict.reason, verdict.sent.twist, self.clock.now_s())
             self.sent.append(verdict.sent.twist)
             self.live(TICK_S)
         raise AssertionError(f"the plan did not end within {limit_s} s")
+
+    def _look(self) -> None:
+        scan = self.sensors.scan
+        pose = self.sensors.estimator.pose_at(scan.stamp_s) if scan is not None else None
+        if scan is not None and pose is not None and scan is not self._looked_at:
+            self._looked_at = scan
+            self.governor.take_scan(scan, pose)

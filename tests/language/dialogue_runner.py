@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Literal
 
-from chatrobot.language.context import Context, Dialogue, Place, RobotState, TurnRecord
-from chatrobot.language.interpretation import Interpretation, OfflineInterpreter
-from chatrobot.plan.steps import Remember
 from tests.language.ideal_motion import Track, judge
 from tests.language.profiles import MECANUM
+
+from chatrobot.language.context import Context, Dialogue, Place, RobotState, TurnRecord
+from chatrobot.language.interpretation import Interpretation, OfflineInterpreter
 
 Verdict = Literal["correct", "wrong", "abstained"]
 ANSWERS = {"clarify": "unclear", "refuse": "refused", "info": "answered"}
@@ -40,10 +40,10 @@ class Conversation:
 
     def _remember(self, text: str, meant: Interpretation, start: Any) -> None:
         places = dict(self.dialogue.places)
-        names = [meant.remember_place] if meant.remember_place else []
-        names += [s.place for s in (meant.plan.steps if meant.plan else ()) if isinstance(s, Remember)]
-        for name in names:
-            places[name] = Place(self.track.pose)
+        if meant.remember_place:
+            places[meant.remember_place] = Place(self.track.pose)
+        places.update({name: Place(pose) for name, pose in self.track.places.items()})
+        self.track.places.clear()
         outcome: Any = {"plan": "completed", "stop": "stopped"}.get(meant.outcome, meant.outcome)
         record = TurnRecord(text, outcome, meant.plan, start, self.track.pose)
         self.dialogue = Dialogue(
@@ -71,5 +71,7 @@ def run_item(item: Mapping[str, Any]) -> tuple[Verdict, str]:
             return "wrong", why
         return ("correct" if meant.outcome == ANSWERS[expect["answer"]] else "abstained"), why
     if meant.outcome in ("unclear", "refused", "answered") and expect.get("motion") != "none":
-        return ("abstained" if not talk.track.moved or wrong else "correct"), f"{meant.outcome}: {meant.reply}"
+        return (
+            "abstained" if not talk.track.moved or wrong else "correct"
+        ), f"{meant.outcome}: {meant.reply}"
     return ("wrong" if wrong else "correct"), why + (f" | {meant.plan}" if wrong else "")

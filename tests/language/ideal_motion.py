@@ -1,4 +1,7 @@
-"""A plan's ideal geometry, without a simulator: what a perfect robot would do, and a judge after FORMAT.md."""
+"""A plan's ideal geometry, without a simulator.
+
+What a perfect robot would do, and a judge after FORMAT.md.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from chatrobot.core.geometry import Pose, Twist
-from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, RawTwist, Repeat, Step, Turn, Wait
+from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, RawTwist, Remember, Repeat, Step, Turn, Wait
 
 SPEED, RATE, ACCELERATION, ANGULAR_ACCELERATION, MAX_SPEED, MAX_RATE = 0.3, 0.6, 1.0, 2.0, 1.0, 2.0
 
@@ -17,7 +20,7 @@ SPEED, RATE, ACCELERATION, ANGULAR_ACCELERATION, MAX_SPEED, MAX_RATE = 0.3, 0.6,
 class Track:
     """Where an ideal robot is and what it has done. `paused_s` counts standing between motions only."""
 
-    pose: Pose = Pose()
+    pose: Pose = field(default_factory=Pose)
     path_m: float = 0.0
     turned_rad: float = 0.0
     duration_s: float = 0.0
@@ -29,6 +32,7 @@ class Track:
     moved: bool = False
     too_fast: bool = False
     start: Pose = field(default_factory=Pose)
+    places: dict[str, Pose] = field(default_factory=dict)
 
     def run(self, plan: Plan) -> None:
         """Do the whole plan."""
@@ -40,6 +44,8 @@ class Track:
             if isinstance(step, Repeat):
                 for _ in range(step.count):
                     self._steps(step.steps)
+            elif isinstance(step, Remember):
+                self.places[step.place] = self.pose
             elif isinstance(step, Wait):
                 self.pending_s += step.duration_s
             else:
@@ -49,7 +55,9 @@ class Track:
         if isinstance(step, Drive):
             speed = step.speed_mps or SPEED
             seconds = step.duration_s if step.duration_s is not None else (step.distance_m or 1.0) / speed
-            self._hold(Twist(speed * math.cos(step.direction_rad), speed * math.sin(step.direction_rad)), seconds)
+            self._hold(
+                Twist(speed * math.cos(step.direction_rad), speed * math.sin(step.direction_rad)), seconds
+            )
         elif isinstance(step, Turn):
             rate = step.rate_radps or RATE
             seconds = step.duration_s if step.duration_s is not None else (step.angle_rad or 0.0) / rate
@@ -57,7 +65,9 @@ class Track:
         elif isinstance(step, Arc):
             speed = step.speed_mps or min(SPEED, RATE * step.radius_m)
             rate = speed / step.radius_m * (1 if step.left != step.backward else -1)
-            self._hold(Twist(-speed if step.backward else speed, 0, rate), step.radius_m * step.angle_rad / speed)
+            self._hold(
+                Twist(-speed if step.backward else speed, 0, rate), step.radius_m * step.angle_rad / speed
+            )
         elif isinstance(step, RawTwist):
             self._hold(Twist(step.vx_mps, step.vy_mps, step.wz_radps), step.duration_s)
         elif isinstance(step, Go):
@@ -120,7 +130,11 @@ def judge(track: Track, expect: Mapping[str, Any]) -> list[str]:
     signs = {"x": track.pose.x_m, "y": track.pose.y_m, "yaw": track.turned_rad}
     for name, sign in expect.get("sign", {}).items():
         value = signs[name]
-        if (sign == "+" and value < 0.02) or (sign == "-" and value > -0.02) or (sign == "0" and abs(value) > 0.03):
+        if (
+            (sign == "+" and value < 0.02)
+            or (sign == "-" and value > -0.02)
+            or (sign == "0" and abs(value) > 0.03)
+        ):
             wrong.append(f"sign {name} {value:.3f} not {sign}")
     if expect.get("closed") and math.hypot(track.pose.x_m, track.pose.y_m) > 0.1:
         wrong.append(f"not closed: ends at ({track.pose.x_m:.2f}, {track.pose.y_m:.2f})")

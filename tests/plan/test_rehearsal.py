@@ -8,10 +8,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.plan.kernels import half_speed, pass_all
-from tests.plan.plans import plans
-from tests.plan.robots import ACKERMANN, DIFFERENTIAL, MECANUM
-from tests.plan.worlds import NOTHING, WALL_AHEAD, BoxWorld, flat
 
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.plan.findings import Finding
@@ -21,6 +17,10 @@ from chatrobot.plan.steps import Plan
 from chatrobot.plan.sweep import outline_points, transformed
 from chatrobot.plan.text import parse_plan
 from chatrobot.robots.profile import RobotProfile
+from tests.plan.kernels import gentle_brake, half_speed, pass_all, steady
+from tests.plan.plans import plans
+from tests.plan.robots import ACKERMANN, DIFFERENTIAL, MECANUM
+from tests.plan.worlds import NOTHING, WALL_AHEAD, BoxWorld, flat
 
 
 def rehearsed(
@@ -115,7 +115,7 @@ def test_an_area_with_a_corner_cut_out_is_seen_as_it_is() -> None:
         ("drive 3000 s", "too_long"),
         ("drive 1 m at 1e-300 m/s", "too_long"),
         ("drive 1e300 m", "too_long"),
-        ("go to 1e300 1e300", "too_long"),
+        ("go to 1e300 1e300", "too_far"),
         ("go to 1100 0 at 1 m/s", "too_far"),
     ],
 )
@@ -137,6 +137,17 @@ def test_a_governor_that_lets_less_through_shortens_the_prediction() -> None:
     result = rehearse(parse_plan("drive 1 m\ndrive 1 m"), MECANUM, NOTHING, ORIGIN, half_speed)
     assert result.end_pose.x_m == pytest.approx(1.0, abs=0.02)
     assert [found.reason.code for found in result.findings] == ["limited", "limited"]
+
+
+def test_a_governor_with_the_robots_own_accelerations_passes_every_ramp() -> None:
+    result = rehearse(parse_plan(SQUARE_AND_ARCS), MECANUM, NOTHING, ORIGIN, steady)
+    assert result.findings == ()
+
+
+def test_a_governor_that_brakes_more_gently_than_the_plan_is_noticed_too() -> None:
+    result = rehearse(parse_plan("drive 1 m"), MECANUM, NOTHING, ORIGIN, gentle_brake)
+    assert result.end_pose.x_m > 1.02
+    assert [found.reason.code for found in result.findings] == ["limited"]
 
 
 def test_driving_until_an_obstacle_foresees_where_it_stops() -> None:

@@ -5,14 +5,14 @@ import math
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tests.plan.kernels import pass_all
-from tests.plan.robots import ACKERMANN, MECANUM
 
 from chatrobot.core.geometry import ORIGIN
 from chatrobot.plan.rehearsal import Rehearsal, rehearse
 from chatrobot.plan.rounding import round_corners
 from chatrobot.plan.steps import Arc, Plan
 from chatrobot.plan.text import format_plan, parse_plan
+from tests.plan.kernels import pass_all
+from tests.plan.robots import ACKERMANN, MECANUM
 
 SQUARE = "repeat 4\n  drive 1 m\n  turn left 90 deg\nend"
 

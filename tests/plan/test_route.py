@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from tests.plan.robots import MECANUM
-from tests.plan.worlds import NOTHING, BoxWorld, flat
 
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.plan.context import NoRoute, Route
 from chatrobot.plan.route import GridRoutePlanner
+from tests.plan.robots import MECANUM
+from tests.plan.worlds import NOTHING, BoxWorld, flat
 
 ROUND = replace(
     MECANUM, footprint=((0.1768, -0.1768), (0.1768, 0.1768), (-0.1768, 0.1768), (-0.1768, -0.1768))
@@ -52,6 +52,16 @@ def test_a_door_of_eighty_centimetres_is_passed_in_its_middle_in_few_legs() -> N
     assert world.clearance_m(path).min() > 0.25 + 0.02
     in_door = path[np.abs(path[:, 0] - 4.0) < 0.05]
     assert np.abs(in_door[:, 1] - 3.0).max() < 0.08
+
+
+def test_a_detour_is_no_longer_than_it_need_be() -> None:
+    world = BoxWorld([(1.0, -1.0, 2.0, 1.0)])
+    found = route(world, (3.0, 0.0))
+    assert isinstance(found, Route)
+    points = [(0.0, 0.0), *found.waypoints]
+    length = sum(np.hypot(b[0] - a[0], b[1] - a[1]) for a, b in itertools.pairwise(points))
+    around_the_corners = 2 * np.hypot(1.0, 1.25) + 1.0
+    assert length < 1.25 * around_the_corners
 
 
 def test_a_flat_is_searched_in_fifty_milliseconds() -> None:

@@ -194,6 +194,14 @@ def test_sizes_are_bounded(fits: str, too_much: str) -> None:
         parse_plan(too_much)
 
 
+def test_a_stream_counts_the_steps_of_all_its_blocks() -> None:
+    block = "repeat 1000\n" + "wait 1 s\n" * 6 + "end\n"
+    parser = StreamParser()
+    assert len(parser.feed(block)) == 1
+    with pytest.raises(PlanTextError, match="more than 10000 steps"):
+        parser.feed(block)
+
+
 def test_an_endless_line_is_refused_before_it_ends() -> None:
     parser = StreamParser()
     for _ in range(30):

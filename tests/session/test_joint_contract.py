@@ -174,3 +174,11 @@ def test_a_source_that_leaves_without_goodbye_stops_the_robot(rig: JointRig) -> 
     moving(rig, 1)
     rig.joint.abandon()
     assert is_at_rest(rig)
+
+
+def test_a_plan_that_was_on_its_way_when_stop_was_said_is_not_driven(rig: JointRig) -> None:
+    rig.joint.send("stop", 3, why="said after turn 3")
+    send_plan(rig, 3, "drive 1 m")
+    send_plan(rig, 4, "drive 0.1 m")
+    assert finished(rig, 3).outcome == "stopped"
+    assert finished(rig, 4).pose.x_m == pytest.approx(0.1, abs=0.01)

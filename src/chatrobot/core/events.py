@@ -125,6 +125,7 @@ class Limited(Event):
     rule: str
     asked: Twist
     sent: Twist
+    reason: Reason | None = None
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ measured whenever the robot stands. So distances come from the wheels and headin
 from __future__ import annotations
 
 import math
+from collections import deque
 from dataclasses import dataclass
 
 from chatrobot.core.geometry import Pose, Twist, wrap_angle
@@ -23,6 +24,9 @@ PUSHED_RATE_RADPS = 0.06
 """Above this a "standing" robot is being turned by hand, and that is motion, not bias."""
 
 IMU_SILENT_S = 0.2
+HISTORY = 100
+"""Estimates kept to tell where a scan was made: a second of them."""
+
 JUMP_MARGIN_M = 0.15
 
 
@@ -54,6 +58,7 @@ class PoseEstimator:
         self._bias_samples = 0
         self._standing_since_s = math.inf
         self.estimate: Estimate | None = None
+        self._history: deque[Estimate] = deque(maxlen=HISTORY)
         self.wheel_yaw_rad = 0.0
         """Total turn by the wheels alone: where it parts from the gyro's, wheels slip."""
         self.fault: Reason | None = None
@@ -64,6 +69,13 @@ class PoseEstimator:
     @property
     def has_gyro(self) -> bool:
         return self._bias_samples > 0
+
+    def pose_at(self, stamp_s: float) -> Pose | None:
+        """Where the robot was at `stamp_s`, to one odometry sample; None before the first."""
+        for estimate in reversed(self._history):
+            if estimate.stamp_s <= stamp_s:
+                return estimate.pose
+        return self._history[0].pose if self._history else None
 
     def on_imu(self, message: Imu) -> None:
         """A gyro sample: integrated while moving, averaged into the bias while standing."""
@@ -105,6 +117,7 @@ class PoseEstimator:
     def _begin(self, message: Odometry) -> None:
         self._gyro_yaw_at_odometry = self._gyro_yaw
         self.estimate = Estimate(message.stamp_s, Pose(*message[1:4]), Twist(*message[4:7]), 0.0)
+        self._history.append(self.estimate)
         self._note_standing(message)
 
     def _advance(self, message: Odometry, step: Pose) -> None:
@@ -128,6 +141,7 @@ class PoseEstimator:
             Twist(message.vx_mps, message.vy_mps, rate),
             before.path_m + math.hypot(step.x_m, step.y_m),
         )
+        self._history.append(self.estimate)
         self._note_standing(message)
 
     def _note_standing(self, message: Odometry) -> None:

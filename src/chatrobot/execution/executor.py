@@ -27,6 +27,9 @@ TICK_S = 0.02
 SETTLE_S = 0.8
 """The longest wait, at the end of a plan, for the robot to be seen standing."""
 
+BARRED_S = 3.0
+"""Somebody may walk past; after this long the way is barred and the plan ends."""
+
 MEND_TRIES = 2
 MEND_SPEED_MPS = 0.08
 MEND_RATE_RADPS = 0.3
@@ -60,6 +63,7 @@ class Executor:
         self._is_mending = False
         self._first_tick = False
         self._ending: Reason | None = None
+        self._barred_since_s: float | None = None
         self._begin: tuple[Pose, float] = (Pose(), 0.0)
 
     def start(self, turn: int, walk: CoreWalk, duration_s: float, now_s: float) -> None:
@@ -85,6 +89,25 @@ class Executor:
             (estimate.pose, estimate.twist) if estimate is not None else (self._reference, ZERO_TWIST)
         )
         return Progress(turn, self.step, self.steps, max(0.0, min(1.0, share)), pose, twist)
+
+    def note(self, rule: str, reason: Reason | None, sent: Twist, now_s: float) -> None:
+        """What the governor made of the last request.
+
+        Where something is in the way the reference waits for the robot; a way that stays barred ends the plan.
+        """
+        if rule != "obstacle" or self._segment is None:
+            self._barred_since_s = None
+            return
+        full = self._segment.at(now_s - self._segment_at_s + TICK_S / 2.0)[1]
+        asked = full.speed_mps + abs(full.wz_radps)
+        share = min(1.0, (sent.speed_mps + abs(sent.wz_radps)) / asked) if asked > 0.0 else 0.0
+        self._segment_at_s += (1.0 - share) * TICK_S
+        if not sent.is_zero:
+            self._barred_since_s = None
+        elif self._barred_since_s is None:
+            self._barred_since_s = now_s
+        elif now_s - self._barred_since_s > BARRED_S:
+            self._end("stopped", reason)
 
     # --- control ---
 

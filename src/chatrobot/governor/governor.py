@@ -6,18 +6,24 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from chatrobot.core.geometry import ZERO_TWIST, Twist
+from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
 from chatrobot.core.governed import GovernedTwist, Mint, StopEpoch
 from chatrobot.core.reason import Reason
 from chatrobot.governor.kernel import bounded, make_kernel
 from chatrobot.governor.lease import Leases
+from chatrobot.governor.obstacles import FREE, ObstacleRule
 from chatrobot.robots.profile import RobotProfile
+from chatrobot.wire.messages import LaserScan
 
 TICK_S = 0.02
 """The control period: 50 Hz."""
 
 LONGEST_STEP_S = 2.0 * TICK_S
 """A late tick may not buy a bigger jump in velocity than this much time."""
+
+LATE_MPS = 0.05
+LATE_RADPS = 0.1
+"""A ramp that is still this much above what the way allows is too late."""
 
 
 @dataclass(frozen=True)
@@ -28,6 +34,7 @@ class Verdict:
     rule: str
     asked: Twist
     sent: GovernedTwist
+    reason: Reason | None = None
 
 
 class Governor:
@@ -48,6 +55,7 @@ class Governor:
         self._sent_at_s = -math.inf
         self._sent_epoch = epoch.value
         self._latch: Reason | None = None
+        self._obstacles = ObstacleRule(profile)
 
     @property
     def latched(self) -> Reason | None:
@@ -61,8 +69,12 @@ class Governor:
     def release(self) -> None:
         self._latch = None
 
-    def govern(self, asked: Twist, lease_id: str, now_s: float) -> Verdict:
-        """What may be sent at `now_s` for `asked` under that lease.
+    def take_scan(self, scan: LaserScan, pose: Pose) -> None:
+        """What the lidar saw when the robot stood at `pose` (of `odom`)."""
+        self._obstacles.take(scan, pose)
+
+    def govern(self, asked: Twist, lease_id: str, now_s: float, pose: Pose | None = None) -> Verdict:
+        """What may be sent at `now_s` for `asked` under that lease, by a robot at `pose` (of `odom`, if known).
 
         After a stop, or after a pause, ramps begin at zero again.
         """
@@ -71,11 +83,23 @@ class Governor:
         if refusal:
             return self._verdict("refused", refusal, asked, ZERO_TWIST, epoch, now_s)
         previous = self._sent if epoch == self._sent_epoch else ZERO_TWIST
+        target = bounded(self._profile, asked)
+        ruling = self._obstacles.judge(target, pose) if pose is not None else FREE
+        if ruling.factor < 1.0:
+            slowed = self._brake(previous, target.scaled(ruling.factor), now_s)
+            return self._verdict("limited", "obstacle", asked, slowed, epoch, now_s, ruling.reason)
         sent = self._kernel(previous, asked, self._step_s(now_s))
         if sent == asked:
             return self._verdict("passed", "", asked, sent, epoch, now_s)
         rule = "speed" if not _close(bounded(self._profile, asked), asked) else "acceleration"
         return self._verdict("limited", rule, asked, sent, epoch, now_s)
+
+    def _brake(self, previous: Twist, target: Twist, now_s: float) -> Twist:
+        """Ramp to `target`; where the ramp would come too late, zero at once (zero is exempt from the ramp)."""
+        sent = self._kernel(previous, target, self._step_s(now_s))
+        too_fast = sent.speed_mps > target.speed_mps + LATE_MPS
+        turns_too_fast = abs(sent.wz_radps) > abs(target.wz_radps) + LATE_RADPS
+        return ZERO_TWIST if too_fast or turns_too_fast else sent
 
     def _refusal(self, asked: Twist, lease_id: str, now_s: float) -> str:
         if self._latch is not None:
@@ -100,9 +124,10 @@ class Governor:
         sent: Twist,
         epoch: int,
         now_s: float,
+        reason: Reason | None = None,
     ) -> Verdict:
         self._sent, self._sent_at_s, self._sent_epoch = sent, now_s, epoch
-        return Verdict(action, rule, asked, self._mint.twist(sent, epoch))
+        return Verdict(action, rule, asked, self._mint.twist(sent, epoch), reason)
 
 
 def _close(a: Twist, b: Twist) -> bool:

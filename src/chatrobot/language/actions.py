@@ -5,8 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
+from chatrobot.core.geometry import Pose
 from chatrobot.language.frames import DIAGONALS, GO, SIDES, STILL, TURN, Frame
 from chatrobot.language.manner import Pace
+from chatrobot.language.quantities import quantity
+from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Step, Turn, Wait
 
@@ -24,8 +27,12 @@ class State:
 
     steps: list[Step] = field(default_factory=list)
     direction: str = "forward"
+    unit_m: float | None = None
+    length: Atom | None = None
+    angle: Atom | None = None
     left: bool | None = None
     last: str = ""
+    home: Pose | None = None
 
 
 def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
@@ -34,7 +41,20 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     Raises:
         Unclear: where something needed is missing or impossible.
     """
+    frame = _with_units(frame, state)
     _check_extents(frame)
+    if (
+        "there" in frame.flags
+        and frame.verb not in STILL
+        and not (frame.direction or frame.rot or "length" in frame.q)
+    ):
+        raise Unclear("which_place", frame.text)
+    if "until" in frame.flags and not frame.has_extent and frame.verb != "face":
+        raise Unclear("condition", frame.text)
+    if _goes_back(frame, state):
+        return _return(Frame(verb="return", pace=frame.pace), state, pace)
+    if "asked_distance" in frame.flags:
+        return []  # only worked out; what is done with it comes after
     if "clock" in frame.q:
         steps = _clock(frame, pace)
     elif frame.verb in STILL:
@@ -42,7 +62,7 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     elif frame.verb == "return" or ("to_start" in frame.flags and frame.verb in (*GO, "", "uturn")):
         steps = _return(frame, state, pace)
     elif frame.verb == "face" or ("original_heading" in frame.flags):
-        steps = _face(frame, pace)
+        steps = _face(frame, state, pace)
     elif frame.verb == "uturn":
         steps = [Turn(math.pi, left=_left(frame) is not False, rate_radps=pace.rate(frame))]
         if frame.is_arc or "length" in frame.q:
@@ -56,16 +76,103 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     return steps
 
 
+def _with_units(frame: Frame, state: State) -> Frame:
+    """A number without a unit, where only one unit can be meant: `thirty more`, `turn left 90`."""
+    length = frame.q.get("length")
+    if length is not None and length.role:
+        state.unit_m = float(length.role)
+    if "same_amount" in frame.flags and not frame.has_extent:
+        before = state.angle if frame.turning else state.length
+        if before is None:
+            raise Unclear("nothing_before", frame.text)
+        frame = frame.copy()
+        frame.q[before.value] = before
+        frame.flags.discard("again")
+    state.length = frame.q.get("length", state.length)
+    state.angle = frame.q.get("angle", frame.q.get("turns", state.angle))
+    if {"computed", "asked_distance"} & frame.flags and {"speed", "time"} <= set(frame.q):
+        frame = frame.copy()
+        covered = frame.q.pop("speed").number * frame.q.pop("time").number
+        frame.q["length"] = quantity("length", covered, f"{covered:g} m")
+        state.length = frame.q["length"]
+    number = frame.q.get("number")
+    if number is None:
+        return frame
+    dimension = ""
+    if "units_said" in frame.flags:
+        dimension = "angle" if frame.turning else "length"
+        factor = math.pi / 180 if frame.turning else 1.0
+    elif _means_degrees(frame, number.number):
+        dimension, factor = "angle", math.pi / 180
+    elif (
+        "more" in frame.flags
+        and state.last == "drive"
+        and state.unit_m
+        and not frame.has_extent
+        and not frame.turning
+    ):
+        dimension, factor = "length", state.unit_m
+    if not dimension:
+        return frame
+    frame = frame.copy()
+    del frame.q["number"]
+    frame.q[dimension] = quantity(dimension, number.number * factor, number.text)
+    return frame
+
+
+def _means_degrees(frame: Frame, value: float) -> bool:
+    """`turn left 90`, `left 90`, `do a 180`: a multiple of 15 at a turn is degrees."""
+    turning = frame.turning or (not frame.verb and frame.direction in SIDES)
+    spinning = frame.verb == "make" and not frame.direction and value % 90 == 0
+    return (turning or spinning) and not frame.has_extent and 15 <= value <= 1080 and value % 15 == 0
+
+
+def _goes_back(frame: Frame, state: State) -> bool:
+    """`…, then back`: the way back, where there is a way to go back."""
+    bare = frame.verb in ("", "go") and frame.direction == "back" and not frame.q and "bit" not in frame.flags
+    return bare and bool(state.steps) and frame.texts[-1:] == ["back"]
+
+
 def _check_extents(frame: Frame) -> None:
-    for name, quantity in frame.q.items():
-        value = quantity.number
+    for name, amount in frame.q.items():
+        value = amount.number
         if name in MAX_EXTENT and (not math.isfinite(value) or not 0.0 < value <= MAX_EXTENT[name]):
-            raise Unclear("bad_number", quantity.text)
+            raise Unclear("bad_number", amount.text)
     if "number" in frame.q:
         raise Unclear("no_unit", frame.q["number"].text)
 
 
+_SLOTS = {
+    "still": {"time"},
+    "turn": {"angle", "turns", "time", "rate", "percent", "fold", "times"},
+    "drive": {"length", "time", "speed", "percent", "fold", "times"},
+    "heading": {"length", "time", "speed", "percent", "fold", "times", "angle"},
+}
+_REFERRING = {
+    "other_way",
+    "short_of",
+    "from_now_on",
+    "same_way",
+    "to_start",
+    "original_heading",
+    "left_right",
+    "right_left",
+}
+
+
+def _all_used(frame: Frame, kind: str) -> None:
+    """No slot may be left over: what is not acted on was not understood."""
+    left_over = [q for name, q in frame.q.items() if name not in _SLOTS[kind]]
+    if left_over:
+        raise Unclear("unclear_motion", f"{frame.text}")
+    if "each" in frame.flags and "time" in frame.q and kind != "still" and len(frame.q) > 1:
+        raise Unclear("unclear_motion", frame.text)
+    if _REFERRING & frame.flags:
+        raise Unclear("unclear_motion", frame.text)
+
+
 def _still(frame: Frame) -> list[Step]:
+    _all_used(frame, "still")
     if "time" in frame.q:
         return [Wait(frame.q["time"].number)]
     if frame.verb == "halt":
@@ -77,11 +184,13 @@ def _still(frame: Frame) -> list[Step]:
 
 def _left(frame: Frame) -> bool | None:
     side = frame.rot or frame.direction2 or (frame.direction if frame.direction in SIDES else "")
+    if not side and frame.is_arc and frame.direction in DIAGONALS.values():
+        side = frame.direction.split("_")[1]
     return None if not side else side == "left"
 
 
 def _is_turn(frame: Frame, state: State) -> bool:
-    if frame.verb in TURN or frame.rot and frame.verb not in GO:
+    if frame.verb in TURN or (frame.rot and frame.verb not in GO):
         return True
     if "angle" in frame.q or "turns" in frame.q:
         return frame.direction not in DIAGONALS.values() and "diagonal" not in frame.flags
@@ -97,21 +206,24 @@ def _is_turn(frame: Frame, state: State) -> bool:
 def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if "length" in frame.q or "speed" in frame.q:
         raise Unclear("length_for_turn", frame.text)
+    _all_used(frame, "turn")
     rate = pace.rate(frame)
-    angle = (frame.q.get("angle") or frame.q.get("turns"))
+    seconds = frame.q.get("time")
+    angle = frame.q.get("angle") or frame.q.get("turns")
     left = _left(frame)
     if left is None and not frame.moves:
         left = state.left
     if left is None and state.last == "turn" and "more" in frame.flags:
         left = state.left
     state.last = "turn"
-    if frame.verb == "spin" and angle is None and "times" in frame.q:
+    around = "around" in frame.flags and seconds is None
+    left = True if left is None and around else left
+    if frame.verb == "spin" and angle is None and ("times" in frame.q or around):
         angle_rad: float | None = 2 * math.pi
     elif angle is not None:
         angle_rad = angle.number
     else:
         angle_rad = None
-    seconds = frame.q.get("time")
     if left is None:
         if angle_rad is None or not _same_either_way(angle_rad):
             raise Unclear("which_side", frame.text)
@@ -135,6 +247,7 @@ def _same_either_way(angle_rad: float) -> bool:
 
 
 def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    _all_used(frame, "heading" if frame.direction in DIAGONALS.values() else "drive")
     direction = frame.direction
     diagonal = "diagonal" in frame.flags
     if diagonal and direction not in DIAGONALS.values():
@@ -142,7 +255,7 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if not direction:
         if frame.verb == "slide" or "sideways" in frame.flags:
             raise Unclear("which_side", frame.text)
-        if frame.verb in GO and frame.verb != "shift" or "more" in frame.flags or not frame.verb:
+        if (frame.verb in GO and frame.verb != "shift") or "more" in frame.flags or not frame.verb:
             direction = state.direction if state.last == "drive" and not frame.verb else "forward"
         elif frame.has_extent and frame.verb:
             direction = "forward"
@@ -150,7 +263,10 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
         raise Unclear("which_way", frame.text)
     if "sideways" in frame.flags and direction in ("forward", "back"):
         raise Unclear("contradiction", frame.text)
-    if not frame.moves and not frame.has_extent and "again" not in frame.flags:
+    if not frame.has_extent and not frame.direction and frame.joined == "none":
+        raise Unclear("which_way", frame.text)
+    ellipsis = "again" in frame.flags or ("more" in frame.flags and state.last == "drive")
+    if not frame.moves and not frame.has_extent and not ellipsis:
         raise Unclear("unclear_motion", frame.text)
     _check_sideways(direction, pace)
     state.last, state.direction = "drive", direction
@@ -164,7 +280,10 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if length is not None:
         if seconds is not None and "speed" not in frame.q:
             speed = length.number / seconds.number
-        elif seconds is not None and abs(frame.q["speed"].number * seconds.number - length.number) > 0.1 * length.number:
+        elif (
+            seconds is not None
+            and abs(frame.q["speed"].number * seconds.number - length.number) > 0.1 * length.number
+        ):
             raise Unclear("contradiction", frame.text)
         return [Drive(length.number, direction_rad=angle, speed_mps=speed)]
     if seconds is not None:
@@ -203,12 +322,18 @@ def _clock(frame: Frame, pace: Pace) -> list[Step]:
     return [Turn(abs(angle), left=angle > 0, rate_radps=pace.rate(frame))]
 
 
-def _face(frame: Frame, pace: Pace) -> list[Step]:
-    if "original_heading" in frame.flags or "to_start" in frame.flags:
+def _face(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    if ("original_heading" in frame.flags or "to_start" in frame.flags) and not frame.has_extent:
+        if state.home is not None and not state.steps:
+            return [Face(state.home.yaw_rad, frame="odom", rate_radps=pace.rate(frame))]
         return [Face(0.0, frame="start", rate_radps=pace.rate(frame))]
     if frame.direction in SIDES:
         angle = frame.q.get("angle") or frame.q.get("turns")
-        size = angle.number if angle else pace.profile.defaults.turn_rad * (0.5 if {"bit", "more"} & frame.flags else 1)
+        size = (
+            angle.number
+            if angle
+            else pace.profile.defaults.turn_rad * (0.5 if {"bit", "more"} & frame.flags else 1)
+        )
         return [Turn(size, left=frame.direction == "left", rate_radps=pace.rate(frame))]
     if frame.direction == "back":
         return [Turn(math.pi, rate_radps=pace.rate(frame))]
@@ -222,7 +347,7 @@ def _arc(frame: Frame, pace: Pace) -> list[Step]:
     left = _left(frame)
     if left is None:
         raise Unclear("which_side", frame.text)
-    backward = frame.direction == "back"
+    backward = frame.direction.startswith("back")
     angle = frame.q.get("angle") or frame.q.get("turns")
     length, seconds = frame.q.get("length"), frame.q.get("time")
     speed, rate = frame.q.get("speed"), frame.q.get("rate")
@@ -251,14 +376,18 @@ def _arc(frame: Frame, pace: Pace) -> list[Step]:
 
 
 def _return(frame: Frame, state: State, pace: Pace) -> list[Step]:
-    if frame.direction or frame.has_extent and frame.verb != "return":
+    if set(frame.q) - {"speed", "percent", "fold"}:
+        raise Unclear("unclear_motion", frame.text)
+    if frame.direction or (frame.has_extent and frame.verb != "return"):
         raise Unclear("unclear_motion", frame.text)
     speed = pace.speed(frame)
     if "same_way" in frame.flags:
         return inverse(state.steps, speed)
-    drives = [step for step in state.steps if not isinstance(step, Wait)]
+    drives: list[Step] = [step for step in state.steps if not isinstance(step, Wait)]
     if drives and all(isinstance(step, Drive) and step.distance_m for step in drives):
-        return inverse([drives[-1]] if len(drives) == 1 else drives, speed)
+        return inverse(list(drives), speed)
+    if state.home is not None and not drives:
+        return [Go(state.home.x_m, state.home.y_m, frame="odom", speed_mps=speed)]
     return [Go(0.0, 0.0, frame="start", speed_mps=speed)]
 
 

@@ -1,11 +1,14 @@
-"""Atoms → frames, one a motion: cut where a slot is filled twice, joined across commas where nothing contradicts."""
+"""Atoms → frames, one a motion.
+
+Cut where a slot is filled twice, joined across commas where nothing contradicts.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from chatrobot.language.frames import EXTENTS, GO, SIDES, STILL, TURN, Frame, merged
+from chatrobot.language.frames import EXTENTS, GO, SIDES, SLOTTED, STILL, TURN, Frame, merged
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 
@@ -63,16 +66,28 @@ def _separator(atom: Atom) -> str | None:
 
 def _split(atoms: list[Atom]) -> list[Frame]:
     """The frames of a stretch without separators."""
+    curve = next((a for a in atoms if a.kind == "verb" and a.value == "curve"), None)
+    if curve is not None and not any(a.kind == "shape" for a in atoms):
+        atoms = [curve, *[a for a in atoms if a is not curve and a.value != "go"]]
     frames: list[Frame] = []
     current = Frame()
     for i, atom in enumerate(atoms):
         if atom.kind in ("filler", "glue", "sep", "reason"):
             continue
-        if atom.kind in ("unknown", "unit_length", "unit_angle", "unit_time", "unit_percent", "scale", "fraction"):
+        if atom.kind not in SLOTTED:
             raise Unclear("unknown_part", _around(atoms, i))
         if not current.add(atom):
             if _is_bare_direction(current):
                 raise Unclear("contradiction", f"{current.text} {atom.text}".strip())
+            if (
+                atom.kind == "q"
+                and atom.value == "length"
+                and current.verb in TURN
+                and not current.has_extent
+            ):
+                raise Unclear("length_for_turn", f"{current.text} {atom.text}")
+            if atom.kind == "q" and atom.value in current.q and atom.value in EXTENTS and not current.shape:
+                raise Unclear("contradiction", f"{current.text} {atom.text}")
             frames.append(current)
             current = Frame(joined="none")
             if not current.add(atom):
@@ -84,8 +99,12 @@ def _split(atoms: list[Atom]) -> list[Frame]:
 
 def _is_bare_direction(frame: Frame) -> bool:
     """A direction and nothing else right before something that contradicts it: `forward backward 1 m`."""
-    return bool(frame.direction) and not frame.has_extent and frame.verb not in TURN and frame.verb != "slide" and (
-        not frame.pace and not frame.flags
+    return (
+        bool(frame.direction)
+        and not frame.has_extent
+        and frame.verb not in TURN
+        and frame.verb != "slide"
+        and not (frame.pace or frame.flags or frame.q)
     )
 
 
@@ -114,8 +133,21 @@ def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
         return None
     if "again" in first.flags or is_times_only(first) or is_times_only(last) or last.flags & {"again", "all"}:
         return None
-    if {"between", "after_each"} & last.flags and not first.moves and first.has_extent and last.moves and last.has_extent:
+    if (
+        {"between", "after_each"} & last.flags
+        and not first.moves
+        and first.has_extent
+        and last.moves
+        and last.has_extent
+    ):
         return None
+    if "while" in first.flags and last.verb in GO and first.verb in TURN and not last.has_extent:
+        last = last.copy()
+        last.flags.add("while")
+    together = "speed" in last.q and "rate" in first.q and not last.has_extent
+    if together and joined in ("and", "weak") and last.verb in GO and first.verb in TURN:
+        last = last.copy()
+        last.flags.add("while")
     both = merged(last, first)
     if both is None:
         return None
@@ -126,7 +158,9 @@ def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
 
 def is_times_only(frame: Frame) -> bool:
     """`four times`, and nothing that moves."""
-    return "times" in frame.q and not frame.moves and not frame.has_extent
+    bare = frame.verb in ("", "make", "go", "turn", "shift", "slide")
+    way = frame.direction or frame.rot or frame.shape or frame.place
+    return "times" in frame.q and bare and not way and not frame.has_extent
 
 
 def _is_fragment(frame: Frame) -> bool:
@@ -147,21 +181,33 @@ def _completes(last: Frame, first: Frame) -> bool:
 
 def _belongs(last: Frame, first: Frame) -> bool:
     """Across a comma or an `and`."""
+    if "count" in last.q and "length" in first.q and "each" not in first.flags and not last.shape:
+        return False
     if last.shape or first.shape:
         return not (last.shape and first.verb in (*GO, *TURN, *STILL, "return") and first.has_extent)
     if first.joined == "and" and last.verb in STILL and first.moves:
         return False
     if last.verb in STILL and last.has_extent and not (set(first.q) <= MANNER and not first.moves):
         return False
+    if last.is_arc and first.verb == "turn" and "angle" not in last.q and not (first.direction or first.rot):
+        return True
+    if last.is_arc or first.is_arc:
+        return not (
+            last.has_extent and first.verb and "until" not in first.flags and first.has_extent and last.verb
+        )
     if not first.moves:
         return not (set(first.q) & set(EXTENTS) and last.has_extent and not _adds_time(last, first))
-    if last.is_arc or first.is_arc:
-        return not (last.has_extent and first.verb and "until" not in first.flags and first.has_extent and last.verb)
     if not last.moves:
         return True
+    if first.verb == last.verb and first.q and set(first.q) <= MANNER and not (first.direction or first.rot):
+        return True
+    if first.verb and last.q and set(last.q) <= MANNER and not (last.direction or last.rot):
+        return True
     if first.verb and last.verb:
-        return not last.has_extent and (not first.direction or first.direction == last.direction) and (
-            last.verb != "turn" or first.verb == "turn"
+        return (
+            not last.has_extent
+            and (not first.direction or first.direction == last.direction)
+            and (last.verb != "turn" or first.verb == "turn")
         )
     if (first.direction or first.rot) and not first.has_extent and not first.verb:
         return _direction_follows(last, first)
@@ -175,7 +221,10 @@ def _adds_time(last: Frame, first: Frame) -> bool:
 
 
 def _direction_follows(last: Frame, first: Frame) -> bool:
-    """A direction after a comma belongs to what stands before it, if that has none: `rotate 90 degrees, left`."""
+    """A direction after a comma belongs to what stands before it, if that has none.
+
+    `rotate 90 degrees, left`.
+    """
     if last.direction or last.rot:
         return first.direction == last.direction or "diagonal" in first.flags
     if last.verb in GO and first.direction in SIDES and "length" in last.q and first.joined == "weak":

@@ -63,7 +63,10 @@ class RobotState:
 
 @dataclass(frozen=True)
 class Context:
-    """All that an interpretation depends on besides the text. `world_places` are names the world's map knows."""
+    """All that an interpretation depends on besides the text.
+
+    `world_places` are names the world's map knows.
+    """
 
     dialogue: Dialogue = field(default_factory=Dialogue)
     state: RobotState = field(default_factory=RobotState)

@@ -1,4 +1,7 @@
-"""Corrections inside a sentence: `left, sorry, I mean right`; and negations: `don't turn left. turn right.`"""
+"""Corrections inside a sentence: `left, sorry, I mean right`; and negations: `don't turn left.
+
+Turn right.`
+"""
 
 from __future__ import annotations
 
@@ -9,6 +12,7 @@ from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 
 _NO = frozenset({"no", "nope", "不", "wait", "sorry", "oops", "whoops", "等等", "no no", "rather"})
+_DENIALS = frozenset({"不是", "not that"})
 _PIECE = ("dir", "rot", "q", "pace", "verb", "shape")
 
 
@@ -23,6 +27,8 @@ def corrected(atoms: Sequence[Atom]) -> list[Atom]:
         if out[at].kind == "correction" and out[at].value == "cancel":
             if not any(a.kind in _PIECE for a in after):
                 raise Unclear("taken_back", out[at].text)
+            while after and after[0].kind in ("sep", "negation", "filler", "correction"):
+                after = after[1:]
             out = after
         else:
             out = _replaced(_trimmed(before), after)
@@ -58,7 +64,8 @@ def _replaced(before: list[Atom], after: list[Atom]) -> list[Atom]:
         start += 1
     end = start
     while end < len(after) and not (
-        (after[end].kind == "sep" and after[end].value != "paren") or (after[end].kind == "conn" and after[end].value == "then")
+        (after[end].kind == "sep" and after[end].value != "paren")
+        or (after[end].kind == "conn" and after[end].value == "then")
     ):
         end += 1
     said, rest = after[start:end], after[end:]
@@ -98,7 +105,9 @@ def _last_clause(atoms: list[Atom]) -> int:
 def _same_kind(atoms: list[Atom], piece: Atom) -> int | None:
     for i in range(len(atoms) - 1, -1, -1):
         atom = atoms[i]
-        if atom.kind == piece.kind == "q" and (atom.value in (piece.value, "number") or {atom.value, piece.value} <= {"angle", "turns"}):
+        if atom.kind == piece.kind == "q" and (
+            atom.value in (piece.value, "number") or {atom.value, piece.value} <= {"angle", "turns"}
+        ):
             return i
         sideways = piece.kind in ("dir", "rot") and atom.kind in ("dir", "rot")
         if sideways or (atom.kind == piece.kind and piece.kind in ("pace", "verb", "shape")):
@@ -115,20 +124,29 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
     out: list[Atom] = []
     i = 0
     while i < len(atoms):
-        if atoms[i].kind != "negation":
+        if i == 0 and len(atoms) > 1 and atoms[0].text in ("no", "不") and atoms[1].kind == "sep":
+            if any(a.kind == "flag" and a.value == "total" for a in atoms):
+                out.append(Atom("flag", "short_of", atoms[0].text))
+            i = 2
+            continue
+        if atoms[i].kind != "negation" and not (atoms[i].kind == "correction" and atoms[i].text in _DENIALS):
             out.append(atoms[i])
             i += 1
             continue
         scope, end = Frame(), i + 1
         while end < len(atoms) and atoms[end].kind not in ("sep", "conn", "negation"):
             atom = atoms[end]
-            if atom.kind in ("unknown", "refuse", "condition") or (atom.kind == "q" and atom.value in EXTENTS):
+            if atom.kind in ("unknown", "refuse", "condition") or (
+                atom.kind == "q" and atom.value in EXTENTS
+            ):
                 raise Unclear("unknown_part", " ".join(a.text for a in atoms[i : end + 1]))
             if atom.kind not in ("glue", "filler") and not scope.add(atom):
                 break
             if atom.text == "but":
                 break
             end += 1
+        if scope.verb in ("turn", "spin") and not (scope.direction or scope.rot):
+            out.append(Atom("flag", "no_turn", "don't turn"))
         if not scope.moves and not scope.pace and not scope.flags:
             raise Unclear("unknown_part", " ".join(a.text for a in atoms[i:end]))
         i = end

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import re
 import sys
-from functools import lru_cache
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +20,7 @@ LANGUAGES = ("en", "zh")
 _BRACES = re.compile(r"\{([^{}]*)\}")
 
 
-@lru_cache(maxsize=None)
+@cache
 def load_table(language: str, name: str) -> dict[str, Any]:
     """One TOML file of a language, as it stands; an empty table where that language has none."""
     path = DATA / language / f"{name}.toml"

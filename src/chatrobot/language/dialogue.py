@@ -11,10 +11,13 @@ from chatrobot.language.actions import DIRECTIONS, State, inverse
 from chatrobot.language.context import Context, TurnRecord
 from chatrobot.language.frames import GO, SIDES, Frame
 from chatrobot.language.manner import Pace
+from chatrobot.language.quantities import quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Repeat, Step, Turn, Wait
 
-_CHANGES = frozenset({"again", "other_way", "more", "bit", "instead", "same_way", "all", "total", "short_of", "first"})
+_CHANGES = frozenset(
+    {"again", "other_way", "more", "bit", "instead", "same_way", "all", "total", "short_of", "first"}
+)
 
 
 def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] | None:
@@ -29,13 +32,18 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     last = context.dialogue.last_motion
     if whole.verb == "undo":
         return inverse(list(_last(last).plan_steps))
-    if "same_way" in whole.flags and (whole.verb in ("return", "", "go", "uturn") or whole.direction == "back"):
+    if "same_way" in whole.flags and (
+        whole.verb in ("return", "", "go", "uturn") or whole.direction == "back"
+    ):
         return _same_way_back(context)
     if "short_of" in whole.flags:
         return _remainder(whole, context, pace)
+    if "original_heading" in whole.flags and ("to_start" in whole.flags or whole.verb == "return"):
+        start = context.dialogue.start_pose
+        return [Go(start.x_m, start.y_m, start.yaw_rad, frame="odom", speed_mps=pace.speed(whole))]
     if "original_heading" in whole.flags and whole.verb in ("face", "turn", "", "return", "go"):
         return [Face(context.dialogue.start_pose.yaw_rad, frame="odom", rate_radps=pace.rate(whole))]
-    if (whole.verb == "return" or "to_start" in whole.flags) and not whole.has_extent and not whole.place:
+    if (whole.verb == "return" or "to_start" in whole.flags) and not whole.q and not whole.place:
         if whole.direction and whole.direction != "back":
             return None
         start = context.dialogue.start_pose
@@ -62,7 +70,12 @@ def _whole(frames: Sequence[Frame]) -> Frame | None:
         return None
     whole = frames[0].copy()
     for frame in frames[1:]:
-        if frame.verb not in ("", "make", "turn", "go", "face") or frame.place or frame.shape or frame.joined == "then":
+        if (
+            frame.verb not in ("", "make", "turn", "go", "face")
+            or frame.place
+            or frame.shape
+            or frame.joined == "then"
+        ):
             return None
         if any(name in whole.q for name in frame.q):
             return None
@@ -78,20 +91,34 @@ def _whole(frames: Sequence[Frame]) -> Frame | None:
 
 
 def _is_change(whole: Frame) -> bool:
+    if "same_amount" in whole.flags:
+        return False
     if whole.shape or whole.place or whole.verb not in ("", "make", "again"):
-        repeats = "again" in whole.flags and whole.verb in (*GO, "turn") and not whole.direction and not whole.has_extent
-        mirrored = "other_way" in whole.flags and not whole.has_extent and not whole.direction and whole.verb in (
-            *GO, "turn", "spin", "curve"
-        )  # fmt: skip
-        if not (repeats or mirrored) or whole.shape or whole.place:
+        repeats = (
+            "again" in whole.flags
+            and whole.verb in (*GO, "turn")
+            and not whole.direction
+            and not whole.has_extent
+        )
+        bare = not whole.has_extent and not whole.direction
+        mirrored = "other_way" in whole.flags and bare and whole.verb in (*GO, "turn", "spin", "curve")
+        scaled = (
+            "scale" in whole.q
+            and whole.verb in (*GO, "turn")
+            and not whole.direction
+            and not whole.has_extent
+        )
+        if not (repeats or mirrored or scaled) or whole.shape or whole.place:
             return False
+    if "times" in whole.q and "more" in whole.flags and not whole.has_extent:
+        return True
     if "other_way" in whole.flags or "again" in whole.flags:
         return True
-    return "fold" in whole.q and not whole.has_extent
+    return bool({"fold", "scale"} & set(whole.q)) and not whole.has_extent
 
 
 def _changed(last: _Last, whole: Frame, pace: Pace) -> list[Step]:
-    factor = whole.q["fold"].number if "fold" in whole.q else 1.0
+    factor = next((whole.q[name].number for name in ("scale", "fold") if name in whole.q), 1.0)
     if "percent" in whole.q:
         factor = whole.q["percent"].number
     steps = [_step(step, whole, factor, pace) for step in last.plan_steps]
@@ -119,7 +146,11 @@ def _step(step: Step, whole: Frame, factor: float, pace: Pace) -> Step:
         distance = step.distance_m * factor if step.distance_m else None
         seconds = step.duration_s * factor if step.duration_s else None
         return dataclasses.replace(
-            step, distance_m=distance, duration_s=seconds, direction_rad=angle, speed_mps=_speed(step.speed_mps, whole, pace)
+            step,
+            distance_m=distance,
+            duration_s=seconds,
+            direction_rad=angle,
+            speed_mps=_speed(step.speed_mps, whole, pace),
         )
     if isinstance(step, Turn):
         if whole.direction and not side:
@@ -128,13 +159,19 @@ def _step(step: Step, whole: Frame, factor: float, pace: Pace) -> Step:
         angle_rad = step.angle_rad * factor if step.angle_rad else None
         seconds = step.duration_s * factor if step.duration_s else None
         said = pace.rate(whole)
-        return dataclasses.replace(step, angle_rad=angle_rad, duration_s=seconds, left=left, rate_radps=said or step.rate_radps)
+        return dataclasses.replace(
+            step, angle_rad=angle_rad, duration_s=seconds, left=left, rate_radps=said or step.rate_radps
+        )
     if isinstance(step, Arc):
         left = side == "left" if side else step.left != opposite
-        return dataclasses.replace(step, left=left, radius_m=step.radius_m * factor, speed_mps=_speed(step.speed_mps, whole, pace))
+        return dataclasses.replace(
+            step, left=left, radius_m=step.radius_m * factor, speed_mps=_speed(step.speed_mps, whole, pace)
+        )
     if isinstance(step, RawTwist) and not side:
         sign = -1.0 if opposite else 1.0
-        return RawTwist(sign * step.vx_mps, sign * step.vy_mps, sign * step.wz_radps, step.duration_s * factor)
+        return RawTwist(
+            sign * step.vx_mps, sign * step.vy_mps, sign * step.wz_radps, step.duration_s * factor
+        )
     if isinstance(step, (Go, Face)) and (factor != 1.0 or opposite or side):
         raise Unclear("nothing_before", whole.text)
     return step
@@ -153,7 +190,11 @@ def _speed(old: float | None, whole: Frame, pace: Pace) -> float | None:
 
 def _resized(steps: list[Step], whole: Frame) -> list[Step]:
     """`the same but two metres`: a new amount, where exactly one step takes it."""
-    length, angle, seconds = whole.q.get("length"), whole.q.get("angle") or whole.q.get("turns"), whole.q.get("time")
+    length, angle, seconds = (
+        whole.q.get("length"),
+        whole.q.get("angle") or whole.q.get("turns"),
+        whole.q.get("time"),
+    )
     out: list[Step] = []
     taken = 0
     for step in steps:
@@ -174,7 +215,9 @@ def _resized(steps: list[Step], whole: Frame) -> list[Step]:
 
 
 def _same_way_back(context: Context) -> list[Step]:
-    plans = [turn.plan for turn in context.dialogue.turns if turn.plan is not None and turn.outcome == "completed"]
+    plans = [
+        turn.plan for turn in context.dialogue.turns if turn.plan is not None and turn.outcome == "completed"
+    ]
     steps = [step for plan in plans for step in plan.steps]
     if not steps:
         raise Unclear("nothing_before")
@@ -192,9 +235,13 @@ def _remainder(whole: Frame, context: Context, pace: Pace) -> list[Step]:
         done = math.hypot(moved.x_m, moved.y_m)
         if "to_start" in whole.flags or "total" in whole.flags:
             done = max(done, last.end_pose.distance_to(_run_start(context, step)))
-        missing = whole.q["length"].number - done
+        missing = whole.q["length"].number - (0.0 if "more" in whole.flags else done)
         if missing > 0.005:
-            return [Drive(missing, direction_rad=step.direction_rad, speed_mps=pace.speed(whole) or step.speed_mps)]
+            return [
+                Drive(
+                    missing, direction_rad=step.direction_rad, speed_mps=pace.speed(whole) or step.speed_mps
+                )
+            ]
         return [Drive(-missing, direction_rad=math.remainder(step.direction_rad + math.pi, 2 * math.pi))]
     angle = whole.q.get("angle") or whole.q.get("turns")
     if angle and isinstance(step, Turn) and len(steps) == 1:
@@ -218,18 +265,27 @@ def _run_start(context: Context, step: Drive) -> Pose:
 
 def state_after(context: Context) -> State:
     """What the last motion leaves for an ellipsis like `thirty more`."""
-    state = State()
     last = context.dialogue.last_motion
+    state = State(home=context.dialogue.start_pose if last is not None else None)
     if last is None or last.plan is None:
         return state
     for step in reversed(last.plan.steps):
         if isinstance(step, Drive):
             state.last = "drive"
+            if step.distance_m:
+                state.length = quantity("length", step.distance_m, f"{step.distance_m:g} m")
             state.direction = next(
-                (n for n, a in DIRECTIONS.items() if abs(math.remainder(a - step.direction_rad, 2 * math.pi)) < 1e-6), "forward"
+                (
+                    n
+                    for n, a in DIRECTIONS.items()
+                    if abs(math.remainder(a - step.direction_rad, 2 * math.pi)) < 1e-6
+                ),
+                "forward",
             )
             break
         if isinstance(step, Turn):
             state.last, state.left = "turn", step.left
+            if step.angle_rad:
+                state.angle = quantity("angle", step.angle_rad, f"{math.degrees(step.angle_rad):g}°")
             break
     return state

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from functools import lru_cache
+from functools import cache
 from typing import NamedTuple
 
 from chatrobot.language.data_files import load_table
@@ -19,12 +19,12 @@ class Definition(NamedTuple):
     body: str
 
 
-@lru_cache(maxsize=None)
+@cache
 def _patterns(language: str, name: str) -> tuple[re.Pattern[str], ...]:
     return tuple(re.compile(p) for p in load_table(language, "dialogue_forms")[name])
 
 
-@lru_cache(maxsize=None)
+@cache
 def _pattern(language: str, name: str) -> re.Pattern[str]:
     return re.compile(load_table(language, "dialogue_forms")[name])
 

@@ -16,7 +16,8 @@ DIAGONALS = {
     ("forward", "left"): "forward_left", ("forward", "right"): "forward_right",
     ("back", "left"): "back_left", ("back", "right"): "back_right",
 }  # fmt: skip
-SHARED_FLAGS = frozenset({"all", "each"})
+SLOTTED = frozenset({"verb", "dir", "rot", "q", "pace", "flag", "role", "shape", "place", "defined"})
+"""Kinds of atoms that a frame has a slot for. Every other kind must have been dealt with before."""
 
 
 @dataclass
@@ -57,11 +58,19 @@ class Frame:
     @property
     def moves(self) -> bool:
         """Whether it names a motion by itself: a verb, a direction, a rotation, a shape."""
-        return bool(self.verb or self.direction or self.rot or self.shape or self.place)
+        return bool(
+            (self.verb and self.verb != "make") or self.direction or self.rot or self.shape or self.place
+        )
 
     @property
     def is_arc(self) -> bool:
-        return self.verb == "curve" or "radius" in self.roles or "diameter" in self.roles or "while" in self.flags
+        return (
+            self.verb == "curve"
+            or {"speed", "rate"} <= set(self.q)
+            or "radius" in self.roles
+            or "diameter" in self.roles
+            or "while" in self.flags
+        )
 
     @property
     def turning(self) -> bool:
@@ -111,29 +120,55 @@ class Frame:
 
     def _put_verb(self, verb: str) -> bool:
         old = self.verb
-        if old == verb and verb in ("go", "turn", "shift", "slide", "wait", "halt", "face", "make", "curve") and (
-            not self.has_extent
+        if self.place and verb in ("go", "return", "shift"):
+            return True
+        rotating = {"angle", "turns"} & set(self.q)
+        if (
+            verb in STILL
+            and old not in STILL
+            and (old in GO or self.direction or self.rot or rotating or "length" in self.q)
+        ):
+            return False
+        if (
+            old == verb
+            and verb in ("go", "turn", "shift", "slide", "wait", "halt", "face", "make", "curve")
+            and (not self.has_extent)
         ):
             return True
-        if not old or old == "make" or (old in ("go", "shift") and not self.has_extent and not self.direction):
+        if (
+            not old
+            or old == "make"
+            or (old in ("go", "shift") and not self.has_extent and not self.direction)
+        ):
             if verb in TURN and "length" in self.q and not self.is_arc:
                 return False
-            if verb in GO and ("angle" in self.q or "turns" in self.q) and not self.is_arc and not self._heading():
+            if (
+                verb in GO
+                and ("angle" in self.q or "turns" in self.q)
+                and not self.is_arc
+                and not self._heading()
+            ):
                 return False
             if verb in (*GO, *STILL, "return", "face", "uturn") and self.rot and not self.is_arc:
                 return False
-            if verb in ("wait", "return", "uturn") and (self.direction and not old or "length" in self.q):
+            if verb in ("wait", "return", "uturn") and ((self.direction and not old) or "length" in self.q):
                 return verb == "uturn" and self.direction in SIDES and self._set_verb(verb)
             if verb in TURN and self.direction in ("forward", "back") and not self.is_arc:
                 return False
             return self._set_verb(verb if verb != "make" or not old else old)
+        if verb == "face" and old in ("return", "turn", "spin") and not self.has_extent:
+            return self._set_verb(verb)
         if verb == "make":
             return not self.has_extent
         if old in TURN and verb in ("curve", *TURN) and not self.has_extent:
             return self._set_verb("curve" if verb == "curve" else old)
-        if old == "curve" and verb in ("turn", "go") and not (verb == "go" and "angle" in self.q and "length" in self.q):
+        if (
+            old == "curve"
+            and verb in ("turn", "go")
+            and not (verb == "go" and "angle" in self.q and "length" in self.q)
+        ):
             return True
-        if "while" in self.flags and {old, verb} <= {*GO, *TURN}:
+        if (self.is_arc or "while" in self.flags) and {old, verb} <= {*GO, *TURN}:
             return self._set_verb("curve")
         if old in STILL and verb in STILL and not self.has_extent:
             return self._set_verb("wait")
@@ -156,7 +191,7 @@ class Frame:
 
     def _put_direction(self, new: str) -> bool:
         old = self.direction
-        if self.verb in ("wait", "return", "remember", "undo"):
+        if self.verb in ("wait", "halt", "return", "remember", "undo"):
             return False
         if not old:
             if self.verb in TURN and new not in SIDES and not self.is_arc:
@@ -166,14 +201,10 @@ class Frame:
             if ("angle" in self.q or "turns" in self.q) and new in ("forward", "back") and not self.is_arc:
                 return "diagonal" in self.flags and self._set_direction(new)
             return self._set_direction(new)
-        if old == new:
+        if old == new or (old in DIAGONALS.values() and new in old.split("_")):
             return True
         if self.is_arc or "diagonal" in self.flags or "while" in self.flags:
             return self._combine(old, new)
-        if new in DIAGONALS.values() and old in DIAGONALS and not self.has_extent:
-            return self._set_direction(new)
-        if "sideways" in self.flags and old in SIDES and new in SIDES:
-            return False
         return False
 
     def _combine(self, old: str, new: str) -> bool:
@@ -215,7 +246,7 @@ class Frame:
             return True
         if name == "length" and ("angle" in self.q or "turns" in self.q) and not self._heading():
             return False
-        if name == "length" and (self.turning or "rate" in self.q and not self.verb):
+        if name == "length" and (self.turning or ("rate" in self.q and not self.verb)):
             return False
         if rotating and "length" in self.q and not self._heading():
             return False
@@ -232,7 +263,8 @@ def merged(first: Frame, second: Frame) -> Frame | None:
     both = first.copy()
     both.flags |= second.flags
     both.roles += second.roles
-    if second.verb and not both._put_verb(second.verb):
+    arc = both.is_arc and second.verb == "turn" and not both.verb
+    if second.verb and second.verb != both.verb and not arc and not both._put_verb(second.verb):
         return None
     for quantity in second.q.values():
         if not both._put_quantity(quantity):

@@ -9,15 +9,19 @@ from typing import Literal
 
 from chatrobot import reflex
 from chatrobot.language import forms, questions
+from chatrobot.language.arithmetic import settle_condition
 from chatrobot.language.clauses import read_frames
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.corrections import corrected, without_negated
 from chatrobot.language.dialogue import refer, state_after
+from chatrobot.language.facts import with_defined_units, with_known_counts
 from chatrobot.language.frames import Frame
 from chatrobot.language.lexicon import Key, Meaning, cut, lexicon
 from chatrobot.language.manner import Pace
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
+from chatrobot.language.order import in_order
 from chatrobot.language.phrases import describe_plan, say
+from chatrobot.language.program_request import read_program_request
 from chatrobot.language.quantities import read_quantities
 from chatrobot.language.script import Memory, write
 from chatrobot.language.tidy import tidy
@@ -30,16 +34,19 @@ from chatrobot.robots.profile import RobotProfile
 LanguageCode = Literal["en", "zh"]
 Outcome = Literal["plan", "stop", "unclear", "refused", "answered"]
 
-_BREAKS = re.compile(r"(?<!\d)[,.;!?](?!\d)|(?<=\d)[,.;!?](?=\s|$)|[,.;!?]\s|,|\n|\b(?:and then|then|and)\b|然后|接着|再|并且|并|之后")
+_BREAKS = re.compile(
+    r"(?<!\d)[,.;!?](?!\d)|(?<=\d)[,.;!?](?=\s|$)|[,.;!?]\s|,|\n|"
+    r"\b(?:and then|then|and)\b|然后|接着|再|并且|并|之后"
+)
 
 
 @dataclass(frozen=True)
 class Interpretation:
     """What an utterance means.
 
-    `unaccounted` is the part that nothing explains. `append`: it goes on where the running motion ends. The last
-    five are for the dialogue's memory and hold from the moment the session accepts the turn; `remember_place` is
-    where the robot stands now.
+    `unaccounted` is the part that nothing explains, `code` the reason in a word (see `phrases.toml`).
+    `append`: it goes on where the running motion ends. The last four are for the dialogue's memory and hold
+    from the moment the session accepts the turn; `remember_place` is where the robot stands now.
     """
 
     outcome: Outcome
@@ -56,7 +63,10 @@ class Interpretation:
 
 
 class OfflineInterpreter:
-    """Understands English and Chinese by rules over data. Keeps no state: the dialogue comes with the context."""
+    """Understands English and Chinese by rules over data. Keeps no state.
+
+    The dialogue comes with the context.
+    """
 
     def __init__(self, profile: RobotProfile) -> None:
         self._profile = profile
@@ -65,7 +75,9 @@ class OfflineInterpreter:
         """What `text` means in this context. Never raises, whatever the text."""
         language: LanguageCode = "zh" if has_chinese(text[:MAX_CHARACTERS]) else "en"
         if len(text) > MAX_CHARACTERS:
-            return Interpretation("unclear", say(language, "too_long", characters=len(text)), language, code="too_long")
+            return Interpretation(
+                "unclear", say(language, "too_long", characters=len(text)), language, code="too_long"
+            )
         try:
             return _Reading(text, language, context, self._profile).interpretation()
         except Unclear as problem:
@@ -83,13 +95,16 @@ class _Reading:
 
     def __init__(self, text: str, language: LanguageCode, context: Context, profile: RobotProfile) -> None:
         self.text, self.language, self.context, self.profile = text, language, context, profile
-        self.plain = normalise(text)
+        self.plain = with_known_counts(normalise(text))
         dialogue = context.dialogue
         self.pace = Pace(profile, dialogue.default_speed_mps, dialogue.default_rate_radps)
 
     def interpretation(self) -> Interpretation:
         if not self.plain:
             raise Unclear("empty")
+        program = read_program_request(self.plain)
+        if program is not None:
+            return self._plan(program)
         twist = read_twist(self.plain)
         if twist is not None:
             return self._plan([twist])
@@ -107,7 +122,9 @@ class _Reading:
         inner = self._command(definition.body)
         if inner.plan is None:
             return inner
-        reply = say(self.language, "defined", name=definition.name, text=describe_plan(inner.plan, self.language))
+        reply = say(
+            self.language, "defined", name=definition.name, text=describe_plan(inner.plan, self.language)
+        )
         return Interpretation("answered", reply, self.language, define={definition.name: inner.plan})
 
     def _remembering(self) -> Interpretation | None:
@@ -144,7 +161,11 @@ class _Reading:
             return []
         inner = self._command(clause)
         if inner.plan is None:
-            raise Unclear(inner.code or "unknown_part", inner.unaccounted or clause.strip(), refused=inner.outcome == "refused")
+            raise Unclear(
+                inner.code or "unknown_part",
+                inner.unaccounted or clause.strip(),
+                refused=inner.outcome == "refused",
+            )
         return list(inner.plan.steps)
 
     def _pending(self) -> Interpretation | None:
@@ -170,7 +191,7 @@ class _Reading:
         asks = questions.is_question(plain, self.language)
         ability = questions.asks_ability(plain, self.language)
         refusal = next((a for a in atoms if a.kind == "refuse"), None)
-        if asks and refusal is None or (refusal is None and ability):
+        if (asks and refusal is None) or (refusal is None and ability):
             found = self._question(plain, atoms, ability)
             if found is not None:
                 return found
@@ -178,7 +199,7 @@ class _Reading:
             if ability and plain.endswith("?"):
                 return Interpretation("answered", say(self.language, "answer_cannot"), self.language)
             raise Unclear(f"refuse_{refusal.value}", refusal.text, refused=True)
-        frames = read_frames(tidy(without_negated(corrected(atoms))))
+        frames = _frames(atoms)
         default = self._default(frames)
         if default is not None:
             return default
@@ -188,9 +209,10 @@ class _Reading:
     def _question(self, plain: str, atoms: list[Atom], ability: bool) -> Interpretation | None:
         """The answer, unless it is a command put as a question."""
         try:
-            frames = read_frames(tidy(without_negated(corrected(atoms))))
+            frames = _frames(atoms)
             steps = refer(frames, self.context, self.pace) or write(frames, self.pace, self._memory())
-            if steps and any(f.moves or f.has_extent for f in frames):
+            plain_question = questions.is_plain_question(plain, self.language)
+            if steps and any(f.has_extent or (f.moves and not plain_question) for f in frames):
                 return None
         except Unclear:
             pass
@@ -214,9 +236,13 @@ class _Reading:
         rate = self.pace.rate(frame) if turning else None
         if speed is None and rate is None:
             raise Unclear("unclear_motion", frame.text)
-        code, values = ("default_set", {"mps": speed}) if speed is not None else ("default_rate_set", {"radps": rate})
+        code, values = (
+            ("default_set", {"mps": speed}) if speed is not None else ("default_rate_set", {"radps": rate})
+        )
         reply = say(self.language, code, **{k: f"{v:.3g}" for k, v in values.items() if v is not None})
-        return Interpretation("answered", reply, self.language, default_speed_mps=speed, default_rate_radps=rate)
+        return Interpretation(
+            "answered", reply, self.language, default_speed_mps=speed, default_rate_radps=rate
+        )
 
     def _plan(self, steps: list[Step], *, append: bool = False) -> Interpretation:
         try:
@@ -236,7 +262,24 @@ class _Reading:
         for word in dialogue.words:
             names[cut(normalise(word))] = (("defined", word),)
         if forms.UNNAMED in dialogue.places:
-            for written in ("that place", "the place you remembered", "that spot", "the marked spot", "那个地方", "记住的地方", "刚才记住的地方", "the saved spot", "the saved place", "the marked place", "那个位置", "the remembered place", "the remembered spot", "the spot you remembered", "刚才记住的位置", "记住的位置"):
+            for written in (
+                "that place",
+                "the place you remembered",
+                "that spot",
+                "the marked spot",
+                "那个地方",
+                "记住的地方",
+                "刚才记住的地方",
+                "the saved spot",
+                "the saved place",
+                "the marked place",
+                "那个位置",
+                "the remembered place",
+                "the remembered spot",
+                "the spot you remembered",
+                "刚才记住的位置",
+                "记住的位置",
+            ):
                 names[cut(written)] = (("place", forms.UNNAMED),)
         return names
 
@@ -248,6 +291,12 @@ class _Reading:
                 places[name] = Go(place.pose.x_m, place.pose.y_m, place=name)
         words = {name: plan.steps for name, plan in dialogue.words.items()}
         return Memory(places, words, replace(state_after(self.context)))
+
+
+def _frames(atoms: list[Atom]) -> list[Frame]:
+    return read_frames(
+        tidy(without_negated(in_order(corrected(settle_condition(with_defined_units(atoms))))))
+    )
 
 
 def _clauses(text: str) -> list[str]:

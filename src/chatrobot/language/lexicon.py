@@ -1,7 +1,7 @@
 """All known words of all languages in one trie-like table, looked up by what they are written as.
 
-Both languages share one table, since people mix them ("CW 转一圈半"). A word means one or several `(kind, value)`
-pairs. Where one writing is listed twice, the earlier file of `FILES` decides.
+Both languages share one table, since people mix them ("CW 转一圈半"). A word means one or several
+`(kind, value)` pairs. Where one writing is listed twice, the earlier file of `FILES` decides.
 """
 
 from __future__ import annotations
@@ -21,6 +21,10 @@ UNIT = re.compile(
 )
 """What text is cut into before words are looked up: a number, a Latin word, or a single character."""
 
+_NEVER_MEANT = frozenset(
+    {"refuse", "filler", "glue", "reason", "condition", "negation", "correction", "conn", "operator", "sep"}
+)
+_POLITE = frozenset({"please", "then", "after", "robot", "thanks", "could", "would", "until"})
 Meaning = tuple[tuple[str, str], ...]
 Key = tuple[str, ...]
 
@@ -30,21 +34,32 @@ class Lexicon:
     """`words` maps a written form, cut into units, to its meaning; `longest` is by the first unit.
 
     `guesses` holds what a speech recogniser writes for a word: looked up where the word itself is not found.
+    A typo is only mended towards `core`. `latin` are single Latin words in any phrase; `known` has ordinary
+    words besides, in which no typo is seen.
     """
 
     words: dict[Key, Meaning]
     guesses: dict[Key, Meaning]
     longest: dict[str, int]
+    core: frozenset[str]
     latin: frozenset[str]
+    known: frozenset[str]
     before_unit: dict[str, float]
 
 
 _SIGN = re.compile(r"(?<![\w)])[-](?=\.?\d)")
+_LISTED = re.compile(r"(?:^|(?<=[\s;,.]))\(?[1-9]\)\s*|(?:^|(?<=\n)|(?<=[;,.] ))[1-9]\. ?(?=[^\d\s])")
+_INCHES, _FEET = re.compile(r"(\d)\s?\""), re.compile(r"(\d)\s?'(?![a-z])")
+_COMMA = re.compile(r"(?<![\d.,])(\d),(\d{1,2})(?![\d,])")
 _ORDINAL = re.compile(r"(\d+)(?:st|nd|rd|th)\b")
 
 
 def cut(text: str) -> Key:
     """The units of a normalised text. A hyphen before a number is a sign, any other is a space."""
+    text = _LISTED.sub(" ; ", text)
+    if text.count('"') == 1 or (text.count("'") == 1 and _FEET.search(text)):
+        text = _FEET.sub(r"\1 feet ", _INCHES.sub(r"\1 inches ", text))
+    text = _COMMA.sub(r"\1.\2", text)
     return tuple(UNIT.findall(_ORDINAL.sub(r"\1", _SIGN.sub(" minus ", text)).replace("-", " ")))
 
 
@@ -63,12 +78,20 @@ def lexicon() -> Lexicon:
     for key in (*words, *guesses):
         longest[key[0]] = max(longest.get(key[0], 0), len(key))
     latin = frozenset(unit for key in words for unit in key if unit[0].isalpha() and unit.isascii())
+    core = frozenset(
+        unit
+        for key, meaning in words.items()
+        if meaning[0][0] not in _NEVER_MEANT
+        for unit in key
+        if unit[0].isalpha() and unit.isascii()
+    )
+    ordinary = frozenset(str(load_table("en", "words")["words"]).split())
     before = {
         word: float(value)
         for value, listed in load_table("en", "homophones")["before_unit"].items()
         for word in listed
     }
-    return Lexicon(words, guesses, longest, latin, before)
+    return Lexicon(words, guesses, longest, core | _POLITE, latin, latin | ordinary, before)
 
 
 def _keys(patterns: list[str]) -> list[Key]:

@@ -50,5 +50,10 @@ def _relative(frame: Frame, default: float, maximum: float) -> float | None:
         return _positive(frame, "percent") * maximum
     if "fold" in frame.q:
         return _positive(frame, "fold") * default
-    factors = {"slow": SLOW * default, "fast": min(FAST * default, maximum), "max": maximum, "half_max": maximum / 2}
+    factors = {
+        "slow": SLOW * default,
+        "fast": min(FAST * default, maximum),
+        "max": maximum,
+        "half_max": maximum / 2,
+    }
     return factors.get(frame.pace)

@@ -1,4 +1,4 @@
-"""Numbers in atoms: digits, words, fractions, of any language whose data lists digits, scales and fractions."""
+"""Numbers in atoms: digits, words, fractions, of any language whose data lists digits and scales."""
 
 from __future__ import annotations
 
@@ -56,6 +56,11 @@ def _with_fraction(atoms: Atoms, number: Number) -> Number:
         if parts == 2 and value not in (1.0, 0.0):
             return Number(value + 0.5, end + 1) if atoms[end].text == "half" else number
         return Number(value / parts, end + 1)
+    if end < len(atoms) and atoms[end].text == "又":
+        part = _fraction(atoms, end + 1) or _plain(atoms, end + 1)
+        part = _with_fraction(atoms, part) if part else None
+        if part and 0 < part.value < 1:
+            return Number(value + part.value, part.end)
     addition = read_addition(atoms, end)
     if addition:
         return Number(value + addition.value, addition.end)
@@ -132,7 +137,13 @@ def _plain(atoms: Atoms, i: int) -> Number | None:
         i += 1
     if i == start:
         return _decimals(atoms, i, 0.0)
-    if current is not None and 1 <= current <= 9 and scale >= 100 and not after_zero and is_chinese(atoms[i - 1].text):
+    if (
+        current is not None
+        and 1 <= current <= 9
+        and scale >= 100
+        and not after_zero
+        and is_chinese(atoms[i - 1].text)
+    ):
         current *= scale / 10.0  # 一百八 is 180
     value = total + section + (current or 0.0)
     return _decimals(atoms, i, value) or Number(value, i)

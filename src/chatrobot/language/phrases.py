@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from functools import lru_cache
+from functools import cache
 
 from chatrobot.core.reason import Reason, Value
 from chatrobot.language.data_files import load_table
@@ -15,7 +15,7 @@ _SHOWN = 6
 """Steps of a plan that are spelt out in a reply; the rest is counted."""
 
 
-@lru_cache(maxsize=None)
+@cache
 def _phrases(language: str) -> dict[str, str]:
     tables = (load_table(language, name) for name in _TABLES)
     return {str(key): str(value) for table in tables for key, value in table.items()}
@@ -88,13 +88,21 @@ def _step(step: Step, language: str) -> str:
         return spoken("step_turn_time", side=side, s=_number(step.duration_s or 0.0))
     if isinstance(step, Arc):
         side = spoken("way_left" if step.left else "way_right")
-        return spoken("step_arc", side=side, m=_number(step.radius_m), deg=_number(math.degrees(step.angle_rad)))
+        return spoken(
+            "step_arc", side=side, m=_number(step.radius_m), deg=_number(math.degrees(step.angle_rad))
+        )
     if isinstance(step, RawTwist):
         return spoken(
-            "step_twist", vx=_number(step.vx_mps), vy=_number(step.vy_mps), wz=_number(step.wz_radps), s=_number(step.duration_s)
+            "step_twist",
+            vx=_number(step.vx_mps),
+            vy=_number(step.vy_mps),
+            wz=_number(step.wz_radps),
+            s=_number(step.duration_s),
         )
     if isinstance(step, Go):
-        return spoken("step_go", place=step.place or spoken("the_start" if step.frame == "start" else "the_point"))
+        return spoken(
+            "step_go", place=step.place or spoken("the_start" if step.frame == "start" else "the_point")
+        )
     if isinstance(step, Face):
         return spoken("step_face")
     if isinstance(step, Wait):

@@ -14,13 +14,37 @@ from chatrobot.language.tokens import Atom
 DIMENSIONS = {
     "unit_length": "length", "unit_angle": "angle", "unit_time": "time", "unit_speed": "speed",
     "unit_rate": "rate", "unit_turn": "turns", "unit_percent": "percent", "unit_times": "times",
-    "unit_clock": "clock", "unit_fold": "fold", "counter": "count",
+    "unit_clock": "clock", "unit_fold": "fold", "unit_scale": "scale", "counter": "count",
 }  # fmt: skip
 _SKIPPED = frozenset({
-    "full", "complete", "whole", "single", "个", "整", "of", "more", "further", "tiny", "small", "big", "large",
-    "short", "little", "equal", "完整的", "的", "additional", "extra", "quick", "straight", "long", "小", "大",
-    "slow", "new", "一个完整的", "完整", "直", "complete,", "different", "separate", "identical", "entire", "wide",
+    "full", "complete", "whole", "single", "个", "整", "of", "more", "further", "tiny", "small", "big",
+    "large",
+    "short", "little", "equal", "完整的", "的", "additional", "extra", "quick", "straight", "long",
+    "小", "大",
+    "slow", "new", "一个完整的", "完整", "直", "complete,", "different", "separate", "identical",
+    "entire", "wide",
     "half", "good", "measly", "mere", "neat",
+})  # fmt: skip
+
+
+_SPEED_WORDS = frozenset(
+    {
+        "speed",
+        "velocity",
+        "a speed of",
+        "speed of",
+        "速度",
+        "速率",
+        "a velocity of",
+        "the speed",
+        "at a speed of",
+        "车速",
+    }
+)
+_DETERMINERS = frozenset({
+    "the first", "first", "the next", "next", "the last", "last", "the final", "another", "one more",
+    "each", "every",
+    "the second", "the third", "a further",
 })  # fmt: skip
 
 
@@ -46,16 +70,24 @@ def read_quantities(atoms: Sequence[Atom]) -> list[Atom]:
         else:
             made, i = found
             out.extend(made)
-    return _summed(_speeds(out))
+    return _shared_units(_summed(_speeds(out)))
 
 
 def _quantity_at(atoms: Sequence[Atom], i: int) -> tuple[list[Atom], int] | None:
     heard = _misheard(atoms, i)
     if heard:
         return heard
-    if atoms[i].kind in ("times", "fold"):
-        return [quantity(atoms[i].kind, float(atoms[i].value), atoms[i].text)], i + 1
-    number = read_number(atoms, i)
+    if atoms[i].kind == "fullturn":
+        return [quantity("turns", float(atoms[i].value) * 2.0 * math.pi, atoms[i].text)], i + 1
+    if atoms[i].kind in ("times", "fold", "multiple"):
+        return [
+            quantity(
+                "scale" if atoms[i].kind == "multiple" else atoms[i].kind,
+                float(atoms[i].value),
+                atoms[i].text,
+            )
+        ], i + 1
+    number = read_number(atoms, i) or _determined(atoms, i)
     if number is None and is_kind(atoms, i, "num", "article"):
         number = _article(atoms, i)
     if number is None:
@@ -66,11 +98,34 @@ def _quantity_at(atoms: Sequence[Atom], i: int) -> tuple[list[Atom], int] | None
     at, between = _skip(atoms, number.end)
     unit = _unit(atoms, at)
     if unit is None:
-        return [quantity("number", number.value, text)], number.end
+        return [quantity(_bare_dimension(atoms, i, number), number.value, text)], number.end
     dimension, factor, noun = unit
     text = " ".join(a.text for a in atoms[i : at + 1])
     value, end = _unit_suffix(atoms, number.value, factor, dimension, at + 1)
-    return [*between, quantity(dimension, value, text, noun)], end
+    role = noun or (f"{factor!r}" if dimension in ("length", "angle") else "")
+    more = [Atom("flag", "more", "another")] if atoms[i].text == "another" else []
+    return [*more, *between, quantity(dimension, value, text, role)], end
+
+
+def _bare_dimension(atoms: Sequence[Atom], i: int, number: Number) -> str:
+    """A number beside the word speed is in m/s, unless it cannot be."""
+    before = atoms[i - 1].text if i else ""
+    if before in ("of", "=", "为", "是", ":") and i > 1:
+        before = atoms[i - 2].text
+    after = "".join(a.text for a in atoms[number.end : number.end + 2])
+    said = before in _SPEED_WORDS or after.startswith(("的速度",))
+    return "speed" if said and 0 < number.value <= 2 else "number"
+
+
+def _determined(atoms: Sequence[Atom], i: int) -> Number | None:
+    """`the first metre`, `another metre`: one of it."""
+    if atoms[i].text not in _DETERMINERS or i + 1 >= len(atoms):
+        return None
+    unit = _unit(atoms, i + 1)
+    named = (
+        unit is not None and unit[0] in ("length", "time") and not atoms[i + 1].text.endswith(("s", "feet"))
+    )
+    return Number(1.0, i + 1) if named or (unit is not None and is_chinese(atoms[i].text)) else None
 
 
 def _article(atoms: Sequence[Atom], i: int) -> Number | None:
@@ -93,18 +148,19 @@ def _skip(atoms: Sequence[Atom], i: int) -> tuple[int, list[Atom]]:
     start = i
     while i < len(atoms):
         atom = atoms[i]
-        if atom.kind in ("rot", "pace") or (atom.kind == "dir" and atom.value in ("left", "right")):
-            kept.append(atom)
-        elif atom.kind == "flag" and atom.value == "more":
-            kept.append(atom)
-        elif not (
-            atom.text in _SKIPPED or atom.kind == "num" and atom.value in ("article", "ge", "of")
+        if (
+            atom.kind in ("rot", "pace")
+            or (atom.kind == "dir" and atom.value in ("left", "right"))
+            or (atom.kind == "flag" and atom.value == "more")
         ):
+            kept.append(atom)
+        elif not (atom.text in _SKIPPED or (atom.kind == "num" and atom.value in ("article", "ge", "of"))):
             break
         i += 1
-    if _unit(atoms, i) is None or (kept and _unit(atoms, i)[0] not in ("turns", "count", "length", "angle", "time")):  # type: ignore[index]
+    unit = _unit(atoms, i)
+    if unit is None or (kept and unit[0] not in ("turns", "count", "length", "angle", "time")):
         return start, []
-    if any(a.kind != "flag" for a in kept) and _unit(atoms, i)[0] not in ("turns", "count"):  # type: ignore[index]
+    if any(a.kind != "flag" for a in kept) and unit[0] not in ("turns", "count"):
         return start, []
     return i, kept
 
@@ -164,7 +220,12 @@ def _misheard(atoms: Sequence[Atom], i: int) -> tuple[list[Atom], int] | None:
         return None
     if not atoms[i + 1].text.endswith(("s", "feet")) or len(atoms[i + 1].text) < 3:
         return None
-    if number == 4 and unit[0] == "time" and atoms[i].text == "for" and not (i and atoms[i - 1].text == "for"):
+    if (
+        number == 4
+        and unit[0] == "time"
+        and atoms[i].text == "for"
+        and not (i and atoms[i - 1].text == "for")
+    ):
         return None
     text = f"{atoms[i].text} {atoms[i + 1].text}"
     return [quantity(unit[0], number * unit[1], text)], i + 2
@@ -199,7 +260,10 @@ def _speeds(atoms: list[Atom]) -> list[Atom]:
 
 
 def _per_time(atoms: list[Atom], i: int) -> tuple[int, float]:
-    """The index after `per second`, `/s`, `a second`, `each second`, and the time; (i, 0) if it is not there."""
+    """The index after `per second`, `/s`, `a second`, `each second`, and the time.
+
+    (i, 0) if it is not there.
+    """
     if not (
         is_kind(atoms, i, "per")
         or is_kind(atoms, i, "num", "article")
@@ -222,9 +286,9 @@ def _each_time(atoms: list[Atom], i: int) -> tuple[int, float]:
         unit = _unit(atoms, i + 1)
         if unit and unit[0] == "time":
             end, time_s = i + 2, unit[1]
-        elif is_kind(atoms, i + 1, "q", "time"):
+        elif is_kind(atoms, i, "per") and is_kind(atoms, i + 1, "q", "time"):
             end, time_s = i + 2, atoms[i + 1].number
-    elif is_kind(atoms, i, "q", "time") and is_chinese(atoms[i].text) and atoms[i].number in (1.0, 60.0):
+    elif is_kind(atoms, i, "q", "time") and is_chinese(atoms[i].text) and atoms[i].number == 1.0:
         end, time_s = i + 1, atoms[i].number
     while time_s and (is_kind(atoms, end, "glue") or is_kind(atoms, end, "verb")):
         end += 1
@@ -244,7 +308,9 @@ def _summed(atoms: list[Atom]) -> list[Atom]:
                 follows = next((a for a in atoms[i + 1 :] if a.kind not in ("glue", "num")), None)
                 if not (joined and follows and follows.kind in ("dir", "verb", "rot", "flag")):
                     del out[-2 if joined else -1 :]
-                    out.append(quantity(atom.value, before.number + atom.number, f"{before.text} {atom.text}"))
+                    out.append(
+                        quantity(atom.value, before.number + atom.number, f"{before.text} {atom.text}")
+                    )
                     i += 1
                     continue
         out.append(atom)
@@ -255,3 +321,27 @@ def _summed(atoms: list[Atom]) -> list[Atom]:
 def _is_part(whole: Atom, part: Atom) -> bool:
     same = whole.text.split()[-1] == part.text.split()[-1]
     return not same and 0 < part.number < whole.number and part.number < (60 if part.value == "time" else 1.0)
+
+
+def _shared_units(atoms: list[Atom]) -> list[Atom]:
+    """`60, 80 and 100 cm`: a number right before a quantity has its unit."""
+    out = list(atoms)
+    for i in range(len(out) - 1, -1, -1):
+        if out[i].kind != "q" or out[i].value != "number":
+            continue
+        j = i + 1
+        while j < len(out) and (
+            out[j].text in ("by", "x", "乘", "*", "或")
+            or (out[j].kind == "sep" and out[j].value == "weak")
+            or (out[j].kind == "conn" and out[j].value == "and")
+        ):
+            j += 1
+        if (
+            i + 1 < j < len(out)
+            and out[j].kind == "q"
+            and out[j].value in ("length", "angle")
+            and out[j].role
+        ):
+            factor = float(out[j].role)
+            out[i] = quantity(out[j].value, out[i].number * factor, out[i].text, out[j].role)
+    return out

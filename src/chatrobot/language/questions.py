@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from functools import lru_cache
+from functools import cache
 
 from chatrobot.language.context import Context
 from chatrobot.language.data_files import load_table
@@ -12,12 +12,12 @@ from chatrobot.language.phrases import say
 from chatrobot.robots.profile import RobotProfile
 
 
-@lru_cache(maxsize=None)
+@cache
 def _topics(language: str) -> tuple[tuple[str, re.Pattern[str]], ...]:
     return tuple((n, re.compile(p)) for n, p in load_table(language, "questions")["topics"].items())
 
 
-@lru_cache(maxsize=None)
+@cache
 def _pattern(language: str, name: str) -> re.Pattern[str]:
     return re.compile(load_table(language, "questions")[name])
 
@@ -25,6 +25,11 @@ def _pattern(language: str, name: str) -> re.Pattern[str]:
 def is_question(text: str, language: str) -> bool:
     """Whether a normalised text asks something (a polite request asks for nothing)."""
     return _pattern(language, "ask").search(text) is not None
+
+
+def is_plain_question(text: str, language: str) -> bool:
+    """Whether a question word asks for something to be told; only a full amount makes it a command."""
+    return _pattern(language, "strong").search(text) is not None
 
 
 def asks_ability(text: str, language: str) -> bool:

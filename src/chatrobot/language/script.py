@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from chatrobot.language.actions import State, act
+from chatrobot.language.actions import State, act, inverse
 from chatrobot.language.clauses import is_times_only
-from chatrobot.language.frames import STILL, Frame
+from chatrobot.language.frames import STILL, TURN, Frame, merged
 from chatrobot.language.manner import Pace
 from chatrobot.language.shapes import draw
 from chatrobot.language.unclear import Unclear
@@ -16,7 +17,10 @@ from chatrobot.plan.steps import MAX_REPEAT, Go, Repeat, Say, Step, Turn, Wait
 
 @dataclass
 class Memory:
-    """What this dialogue knows: places by name, words that a person defined, and what the last motion left."""
+    """What this dialogue knows.
+
+    Places by name, words that a person defined, and what the last motion left.
+    """
 
     places: Mapping[str, Go] = field(default_factory=dict)
     words: Mapping[str, tuple[Step, ...]] = field(default_factory=dict)
@@ -43,6 +47,14 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
         Unclear: where a clause cannot be acted on.
     """
     frames = _shared(frames)
+    if any("units_said" in frame.flags for frame in frames):
+        frames = [f for f in frames if f.moves or f.has_extent]
+        for frame in frames:
+            frame.flags.add("units_said")
+    frames = _shape_first(frames)
+    paced = _paced(frames, pace)
+    if paced is not None:
+        return paced
     count, frames = _leading_count(frames)
     script = Script(pace, memory, state=memory.state)
     i = 0
@@ -60,7 +72,12 @@ def _shared(frames: list[Frame]) -> list[Frame]:
     """`…, both forward`, 都往左转: a clause that holds for all the others."""
     kept: list[Frame] = []
     for frame in frames:
-        if "all" not in frame.flags or frame.q or not (frame.direction or frame.rot or frame.pace) or frame.shape:
+        if (
+            "all" not in frame.flags
+            or frame.q
+            or not (frame.direction or frame.rot or frame.pace)
+            or frame.shape
+        ):
             kept.append(frame)
             continue
         for other in kept:
@@ -74,9 +91,54 @@ def _shared(frames: list[Frame]) -> list[Frame]:
     return kept
 
 
+def _paced(frames: list[Frame], pace: Pace) -> list[Step] | None:
+    """`Every 50 cm stop for a second, two metres in total`: as many legs as fit, pauses between them."""
+    whole = next((f for f in frames if "total" in f.flags and {"length", "angle", "turns"} & set(f.q)), None)
+    name = next((n for n in ("length", "angle", "turns") if whole and n in whole.q), "")
+    leg = next((f for f in frames if f is not whole and name in f.q), None)
+    if whole is None or len(frames) == 1 or "count" in whole.q or any(f.shape for f in frames):
+        return None
+    pause = next((f for f in frames if f.verb in STILL and "time" in f.q), None)
+    if leg is None or pause is None or len(frames) > 3:
+        raise Unclear("unclear_motion", whole.text)
+    count = whole.q[name].number / leg.q[name].number
+    if abs(count - round(count)) > 1e-6 or not 1 <= round(count) <= MAX_REPEAT:
+        raise Unclear("bad_count", leg.text)
+    drive = whole.copy()
+    drive.q[name] = leg.q[name]
+    drive.direction, drive.rot = whole.direction or leg.direction, whole.rot or leg.rot
+    drive.verb = "" if name == "length" else "turn"
+    drive.flags.discard("each")
+    steps = act(drive, State(), pace)
+    rest = act(Frame(verb="wait", q={"time": pause.q["time"]}), State(), pace)
+    return [*(steps + rest) * (round(count) - 1), *steps]
+
+
+def _shape_first(frames: list[Frame]) -> list[Frame]:
+    """`2 m by 1 m rectangle`: measures said before the name of the shape belong to it."""
+    out: list[Frame] = []
+    for frame in frames:
+        at = len(out)
+        while frame.shape and frame.joined in ("none", "weak", "and") and at and _is_measure(out[at - 1]):
+            at -= 1
+        out.insert(at, frame)
+    return out
+
+
+def _is_measure(frame: Frame) -> bool:
+    bare = not frame.moves or (
+        frame.verb == "go" and not (frame.direction or frame.rot or frame.shape or frame.place)
+    )
+    return bare and "length" in frame.q and "time" not in frame.q
+
+
 def _leading_count(frames: list[Frame]) -> tuple[int | None, list[Frame]]:
     """`Twice: …`, `the following three times: …`."""
-    if len(frames) > 1 and is_times_only(frames[0]) and frames[1].joined in ("colon", "weak", "none", "strong"):
+    if (
+        len(frames) > 1
+        and is_times_only(frames[0])
+        and frames[1].joined in ("colon", "weak", "none", "strong")
+    ):
         return _count(frames[0]), frames[1:]
     return None, frames
 
@@ -91,16 +153,33 @@ def _count(frame: Frame) -> int:
 
 def _take(script: Script, frames: list[Frame], i: int) -> int:
     frame = frames[i]
+    if "still_axis" in frame.flags and not frame.moves:
+        return i + 1
+    if _lists_lengths(frames, i) or _is_heading_back(script, frame):
+        return i + 1
+    if "count" in frame.q and not frame.has_extent and not frame.flags and i + 1 < len(frames):
+        following = frames[i + 1]
+        if "length" in following.q and not following.verb and following.joined != "then":
+            both = merged(frame, following)
+            if both is not None:
+                _act(script, both)
+                return i + 2
+    if "trip" in frame.flags or "trip" in [a.role for a in frame.q.values()]:
+        both = merged(frame, frames[i + 1]) if i + 1 < len(frames) and not frames[i + 1].moves else None
+        _round_trips(script, both or frame)
+        return i + 1 + (both is not None)
     if frame.shape:
         end, steps = draw(frames, i, script.pace)
-        _finish(script, frame, [steps])
+        _finish(script, [steps])
         return end
-    if is_times_only(frame) or ("again" in frame.flags and not frame.moves and {"times", "count"} & set(frame.q)):
+    if is_times_only(frame) or (
+        "again" in frame.flags and not frame.moves and {"times", "count"} & set(frame.q)
+    ):
         script.units = _repeated(script.units, _count(frame))
     elif "again" in frame.flags and not frame.moves and not frame.has_extent:
         if not script.units:
             raise Unclear("nothing_before", frame.text)
-        script.units.append(script.units[-1])
+        script.units += [list(unit) for unit in script.units]
     elif frame.flags & {"between", "after_each"}:
         _insert(script, frame)
     else:
@@ -123,6 +202,58 @@ def _act(script: Script, frame: Frame) -> None:
     script.units.extend([steps] * count if steps else [])
 
 
+def _lists_lengths(frames: list[Frame], i: int) -> bool:
+    """`Three legs: half a metre, one metre, 1.5 m`: the count only announces the list."""
+    frame = frames[i]
+    if "count" not in frame.q or frame.has_extent:
+        return False
+    count = int(frame.q["count"].number)
+    listed = frames[i + 1 : i + 1 + count]
+    return len(listed) == count and all("length" in f.q and not f.verb for f in listed)
+
+
+def _round_trips(script: Script, frame: Frame) -> None:
+    """`Three round trips of one metre`."""
+    each = frame.copy()
+    trips = 1
+    for name in ("count", "times"):
+        if name in each.q:
+            trips = _count(Frame(q={"times": each.q.pop(name)}))
+    each.flags -= {"trip", "each"}
+    if not each.has_extent:
+        if not script.units:
+            raise Unclear("how_long_a_step", frame.text)
+        out = script.units.pop()
+    elif each.verb in TURN or each.rot:
+        raise Unclear("unclear_motion", frame.text)
+    else:
+        each.roles.clear()
+        out = act(each, script.state, script.pace)
+    for _ in range(trips):
+        script.units += [out, inverse(out)]
+
+
+def _is_heading_back(script: Script, frame: Frame) -> bool:
+    """`… until you face the way you started`: as often as it takes to a full turn."""
+    if "until" not in frame.flags or "original_heading" not in frame.flags:
+        return False
+    period = _period(script.units)
+    turned = abs(total_turn([s for unit in period for s in unit]))
+    rounds = round(2 * math.pi / turned) if turned else 0
+    if rounds < 1 or abs(rounds * turned - 2 * math.pi) > 1e-6:
+        raise Unclear("condition", frame.text)
+    script.units = _repeated(period, rounds)
+    return True
+
+
+def _period(units: list[list[Step]]) -> list[list[Step]]:
+    """The shortest beginning that, repeated, gives all units."""
+    for length in range(1, len(units) + 1):
+        if len(units) % length == 0 and units[:length] * (len(units) // length) == units:
+            return units[:length]
+    return units
+
+
 def _known(frame: Frame, script: Script) -> list[Step]:
     """The steps of a word that was defined, or the way to a place that was named; else none."""
     if frame.verb == "defined":
@@ -136,7 +267,7 @@ def _known(frame: Frame, script: Script) -> list[Step]:
     return [replace(go, speed_mps=script.pace.speed(frame))]
 
 
-def _finish(script: Script, frame: Frame, units: list[list[Step]]) -> None:
+def _finish(script: Script, units: list[list[Step]]) -> None:
     for unit in units:
         script.state.steps.extend(unit)
     script.units.extend(units)
@@ -144,7 +275,10 @@ def _finish(script: Script, frame: Frame, units: list[list[Step]]) -> None:
 
 def _insert(script: Script, frame: Frame) -> None:
     """A pause or a motion between the units, or after each of them."""
+    if not frame.moves and set(frame.q) == {"time"}:
+        frame = Frame(verb="wait", q=frame.q, flags=frame.flags, texts=frame.texts)
     steps = act(frame, script.state, script.pace)
+    script.units = [part for unit in script.units for part in _full_turns(unit)]
     moving = [u for u in script.units if not all(isinstance(s, Wait) for s in u)]
     if len(moving) < 2 and not ("after_each" in frame.flags and moving):
         raise Unclear("between_what", frame.text)
@@ -155,6 +289,15 @@ def _insert(script: Script, frame: Frame) -> None:
         if k + 1 < len(moving) or ("after_each" in frame.flags and not pause):
             units.append(steps)
     script.units = units
+
+
+def _full_turns(unit: list[Step]) -> list[list[Step]]:
+    """Several full turns in one, as one unit each: a pause fits between them."""
+    if len(unit) == 1 and isinstance(unit[0], Turn) and unit[0].angle_rad:
+        rounds = unit[0].angle_rad / (2 * math.pi)
+        if rounds > 1.5 and abs(rounds - round(rounds)) < 1e-6:
+            return [[replace(unit[0], angle_rad=2 * math.pi)]] * round(rounds)
+    return [unit]
 
 
 def _repeated(units: list[list[Step]], count: int) -> list[list[Step]]:

@@ -15,7 +15,51 @@ _MOTION = ("q", "verb", "dir", "rot", "shape", "pace", "role", "number")
 
 def tidy(atoms: Sequence[Atom]) -> list[Atom]:
     """The atoms as the clause reader wants them."""
-    return _without_reasons(_fractions_of(_relative_speeds([_settled(atoms, i) for i in range(len(atoms))])))
+    settled = [_settled(atoms, i) for i in range(len(atoms))]
+    if any(atom.kind == "shape" for atom in settled):
+        settled = [_times_sign(settled, i) for i in range(len(settled))]
+    settled = _pauses(settled)
+    return _headings(_without_reasons(_fractions_of(_relative_speeds(settled))))
+
+
+def _times_sign(atoms: Sequence[Atom], i: int) -> Atom:
+    """`1 m by 50 cm`: the sides of a shape, not one length after the other."""
+    joins = (
+        atoms[i].text in ("by", "x", "乘", "乘以")
+        and is_kind(atoms, i - 1, "q")
+        and is_kind(atoms, i + 1, "q")
+    )
+    return Atom("sep", "weak", atoms[i].text) if joins else atoms[i]
+
+
+def _pauses(atoms: Sequence[Atom]) -> list[Atom]:
+    """`a two second break` is `break two seconds`: the verb first, so that the time is its own."""
+    out: list[Atom] = []
+    for atom in atoms:
+        if atom.kind == "verb" and atom.value == "wait":
+            at = len(out)
+            while at and (out[at - 1].kind == "glue"):
+                at -= 1
+            if (
+                at
+                and out[at - 1].kind == "q"
+                and out[at - 1].value == "time"
+                and not is_chinese(out[at - 1].text)
+            ):
+                out.insert(at - 1, atom)
+                continue
+        out.append(atom)
+    return out
+
+
+def _headings(atoms: Sequence[Atom]) -> list[Atom]:
+    """The original heading is something to face."""
+    out: list[Atom] = []
+    for atom in atoms:
+        if atom.kind == "flag" and atom.value == "original_heading":
+            out.append(Atom("verb", "face", atom.text))
+        out.append(atom)
+    return out
 
 
 def _settled(atoms: Sequence[Atom], i: int) -> Atom:
@@ -23,17 +67,36 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
     atom = atoms[i]
     if atom.kind == "num":
         if atom.value == "point":
-            return Atom("flag", "bit", atom.text) if is_chinese(atom.text) else Atom("verb", "face", atom.text)
+            return (
+                Atom("flag", "bit", atom.text) if is_chinese(atom.text) else Atom("verb", "face", atom.text)
+            )
         if atom.value == "minus" or atom.value == "parts":
             return Atom("unknown", atom.text, atom.text)
         return Atom("glue", "x", atom.text)
+    if atom.text == "以后" and i and atoms[i - 1].kind in ("q", "verb", "shape", "dir"):
+        return Atom("conn", "then", atom.text)
+    follows = i + 1 < len(atoms) and atoms[i + 1].kind in ("verb", "dir", "rot", "sep", "glue", "conn")
+    if atom.text == "后" and follows and i and atoms[i - 1].kind in ("q", "verb", "shape"):
+        return Atom("conn", "then", atom.text)
+    if (
+        atom.kind == "filler"
+        and atom.text.split()[-1] in ("stop", "halt")
+        and is_kind(atoms, _next_real(atoms, i + 1), "q", "time")
+    ):
+        return Atom("verb", "wait", atom.text)
     if atom.kind == "second":
         return Atom("conn", "then", atom.text)
     if atom.kind == "counter":
         if atom.text in ("step", "pace", "steps"):
-            return Atom("verb", "go", atom.text) if is_kind(atoms, i + 1, "dir") else Atom("glue", "x", atom.text)
+            return (
+                Atom("verb", "go", atom.text)
+                if is_kind(atoms, i + 1, "dir")
+                else Atom("glue", "x", atom.text)
+            )
         return Atom("role", atom.value, atom.text)
-    if atom.kind == "per" or (atom.kind == "unit_times" and atom.text in ("time", "回", "次", "下来")):
+    if atom.kind == "unit_times" and atom.text == "回":
+        return Atom("verb", "return", atom.text)
+    if atom.kind == "per" or (atom.kind == "unit_times" and atom.text in ("time", "次", "下来")):
         return Atom("glue", "x", atom.text)
     if atom.kind == "unit_turn":
         return Atom("verb", "turn", atom.text)
@@ -57,8 +120,10 @@ def _relative_speeds(atoms: Sequence[Atom]) -> list[Atom]:
         if fraction and is_kind(atoms, j, "pace", "max"):
             out.append(quantity("percent", atom.number, f"{atom.text} {atoms[j].text}"))
             i = j + 1
-        elif is_kind(atoms, i, "pace", "max") and is_kind(atoms, j, "q") and (
-            atoms[j].value == "percent" or (atoms[j].value == "number" and 0 < atoms[j].number < 1)
+        elif (
+            is_kind(atoms, i, "pace", "max")
+            and is_kind(atoms, j, "q")
+            and (atoms[j].value == "percent" or (atoms[j].value == "number" and 0 < atoms[j].number < 1))
         ):
             out.append(quantity("percent", atoms[j].number, f"{atom.text} {atoms[j].text}"))
             i = j + 1
@@ -85,7 +150,9 @@ def _fractions_of(atoms: Sequence[Atom]) -> list[Atom]:
             and is_kind(atoms, j, "q") and atoms[j].value in ("length", "time", "turns", "angle")
             and atoms[j].text.startswith(("a ", "an ", "one "))
         ):  # fmt: skip
-            out.append(quantity(atoms[j].value, atom.number * atoms[j].number, f"{atom.text} of {atoms[j].text}"))
+            out.append(
+                quantity(atoms[j].value, atom.number * atoms[j].number, f"{atom.text} of {atoms[j].text}")
+            )
             i = j + 1
         else:
             out.append(atom)

@@ -1,4 +1,7 @@
-"""Text → atoms: the known words in it, by the cheapest way to cover it; what no word covers stays `unknown`."""
+"""Text → atoms: the known words in it, by the cheapest way to cover it.
+
+What no word covers stays `unknown`.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +15,10 @@ _WORD, _GUESS, _UNKNOWN = 1.0, 2.2, 6.0
 
 
 class Atom(NamedTuple):
-    """A word and what it means. `value` is the key of the data files; numbers and quantities carry `number`."""
+    """A word and what it means. `value` is the key of the data files.
+
+    Numbers and quantities carry `number`.
+    """
 
     kind: str
     value: str = ""
@@ -39,8 +45,8 @@ def _corrected(units: Key, words: Lexicon, names: dict[Key, Meaning]) -> Key:
     known_names = {unit for key in names for unit in key}
     return tuple(
         unit
-        if len(unit) < 3 or unit in words.latin or unit in known_names or (unit,) in words.guesses
-        else correct(unit, words)
+        if len(unit) < 3 or unit in words.known or unit in known_names or (unit,) in words.guesses
+        else correct(unit)
         for unit in units
     )
 
@@ -72,7 +78,13 @@ def _cover(units: Key, words: Lexicon, names: dict[Key, Meaning]) -> list[tuple[
             price = _WORD
             if meaning is None:
                 meaning, price = words.guesses.get(key), _GUESS
-            if key[-1] == "点" and end < count and units[end] in _DIGITS and length > 1 and units[start] == "一":
+            if (
+                key[-1] == "点"
+                and end < count
+                and units[end] in _DIGITS
+                and length > 1
+                and units[start] == "一"
+            ):
                 continue  # 一点二米 is a number, not 一点
             if meaning is not None and best[end] + price <= best[start]:
                 best[start], choice[start] = best[end] + price, (end, meaning)

@@ -1,4 +1,4 @@
-"""Raw velocities: the tutorial's line (`linear.x = 1,linear.y = 0,…`, one second) and other engineers' notations."""
+"""Raw velocities: the tutorial's line (`linear.x = 1,linear.y = 0,…`, one second) and other notations."""
 
 from __future__ import annotations
 
@@ -19,6 +19,9 @@ _ASSIGNMENT = rf"(linear|angular)\s*\.\s*([xyz])\s*=\s*({_NUMBER}|[-+]?(?:inf|na
 _LINE = re.compile(rf"\s*[\"'“]?\s*{_ASSIGNMENT}(?:\s*[,，;]\s*{_ASSIGNMENT})*\s*[.,;，]?\s*[\"'”]?\s*")
 _BLOCK = re.compile(r"['\"]?(linear|angular)['\"]?\s*:\s*\{([^{}]*)\}")
 _ENTRY = re.compile(rf"['\"]?([xyz])['\"]?\s*:\s*({_NUMBER})")
+_ROS_CLI = re.compile(
+    r"ros2 topic pub|rostopic pub|--once|--rate \d+|-r \d+|-1\b|/?cmd_vel\b|geometry_msgs(?:/msg)?(?:/twist)?"
+)
 _AXES = ("vx", "vy", "wz")
 
 
@@ -31,6 +34,7 @@ def read_twist(text: str) -> RawTwist | None:
     if "\n" not in text.strip() and _LINE.fullmatch(text):
         found = [(f"{g}.{axis}", value) for g, axis, value in re.findall(_ASSIGNMENT, text)]
         return _twist({name: float(value) for name, value in found}, 1.0)
+    text = _ROS_CLI.sub(" ", text)
     blocks = _BLOCK.findall(text)
     if blocks:
         return _blocks(text, blocks)
@@ -44,7 +48,9 @@ def _twist(values: dict[str, float], seconds: float) -> RawTwist:
         raise Unclear("bad_number")
     if any(values.get(name) for name in ("linear.z", "angular.x", "angular.y")):
         raise Unclear("not_planar", refused=True)
-    return RawTwist(values.get("linear.x", 0.0), values.get("linear.y", 0.0), values.get("angular.z", 0.0), seconds)
+    return RawTwist(
+        values.get("linear.x", 0.0), values.get("linear.y", 0.0), values.get("angular.z", 0.0), seconds
+    )
 
 
 def _blocks(text: str, blocks: list[tuple[str, str]]) -> RawTwist:
@@ -89,14 +95,18 @@ def _marks() -> frozenset[str]:
     """What makes it worth trying: words that only an engineer says."""
     return frozenset({
         "linear", "angular", "vx", "vy", "wz", "cmd_vel", "twist", " in x", " in y", "yaw rate", "yawrate",
-        "x velocity", "y velocity", "omega", "x方向", "线速度", "角速度", "x 方向", "转速", "y方向", "y 方向", "x=", "vth",
+        "x velocity", "y velocity", "omega", "x方向", "线速度", "角速度", "x 方向", "转速", "y方向",
+        "y 方向", "x=", "vth",
     })  # fmt: skip
 
 
 def _spoken(text: str) -> RawTwist | None:
     atoms = read_quantities(tokenise(re.sub(r"[=_:{}]", " ", text), lexicon(), _axis_words()))
     axes = [a for a in atoms if a.kind == "axis" and a.value in (*_AXES, "none")]
-    if not axes or any(a.kind in ("dir", "verb", "rot", "shape", "role", "flag") and a.value not in ("halt", "go") for a in atoms):
+    if not axes or any(
+        a.kind in ("dir", "verb", "rot", "shape", "role", "flag") and a.value not in ("halt", "go")
+        for a in atoms
+    ):
         return None
     if not any(a.kind == "q" and a.value in ("number", "speed", "rate") for a in atoms):
         return None
@@ -127,9 +137,9 @@ def _paired(atoms: list[Atom]) -> tuple[dict[str, float] | None, float | None]:
                     pairs[atom.value], value = value, None
                 else:
                     return None, None
-        elif atom.kind == "q" and atom.value == "time":
-            seconds = atom.number
-        elif atom.kind == "q" and hold and atom.value == "number":
+        elif (atom.kind == "q" and atom.value == "time") or (
+            atom.kind == "q" and hold and atom.value == "number"
+        ):
             seconds = atom.number
         elif atom.kind == "q" and atom.value in ("number", "speed", "rate"):
             if name_first and axis and axis not in pairs:

@@ -1,15 +1,18 @@
-"""Mends a mistyped Latin word: one slip (two in long words) away from exactly one meaning, never across it."""
+"""Mends a mistyped Latin word.
+
+One slip (two in long words) away from exactly one meaning, never across it.
+"""
 
 from __future__ import annotations
 
 from functools import lru_cache
 
-from chatrobot.language.lexicon import Lexicon, lexicon
+from chatrobot.language.lexicon import lexicon
 
 _ANTONYMS = frozenset({"left", "right", "forward", "back", "backward", "clockwise", "anticlockwise"})
 
 
-def correct(word: str, words: Lexicon) -> str:
+def correct(word: str) -> str:
     """The known word that `word` was meant to be, or `word` itself."""
     if not word[0].isalpha() or not word.isascii() or "'" in word:
         return word
@@ -21,14 +24,14 @@ def _correct(word: str) -> str:
     words = lexicon()
     if len(word) < 3:
         return word
-    transposed = [w for w in _transpositions(word) if w in words.latin and len(w) >= 3]
+    transposed = [w for w in _transpositions(word) if w in words.core and len(w) >= 3]
     if transposed:
         return transposed[0]
     if len(word) < 4:
         return word
-    allowed = 1 if len(word) < 7 else 2
+    allowed = 1 if len(word) < 8 else 2
     near: dict[str, int] = {}
-    for known in words.latin:
+    for known in words.core:
         if known[0] == word[0] and abs(len(known) - len(word)) <= allowed and len(known) >= 4:
             distance = edit_distance(word, known, allowed)
             if distance <= allowed:
@@ -44,7 +47,9 @@ def _correct(word: str) -> str:
 
 def _transpositions(word: str) -> list[str]:
     return [
-        word[:i] + word[i + 1] + word[i] + word[i + 2 :] for i in range(len(word) - 1) if word[i] != word[i + 1]
+        word[:i] + word[i + 1] + word[i] + word[i + 2 :]
+        for i in range(len(word) - 1)
+        if word[i] != word[i + 1]
     ]
 
 

@@ -12,6 +12,9 @@ from chatrobot.plan.base import Frame
 from chatrobot.plan.core_motion import CoreMotion
 from chatrobot.robots.profile import Point, RobotProfile
 
+MAX_DURATION_S = 3600.0
+MAX_EXTENT_M = 1000.0
+
 
 @dataclass(frozen=True)
 class Impossible:
@@ -19,6 +22,20 @@ class Impossible:
 
     reason: Reason
     index: tuple[int, ...] = ()
+
+
+def too_long(duration_s: float) -> Reason:
+    """Longer than an hour; the number may be beyond what floats (and JSON) hold."""
+    return Reason("too_long", {"duration_s": _sayable(duration_s), "max_s": MAX_DURATION_S})
+
+
+def too_far(distance_m: float) -> Reason:
+    """Farther than a kilometre from where it began."""
+    return Reason("too_far", {"distance_m": _sayable(distance_m), "max_m": MAX_EXTENT_M})
+
+
+def _sayable(value: float) -> float:
+    return value if value < 1e9 else 1e9
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,15 @@ import math
 
 from chatrobot.core.geometry import Pose, Twist, wrap_angle
 from chatrobot.core.reason import Reason
-from chatrobot.plan.context import Impossible, Lowered, LoweringContext, NoRoute, Route
+from chatrobot.plan.context import (
+    MAX_EXTENT_M,
+    Impossible,
+    Lowered,
+    LoweringContext,
+    NoRoute,
+    Route,
+    too_far,
+)
 from chatrobot.plan.core_motion import CoreMotion, RampedTwist
 from chatrobot.plan.dubins import Curve, curve_to_point, curve_to_pose
 from chatrobot.plan.speeds import choose_arc_speed, choose_rate, choose_speed, refuse_turn_on_the_spot
@@ -14,7 +22,7 @@ from chatrobot.robots.profile import Point, RobotProfile
 
 REVERSE_WITHIN_RAD = math.radians(10.0)
 REVERSE_AT_MOST_M = 3.0
-_THERE_M = 1e-6
+_THERE_M = 0.01  # nearer than this a robot is there: it does not turn round for a few millimetres
 _ALIGNED_RAD = 1e-6
 
 
@@ -47,6 +55,9 @@ def go_to(
     speed = choose_speed(context.profile, speed_mps)
     if isinstance(speed, Impossible):
         return speed
+    distance_m = _distance(context.pose, goal)
+    if not distance_m <= MAX_EXTENT_M:
+        return Impossible(too_far(distance_m))
     if not context.profile.can_turn_on_the_spot:
         return _steer_to(context, goal, heading_rad, speed_mps)
     route = _route(context, goal, named_place)

@@ -11,16 +11,12 @@ from dataclasses import dataclass, replace
 from typing import Union
 
 from chatrobot.core.geometry import Pose
-from chatrobot.core.reason import Reason
 from chatrobot.plan.base import Block, Step
-from chatrobot.plan.context import Impossible, Lowered, LoweringContext
+from chatrobot.plan.context import MAX_DURATION_S, Impossible, Lowered, LoweringContext, too_long
 from chatrobot.plan.core_motion import CoreMotion, RampedTwist
 from chatrobot.plan.primitive import BlockPrimitive
 from chatrobot.plan.registry import for_step
 from chatrobot.plan.steps import Plan, count_steps
-
-MAX_MOTION_S = 3600.0
-"""A single motion longer than this is a slip of the pen; its numbers may even be beyond what floats hold."""
 
 
 def lower(step: Step, context: LoweringContext) -> Lowered:
@@ -36,8 +32,8 @@ def lower(step: Step, context: LoweringContext) -> Lowered:
     if isinstance(lowered, Impossible):
         return lowered
     for motion in lowered:
-        if isinstance(motion, RampedTwist) and not motion.hold_s <= MAX_MOTION_S:
-            return Impossible(Reason("too_long", {"duration_s": motion.hold_s, "max_s": MAX_MOTION_S}))
+        if isinstance(motion, RampedTwist) and not motion.hold_s <= MAX_DURATION_S:
+            return Impossible(too_long(motion.hold_s))
     return lowered
 
 

@@ -13,7 +13,15 @@ import numpy as np
 
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.reason import Reason
-from chatrobot.plan.context import Impossible, LoweringContext, RoutePlanner
+from chatrobot.plan.context import (
+    MAX_DURATION_S,
+    MAX_EXTENT_M,
+    Impossible,
+    LoweringContext,
+    RoutePlanner,
+    too_far,
+    too_long,
+)
 from chatrobot.plan.core_motion import Pause, RampedTwist
 from chatrobot.plan.findings import Finding, Severity
 from chatrobot.plan.governed_path import TICK_S, GovernorCheck, pose_of
@@ -26,9 +34,8 @@ from chatrobot.plan.sweep import Clearance, area_clearance, first_contact, free_
 from chatrobot.plan.trajectory import Segment
 from chatrobot.robots.profile import RobotProfile
 
-MAX_DURATION_S = 3600.0
-MAX_EXTENT_M = 1000.0
-MARGIN_M = 0.02
+MARGIN_M = 0.04
+"""A little more than the governor keeps from what the lidar sees, so that what was rehearsed is not stopped."""
 PAUSE_SPACING_S = 0.05
 
 
@@ -181,13 +188,11 @@ class _Run:
         else:
             duration_s = item.motion.duration_s if isinstance(item.motion, Pause) else 0.0
         if self.t_s + duration_s > MAX_DURATION_S:
-            values = {"duration_s": self.t_s + duration_s, "max_s": MAX_DURATION_S}
-            self._find("refuse", Reason("too_long", values), item.index, item.start)
+            self._find("refuse", too_long(self.t_s + duration_s), item.index, item.start)
             return False
         distance_m = item.end.distance_to(self.context.pose)
         if distance_m > MAX_EXTENT_M:
-            values = {"distance_m": distance_m, "max_m": MAX_EXTENT_M}
-            self._find("refuse", Reason("too_far", values), item.index, item.start)
+            self._find("refuse", too_far(distance_m), item.index, item.start)
             return False
         return True
 

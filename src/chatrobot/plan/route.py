@@ -25,7 +25,7 @@ MAX_CELLS = 250_000
 BORDER_M = 1.0
 """How far beyond everything known, and beyond start and goal, a way may lead."""
 
-MARGIN_M = 0.03
+MARGIN_M = 0.05
 COMFORT_M = 0.3
 """Clearance beyond the robot's own circle above which more of it is worth nothing."""
 
@@ -36,6 +36,7 @@ NEAR_PLACE_M = 0.6
 """How far from a named place its nearest free point may be, and how far the start's own tightness is excused."""
 
 LEG_SPACING_M = 0.025
+MAX_ANSWERS = 256
 
 
 @dataclass(frozen=True)
@@ -78,13 +79,23 @@ class GridRoutePlanner:
         self._needed_m = profile.footprint_radius_m + MARGIN_M
         self._inner_m = _inscribed_radius(profile.footprint)
         self._grids: dict[tuple[int, int, int, int], _Grid] = {}
+        self._answers: dict[tuple[Pose, Point, bool], Route | NoRoute] = {}
 
     def route(self, start: Pose, goal: Point, *, named_place: bool) -> Route | NoRoute:
         """Waypoints from `start` to `goal`, both in the odom frame.
 
         At a named place with something in it, the route ends at the nearest free point within 0.6 m. Otherwise
-        `target_blocked` (clearance_m there, needed_m) or `no_route` is the answer.
+        `target_blocked` (clearance_m there, needed_m) or `no_route` is the answer. Answers are remembered: what
+        rehearsal asked, the executor gets without a search.
         """
+        question = (start, goal, named_place)
+        if question not in self._answers:
+            if len(self._answers) >= MAX_ANSWERS:
+                self._answers.clear()
+            self._answers[question] = self._find(start, goal, named_place)
+        return self._answers[question]
+
+    def _find(self, start: Pose, goal: Point, named_place: bool) -> Route | NoRoute:
         if self._world.is_empty:
             return Route((goal,))
         goal_m = self._clearance_at(goal)

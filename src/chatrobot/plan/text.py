@@ -177,8 +177,6 @@ class StreamParser:
             step: Step = block.primitive.close(block.header, tuple(block.steps))
         except ValueError as error:
             reader.fail(str(error), "steps between the opening line and 'end'")
-        if count_steps((step,)) > MAX_EXPANDED_STEPS:
-            reader.fail(f"this block would do more than {MAX_EXPANDED_STEPS} steps")
         return self._place(step)
 
     def _place(self, step: Step) -> Step | None:

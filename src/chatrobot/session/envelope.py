@@ -11,7 +11,7 @@ Word = Literal[
     "beat",  # keeps it
     "plan",  # {"plan_text", "mode": queue|replace|append, "approve": bool, "rehearse_only": bool}
     "approve",  # {"yes": bool} answers a Rehearsed event that needs approval
-    "stop",  # {"why": …}
+    "stop",  # {"why": …}; makes void what belongs to this turn and those before
     "emergency_stop",
     "release",
     "goodbye",  # an orderly end: what is queued is still done, then the lease ends

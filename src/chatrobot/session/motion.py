@@ -27,6 +27,7 @@ from chatrobot.session.envelope import Envelope
 from chatrobot.session.guard_link import GuardLink
 from chatrobot.session.planner import Planned, Planner
 from chatrobot.transports.transport import WireTransport
+from chatrobot.wire.messages import LaserScan
 from chatrobot.wire.wire import Wire
 
 QUEUE_LIMIT = 10
@@ -68,7 +69,7 @@ class Totals:
     paused_s: float = 0.0
     pending_pause_s: float = 0.0
     has_moved: bool = False
-    limited: set[int] = field(default_factory=set)
+    limited: set[tuple[int, str]] = field(default_factory=set)
 
 
 class Motion:
@@ -102,6 +103,7 @@ class Motion:
         self._transport = WireTransport(wire, profile.wiring, self._epoch)
         self._governor = Governor(profile, self._epoch)
         self._sensors = Sensors(profile, clock)
+        self._looked_at: LaserScan | None = None
         self._inbox: deque[Callable[[], None]] = deque()
         self._jobs: deque[Job] = deque()
         self._current: Job | None = None
@@ -110,8 +112,10 @@ class Motion:
         self._zeroing_since_s: float | None = None
         self._last_tick_s: float | None = None
         self._next_telemetry_s = 0.0
-        self._sequences: dict[str, int] = {}
+        self._sequences: dict[tuple[str, bool], int] = {}
         self._leaving: set[str] = set()
+        self._void_turns: dict[str, int] = {}
+        """By lease, the last turn that a stop has made void: a plan of such a turn may still be on its way."""
 
     # --- from any thread -------------------------------------------------------------------------------------
 
@@ -130,6 +134,7 @@ class Motion:
             self._governor.latch(envelope.source, str(envelope.payload.get("why", "")))
         if envelope.word in ("stop", "emergency_stop"):
             why = str(envelope.payload.get("why", ""))
+            self._void_turns[envelope.lease] = envelope.turn
             self.halt(Reason("stopped_by", {"source": envelope.source, "why": why}))
         # What was said before a stop must not run after it, however late it is handled.
         epoch = self._epoch.value
@@ -167,9 +172,15 @@ class Motion:
 
     def _handle(self, envelope: Envelope, epoch: int) -> None:
         """One envelope, received in that stop epoch. Stops have been heard already; here they are only booked."""
-        if envelope.sequence <= self._sequences.get(envelope.lease, -1):
+        kind = (
+            envelope.lease,
+            envelope.word == "beat",
+        )  # a beat comes from another thread: it may overtake a plan
+        if envelope.sequence <= self._sequences.get(kind, -1):
+            if envelope.word == "plan":  # overtaken by a later word, most likely a stop: its turn ends here
+                self._finish_unstarted(self._job(envelope, epoch), "stopped", self._stop_reason)
             return
-        self._sequences[envelope.lease] = envelope.sequence
+        self._sequences[kind] = envelope.sequence
         now_s = self._clock.now_s()
         self._governor.leases.beat(envelope.lease, now_s)
         if envelope.word == "hello":
@@ -191,6 +202,7 @@ class Motion:
         self._notice_freeze(now_s)
         self._last_tick_s = now_s
         self._guard.beat()
+        self._look()
         self._book_stop()
         while self._inbox:
             self._inbox.popleft()()
@@ -200,11 +212,21 @@ class Motion:
         self._begin_next(now_s)
         self._tell(now_s)
 
+    def _look(self) -> None:
+        """Show the governor what the lidar has seen since the last tick."""
+        scan = self._sensors.scan
+        if scan is None or scan is self._looked_at:
+            return
+        self._looked_at = scan
+        pose = self._sensors.estimator.pose_at(scan.stamp_s)
+        if pose is not None:
+            self._governor.take_scan(scan, pose)
+
     # --- plans -----------------------------------------------------------------------------------------------
 
-    def _accept(self, envelope: Envelope, epoch: int) -> None:
+    def _job(self, envelope: Envelope, epoch: int) -> Job:
         payload = envelope.payload
-        job = Job(
+        return Job(
             turn=envelope.turn,
             lease=envelope.lease,
             plan_text=str(payload.get("plan_text", "")),
@@ -213,9 +235,12 @@ class Motion:
             epoch=epoch,
             received_s=self._clock.now_s(),
         )
-        if payload.get("mode") == "replace":
+
+    def _accept(self, envelope: Envelope, epoch: int) -> None:
+        job = self._job(envelope, epoch)
+        if envelope.payload.get("mode") == "replace":
             self._replace()
-        if epoch != self._epoch.value:
+        if epoch != self._epoch.value or job.turn <= self._void_turns.get(job.lease, 0):
             self._finish_unstarted(job, "stopped", self._stop_reason)
             return
         if len(self._jobs) >= QUEUE_LIMIT:
@@ -338,14 +363,18 @@ class Motion:
         if executor.is_done:
             self._end_run("completed" if executor.reason is None else executor.outcome, executor.reason)
             return
-        verdict = self._governor.govern(asked, job.lease, now_s)
+        estimate = self._sensors.estimate
+        verdict = self._governor.govern(
+            asked, job.lease, now_s, estimate.pose if estimate is not None else None
+        )
         self._transport.send(verdict.sent)
+        executor.note(verdict.rule, verdict.reason, verdict.sent.twist, now_s)
         self._count(verdict.sent.twist.is_zero, now_s)
-        if verdict.action == "limited" and verdict.rule == "speed" and self._totals is not None:
-            key = executor.step
+        if verdict.action == "limited" and verdict.rule != "acceleration" and self._totals is not None:
+            key = (executor.step, verdict.rule)
             if key not in self._totals.limited:
                 self._totals.limited.add(key)
-                self._emit(Limited(job.turn, verdict.rule, asked, verdict.sent.twist))
+                self._emit(Limited(job.turn, verdict.rule, asked, verdict.sent.twist, verdict.reason))
 
     def _count(self, standing: bool, now_s: float) -> None:
         """Time in motion, and time standing between two motions: the last pause counts once motion follows."""

@@ -17,7 +17,6 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable
-from pathlib import Path
 
 from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import WireError
@@ -32,7 +31,7 @@ from chatrobot.session.planner import Planner
 from chatrobot.sim.world import load_world
 from chatrobot.wire.local import PACKET_BYTES, LocalWire
 from chatrobot.wire.messages import Text
-from chatrobot.wire.runtime_dir import runtime_dir
+from chatrobot.wire.runtime_dir import stop_socket_path
 
 OUTBOX_LIMIT = 200
 CONNECT_S = 20.0
@@ -157,11 +156,6 @@ class MotionProcess:
                     with contextlib.suppress(OSError):
                         caller.send(b"moving" if self.motion.is_busy else b"standing")
                 self._wake.set()
-
-
-def stop_socket_path(pid: int) -> Path:
-    """Where the Motion of that process id listens for `chatrobot stop`."""
-    return runtime_dir() / f"motion-{pid}.stop"
 
 
 def _connect(path: str) -> LocalWire:

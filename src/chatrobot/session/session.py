@@ -11,10 +11,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
-from chatrobot.core.errors import JointError
+from chatrobot.core.errors import JointError, PlanTextError
 from chatrobot.core.events import Event, Finished, Interpreted, Outcome, Remembered, Result, Telemetry
 from chatrobot.language.interpretation import Interpretation
-from chatrobot.plan.text import format_plan
+from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
 from chatrobot.session.joint import Joint
 from chatrobot.session.understanding import Understanding
@@ -36,7 +36,8 @@ class Options:
     rehearse_only: bool = False
 
 
-_Kind = Literal["text", "stop", "dropped", "too_many"]
+_Kind = Literal["text", "plan", "stop", "too_many"]
+_WAITING: tuple[_Kind, ...] = ("text", "plan")
 
 
 @dataclass(frozen=True)
@@ -63,6 +64,7 @@ class Session:
         self._texts: deque[_Said] = deque()
         self._in_flight: dict[int, tuple[str, Interpretation]] = {}
         self._turns = 0
+        self._void_turn = 0
         self._lock = threading.Lock()
         self.results: dict[int, Result] = {}
 
@@ -78,24 +80,31 @@ class Session:
             kind = "stop"
         else:
             kind = "text"
+        return self._take_in(text, kind)
+
+    def say_plan(self, plan_text: str) -> int:
+        """Take in a plan that a person or a program wrote itself; the number of its turn."""
+        return self._take_in(plan_text, "plan")
+
+    def _take_in(self, text: str, kind: _Kind) -> int:
         with self._lock:
             self._turns += 1
             turn = self._turns
-            if kind == "text" and self._count_waiting() >= QUEUE_LIMIT and self.is_moving:
+            if kind in _WAITING and self._count_waiting() >= QUEUE_LIMIT and self.is_moving:
                 kind = "too_many"
             self._texts.append(_Said(turn, text, kind))
         self._joint.wake()
         return turn
 
     def stop(self, why: str = "") -> None:
-        """Stop the robot and drop what is queued."""
-        self._joint.send("stop", why=why)
-        self._drop_waiting()
+        """Stop the robot and drop what was said before this moment."""
+        self._void_turn = self._turns  # no lock: a stop waits for nothing
+        self._joint.send("stop", self._void_turn, why=why)
 
     def emergency_stop(self, why: str = "") -> None:
         """Stop the robot and keep it stopped until `release`."""
-        self._joint.send("emergency_stop", why=why)
-        self._drop_waiting()
+        self._void_turn = self._turns
+        self._joint.send("emergency_stop", self._void_turn, why=why)
 
     def release(self) -> None:
         """Release an emergency stop. For the local console alone."""
@@ -143,31 +152,33 @@ class Session:
         self._joint.close()
 
     def _count_waiting(self) -> int:
-        return sum(said.kind == "text" for said in self._texts)
-
-    def _drop_waiting(self) -> None:
-        """A stop clears what waits; each dropped turn still gets its result."""
-        with self._lock:
-            for index, said in enumerate(self._texts):
-                if said.kind == "text":
-                    self._texts[index] = _Said(said.turn, said.text, "dropped")
+        return sum(said.kind in _WAITING and not self._is_void(said) for said in self._texts)
 
     def _can_take_text(self) -> bool:
         return bool(self._texts) and (
-            self._texts[0].kind != "text" or not self._in_flight or self._options.while_moving == "replace"
+            self._texts[0].kind not in _WAITING
+            or self._is_void(self._texts[0])
+            or not self._in_flight
+            or self._options.while_moving == "replace"
         )
+
+    def _is_void(self, said: _Said) -> bool:
+        """A stop came after it was said."""
+        return said.turn <= self._void_turn and said.kind in _WAITING
 
     def _take_texts(self) -> None:
         while self._can_take_text():
             with self._lock:
                 said = self._texts.popleft()
-            if said.kind == "text":
+            if self._is_void(said):
+                self._conclude(said.turn, "stopped", self.understanding.say("dropped_by_stop", said.text))
+            elif said.kind == "text":
                 self._understand(said)
+            elif said.kind == "plan":
+                self._read_plan(said)
             elif said.kind == "stop":
                 self._emit(Interpreted(said.turn, "reflex", "", ""))
                 self._conclude(said.turn, "stopped", self.understanding.say("stopped_now", said.text))
-            elif said.kind == "dropped":
-                self._conclude(said.turn, "stopped", self.understanding.say("dropped_by_stop", said.text))
             else:
                 self._conclude(said.turn, "refused", self.understanding.say("queue_full", said.text))
 
@@ -182,16 +193,33 @@ class Session:
             self.understanding.note_unmoved(said.text, meant)
             self._conclude(said.turn, meant.outcome, meant.reply)
         else:
-            mode = "append" if meant.append else self._options.while_moving
-            self._in_flight[said.turn] = (said.text, meant)
-            self._joint.send(
-                "plan",
-                said.turn,
-                plan_text=plan_text,
-                mode=mode,
-                approve=self._options.approve,
-                rehearse_only=self._options.rehearse_only,
+            self._send_plan(said, meant, plan_text)
+
+    def _read_plan(self, said: _Said) -> None:
+        try:
+            plan = parse_plan(said.text)
+        except PlanTextError as error:
+            self._emit(Interpreted(said.turn, "offline", "", ""))
+            self._conclude(
+                said.turn, "unclear", self.understanding.say("plan_text", said.text, problem=str(error))
             )
+            return
+        meant = self.understanding.accept(plan)
+        plan_text = format_plan(plan)
+        self._emit(Interpreted(said.turn, "offline", plan_text, ""))
+        self._send_plan(said, meant, plan_text)
+
+    def _send_plan(self, said: _Said, meant: Interpretation, plan_text: str) -> None:
+        mode = "append" if meant.append else self._options.while_moving
+        self._in_flight[said.turn] = (said.text, meant)
+        self._joint.send(
+            "plan",
+            said.turn,
+            plan_text=plan_text,
+            mode=mode,
+            approve=self._options.approve,
+            rehearse_only=self._options.rehearse_only,
+        )
 
     def _hear(self, event: Event) -> None:
         if isinstance(event, Telemetry):

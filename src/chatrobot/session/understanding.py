@@ -11,6 +11,7 @@ from chatrobot.core.geometry import ZERO_TWIST, Pose
 from chatrobot.language.context import Context, Dialogue, RobotState, TurnRecord
 from chatrobot.language.interpretation import Interpretation, LanguageCode, OfflineInterpreter
 from chatrobot.language.phrases import say
+from chatrobot.plan.steps import Plan
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.places import Places
 from chatrobot.session.replies import describe_end
@@ -57,6 +58,10 @@ class Understanding:
         meant = self._interpreter.interpret(text, Context(dialogue, self._state, self._world_places))
         self.language = meant.language
         return meant
+
+    def accept(self, plan: Plan) -> Interpretation:
+        """A plan as it is: there is nothing to understand."""
+        return Interpretation("plan", "", self.language, plan)
 
     def say(self, code: str, text: str, **values: float | str) -> str:
         """A phrase in the language of the last question."""

@@ -28,3 +28,13 @@ def runtime_dir() -> Path:
     if info.st_mode & 0o077:
         path.chmod(0o700)
     return path
+
+
+def stop_socket_path(pid: int) -> Path:
+    """Where the Motion of that process id listens for `chatrobot stop`."""
+    return runtime_dir() / f"motion-{pid}.stop"
+
+
+def stop_socket_paths() -> list[Path]:
+    """Those of all that run, or died without tidying up."""
+    return sorted(runtime_dir().glob("motion-*.stop"))

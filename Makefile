@@ -1,0 +1,37 @@
+# Every target makes .venv first, with everything in it, and never touches the system's Python.
+PYTHON ?= python3
+BIN := .venv/bin
+
+.PHONY: help setup run test lint bench lock clean
+
+help:
+	@echo "make setup   .venv with everything in it        make run    talk to the simulated robot"
+	@echo "make test    lint, types, layers, tests         make lint   ruff and mypy alone"
+	@echo "make bench   how fast it is, measured           make lock   write requirements.lock anew"
+	@echo "make clean   remove .venv and what tools left"
+
+setup:
+	@PYTHON="$(PYTHON)" scripts/setup.sh
+
+run: setup
+	@$(BIN)/chatrobot
+
+lint: setup
+	$(BIN)/ruff check src tests examples scripts bench
+	$(BIN)/ruff format --check src tests examples scripts bench
+	$(BIN)/mypy
+
+# Real processes in real time come after the rest, one by one: beside other work their figures mean nothing.
+test: lint
+	$(BIN)/pytest -m "not realtime" -n 2
+	$(BIN)/pytest -m realtime
+
+bench: setup
+	@for file in bench/[a-z]*.py; do \
+		echo "== $$file"; $(BIN)/python -m "bench.$$(basename "$$file" .py)" || exit 1; done
+
+lock: setup
+	$(BIN)/python scripts/lock.py
+
+clean:
+	rm -rf .venv .mypy_cache .ruff_cache .pytest_cache .hypothesis build dist

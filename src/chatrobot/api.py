@@ -1,0 +1,176 @@
+"""The Python API: a robot to talk to from a program.
+
+with chatrobot.connect() as robot:
+    result = robot.do("forward 1 m")
+    print(result.outcome, result.pose)
+"""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+from collections.abc import Callable
+from pathlib import Path
+from types import TracebackType
+
+from chatrobot.compose import Connection, Setup
+from chatrobot.compose import connect as compose_connect
+from chatrobot.core.errors import ChatRobotError
+from chatrobot.core.events import Event, Result, Telemetry
+from chatrobot.core.geometry import ORIGIN, Pose
+from chatrobot.plan.steps import Plan
+from chatrobot.plan.text import format_plan, parse_plan
+from chatrobot.robots.load import DEFAULT_PROFILE
+from chatrobot.session.session import Session
+
+PUMP_S = 0.1
+Listener = Callable[[Event], None]
+
+
+def connect(
+    *,
+    on: str = "auto",
+    robot: str = DEFAULT_PROFILE,
+    world: str = "home",
+    sim: str = "",
+    fast: bool = False,
+    trace: bool = False,
+    config_dir: Path | str | None = None,
+) -> Robot:
+    """Connect to a robot; by default to the simulated one, in a furnished flat. The options of the command line.
+
+    Args:
+        robot: a robot profile, by name or as the path of a .toml file.
+        world: `empty`, `home` or the path of a world file.
+        sim: how the simulated robot lies, such as `slip=0.03,noise=on`.
+        fast: simulated time, as quick as it goes; otherwise real time.
+        trace: the simulated robot's true poses come as events too.
+        config_dir: where remembered places and the user's own profiles live; None keeps nothing.
+
+    Raises:
+        InputError: an option cannot be used; it says what is allowed.
+        JointError: the robot's processes do not start.
+    """
+    folder = Path(config_dir) if config_dir is not None else None
+    return Robot(Setup(on=on, robot=robot, world=world, sim=sim, fast=fast, trace=trace, folder=folder))
+
+
+class Robot:
+    """A connected robot. Close it, or use it in a `with`: what it was told is still done, orderly.
+
+    In real time events are heard on a thread of their own, all the time; in simulated time while `do` or `run`
+    runs, on the caller's. `stop` may be called from any thread, everything else from one at a time.
+    """
+
+    def __init__(self, setup: Setup) -> None:
+        self._listeners: list[Listener] = []
+        self._pose = ORIGIN
+        self._news = threading.Condition()
+        self._listener_error: Exception | None = None
+        self._lost: Exception | None = None
+        self._closing = False
+        self._connection: Connection = compose_connect(setup, self._hear)
+        self._pump: threading.Thread | None = None
+        if not setup.fast:
+            self._pump = threading.Thread(target=self._pump_on, name="chatrobot", daemon=True)
+            self._pump.start()
+
+    def do(self, text: str) -> Result:
+        """Say it and wait for what comes of it: a value, whatever the outcome. Ctrl-C stops the robot first.
+
+        Raises:
+            ChatRobotError: something broke.
+        """
+        return self._see_through(self._session.say(text))
+
+    def run(self, plan: Plan | str) -> Result:
+        """Run a plan, given as such or as plan text. It is rehearsed and limited like any other.
+
+        Raises:
+            PlanTextError: the text is no plan; it names the line.
+            ChatRobotError: something broke.
+        """
+        text = format_plan(parse_plan(plan) if isinstance(plan, str) else plan)
+        return self._see_through(self._session.say_plan(text))
+
+    def stop(self) -> None:
+        """Stop now: waits for nothing that is going on. What runs ends as `stopped`."""
+        self._session.stop("stop()")
+
+    @property
+    def pose(self) -> Pose:
+        """Where the robot last said it was: metres and radians from where it was connected."""
+        return self._pose
+
+    def on_event(self, callback: Listener) -> None:
+        """Have `callback` called with every event from now on. What it raises comes out of `do` or `run`."""
+        self._listeners.append(callback)
+
+    def close(self) -> None:
+        """Say goodbye. Closing twice does no harm."""
+        if self._closing:
+            return
+        self._closing = True
+        if self._pump is not None and self._pump is not threading.current_thread():
+            self._pump.join()
+        self._connection.close()
+
+    def __enter__(self) -> Robot:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if kind is not None:
+            with contextlib.suppress(ChatRobotError):
+                self.stop()
+        self.close()
+
+    @property
+    def _session(self) -> Session:
+        if self._closing:
+            raise ChatRobotError("this robot has been closed")
+        return self._connection.session
+
+    def _hear(self, event: Event) -> None:
+        if isinstance(event, (Telemetry, Result)):
+            self._pose = event.pose
+        for listener in tuple(self._listeners):
+            try:
+                listener(event)
+            except Exception as error:  # noqa: BLE001  # a stranger's code: the robot stops, who waits is told
+                self._listener_error = error
+                self._connection.session.stop("a listener broke")
+
+    def _see_through(self, turn: int) -> Result:
+        session = self._session
+        try:
+            while turn not in session.results:
+                if self._pump is None:
+                    session.pump(PUMP_S)
+                else:
+                    with self._news:
+                        self._news.wait(PUMP_S)
+                self._raise_errors()
+        except KeyboardInterrupt:
+            self.stop()
+            raise
+        return session.results[turn]
+
+    def _raise_errors(self) -> None:
+        if self._listener_error is not None:
+            error, self._listener_error = self._listener_error, None
+            raise error
+        if self._lost is not None:
+            raise self._lost
+
+    def _pump_on(self) -> None:
+        """The pumping thread. Whatever ends it is told to who waits."""
+        session = self._connection.session
+        try:
+            while not self._closing:
+                session.pump(PUMP_S)
+                with self._news:
+                    self._news.notify_all()
+        except Exception as error:  # noqa: BLE001  # the outermost boundary of a thread
+            self._lost = error

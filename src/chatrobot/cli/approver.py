@@ -1,0 +1,63 @@
+"""Who says yes to a rehearsed plan: a person at the terminal, the program that reads our events, or nobody."""
+
+from __future__ import annotations
+
+import select
+import sys
+
+from chatrobot.core.events import Event, Finished, Rehearsed
+from chatrobot.session.session import Session
+
+_YES = frozenset({"y", "yes", "ok", "是", "好", "好的", "行", "可以", "对"})
+
+
+class Approver:
+    """Hears the events of a session and answers those that ask.
+
+    Args:
+        can_ask: a person sits at standard input and has nothing else to type there.
+        others_answer: whoever reads our events answers; see `talk`.
+    """
+
+    def __init__(self, *, can_ask: bool, others_answer: bool = False) -> None:
+        self._can_ask = can_ask
+        self._others_answer = others_answer
+        self._turn: int | None = None
+        self._has_asked = False
+
+    @property
+    def is_waiting(self) -> bool:
+        """A plan waits for an answer."""
+        return self._turn is not None
+
+    def hear(self, event: Event) -> None:
+        if isinstance(event, Rehearsed) and event.needs_approval:
+            self._turn, self._has_asked = event.turn, False
+        elif isinstance(event, Finished) and event.turn == self._turn:
+            self._turn = None
+
+    def answer(self, session: Session) -> None:
+        """Answer what waits, if there is an answer by now. Never blocks."""
+        if self._turn is None:
+            return
+        if self._can_ask:
+            self._ask(session)
+        elif not self._others_answer:
+            print(
+                "chatrobot: --approve needs a terminal to ask at; --yes does each plan unasked",
+                file=sys.stderr,
+            )
+            self.give(session, False)
+
+    def give(self, session: Session, yes: bool) -> None:
+        """Answer the plan that waits."""
+        if self._turn is not None:
+            session.approve(self._turn, yes)
+            self._turn = None
+
+    def _ask(self, session: Session) -> None:
+        if not self._has_asked:
+            print("Do it? [y/N] ", end="", file=sys.stderr, flush=True)
+            self._has_asked = True
+        if select.select([sys.stdin], [], [], 0.0)[0]:
+            self.give(session, sys.stdin.readline().strip().casefold() in _YES)

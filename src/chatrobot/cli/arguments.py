@@ -1,0 +1,168 @@
+"""What may stand on the command line. Imports argparse alone: `chatrobot --help` must be there at once."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from typing import Any, NoReturn
+
+from chatrobot import __version__
+from chatrobot.core.errors import UsageError
+
+DEFAULT_ROBOT = "wheeltec_mini_mec"
+"""The same as `robots.load.DEFAULT_PROFILE` (a test compares); importing that would read TOML for a help text."""
+
+COMMANDS = {
+    "do": "one instruction, or a dialogue turn by turn, then exit",
+    "plan": "understand and rehearse only; nothing moves",
+    "stop": "stop whatever runs on this machine",
+    "eval": "run a corpus of sayings and count correct, wrong and abstained",
+    "doctor": "what works here, and how to get the rest",
+    "schema": "the JSON schema of plans",
+    "sim": "run the simulated robot alone, for other programs to drive",
+}
+LATER = ("node", "model", "program", "usage", "fake-model")
+"""Commands of versions to come: known, so that they are not mistaken for something else."""
+
+DEFAULTS: dict[str, Any] = {
+    "on": "auto", "robot": DEFAULT_ROBOT, "interpreter": "auto", "model": "", "fast": False, "json": False,
+    "trace": False, "sim": "", "world": "", "approve": False, "yes": False, "config_dir": None,
+}  # fmt: skip
+
+_DESCRIPTION = "Say it, and a robot does exactly that, safely. Without a command: talk to it."
+_EPILOG = """\
+examples:
+  chatrobot                                        talk to the simulated robot
+  chatrobot do "forward 1 m, then turn left"       one instruction, in real time
+  chatrobot do "draw a square" --fast              the same as fast as the machine goes
+  printf 'forward 1 m\\nturn left\\n' | chatrobot    a line is a turn; all of them are done
+
+exit codes: 0 completed or answered, 1 failed, 2 usage, 3 unclear, 4 refused, 5 stopped
+"""
+
+
+class _Parser(argparse.ArgumentParser):
+    """Wrong usage leaves through `main` like every other mistake, not out of the middle of parsing."""
+
+    def error(self, message: str) -> NoReturn:
+        raise UsageError(message, allowed=f"see {self.prog} --help")
+
+
+def parse(arguments: Sequence[str]) -> argparse.Namespace:
+    """The options and the `command` ("" for none).
+
+    Raises:
+        UsageError: what is wrong, and what is allowed.
+    """
+    parser, options = _parsers()
+    word = _first_word(arguments, options)
+    if word in LATER:
+        raise UsageError(
+            f"this version does not have `chatrobot {word}` yet", allowed="chatrobot --help lists what it has"
+        )
+    if word is not None and word not in COMMANDS:
+        raise UsageError(
+            f"there is no command {word!r}",
+            allowed=f'commands: {", ".join(COMMANDS)}; to tell the robot something: chatrobot do "{word} …"',
+        )
+    parsed = parser.parse_args(list(arguments))
+    parsed.command = parsed.command or ""
+    for name, value in DEFAULTS.items():
+        if not hasattr(parsed, name):
+            setattr(parsed, name, value)
+    return parsed
+
+
+def _first_word(arguments: Sequence[str], options: _Parser) -> str | None:
+    """The first argument that is neither an option nor the value of one."""
+    takes_value = {
+        name for action in options._actions if action.nargs is None for name in action.option_strings
+    }
+    rest = iter(arguments)
+    for argument in rest:
+        if argument in takes_value:
+            next(rest, None)
+        elif not argument.startswith("-"):
+            return argument
+    return None
+
+
+def _parsers() -> tuple[_Parser, _Parser]:
+    options = _options()
+    parser = _Parser(
+        prog="chatrobot",
+        description=_DESCRIPTION,
+        epilog=_EPILOG,
+        parents=[options],
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument("--version", action="version", version=f"chatrobot {__version__}")
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", title="commands")
+    for name, text in COMMANDS.items():
+        command = commands.add_parser(
+            name,
+            help=text,
+            description=f"{text[0].upper()}{text[1:]}.",
+            parents=[options],
+            allow_abbrev=False,
+        )
+        _ARGUMENTS.get(name, _no_arguments)(command)
+    return parser, options
+
+
+def _options() -> _Parser:
+    """Good before and after the command: hence no defaults here, the one would undo the other."""
+    parser = _Parser(add_help=False, argument_default=argparse.SUPPRESS, allow_abbrev=False)
+    add = parser.add_argument_group("options").add_argument
+    add("--on", metavar="WHERE", help="auto|sim: which robot to drive (default: the simulated one)")
+    add(
+        "--robot",
+        metavar="PROFILE",
+        help=f"a robot profile, by name or .toml file (default: {DEFAULT_ROBOT})",
+    )
+    add("--interpreter", choices=("auto", "offline", "model"), help="who understands (default: auto)")
+    add("--model", metavar="PROVIDER:NAME", help="a language model (not built in yet)")
+    add("--fast", action="store_true", help="simulated time, as quick as it goes")
+    add("--json", action="store_true", help="one JSON object a line; without a command: text in, events out")
+    add(
+        "--trace", action="store_true", help="with --json: the simulated robot's true pose, 50 times a second"
+    )
+    add(
+        "--sim",
+        metavar="KEY=VALUE,…",
+        help="how the simulated robot lies: slip=0.03,latency_s=0.05,noise=on,seed=1",
+    )
+    add("--world", metavar="WORLD", help="empty, home or a world file (default: home; eval: empty)")
+    add("--approve", action="store_true", help="ask before each plan")
+    add("--yes", action="store_true", help="do each plan without asking")
+    add("--config-dir", metavar="DIR", help="where places and robot profiles live")
+    return parser
+
+
+def _do(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "texts", nargs="+", metavar="TEXT", help="what to do; several are turns of one dialogue"
+    )
+
+
+def _plan(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("text", metavar="TEXT", help="what the robot would have to do")
+    parser.add_argument("--png", metavar="FILE", help="draw the way it would take into a picture")
+
+
+def _eval(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("files", nargs="+", metavar="FILE", help="a corpus in YAML")
+
+
+def _sim(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--socket", metavar="PATH", help="where its wire is served (default: the runtime folder)"
+    )
+
+
+def _no_arguments(_: argparse.ArgumentParser) -> None:
+    pass
+
+
+_ARGUMENTS = {"do": _do, "plan": _plan, "eval": _eval, "sim": _sim}

@@ -1,0 +1,43 @@
+"""From the command line to what the composition root takes."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from chatrobot.compose import Setup
+from chatrobot.core.errors import UsageError
+from chatrobot.session.session import Options
+
+
+def setup_from(args: argparse.Namespace, *, options: Options | None = None, world: str = "home") -> Setup:
+    """What a person chose. `world` is the one where nothing is said.
+
+    Raises:
+        UsageError: this version cannot do what was chosen.
+    """
+    if args.model or args.interpreter == "model":
+        raise UsageError(
+            "language models are not built in yet",
+            where="--model" if args.model else "--interpreter model",
+            allowed="leave it out: the offline interpreter needs none",
+        )
+    return Setup(
+        on=args.on,
+        robot=args.robot,
+        world=args.world or world,
+        sim=args.sim,
+        fast=args.fast,
+        trace=args.trace,
+        folder=config_folder(args),
+        options=options or Options(approve=args.approve and not args.yes),
+    )
+
+
+def config_folder(args: argparse.Namespace) -> Path:
+    """Where places and robot profiles live: `--config-dir`, or the user's configuration folder."""
+    if args.config_dir is not None:
+        return Path(args.config_dir).expanduser()
+    from platformdirs import user_config_path
+
+    return user_config_path("chatrobot")

@@ -1,0 +1,110 @@
+"""Puts the console together: robot, talk, and the face that this terminal can carry."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import shutil
+import sys
+from collections.abc import Mapping
+from dataclasses import replace
+
+from rich.console import Console, RenderableType
+from rich.text import Text
+
+from chatrobot.cli.console import plain
+from chatrobot.cli.console.lines import indented
+from chatrobot.cli.console.tables import example_place, place_in
+from chatrobot.cli.console.talk import Talk
+from chatrobot.cli.console.words import Words, language_of_environment
+from chatrobot.compose import Connection, OnEvent, Setup, connect
+from chatrobot.core.clock import RealClock
+from chatrobot.core.errors import JointError, UsageError
+from chatrobot.core.events import Event
+from chatrobot.robots.load import load_profile
+
+HISTORY_FILE = "history"
+
+
+def run_console(setup: Setup) -> int:
+    """Talk to the robot until somebody leaves. What is said while it moves replaces what it does.
+
+    Raises:
+        InputError: the setup is wrong.
+        JointError: the robot does not start.
+    """
+    if setup.fast:
+        raise UsageError("a conversation is in real time", where="--fast", allowed='chatrobot do "…" --fast')
+    words = Words(language_of_environment())
+    setup = replace(setup, trace=False, options=replace(setup.options, while_moving="replace"))
+    talk: Talk | None = None
+
+    def hear(event: Event) -> None:
+        assert talk is not None  # nothing is heard before it is pumped
+        talk.hear(event)
+
+    connection = _connect(setup, words, hear)
+    talk = Talk(connection, words, RealClock())
+    try:
+        code = _converse(talk, setup)
+    finally:
+        connection.close()
+    return code
+
+
+def can_chat(environment: Mapping[str, str] = os.environ) -> bool:
+    """True where the terminal can do colours and move its cursor, and is wide enough for a line."""
+    return (
+        environment.get("TERM", "dumb") not in ("dumb", "unknown", "")
+        and "NO_COLOR" not in environment
+        and sys.stdin.isatty()
+        and sys.stdout.isatty()
+        and shutil.get_terminal_size().columns >= plain.LEAST_WIDTH
+    )
+
+
+def _connect(setup: Setup, words: Words, hear: OnEvent) -> Connection:
+    console = Console(highlight=False, markup=False)
+    title = load_profile(setup.robot, (setup.folder / "robots",) if setup.folder is not None else ()).title
+    if not can_chat():
+        return connect(setup, hear)
+    with console.status(words.say("starting", title=title)):
+        return connect(setup, hear)
+
+
+def _converse(talk: Talk, setup: Setup) -> int:
+    def hang_up() -> None:
+        talk.stop("terminal closed")
+        talk.connection.close()
+
+    if can_chat():
+        from chatrobot.cli.console.chat import Chat
+
+        history = setup.folder / HISTORY_FILE if setup.folder is not None else None
+        face: Chat | plain.Plain = Chat(talk, history, hang_up)
+    else:
+        face = plain.Plain(talk, hang_up)
+    talk.face = face
+    face.print(*greeting(talk))
+    code = face.run()
+    if code != 0:
+        with contextlib.suppress(JointError):
+            talk.session.stop("the console has ended")
+    else:
+        print(f"  {talk.words.say('goodbye')}")
+    return code
+
+
+def greeting(talk: Talk) -> tuple[RenderableType, ...]:
+    """Which robot, which world, and three things to say."""
+    words, world = talk.words, talk.connection.world
+    where = words.say("greeting_open") if world.is_empty else words.say("greeting_world", name=world.name)
+    place = place_in(words.language, world, example_place(world))
+    second = words.say("example_place", place=place) if place else words.say("example_turn")
+    first, third = words.say("example_first"), words.say("example_third")
+    line = Text(words.say("greeting_robot", title=talk.connection.profile.title, world=where))
+    examples = Text(words.say("greeting_examples", first=first, second=second, third=third), "dim")
+    for example in (first, second, third):
+        examples.highlight_words([example], "not dim bold cyan")
+    line.highlight_words([talk.connection.profile.title], "bold")
+    return indented(line), indented(examples)

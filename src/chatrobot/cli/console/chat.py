@@ -1,0 +1,201 @@
+"""The chat on a real terminal: one line to type in, one strip below it, everything else scrolls above.
+
+One prompt_toolkit application lives as long as the conversation. It runs in the main thread; the session is pumped
+in another, whose output goes through `StdoutProxy`, and whose news of the robot only invalidates the strip.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import shutil
+import signal
+from collections.abc import Callable
+from pathlib import Path
+from typing import TextIO, cast
+
+from prompt_toolkit import PromptSession
+from prompt_toolkit.application import run_in_terminal
+from prompt_toolkit.buffer import Buffer
+from prompt_toolkit.document import Document
+from prompt_toolkit.filters import Condition
+from prompt_toolkit.formatted_text import FormattedText
+from prompt_toolkit.history import FileHistory, History, InMemoryHistory
+from prompt_toolkit.patch_stdout import StdoutProxy
+from prompt_toolkit.styles import Style
+from rich.console import Console, RenderableType
+
+from chatrobot.cli.console.clean import LONGEST_CHARS, clean
+from chatrobot.cli.console.completion import ChatCompleter
+from chatrobot.cli.console.keys import chat_keys
+from chatrobot.cli.console.strip import STYLES
+from chatrobot.cli.console.talk import Talk
+
+BUNDLE_S = 0.02
+"""Output that comes within this time is written at once, so that the prompt is not repainted line by line."""
+
+HANGUP_CODE = 129
+_LEAVING_SIGNALS = (signal.SIGHUP, signal.SIGTERM)
+
+
+class Chat:
+    """A `Face`.
+
+    Args:
+        history: the file of what was typed; None keeps it for this conversation only.
+        hang_up: stops the robot and ends what was started, for when the terminal is gone.
+    """
+
+    def __init__(self, talk: Talk, history: Path | None, hang_up: Callable[[], None]) -> None:
+        self._talk = talk
+        self._hang_up = hang_up
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._code = 0
+        self._is_editing = False
+        self._proxy = StdoutProxy(sleep_between_writes=BUNDLE_S, raw=True)
+        self._console = Console(
+            file=cast(TextIO, self._proxy), force_terminal=True, highlight=False, markup=False, emoji=False
+        )
+        self._prompt: PromptSession[str] = PromptSession(
+            message=self._message,
+            history=_history(history),
+            completer=ChatCompleter(talk.words, self._place_names),
+            complete_while_typing=Condition(lambda: self._prompt.default_buffer.text.startswith("/")),
+            reserve_space_for_menu=5,
+            multiline=Condition(lambda: self._is_editing),
+            bottom_toolbar=self._strip,
+            style=Style.from_dict(STYLES),
+            key_bindings=chat_keys(interrupt=self._interrupt, leave=talk.leave, suspend=self._suspend),
+            erase_when_done=True,
+        )
+        buffer = self._prompt.default_buffer
+        buffer.accept_handler = self._accept
+        buffer.on_text_changed += _tidy
+
+    def run(self) -> int:
+        """Talk until somebody leaves; the exit code."""
+        try:
+            asyncio.run(self._run())
+        except EOFError:  # the terminal has gone without a word
+            self._hang_up()
+            self._code = HANGUP_CODE
+        finally:
+            with contextlib.suppress(OSError):
+                self._proxy.close()
+        return self._code
+
+    async def _run(self) -> None:
+        self._loop = asyncio.get_running_loop()
+        for number in _LEAVING_SIGNALS:
+            self._loop.add_signal_handler(number, self._on_leaving_signal)
+        self._loop.add_signal_handler(signal.SIGINT, self._interrupt)
+        self._loop.add_signal_handler(signal.SIGTSTP, self._suspend)
+        self._talk.pump.start()
+        try:
+            await self._prompt.prompt_async(handle_sigint=False)
+        finally:
+            await asyncio.to_thread(self._talk.pump.stop)
+            self._loop = None
+
+    # --- what the face does for the talk ---
+
+    @property
+    def echoes(self) -> bool:
+        return False
+
+    @property
+    def width(self) -> int:
+        return shutil.get_terminal_size().columns
+
+    def print(self, *lines: RenderableType) -> None:
+        self._console.print(*lines, sep="\n")
+
+    def refresh(self) -> None:
+        self._prompt.app.invalidate()
+
+    def edit(self, plan_text: str) -> None:
+        self._soon(lambda: self._begin_editing(plan_text))
+
+    def leave(self, code: int) -> None:
+        self._code = max(self._code, code)
+        self._soon(self._exit)
+
+    def _soon(self, act: Callable[[], None]) -> None:
+        loop = self._loop
+        if loop is not None:
+            loop.call_soon_threadsafe(act)
+
+    def _exit(self) -> None:
+        if self._prompt.app.is_running and not self._prompt.app.is_done:
+            self._prompt.app.exit(result="")
+
+    # --- typing ---
+
+    def _message(self) -> FormattedText:
+        return FormattedText([("class:prompt", "plan› " if self._is_editing else "› ")])
+
+    def _strip(self) -> FormattedText:
+        return FormattedText(self._talk.strip.fragments(self.width, self._talk.latched))
+
+    def _place_names(self) -> list[str]:
+        understanding = self._talk.session.understanding
+        return [*self._talk.connection.world.places, *understanding.world_places, *understanding.places.all()]
+
+    def _accept(self, buffer: Buffer) -> bool:
+        """Enter. False clears the line."""
+        if self._is_editing:
+            self._is_editing = False
+            self._talk.take_edited(buffer.text)
+        else:
+            self._talk.enter(buffer.text)
+        return False
+
+    def _begin_editing(self, plan_text: str) -> None:
+        self._is_editing = True
+        self._prompt.default_buffer.document = Document(plan_text)
+        self._talk.tell("edit_plan")
+
+    # --- keys and signals ---
+
+    def _interrupt(self) -> None:
+        self._talk.interrupt()
+        self._is_editing = False
+        self._prompt.default_buffer.reset()
+
+    def _suspend(self) -> None:
+        """Stop the robot, then really go to sleep, with the whole job that the shell started."""
+        self._talk.stop("Ctrl-Z")
+        run_in_terminal(self._sleep)
+
+    def _sleep(self) -> None:
+        loop = self._loop
+        assert loop is not None
+        loop.remove_signal_handler(signal.SIGTSTP)
+        os.kill(0, signal.SIGTSTP)
+        loop.add_signal_handler(signal.SIGTSTP, self._suspend)
+        self._talk.tell("suspended")
+
+    def _on_leaving_signal(self) -> None:
+        """The terminal is gone, or somebody wants us gone: nothing is drawn any more."""
+        self._hang_up()
+        os._exit(HANGUP_CODE)
+
+
+def _history(path: Path | None) -> History:
+    if path is None:
+        return InMemoryHistory()
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.touch(mode=0o600)
+    except OSError:
+        return InMemoryHistory()  # a read-only home is no reason not to drive
+    return FileHistory(str(path))
+
+
+def _tidy(buffer: Buffer) -> None:
+    """Whatever is typed or pasted stays printable, and no longer than one character too long."""
+    text = buffer.text
+    tidy = clean(text[: LONGEST_CHARS + 1])
+    if tidy != text:
+        buffer.document = Document(tidy, min(buffer.cursor_position, len(tidy)))

@@ -1,0 +1,145 @@
+"""The slash commands: name, what it takes, and the function, each in this one place. Help texts are in the tables."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.text import Text
+
+from chatrobot.cli.console import tables
+from chatrobot.cli.console.maps import big_map
+
+if TYPE_CHECKING:
+    from chatrobot.cli.console.talk import Talk
+
+
+@dataclass(frozen=True)
+class Command:
+    """`at_once` ones run where the line was typed; the others where the session is pumped, as they read it."""
+
+    name: str
+    act: Callable[[Talk, str], None]
+    takes: str = ""
+    at_once: bool = False
+
+    @property
+    def help_code(self) -> str:
+        return f"command_{self.name.replace('-', '_')}"
+
+
+def run(talk: Talk, line: str) -> None:
+    """Do the command in `line`, which begins with a slash; an unknown one gets the nearest name."""
+    word, _, argument = line[1:].strip().partition(" ")
+    command = BY_NAME.get(word.casefold())
+    if command is None:
+        _unknown(talk, word)
+    elif command.at_once:
+        command.act(talk, argument.strip())
+    else:
+        talk.pump.post(lambda: command.act(talk, argument.strip()))
+
+
+def nearest(word: str) -> str:
+    """The command that was most likely meant; empty where none is near."""
+    near = difflib.get_close_matches(word.casefold(), BY_NAME, n=1, cutoff=0.5)
+    return near[0] if near else ""
+
+
+def _unknown(talk: Talk, word: str) -> None:
+    near = nearest(word)
+    if near:
+        talk.tell("did_you_mean", command=f"/{word}", nearest=f"/{near}")
+    else:
+        talk.face.print(
+            Text("  ").append(talk.words.say("no_such_command", command=f"/{word}")).append(" ")
+            .append(talk.words.say("all_commands"))
+        )  # fmt: skip
+
+
+def _help(talk: Talk, _: str) -> None:
+    talk.face.print(tables.help_table(talk.words, talk.connection.world, COMMANDS))
+
+
+def _robot(talk: Talk, _: str) -> None:
+    talk.face.print(*tables.robot_tables(talk.words, talk.connection.profile))
+
+
+def _world(talk: Talk, _: str) -> None:
+    talk.face.print(big_map(talk, talk.face.width), tables.world_table(talk.words, talk.connection.world))
+
+
+def _places(talk: Talk, _: str) -> None:
+    remembered = talk.session.understanding.places.all()
+    talk.face.print(tables.places_table(talk.words, talk.connection.world, remembered))
+
+
+def _undo(talk: Talk, _: str) -> None:
+    talk.attempt(lambda: talk.session.say(talk.words.say("undo_words")))
+
+
+def _plan(talk: Talk, _: str) -> None:
+    if not talk.ride.plan_text:
+        talk.tell("no_plan")
+        return
+    talk.face.print(*talk.narrator.plan(talk.ride.plan_text, talk.ride.rehearsed))
+
+
+def _save_plan(talk: Talk, argument: str) -> None:
+    if not argument or not talk.ride.plan_text:
+        talk.tell("no_plan" if argument else "save_which")
+        return
+    path = Path(argument).expanduser()
+    try:
+        with path.open("x", encoding="utf-8") as file:
+            file.write(f"{talk.ride.plan_text}\n")
+    except OSError as error:
+        talk.tell("save_failed", problem=f"{path}: {error.strerror}")
+        return
+    talk.tell("saved", file=path)
+
+
+def _map(talk: Talk, argument: str) -> None:
+    if argument.casefold() in ("big", "大"):
+        talk.face.print(big_map(talk, talk.face.width))
+        return
+    talk.strip.shows_map = not talk.strip.shows_map
+    talk.tell("map_on" if talk.strip.shows_map else "map_off")
+
+
+def _stop(talk: Talk, _: str) -> None:
+    talk.stop("/stop")
+
+
+def _estop(talk: Talk, _: str) -> None:
+    talk.emergency_stop("/estop")
+    talk.tell("estop_done")
+
+
+def _release(talk: Talk, _: str) -> None:
+    talk.release()
+    talk.tell("released")
+
+
+def _quit(talk: Talk, _: str) -> None:
+    talk.leave()
+
+
+COMMANDS = (
+    Command("help", _help),
+    Command("robot", _robot),
+    Command("world", _world),
+    Command("places", _places),
+    Command("plan", _plan),
+    Command("save-plan", _save_plan, takes="FILE"),
+    Command("undo", _undo),
+    Command("map", _map, takes="[big]"),
+    Command("stop", _stop, at_once=True),
+    Command("estop", _estop, at_once=True),
+    Command("release", _release, at_once=True),
+    Command("quit", _quit, at_once=True),
+)
+BY_NAME = {command.name: command for command in COMMANDS}

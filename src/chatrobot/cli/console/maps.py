@@ -1,0 +1,63 @@
+"""Maps as something rich can print."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rich.text import Text
+
+from chatrobot.cli.drawing.extent import Extent, extent_around, extent_of_world
+from chatrobot.cli.drawing.map_text import MapLines, draw_map_text
+
+if TYPE_CHECKING:
+    from chatrobot.cli.console.talk import Talk
+
+COLOURS = {
+    "wall": "bright_black", "path": "blue", "trail": "dark_orange", "place": "cyan", "robot": "bold red", "": "",
+}  # fmt: skip
+BIG_COLUMNS, BIG_ROWS = 100, 30
+WAY_COLUMNS, WAY_ROWS = 60, 14
+
+
+def big_map(talk: Talk, width: int) -> Text:
+    """The whole world with its names, the last plan's way and what was driven of it."""
+    ride, world = talk.ride, talk.connection.world
+    extent = extent_of_world(world, (*ride.path, *ride.trail), margin_m=0.1, least_m=3.0)
+    return _draw(talk, extent, min(width - 4, BIG_COLUMNS), BIG_ROWS)
+
+
+def way_map(talk: Talk) -> Text:
+    """The predicted way of the last plan and what stands around it."""
+    extent = extent_around(talk.ride.path, margin_m=0.8, least_m=3.0)
+    return _draw(talk, extent, WAY_COLUMNS, WAY_ROWS)
+
+
+def _draw(talk: Talk, extent: Extent, columns: int, rows: int) -> Text:
+    ride = talk.ride
+    columns, rows = _shape(extent, columns, rows)
+    lines = draw_map_text(
+        talk.connection.world,
+        extent,
+        columns=columns,
+        rows=rows,
+        path=ride.path,
+        trail=ride.trail,
+        pose=ride.pose,
+        names=True,
+    )
+    return _text(lines)
+
+
+def _shape(extent: Extent, columns: int, rows: int) -> tuple[int, int]:
+    """As many cells as the extent fills; a braille dot is as wide as it is high, a cell has two by four."""
+    dots_per_m = min(columns * 2 / extent.width_m, rows * 4 / extent.height_m)
+    return max(4, round(extent.width_m * dots_per_m / 2)), max(2, round(extent.height_m * dots_per_m / 4))
+
+
+def _text(lines: MapLines) -> Text:
+    text = Text(no_wrap=True)
+    for number, line in enumerate(lines):
+        text.append("\n  " if number else "  ")
+        for layer, run in line:
+            text.append(run, COLOURS[layer])
+    return text

@@ -1,0 +1,155 @@
+"""Events in words and colours: what the console prints about a turn."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from rich.console import RenderableType
+from rich.text import Text
+
+from chatrobot.cli.console.lines import indented, marked
+from chatrobot.cli.console.words import Words
+from chatrobot.core.events import (
+    Event,
+    FindingSeen,
+    Interpreted,
+    Limited,
+    Notice,
+    Outcome,
+    Rehearsed,
+    Remembered,
+    Result,
+    Said,
+)
+from chatrobot.core.geometry import Twist
+from chatrobot.language.phrases import render_reason
+
+PLAN_LINES = 16
+"""A longer plan is shown in part; `/plan` shows it whole."""
+
+_MARKS: dict[Outcome, tuple[str, str]] = {
+    "completed": ("✓", "green"),
+    "answered": ("•", "cyan"),
+    "unclear": ("?", "yellow"),
+    "refused": ("✗", "red"),
+    "stopped": ("■", "yellow"),
+    "failed": ("✗", "bold red"),
+}
+_FINDINGS = {"refuse": ("✗", "red"), "warn": ("!", "yellow"), "note": ("·", "dim")}
+_LEAST_M, _LEAST_RAD = 0.005, math.radians(0.5)
+
+
+class Narrator:
+    """Turns events into lines of `Text`. Keeps only the plan text between understanding and rehearsal."""
+
+    def __init__(self, words: Words) -> None:
+        self._words = words
+        self._plans: dict[int, Interpreted] = {}
+
+    def tell(self, event: Event) -> Iterator[RenderableType]:
+        """The lines to print for `event`; none for most."""
+        match event:
+            case Interpreted():
+                return self._interpreted(event)
+            case Rehearsed():
+                return self._rehearsed(event)
+            case Limited():
+                return self._limited(event)
+            case Said():
+                return self._said(event)
+            case Remembered():
+                return self._remembered(event)
+            case Notice():
+                return self._notice(event)
+            case Result():
+                return self._result(event)
+        return iter(())
+
+    def plan(
+        self, plan_text: str, rehearsed: Rehearsed | None, limit: int | None = None
+    ) -> Iterator[RenderableType]:
+        """A plan's numbered lines under its predicted length and duration, and what rehearsal found."""
+        head = Text("  ").append(self._words.say("plan"), "bold")
+        if rehearsed is not None and rehearsed.ok:
+            facts = self._words.say(
+                "plan_facts", length=f"{rehearsed.length_m:.2f}", duration=f"{rehearsed.duration_s:.1f}"
+            )
+            head.append(f"  {facts}", "dim")
+        yield head
+        lines = plan_text.splitlines()
+        shown = lines if limit is None or len(lines) <= limit else lines[: limit - 1]
+        for number, line in enumerate(shown, 1):
+            yield Text("  ").append(f"{number:>3}  ", "dim").append_text(_plan_line(line))
+        if len(shown) < len(lines):
+            yield Text("       ").append(self._words.say("plan_more", count=len(lines) - len(shown)), "dim")
+        yield from self._findings(rehearsed)
+
+    def _findings(self, rehearsed: Rehearsed | None) -> Iterator[RenderableType]:
+        """All but the first refusal: that one is the turn's result."""
+        refusals = 0
+        for finding in rehearsed.findings if rehearsed is not None else ():
+            refusals += finding.severity == "refuse"
+            if finding.severity != "refuse" or refusals > 1:
+                yield self.finding(finding)
+
+    def finding(self, finding: FindingSeen) -> RenderableType:
+        """One thing that rehearsal found, in words."""
+        mark, style = _FINDINGS[finding.severity]
+        return marked(mark, style, render_reason(finding.reason, self._words.language))
+
+    # --- one method an event ---
+
+    def _interpreted(self, event: Interpreted) -> Iterator[RenderableType]:
+        if event.plan_text:
+            self._plans[event.turn] = event
+            if event.reply and (
+                event.by == "model" or self._words.language != "en"
+            ):  # a plan is English already
+                yield indented(Text(event.reply, "cyan"))
+
+    def _rehearsed(self, event: Rehearsed) -> Iterator[RenderableType]:
+        understood = self._plans.pop(event.turn, None)
+        if understood is not None:
+            yield from self.plan(understood.plan_text, event, PLAN_LINES)
+
+    def _limited(self, event: Limited) -> Iterator[RenderableType]:
+        asked, sent = self._twist(event.asked), self._twist(event.sent)
+        yield marked("!", "yellow", self._words.say("limited", asked=asked, sent=sent))
+
+    def _said(self, event: Said) -> Iterator[RenderableType]:
+        yield marked("»", "magenta", Text(event.text, "bold"))
+
+    def _remembered(self, event: Remembered) -> Iterator[RenderableType]:
+        words = self._words.say("remembered", place=event.place, pose=self._words.pose(event.pose))
+        yield marked("·", "cyan", words)
+
+    def _notice(self, event: Notice) -> Iterator[RenderableType]:
+        yield marked("!", "yellow", event.text or render_reason(event.reason, self._words.language))
+
+    def _result(self, event: Result) -> Iterator[RenderableType]:
+        self._plans.pop(event.turn, None)
+        mark, style = _MARKS[event.outcome]
+        yield marked(mark, style, event.reply)
+        if event.path_m > _LEAST_M or abs(event.turned_rad) > _LEAST_RAD:
+            measured = self._words.say(
+                "measured", pose=self._words.pose(event.pose), duration=f"{event.duration_s:.1f}"
+            )
+            yield marked("", "", Text(measured, "dim"))
+
+    def _twist(self, twist: Twist) -> str:
+        parts = []
+        if twist.speed_mps > 0.0:
+            parts.append(self._words.say("speed", speed=f"{twist.speed_mps:.2f}"))
+        if twist.wz_radps != 0.0:
+            parts.append(self._words.say("rate", rate=f"{math.degrees(twist.wz_radps):.0f}"))
+        return " · ".join(parts) or self._words.say("speed", speed="0")
+
+
+def _plan_line(line: str) -> Text:
+    """The verb in bold, so that a plan reads at a glance."""
+    verb_begin = len(line) - len(line.lstrip())
+    verb_end = line.find(" ", verb_begin)
+    text = Text(line)
+    text.stylize("bold cyan", verb_begin, verb_end if verb_end >= 0 else len(line))
+    return text

@@ -1,0 +1,146 @@
+"""The console where a terminal can do little: lines in, lines out, no colours and no strip."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import select
+import shutil
+import signal
+import sys
+from collections import deque
+from collections.abc import Callable, Iterator
+
+from rich.console import Console, RenderableType
+
+from chatrobot.cli.console.talk import Talk
+
+LEAST_WIDTH = 40
+_SIGNALS = (signal.SIGINT, signal.SIGTSTP, signal.SIGHUP, signal.SIGTERM)
+HANGUP_CODE = 129
+READ_BYTES = 65536
+
+
+class Plain:
+    """A `Face`. Signals are only noted by their handlers and acted on where lines are read, a moment later, so that
+    they never meet a lock that their own thread holds."""
+
+    def __init__(self, talk: Talk, hang_up: Callable[[], None]) -> None:
+        self._talk = talk
+        self._hang_up = hang_up
+        self._code: int | None = None
+        self._wake_read, self._wake_write = os.pipe()
+        os.set_blocking(self._wake_write, False)
+        self._rest = b""
+        self._plan_lines: list[str] | None = None
+        self._console = Console(
+            file=sys.stdout, no_color=True, force_terminal=False, highlight=False, markup=False, emoji=False,
+            width=max(LEAST_WIDTH, self.width),
+        )  # fmt: skip
+
+    def run(self) -> int:
+        """Talk until somebody leaves; the exit code."""
+        before = {number: signal.signal(number, _noted) for number in _SIGNALS}
+        wake_before = signal.set_wakeup_fd(self._wake_write, warn_on_full_buffer=False)
+        self._talk.pump.start()
+        try:
+            self._show_prompt()
+            while self._code is None:
+                self._wait()
+        finally:
+            self._talk.pump.stop()
+            signal.set_wakeup_fd(wake_before)
+            for number, handler in before.items():
+                signal.signal(number, handler)
+        return self._code
+
+    # --- what the face does for the talk ---
+
+    @property
+    def echoes(self) -> bool:
+        return True
+
+    @property
+    def width(self) -> int:
+        return shutil.get_terminal_size().columns
+
+    def print(self, *lines: RenderableType) -> None:
+        self._console.print(*lines, sep="\n")
+
+    def refresh(self) -> None:
+        """Nothing here shows what has changed; a standing robot is worth a new prompt."""
+        if not self._talk.ride.is_moving:
+            self._show_prompt()
+
+    def edit(self, plan_text: str) -> None:  # noqa: ARG002  # what it was has just been printed
+        self._plan_lines = []
+        self._talk.tell("edit_plan_lines")
+
+    def leave(self, code: int) -> None:
+        self._code = max(self._code or 0, code)
+        with contextlib.suppress(OSError):
+            os.write(self._wake_write, b"\0")
+
+    def _show_prompt(self) -> None:
+        sys.stdout.write("> ")
+        sys.stdout.flush()
+
+    # --- waiting for lines and signals ---
+
+    def _wait(self) -> None:
+        ready, _, _ = select.select([sys.stdin.fileno(), self._wake_read], [], [])
+        if self._wake_read in ready:
+            for number in os.read(self._wake_read, 64):
+                self._on_signal(number)
+        elif ready:
+            self._read()
+
+    def _read(self) -> None:
+        try:
+            data = os.read(sys.stdin.fileno(), READ_BYTES)
+        except OSError:  # the terminal is gone
+            self._leave_at_once()
+            return
+        if not data:
+            self._talk.leave()
+            return
+        for line in self._lines(data):
+            self._take(line)
+
+    def _lines(self, data: bytes) -> Iterator[str]:
+        *lines, self._rest = (self._rest + data).split(b"\n")
+        for line in deque(lines):
+            yield line.decode("utf-8", "replace")
+
+    def _take(self, line: str) -> None:
+        if self._plan_lines is None:
+            self._talk.enter(line)
+        elif line.strip():
+            self._plan_lines.append(line)
+        else:
+            plan_text, self._plan_lines = "\n".join(self._plan_lines), None
+            self._talk.take_edited(plan_text)
+
+    def _on_signal(self, number: int) -> None:
+        if number == signal.SIGINT:
+            self._plan_lines = None
+            self._talk.interrupt()
+        elif number == signal.SIGTSTP:
+            self._talk.stop("Ctrl-Z")
+            self._sleep()
+        elif number in (signal.SIGHUP, signal.SIGTERM):
+            self._leave_at_once()
+
+    def _sleep(self) -> None:
+        signal.signal(signal.SIGTSTP, signal.SIG_DFL)
+        os.kill(0, signal.SIGTSTP)
+        signal.signal(signal.SIGTSTP, _noted)
+        self._talk.tell("suspended")
+
+    def _leave_at_once(self) -> None:
+        self._hang_up()
+        self._code = HANGUP_CODE
+
+
+def _noted(*_: object) -> None:
+    """The wake-up descriptor has the signal's number."""

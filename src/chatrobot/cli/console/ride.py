@@ -1,0 +1,63 @@
+"""What the console knows of the robot at this moment, gathered from the events. Written by the pumping thread, read by
+the screen: every field is replaced whole, so that no lock is needed."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from chatrobot.core.events import Event, Finished, Interpreted, Progress, Rehearsed, Started, Telemetry
+from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
+
+XY = tuple[float, float]
+TRAIL_SPACING_M = 0.03
+TRAIL_LIMIT = 2000
+
+
+@dataclass
+class Ride:
+    """`path` is the predicted way of the last plan, `trail` what was driven of it, in `odom`."""
+
+    pose: Pose = ORIGIN
+    twist: Twist = ZERO_TWIST
+    is_moving: bool = False
+    step: int = 0
+    of: int = 0
+    fraction: float = 0.0
+    nearest_m: float | None = None
+    battery_percent: float | None = None
+    path: tuple[XY, ...] = ()
+    trail: tuple[XY, ...] = ()
+    plan_text: str = ""
+    rehearsed: Rehearsed | None = None
+    turn: int = 0
+
+    def hear(self, event: Event) -> None:
+        """Take one event in."""
+        if isinstance(event, Telemetry):
+            self.pose, self.twist = event.pose, event.twist
+            self.nearest_m, self.battery_percent = event.nearest_obstacle_m, event.battery_percent
+            self._follow(event.pose)
+        elif isinstance(event, Progress):
+            self.step, self.of, self.fraction = event.step, event.of, event.fraction
+        elif isinstance(event, Interpreted) and event.plan_text:
+            self.plan_text = event.plan_text
+        elif isinstance(event, Rehearsed):
+            self.rehearsed = event
+            self.path = tuple((x, y) for x, y, _ in event.path)
+        elif isinstance(event, Started):
+            self.turn, self.is_moving, self.step, self.of, self.fraction = event.turn, True, 0, 0, 0.0
+            self.pose, self.trail = event.pose, ((event.pose.x_m, event.pose.y_m),)
+        elif isinstance(event, Finished):
+            self._finish(event)
+
+    def _follow(self, pose: Pose) -> None:
+        here = (pose.x_m, pose.y_m)
+        if self.is_moving and self.trail and math.dist(here, self.trail[-1]) >= TRAIL_SPACING_M:
+            self.trail = (*self.trail, here)[-TRAIL_LIMIT:]
+
+    def _finish(self, event: Finished) -> None:
+        self.pose = event.pose
+        if event.turn == self.turn:
+            self._follow(event.pose)
+            self.is_moving, self.twist = False, ZERO_TWIST

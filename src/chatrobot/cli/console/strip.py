@@ -1,0 +1,135 @@
+"""The live strip under the prompt: a small map and how far the robot is. Pure: a `Ride` in, styled text out."""
+
+from __future__ import annotations
+
+import math
+
+from chatrobot.cli.console.ride import XY, Ride
+from chatrobot.cli.console.words import Words
+from chatrobot.cli.drawing.extent import extent_around
+from chatrobot.cli.drawing.map_text import MapLines, MapText
+from chatrobot.sim.world import World
+
+Fragments = list[tuple[str, str]]
+
+MAP_COLUMNS, MAP_ROWS = 24, 6
+LEAST_WIDTH = 50
+"""A terminal narrower than this has no room for a map beside the words."""
+
+BAR_CELLS = 20
+_EIGHTHS = " ▏▎▍▌▋▊▉"
+
+STYLES = {
+    "bottom-toolbar": "noreverse bg:default",
+    "strip": "",
+    "strip.dim": "#8a8a8a",
+    "strip.key": "bold",
+    "strip.bar": "#3a8fd6",
+    "strip.rest": "#5a5a5a",
+    "strip.alarm": "bold #ffffff bg:#c01828",
+    "map.wall": "#8a8a8a",
+    "map.path": "#3a8fd6",
+    "map.trail": "#e2842a",
+    "map.robot": "bold #e24c26",
+    "map.place": "#0f9a8e",
+    "prompt": "bold #3a8fd6",
+}
+"""For prompt_toolkit. The colours hold on dark and on light terminals."""
+
+
+class Strip:
+    """Draws the strip. `shows_map` is what `/map` toggles."""
+
+    def __init__(self, ride: Ride, words: Words, world: World) -> None:
+        self._ride, self._words, self._world = ride, words, world
+        self.shows_map = True
+        self._map: MapText | None = None
+        self._map_of: tuple[XY, ...] | None = None
+
+    def fragments(self, width: int, latched: bool = False) -> Fragments:
+        """What to show now in `width` cells: one line while the robot stands, the map's height while it moves."""
+        if latched:
+            return [("class:strip.alarm", f" {self._words.say('latched')} ")]
+        if not self._ride.is_moving:
+            return self._standing(width)
+        lines = [_cut(line, width) for line in self._words_beside()]
+        if self.shows_map and width >= LEAST_WIDTH:
+            lines = self._with_map(lines, width)
+        joined: Fragments = []
+        for number, line in enumerate(lines):
+            joined += ([("", "\n")] if number else []) + line
+        return joined
+
+    def _standing(self, width: int) -> Fragments:
+        words = f" {self._words.say('standing')} · {self._words.pose(self._ride.pose)}"
+        hint = self._words.say("strip_idle")
+        return _cut([("class:strip.dim", f"{words}   {hint}")], width)
+
+    def _words_beside(self) -> list[Fragments]:
+        ride, say = self._ride, self._words.say
+        facts = [
+            say("at_pose", pose=self._words.pose(ride.pose)),
+            say("speed", speed=f"{ride.twist.speed_mps:.2f}"),
+        ]
+        if abs(ride.twist.wz_radps) > math.radians(1.0):
+            facts.append(say("rate", rate=f"{math.degrees(ride.twist.wz_radps):+.0f}"))
+        more = [say("nearest", distance=f"{ride.nearest_m:.2f}")] if ride.nearest_m is not None else []
+        if ride.battery_percent is not None:
+            more.append(say("battery", percent=f"{ride.battery_percent:.0f}"))
+        head: Fragments = [("class:strip.key", f" {say('moving')}  "), *_bar(ride.fraction)]
+        if ride.of > 1:
+            head.append(("", f"  {say('step', step=max(1, ride.step), of=ride.of)}"))
+        lines: list[Fragments] = [head, [("", f" {' · '.join(facts)}")]]
+        if more:
+            lines.append([("class:strip.dim", f" {' · '.join(more)}")])
+        lines.append([("class:strip.dim", f" {say('strip_hint')}")])
+        return lines
+
+    def _with_map(self, lines: list[Fragments], width: int) -> list[Fragments]:
+        beside = [[], *lines, *([] for _ in range(MAP_ROWS))]
+        return [
+            [("", " "), *map_fragments(row), ("", " "), *_cut(words, width - MAP_COLUMNS - 2)]
+            for row, words in zip(self._map_lines(), beside)
+        ]
+
+    def _map_lines(self) -> MapLines:
+        """The map of this plan; its still part is drawn once a plan, so that it does not jump while it is driven."""
+        ride = self._ride
+        if self._map is None or self._map_of is not ride.path:
+            points = (*ride.path, *ride.trail[:1])
+            extent = extent_around(points, margin_m=0.5, least_m=2.5)
+            self._map = MapText(self._world, extent, columns=MAP_COLUMNS, rows=MAP_ROWS, path=ride.path)
+            self._map_of = ride.path
+        return self._map.lines(trail=ride.trail, pose=ride.pose)
+
+
+def map_fragments(row: list[tuple[str, str]]) -> Fragments:
+    """One line of a map in prompt_toolkit's styles."""
+    return [(f"class:map.{layer}" if layer else "", text) for layer, text in row]
+
+
+def _bar(fraction: float) -> Fragments:
+    eighths = round(fraction * BAR_CELLS * 8)
+    full, part = divmod(eighths, 8)
+    done = "█" * full + (_EIGHTHS[part] if part else "")
+    return [
+        ("class:strip.bar", done),
+        ("class:strip.rest", "─" * (BAR_CELLS - len(done))),
+        ("", f" {fraction * 100:3.0f} %"),
+    ]
+
+
+def _cut(line: Fragments, width: int) -> Fragments:
+    """The line in at most `width` cells: a toolbar that wraps would push the prompt about."""
+    from prompt_toolkit.utils import get_cwidth
+
+    left, cut = width, Fragments()
+    for style, text in line:
+        kept = text
+        while get_cwidth(kept) > left:
+            kept = kept[:-1]
+        cut.append((style, kept))
+        left -= get_cwidth(kept)
+        if kept != text:
+            break
+    return cut

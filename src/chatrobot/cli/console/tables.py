@@ -1,0 +1,121 @@
+"""The tables that slash commands print."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from rich.console import Group, RenderableType
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+from chatrobot.cli.console.lines import INDENT, indented
+from chatrobot.cli.console.words import Words
+from chatrobot.language.context import Place
+from chatrobot.robots.profile import RobotProfile
+from chatrobot.sim.world import World
+
+if TYPE_CHECKING:
+    from chatrobot.cli.console.commands import Command
+
+_UNITS = {"mps": "m/s", "mps2": "m/s²", "radps": "rad/s", "radps2": "rad/s²", "s": "s", "m": "m"}
+
+
+def example_place(world: World) -> str:
+    """A place to go to in an example; empty where the world has none."""
+    return "kitchen" if "kitchen" in world.places else next(iter(world.places), "")
+
+
+def also_called(world: World, name: str) -> list[str]:
+    """The other names of a place."""
+    return [alias for alias, main in world.aliases.items() if main == name and alias != name.casefold()]
+
+
+def place_in(language: str, world: World, name: str) -> str:
+    """A place's name in that language, if it has one."""
+    if language != "zh":
+        return name
+    return next((alias for alias in also_called(world, name) if not alias.isascii()), name)
+
+
+def help_table(words: Words, world: World, commands: Sequence[Command]) -> RenderableType:
+    """What one can say, the commands, the keys."""
+    place = place_in(words.language, world, example_place(world)) or words.say("place_name")
+    examples = [
+        Text("    ").append(part.strip(), "cyan")
+        for part in words.say("help_examples", place=place).split("|")
+    ]
+    table = _table()
+    for command in commands:
+        table.add_row(Text(f"/{command.name} {command.takes}".strip(), "bold"), words.say(command.help_code))
+    return Group(
+        indented(Text(words.say("help_talk"))),
+        *examples,
+        Padding(table, (1, 0, 1, INDENT)),
+        indented(Text(words.say("help_keys"), "dim")),
+    )
+
+
+def robot_tables(words: Words, profile: RobotProfile) -> Iterator[RenderableType]:
+    """Limits with their sources, and what is meant where nothing is said."""
+    xs, ys = zip(*profile.footprint)
+    lidar = words.say("without_lidar")
+    if profile.lidar is not None:
+        lidar = words.say("with_lidar", range=f"{profile.lidar.max_range_m:g}")
+    yield indented(Text(profile.title, "bold").append(f"  {profile.name}", "not bold dim"))
+    footprint = words.say(
+        "robot_footprint",
+        length=f"{max(xs) - min(xs):.2f}",
+        width=f"{max(ys) - min(ys):.2f}",
+        kinematics=profile.kinematics,
+        lidar=lidar,
+    )
+    defaults = words.say(
+        "robot_defaults",
+        speed=f"{profile.defaults.speed_mps:g}",
+        rate=f"{math.degrees(profile.defaults.rate_radps):.0f}",
+        distance=f"{profile.defaults.distance_m:g}",
+        turn=f"{math.degrees(profile.defaults.turn_rad):.0f}",
+    )
+    yield indented(Text(f"{footprint}\n{defaults}"))
+    table = _table(words.say("robot_limit"), "", words.say("robot_source"))
+    for field in dataclasses.fields(profile.limits):
+        number = getattr(profile.limits, field.name)
+        if not number and field.name not in profile.sources:
+            continue
+        value = f"{number:g} {_UNITS[field.name.rpartition('_')[2]]}"
+        table.add_row(
+            words.say(f"limit_{field.name}"), value, Text(profile.sources.get(field.name, ""), "dim")
+        )
+    yield Padding(table, (1, 0, 0, INDENT))
+
+
+def world_table(words: Words, world: World) -> RenderableType:
+    """The world's named places."""
+    return places_table(words, world, {})
+
+
+def places_table(words: Words, world: World, remembered: Mapping[str, Place]) -> RenderableType:
+    """The person's own places first, then the world's."""
+    if not world.places and not remembered:
+        return indented(Text(words.say("no_places"), "dim"))
+    table = _table(words.say("place_name"), words.say("place_pose"), words.say("place_also"))
+    for name, place in remembered.items():
+        note = words.say("place_yours" if place.usable else "place_old")
+        table.add_row(
+            Text(name, "bold" if place.usable else "dim"), words.pose(place.pose), Text(note, "dim")
+        )
+    for name, pose in world.places.items():
+        table.add_row(name, words.pose(pose), Text(", ".join(also_called(world, name)), "dim"))
+    return Padding(table, (0, 0, 0, INDENT))
+
+
+def _table(*heads: str) -> Table:
+    table = Table(box=None, show_header=bool(heads), pad_edge=False, padding=(0, 2), header_style="dim")
+    table.add_column(heads[0] if heads else "", no_wrap=True)
+    for head in heads[1:] or ("",):
+        table.add_column(head)
+    return table

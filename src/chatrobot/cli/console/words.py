@@ -1,0 +1,52 @@
+"""The console's own words, in the language of the last question. The tables are `language/data/<code>/console.toml`."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping
+
+from chatrobot.core.geometry import Pose, wrap_angle
+from chatrobot.language.data_files import load_table
+from chatrobot.language.interpretation import LanguageCode
+from chatrobot.language.normalise import has_chinese
+
+_TABLE = "console"
+
+
+class Words:
+    """Says things. `language` is "en" or "zh"; `follow` sets it to that of a question."""
+
+    def __init__(self, language: LanguageCode = "en") -> None:
+        self.language: LanguageCode = language
+
+    def follow(self, text: str) -> None:
+        """Speak the language of `text` from now on; a text without letters changes nothing."""
+        if has_chinese(text):
+            self.language = "zh"
+        elif any(char.isalpha() for char in text):
+            self.language = "en"
+
+    def say(self, code: str, **values: object) -> str:
+        """The words of that code."""
+        return str(load_table(self.language, _TABLE)[code]).format(**values)
+
+    def pose(self, pose: Pose) -> str:
+        """A pose as `(1.00, -0.50) 90°`: metres and heading in the odom frame."""
+        heading_deg = round(math.degrees(wrap_angle(pose.yaw_rad)))
+        return (
+            f"({_zero(pose.x_m):.2f}, {_zero(pose.y_m):.2f}) {180 if heading_deg == -180 else heading_deg}°"
+        )
+
+
+def language_of_environment(environment: Mapping[str, str] = os.environ) -> LanguageCode:
+    """What the person's system speaks, as POSIX orders the variables."""
+    value = next(
+        (environment[name] for name in ("LC_ALL", "LC_MESSAGES", "LANG") if environment.get(name)), ""
+    )
+    return "zh" if value.startswith("zh") else "en"
+
+
+def _zero(value_m: float) -> float:
+    """No "-0.00" for a robot that stands where it began."""
+    return 0.0 if abs(value_m) < 0.005 else value_m

@@ -1,0 +1,152 @@
+"""A session as the commands use it: connected, watched over, pumped by the main thread."""
+
+from __future__ import annotations
+
+import contextlib
+import queue
+from collections.abc import Callable
+from types import TracebackType
+
+from chatrobot.cli.approver import Approver
+from chatrobot.cli.entry import STOPPED, forget_stdout
+from chatrobot.cli.printer import Printer
+from chatrobot.cli.signals import SignalWatch
+from chatrobot.compose import Connection, Setup, connect
+from chatrobot.core.errors import JointError
+from chatrobot.core.events import EXIT_CODES, Event
+from chatrobot.language.interpretation import LanguageCode
+
+PUMP_S = 0.1
+
+
+class Conversation:
+    """Enter it to connect; leave it to say goodbye: what is queued is still done unless a signal ended it.
+
+    Only `hear`, `post` and `stop` may be called from other threads. In simulated time Motion lives in the main
+    thread, so that these wait for its next step, a matter of milliseconds; in real time they wait for nothing.
+    """
+
+    def __init__(self, setup: Setup, printer: Printer, approver: Approver) -> None:
+        self._setup = setup
+        self._printer = printer
+        self._approver = approver
+        self._posted: queue.SimpleQueue[Callable[[], object]] = queue.SimpleQueue()
+        self._watch = SignalWatch(self.stop)
+        self._is_cut_off = False
+        self._connection: Connection | None = None
+
+    def __enter__(self) -> Conversation:
+        self._connection = connect(self._setup, self._on_event)
+        self.session = self._connection.session
+        self._watch.__enter__()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if kind is not None:
+            with contextlib.suppress(JointError):
+                self.session.stop("chatrobot broke")
+        if self._connection is not None:
+            self._connection.close()
+        self._watch.__exit__(kind, error, trace)
+        if self._printer.is_broken:
+            forget_stdout()
+
+    @property
+    def is_leaving(self) -> bool:
+        """A signal or a broken pipe has ended this conversation."""
+        return self._watch.is_leaving or self._is_cut_off
+
+    @property
+    def exit_code(self) -> int:
+        """Of the last turn."""
+        if self.is_leaving:
+            return STOPPED
+        results = self.session.results
+        return EXIT_CODES[results[max(results)].outcome] if results else 0
+
+    @property
+    def language(self) -> LanguageCode:
+        """Of the last question."""
+        if self._connection is None:
+            return "en"  # the first true poses come while it connects
+        return self._connection.session.understanding.language
+
+    # --- from any thread ---
+
+    def hear(self, text: str) -> None:
+        """Somebody said `text`. A stop is out before this returns, in real time."""
+        if self.is_leaving:
+            return
+        if self._setup.fast:
+            self.post(lambda: self.session.say(text))
+        else:
+            with contextlib.suppress(JointError):  # Motion is gone: the main thread tells
+                self.session.say(text)
+
+    def stop(self, why: str) -> None:
+        """Stop the robot and drop what is queued."""
+        if self._setup.fast:
+            self.post(lambda: self.session.stop(why))
+        else:
+            self.session.stop(why)
+
+    def post(self, action: Callable[[], object]) -> None:
+        """Have `action` done by the main thread."""
+        self._posted.put(action)
+
+    # --- the main thread ---
+
+    def do(self, text: str) -> None:
+        """One turn, seen through to its result."""
+        turn = self.session.say(text)
+        while turn not in self.session.results:
+            self.step()
+
+    def finish(self) -> None:
+        """See everything through that was heard."""
+        while not (self.session.is_idle and self._posted.empty()):
+            self.step()
+
+    def step(self) -> None:
+        """Let things happen for a moment.
+
+        Raises:
+            JointError: Motion is gone.
+        """
+        self._do_posted()
+        if self._printer.is_broken and not self._is_cut_off:
+            self._is_cut_off = True
+            self.session.stop("nobody reads")
+        self._approver.answer(self.session)
+        if self._setup.fast and self._approver.is_waiting and self._wait_for_posted():
+            return  # a virtual half minute is over before a person has read the question: time stands
+        self.session.pump(PUMP_S)
+
+    def wait(self) -> None:
+        """Nothing is to be done: wait for a moment. Simulated time stands meanwhile."""
+        if not self._setup.fast:
+            self.step()
+        elif self._wait_for_posted():
+            self._is_cut_off = self._is_cut_off or self._printer.is_broken
+
+    def _wait_for_posted(self) -> bool:
+        """Do what another thread asks for; True where nothing came."""
+        try:
+            self._posted.get(timeout=PUMP_S)()
+        except queue.Empty:
+            return True
+        return False
+
+    def _do_posted(self) -> None:
+        while not self._posted.empty():
+            self._posted.get()()
+
+    def show(self, event: Event) -> None:
+        """Have it printed."""
+        self._printer.show(event, self.language)
+
+    def _on_event(self, event: Event) -> None:
+        self._approver.hear(event)
+        self.show(event)

@@ -1,0 +1,25 @@
+"""`chatrobot do TEXT [TEXT…]`: one instruction, or a dialogue turn by turn."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from chatrobot.cli.approver import Approver
+from chatrobot.cli.choices import setup_from
+from chatrobot.cli.conversation import Conversation
+from chatrobot.cli.printer import printer_for
+
+
+def run(args: argparse.Namespace) -> int:
+    """The exit code of the last turn."""
+    printer = printer_for(args)
+    approver = Approver(can_ask=sys.stdin.isatty())
+    with Conversation(setup_from(args), printer, approver) as conversation:
+        for text in args.texts:
+            if conversation.is_leaving:
+                break
+            if len(args.texts) > 1:
+                printer.turn(text)
+            conversation.do(text)
+    return conversation.exit_code

@@ -1,0 +1,117 @@
+"""`chatrobot doctor`: what works here, measured where it can be, and how to get the rest."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import platform
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass
+from typing import Literal
+
+from chatrobot import __version__
+from chatrobot.cli.choices import config_folder
+from chatrobot.core.errors import ChatRobotError
+from chatrobot.core.events import Event
+
+State = Literal["ok", "missing", "later"]
+_MARKS = {"ok": "✓", "missing": "✗", "later": "–"}
+
+
+@dataclass(frozen=True)
+class Check:
+    """One line: `later` is what this version cannot do yet, `missing` what is wrong here and can be mended."""
+
+    name: str
+    state: State
+    text: str
+
+
+def run(args: argparse.Namespace) -> int:
+    """0 where the simulated robot works, 1 where something has to be mended."""
+    checks = []
+    for check in _checks(args):
+        checks.append(check)
+        if args.json:
+            from chatrobot.cli.json_lines import json_line
+
+            print(json_line({"event": "check", **asdict(check)}), end="", flush=True)
+        else:
+            print(f"{_MARKS[check.state]} {check.name:<18}{check.text}", flush=True)
+    return 1 if any(check.state == "missing" for check in checks) else 0
+
+
+def _checks(args: argparse.Namespace) -> Iterator[Check]:
+    yield Check(
+        "chatrobot", "ok", f"{__version__} on Python {platform.python_version()}, {platform.machine()}"
+    )
+    yield _try("settings folder", lambda: _settings(args))
+    yield _try("simulated robot", lambda: _simulated_robot(args))
+    yield _try("in real time", lambda: _in_real_time(args))
+    yield _ros()
+    yield _model()
+    yield Check("written programs", "later", "this version runs none, so there is no sandbox to check")
+
+
+def _try(name: str, check: Callable[[], str]) -> Check:
+    try:
+        return Check(name, "ok", check())
+    except (ChatRobotError, OSError) as error:
+        return Check(name, "missing", str(error))
+
+
+def _settings(args: argparse.Namespace) -> str:
+    folder = config_folder(args)
+    there = next(path for path in (folder, *folder.absolute().parents) if path.exists())
+    if not (there.is_dir() and os.access(there, os.W_OK)):
+        raise ChatRobotError(f"{folder} cannot be written: choose another with --config-dir")
+    return str(folder) if there == folder else f"{folder} (made when there is something to keep)"
+
+
+def _simulated_robot(args: argparse.Namespace) -> str:
+    """Drive a metre on a virtual clock."""
+    from chatrobot.compose import Setup, connect
+
+    began_s = time.monotonic()
+    connection = connect(Setup(robot=args.robot, world="empty", fast=True), _ignore)
+    result = connection.session.do("forward 1 m")
+    connection.close()
+    if result.outcome != "completed":
+        raise ChatRobotError(f"it did not drive a metre: {result.reply}")
+    return f"{args.robot} drove {result.path_m:.3f} m of 1 m, simulated in {time.monotonic() - began_s:.2f} s"
+
+
+def _in_real_time(args: argparse.Namespace) -> str:
+    """Start all processes, as `chatrobot do` would, and end them again."""
+    from chatrobot.compose import Setup, connect
+
+    began_s = time.monotonic()
+    connection = connect(Setup(robot=args.robot, world="empty"), _ignore)
+    ready_s = time.monotonic() - began_s
+    connection.close()
+    return f"robot, control loop and guard run {ready_s:.2f} s after they are asked to"
+
+
+def _ignore(_: Event) -> None:
+    """Only the result counts here."""
+
+
+def _ros() -> Check:
+    from importlib.util import find_spec
+
+    distribution = os.environ.get("ROS_DISTRO", "")
+    found = (
+        f"ROS 2 {distribution} is here"
+        if find_spec("rclpy") is not None
+        else "no ROS 2 here, and none is needed"
+    )
+    return Check("ROS 2", "later", f"{found}: this version drives the simulated robot only")
+
+
+def _model() -> Check:
+    wanted = os.environ.get("CHATROBOT_MODEL", "")
+    text = "this version understands English and Chinese offline, and uses no model"
+    return Check(
+        "language model", "later", f"{text} (CHATROBOT_MODEL={wanted} is not used)" if wanted else text
+    )

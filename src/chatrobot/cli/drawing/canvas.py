@@ -1,0 +1,99 @@
+"""A pillow image drawn three times too large and made smaller at the end: smooth lines without another library."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from PIL import Image, ImageDraw
+
+from chatrobot.cli.drawing import fonts
+
+SCALE = 3
+XY = tuple[float, float]
+Colour = tuple[int, int, int] | tuple[int, int, int, int]
+Box = tuple[float, float, float, float]
+
+
+class Canvas:
+    """Coordinates are pixels of the finished picture, y downwards. Colours may have an alpha."""
+
+    def __init__(self, width_px: int, height_px: int, background: Colour) -> None:
+        self.width_px, self.height_px = width_px, height_px
+        self._image = Image.new("RGB", (width_px * SCALE, height_px * SCALE), background)
+        self._draw = ImageDraw.Draw(self._image, "RGBA")
+
+    def line(self, points: Sequence[XY], colour: Colour, width_px: float = 1.0) -> None:
+        """A polyline with round joints and ends."""
+        width = max(1, round(width_px * SCALE))
+        self._draw.line(_scaled(points), fill=colour, width=width, joint="curve")
+        if width > SCALE:
+            for x, y in (points[0], points[-1]):
+                self.circle((x, y), width_px / 2.0, fill=colour)
+
+    def dashed(self, a: XY, b: XY, colour: Colour, width_px: float = 1.0, dash_px: float = 6.0) -> None:
+        length = max(1e-9, ((b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2) ** 0.5)
+        at = 0.0
+        while at < length:
+            ends = (at / length, min(1.0, (at + dash_px) / length))
+            self.line([(a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t) for t in ends], colour, width_px)
+            at += 2.0 * dash_px
+
+    def polygon(self, points: Sequence[XY], *, fill: Colour | None = None, edge: Colour | None = None,
+                width_px: float = 1.0) -> None:  # fmt: skip
+        if fill is not None:
+            self._draw.polygon(_scaled(points), fill=fill)
+        if edge is not None:
+            self.line([*points, points[0], points[1]], edge, width_px)
+
+    def circle(self, centre: XY, radius_px: float, *, fill: Colour | None = None, edge: Colour | None = None,
+               width_px: float = 1.0) -> None:  # fmt: skip
+        x, y, r = centre[0] * SCALE, centre[1] * SCALE, radius_px * SCALE
+        self._draw.ellipse(
+            (x - r, y - r, x + r, y + r), fill=fill, outline=edge, width=max(1, round(width_px * SCALE))
+        )
+
+    def box(
+        self, box: Box, *, fill: Colour | None = None, edge: Colour | None = None, radius_px: float = 0.0
+    ) -> None:
+        self._draw.rounded_rectangle(
+            [v * SCALE for v in box], radius=radius_px * SCALE, fill=fill, outline=edge, width=SCALE
+        )
+
+    def text(
+        self,
+        at: XY,
+        text: str,
+        colour: Colour,
+        size_px: float,
+        anchor: str = "la",
+        halo: Colour | None = None,
+    ) -> None:
+        """Write `text`; nothing at all where no font has its letters. `anchor` as pillow has it."""
+        font = fonts.for_text(text, round(size_px * SCALE))
+        if font is not None:
+            self._draw.text(
+                (at[0] * SCALE, at[1] * SCALE), text, fill=colour, font=font, anchor=anchor,
+                stroke_width=round(2.5 * SCALE) if halo else 0, stroke_fill=halo,
+            )  # fmt: skip
+
+    def text_box(self, at: XY, text: str, size_px: float, anchor: str = "la") -> Box:
+        """Where `text` would stand."""
+        font = fonts.for_text(text, round(size_px * SCALE))
+        if font is None:
+            return (*at, *at)
+        x0, y0, x1, y1 = self._draw.textbbox((at[0] * SCALE, at[1] * SCALE), text, font=font, anchor=anchor)
+        return (x0 / SCALE, y0 / SCALE, x1 / SCALE, y1 / SCALE)
+
+    def save(self, path: Path) -> None:
+        """Write the PNG.
+
+        Raises:
+            OSError: the file cannot be written.
+        """
+        small = self._image.resize((self.width_px, self.height_px), Image.Resampling.LANCZOS)
+        small.save(path, "PNG", optimize=True)
+
+
+def _scaled(points: Sequence[XY]) -> list[XY]:
+    return [(x * SCALE, y * SCALE) for x, y in points]

@@ -1,0 +1,169 @@
+"""A map in characters: braille dots, two by four to a cell, with the robot as an arrow.
+
+Shared by the live strip and `/map big`. What it gives is lines of (layer, text) runs; each face has its own colours
+for the layers `wall`, `path`, `trail`, `place` and `robot`; "" is background.
+"""
+
+from __future__ import annotations
+
+import math
+import unicodedata
+from collections.abc import Iterable, Sequence
+from itertools import groupby, pairwise
+
+from chatrobot.cli.drawing.extent import XY, Extent
+from chatrobot.core.geometry import Pose
+from chatrobot.sim.world import World
+
+Run = tuple[str, str]
+MapLines = list[list[Run]]
+
+ARROWS = "→↗↑↖←↙↓↘"
+PLACE_MARK = "•"
+_BLANK = 0x2800
+_DOTS = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))
+_LAYERS = ("wall", "path", "trail")
+
+
+def arrow(yaw_rad: float) -> str:
+    """The arrow that points nearest to `yaw_rad` on a map whose x runs to the right and y up."""
+    return ARROWS[round(yaw_rad / (math.pi / 4.0)) % 8]
+
+
+class MapText:
+    """A world within an extent on so many cells. What stands still is drawn once.
+
+    Args:
+        names: write the places' names on the map.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        extent: Extent,
+        *,
+        columns: int,
+        rows: int,
+        path: Iterable[XY] = (),
+        names: bool = False,
+    ) -> None:
+        self._columns, self._rows = columns, rows
+        self._dots_per_m = min(columns * 2 / extent.width_m, rows * 4 / extent.height_m)
+        self._extent = extent
+        self._left = (columns * 2 - extent.width_m * self._dots_per_m) / 2.0
+        self._top = (rows * 4 - extent.height_m * self._dots_per_m) / 2.0
+        self._still: dict[str, dict[tuple[int, int], int]] = {layer: {} for layer in _LAYERS}
+        for _, outline in world.outline():
+            self._line("wall", (*outline, outline[0]), self._still)
+        self._line("path", tuple(path), self._still)
+        self._letters: dict[tuple[int, int], Run] = {}
+        if names:
+            for name, pose in world.places.items():
+                if extent.holds(pose.x_m, pose.y_m):
+                    self._name(name, pose)
+
+    def lines(self, *, trail: Sequence[XY] = (), pose: Pose | None = None) -> MapLines:
+        """The map now: `rows` lines of runs, each line `columns` cells wide."""
+        layers = {layer: dict(cells) for layer, cells in self._still.items()}
+        self._line("trail", trail, layers)
+        letters = dict(self._letters)
+        if pose is not None and self._extent.holds(pose.x_m, pose.y_m):
+            self._put(letters, self._cell(pose.x_m, pose.y_m), ("robot", arrow(pose.yaw_rad)))
+        return [self._row(row, layers, letters) for row in range(self._rows)]
+
+    def _row(
+        self, row: int, layers: dict[str, dict[tuple[int, int], int]], letters: dict[tuple[int, int], Run]
+    ) -> list[Run]:
+        cells = [self._one(column, row, layers, letters) for column in range(self._columns)]
+        return [
+            (layer, "".join(text for _, text in run)) for layer, run in groupby(cells, lambda cell: cell[0])
+        ]
+
+    def _one(
+        self,
+        column: int,
+        row: int,
+        layers: dict[str, dict[tuple[int, int], int]],
+        letters: dict[tuple[int, int], Run],
+    ) -> Run:
+        letter = letters.get((column, row))
+        if letter is not None:
+            return letter
+        top, bits = "", 0
+        for layer in _LAYERS:
+            here = layers[layer].get((column, row), 0)
+            if here:
+                top, bits = layer, bits | here
+        return (top, chr(_BLANK + bits)) if bits else ("", " ")
+
+    # --- putting things on ---
+
+    def _dot(self, x_m: float, y_m: float) -> tuple[float, float]:
+        return (
+            self._left + (x_m - self._extent.min_x_m) * self._dots_per_m,
+            self._top + (self._extent.max_y_m - y_m) * self._dots_per_m,
+        )
+
+    def _cell(self, x_m: float, y_m: float) -> tuple[int, int]:
+        x, y = self._dot(x_m, y_m)
+        return min(self._columns - 1, int(x) // 2), min(self._rows - 1, int(y) // 4)
+
+    def _line(self, layer: str, points: Sequence[XY], layers: dict[str, dict[tuple[int, int], int]]) -> None:
+        cells = layers[layer]
+        for a, b in pairwise(points if len(points) != 1 else (*points, *points)):
+            (ax, ay), (bx, by) = self._dot(*a), self._dot(*b)
+            count = max(1, math.ceil(max(abs(bx - ax), abs(by - ay))))
+            if count > 4096:  # a wall far longer than the map: its ends are out of sight
+                count = 4096
+            for i in range(count + 1):
+                x, y = int(ax + (bx - ax) * i / count), int(ay + (by - ay) * i / count)
+                if 0 <= x < self._columns * 2 and 0 <= y < self._rows * 4:
+                    cell = (x // 2, y // 4)
+                    cells[cell] = cells.get(cell, 0) | _DOTS[y % 4][x % 2]
+
+    def _name(self, name: str, pose: Pose) -> None:
+        column, row = self._cell(pose.x_m, pose.y_m)
+        width = sum(_width(char) for char in name)
+        start = column + 1 if column + 1 + width <= self._columns else column - width
+        span = range(min(start, column), max(start + width, column + 1))
+        if span.start < 0 or any((i, row) in self._letters for i in span):
+            self._put(self._letters, (column, row), ("place", PLACE_MARK))
+            return
+        self._put(self._letters, (column, row), ("place", PLACE_MARK))
+        for char in name:
+            self._put(self._letters, (start, row), ("place", char))
+            start += _width(char)
+
+    @staticmethod
+    def _put(letters: dict[tuple[int, int], Run], cell: tuple[int, int], run: Run) -> None:
+        """Put one character; a wide one takes the next cell too, and half a wide one goes with its other half."""
+        column, row = cell
+        before = letters.get((column - 1, row))
+        if letters.get(cell) == ("place", "") and before is not None:
+            letters[(column - 1, row)] = (before[0], " ")
+        old = letters.get(cell)
+        if old is not None and old[1] and _width(old[1]) == 2 and _width(run[1]) == 1:
+            letters[(column + 1, row)] = (old[0], " ")
+        letters[cell] = run
+        if _width(run[1]) == 2:
+            letters[(column + 1, row)] = (run[0], "")
+
+
+def draw_map_text(
+    world: World,
+    extent: Extent,
+    *,
+    columns: int,
+    rows: int,
+    path: Iterable[XY] = (),
+    trail: Sequence[XY] = (),
+    pose: Pose | None = None,
+    names: bool = False,
+) -> MapLines:
+    """One map, drawn at once. See `MapText`."""
+    drawing = MapText(world, extent, columns=columns, rows=rows, path=path, names=names)
+    return drawing.lines(trail=trail, pose=pose)
+
+
+def _width(char: str) -> int:
+    return 2 if unicodedata.east_asian_width(char) in "WF" else 1

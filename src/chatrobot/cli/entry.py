@@ -1,0 +1,77 @@
+"""The `chatrobot` command. Nothing is imported before it is known to be needed: start-up time counts."""
+
+from __future__ import annotations
+
+import io
+import os
+import sys
+from collections.abc import Sequence
+
+FAILED, USAGE, STOPPED = 1, 2, 5
+
+_MODULES = {"": "talk", "eval": "eval.command"}
+"""Where a command's `run(args)` is, if not in the module of its name."""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command and return its exit code. The outermost handler: what breaks is told in a sentence.
+
+    `CHATROBOT_DEBUG=1` lets the traceback through.
+    """
+    arguments = sys.argv[1:] if arguments is None else arguments
+    _mend_streams()
+    try:
+        return _run(arguments)
+    except KeyboardInterrupt:
+        return STOPPED
+    except BrokenPipeError:
+        forget_stdout()
+        return STOPPED
+    except Exception as error:  # the outermost boundary
+        if os.environ.get("CHATROBOT_DEBUG"):
+            raise
+        from chatrobot.core.errors import InputError
+
+        print(f"chatrobot: {_sentence(error)}", file=sys.stderr)
+        return USAGE if isinstance(error, InputError) else FAILED
+
+
+def _mend_streams() -> None:
+    """A stream that was closed (`>&-`) becomes empty, before a socket gets its number; no locale is an error."""
+    for number, (name, mode) in enumerate((("stdin", "r"), ("stdout", "w"), ("stderr", "w"))):
+        if getattr(sys, name) is None:
+            os.open(os.devnull, os.O_RDWR)  # takes the lowest number that is free: this one
+            setattr(sys, name, os.fdopen(number, mode))
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
+
+
+def forget_stdout() -> None:
+    """Whoever read us has left; Python would complain once more when it flushes at exit."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+
+
+def _run(arguments: Sequence[str]) -> int:
+    if list(arguments) == ["stop"]:  # ahead of everything else: 60 ms from cold
+        from chatrobot.cli import stop
+
+        return stop.run()
+    from importlib import import_module
+
+    from chatrobot.cli.arguments import parse
+
+    args = parse(arguments)
+    command = import_module(f"chatrobot.cli.{_MODULES.get(args.command, args.command)}")
+    code: int = command.run(args)
+    return code
+
+
+def _sentence(error: Exception) -> str:
+    from chatrobot.core.errors import ChatRobotError
+
+    if isinstance(error, ChatRobotError):
+        return str(error)
+    if isinstance(error, OSError) and error.strerror:
+        return f"{error.filename}: {error.strerror}" if error.filename else error.strerror
+    return f"this should not happen: {type(error).__name__}: {error} (CHATROBOT_DEBUG=1 shows where)"

@@ -1,0 +1,1 @@
+"""`chatrobot eval`: corpora of sayings, run and judged."""

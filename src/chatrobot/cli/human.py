@@ -1,0 +1,126 @@
+"""Events for people: what was understood, what will happen, how far it is, what was measured."""
+
+from __future__ import annotations
+
+import math
+
+from chatrobot.cli.printer import Output
+from chatrobot.core.events import (
+    Event,
+    Interpreted,
+    Limited,
+    Notice,
+    Progress,
+    Rehearsed,
+    Remembered,
+    Result,
+    Said,
+    Started,
+    TruePose,
+)
+from chatrobot.core.geometry import Pose, Twist
+from chatrobot.language.interpretation import LanguageCode
+from chatrobot.language.phrases import render_reason
+
+_CLEAR_LINE = "\r\x1b[K"
+_MARKS = {"refuse": "✗", "warn": "!", "note": "·"}
+
+
+class HumanPrinter:
+    """A `Printer` for people. Sentences come in the language of the question; the rest is numbers with units."""
+
+    def __init__(self, output: Output) -> None:
+        self._output = output
+        self._way = _Way()
+        self._has_status = False
+
+    @property
+    def is_broken(self) -> bool:
+        return self._output.is_broken
+
+    def turn(self, text: str) -> None:
+        self._line(f"> {text}")
+
+    def show(self, event: Event, language: LanguageCode) -> None:
+        if isinstance(event, Interpreted):
+            self._show_interpreted(event)
+        elif isinstance(event, Rehearsed):
+            self._show_rehearsed(event, language)
+        elif isinstance(event, Started):
+            self._way = _Way(event.pose, self._way.planned_m)
+        elif isinstance(event, Progress):
+            self._show_progress(event)
+        elif isinstance(event, Result):
+            self._line(event.reply)
+        else:
+            self._show_rest(event, language)
+
+    def _show_interpreted(self, event: Interpreted) -> None:
+        if not event.plan_text:
+            return  # the reply comes again with the result
+        if event.reply:
+            self._line(event.reply)
+        for line in event.plan_text.splitlines():
+            self._line(f"    {line}")
+
+    def _show_rehearsed(self, event: Rehearsed, language: LanguageCode) -> None:
+        self._way = _Way(planned_m=event.length_m)
+        if event.ok:
+            self._line(f"  ≈ {event.duration_s:.1f} s, {event.length_m:.2f} m")
+        for finding in event.findings:
+            if finding.severity != "refuse":  # that one is the reply
+                self._line(f"  {_MARKS[finding.severity]} {render_reason(finding.reason, language)}")
+
+    def _show_progress(self, event: Progress) -> None:
+        metres = self._way.advance(event.pose)
+        status = f"  {self._way}  {event.fraction:4.0%}"
+        if self._output.is_terminal:
+            self._output.write(f"{_CLEAR_LINE}{status}")
+            self._has_status = True
+        elif metres:
+            self._line(status)
+
+    def _show_rest(self, event: Event, language: LanguageCode) -> None:
+        if isinstance(event, Said):
+            self._line(f"  “{event.text}”")
+        elif isinstance(event, Remembered):
+            self._line(f"  {event.place}: x {event.pose.x_m:.2f} m, y {event.pose.y_m:.2f} m")
+        elif isinstance(event, Limited):
+            self._line(f"  · {_twist(event.asked)} → {_twist(event.sent)}")
+        elif isinstance(event, Notice):
+            self._line(f"  ! {event.text or render_reason(event.reason, language)}")
+        elif isinstance(event, TruePose):
+            yaw_deg = math.degrees(event.yaw_rad)
+            self._line(f"  {event.t_s:8.2f} s  x {event.x_m:.3f} m  y {event.y_m:.3f} m  {yaw_deg:.1f}°")
+
+    def _line(self, text: str) -> None:
+        clear = _CLEAR_LINE if self._has_status else ""
+        self._has_status = False
+        self._output.write(f"{clear}{text}\n")
+
+
+class _Way:
+    """How far a running turn has come, by the robot's own account."""
+
+    def __init__(self, start: Pose | None = None, planned_m: float = 0.0) -> None:
+        self._last = start
+        self._start_yaw_rad = start.yaw_rad if start is not None else 0.0
+        self.planned_m = planned_m
+        self._driven_m = 0.0
+
+    def advance(self, pose: Pose) -> bool:
+        """Take in where the robot is now; True when another whole metre lies behind it."""
+        before_m = self._driven_m
+        if self._last is not None:
+            self._driven_m += self._last.distance_to(pose)
+        self._last = pose
+        return math.floor(self._driven_m) > math.floor(before_m)
+
+    def __str__(self) -> str:
+        turned_deg = math.degrees(self._last.yaw_rad - self._start_yaw_rad) if self._last is not None else 0.0
+        return f"{self._driven_m:.2f} / {self.planned_m:.2f} m  {turned_deg:+.0f}°"
+
+
+def _twist(twist: Twist) -> str:
+    speed = f"{twist.speed_mps:.2f} m/s"
+    return f"{speed}, {twist.wz_radps:.2f} rad/s" if twist.wz_radps else speed

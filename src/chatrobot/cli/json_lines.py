@@ -1,0 +1,48 @@
+"""Events as one JSON object a line, in UTF-8: what `--json` prints."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Any
+
+from chatrobot.cli.printer import Output
+from chatrobot.core.events import Event
+from chatrobot.language.interpretation import LanguageCode
+
+_NOT_SHOWN = frozenset({"telemetry", "finished"})
+"""`result` says the same as `finished`; who wants to follow a motion reads `progress`."""
+
+
+class JsonPrinter:
+    """A `Printer` for programs."""
+
+    def __init__(self, output: Output) -> None:
+        self._output = output
+
+    @property
+    def is_broken(self) -> bool:
+        return self._output.is_broken
+
+    def turn(self, text: str) -> None:
+        """Nothing: every event carries the number of its turn."""
+
+    def show(self, event: Event, language: LanguageCode) -> None:  # noqa: ARG002
+        if event.name not in _NOT_SHOWN:
+            self._output.write(json_line(event.to_json()))
+
+
+def json_line(data: dict[str, Any]) -> str:
+    """One line of strict JSON: a number that is none (a robot may report one) becomes null."""
+    try:
+        return json.dumps(data, ensure_ascii=False, allow_nan=False) + "\n"
+    except ValueError:
+        return json.dumps(_finite(data), ensure_ascii=False) + "\n"
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _finite(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_finite(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

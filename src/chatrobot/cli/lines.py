@@ -1,0 +1,50 @@
+"""Lines from standard input, read by a thread: a stop word is acted on when it arrives, not when there is time."""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Callable
+
+STDIN = 0
+MAX_LINE_BYTES = 65_536
+
+
+class LineReader:
+    """Hands every line that is not blank to `on_line`, in a thread of its own.
+
+    `has_ended` is true once the last line has been handed on. Reads the descriptor itself: a buffered stream
+    would be locked by this thread when the interpreter ends.
+    """
+
+    def __init__(self, on_line: Callable[[str], None]) -> None:
+        self._on_line = on_line
+        self.has_ended = False
+
+    def start(self) -> None:
+        threading.Thread(target=self._read, name="input", daemon=True).start()
+
+    def _read(self) -> None:
+        rest = b""
+        while chunk := _read_chunk():
+            *lines, rest = (rest + chunk).split(b"\n")
+            for line in lines:
+                self._hand_on(line)
+            if len(rest) > MAX_LINE_BYTES:
+                self._hand_on(rest)
+                rest = b""
+        self._hand_on(rest)
+        self.has_ended = True
+
+    def _hand_on(self, line: bytes) -> None:
+        text = line.decode("utf-8", errors="replace").strip()
+        if text:
+            self._on_line(text)
+
+
+def _read_chunk() -> bytes:
+    """What is there; nothing at the end, or where a terminal has gone away."""
+    try:
+        return os.read(STDIN, MAX_LINE_BYTES)
+    except OSError:
+        return b""

@@ -1,0 +1,55 @@
+"""`chatrobot plan TEXT`: understand and rehearse; nothing moves, nothing is started."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+from chatrobot.cli.choices import setup_from
+from chatrobot.cli.printer import printer_for
+from chatrobot.compose import connect
+from chatrobot.core.errors import UsageError
+from chatrobot.core.events import EXIT_CODES, Event, Rehearsed
+from chatrobot.language.phrases import render_reason
+from chatrobot.session.session import Options
+
+
+def run(args: argparse.Namespace) -> int:
+    """The exit code of the turn: 0 where the plan could be done.
+
+    Raises:
+        UsageError: `--png` names no PNG file.
+    """
+    png = Path(args.png) if args.png else None
+    if png is not None and png.suffix.lower() != ".png":
+        raise UsageError(f"{args.png!r} is no PNG file", where="--png", allowed="a name that ends in .png")
+    printer = printer_for(args)
+    rehearsed: list[Rehearsed] = []
+
+    def on_event(event: Event) -> None:
+        if isinstance(event, Rehearsed):
+            rehearsed.append(event)
+        printer.show(event, session.understanding.language)
+
+    setup = replace(setup_from(args, options=Options(rehearse_only=True)), fast=True, trace=False)
+    connection = connect(setup, lambda event: on_event(event))
+    session = connection.session
+    result = session.do(args.text)
+    connection.close()
+    if png is not None:
+        if rehearsed:
+            from chatrobot.cli.draw import draw_plan
+
+            draw_plan(
+                png,
+                world=connection.world,
+                profile=connection.profile,
+                rehearsed=rehearsed[-1],
+                title=args.text,
+                words=lambda finding: render_reason(finding.reason, session.understanding.language),
+            )
+        else:
+            print("chatrobot: there is no plan to draw", file=sys.stderr)
+    return EXIT_CODES[result.outcome]

@@ -1,0 +1,78 @@
+"""Ctrl-C, Ctrl-Z and their relatives: the robot stops first, whatever this process is doing just now."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import socket
+import threading
+from collections.abc import Callable
+from types import TracebackType
+from typing import Any
+
+from chatrobot.core.errors import JointError
+
+QUIT_AT_ONCE = 130
+_WATCHED = {
+    signal.SIGINT: "Ctrl-C",
+    signal.SIGTSTP: "Ctrl-Z",
+    signal.SIGHUP: "the terminal was closed",
+    signal.SIGTERM: "asked to end",
+}
+
+
+class SignalWatch:
+    """Stops the robot from a thread of its own: Python's handlers would wait for whatever the main thread does.
+
+    A signal that was ignored when we started (nohup, a job in the background) stays ignored. A second one of
+    those that end us quits at once; Motion takes that for a loss and stops by itself.
+
+    Args:
+        stop: called with the reason, from that thread.
+    """
+
+    def __init__(self, stop: Callable[[str], None]) -> None:
+        self._stop = stop
+        self.is_leaving = False
+        self._before: dict[int, Any] = {}
+        self._ours, self._theirs = socket.socketpair()
+
+    def __enter__(self) -> SignalWatch:
+        self._theirs.setblocking(False)
+        signal.set_wakeup_fd(self._theirs.fileno(), warn_on_full_buffer=False)
+        for number in _WATCHED:
+            if signal.getsignal(number) is not signal.SIG_IGN:
+                self._before[number] = signal.signal(number, _leave_it_to_the_thread)
+        threading.Thread(target=self._watch, name="signals", daemon=True).start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        for number, handler in self._before.items():
+            signal.signal(number, handler)
+        signal.set_wakeup_fd(-1)
+        self._theirs.close()
+
+    def _watch(self) -> None:
+        with self._ours:
+            while numbers := self._ours.recv(64):
+                for number in numbers:
+                    if number in _WATCHED:
+                        self._on_signal(signal.Signals(number))
+
+    def _on_signal(self, number: signal.Signals) -> None:
+        if number != signal.SIGTSTP and self.is_leaving:
+            os._exit(QUIT_AT_ONCE)
+        self.is_leaving = self.is_leaving or number != signal.SIGTSTP
+        with contextlib.suppress(
+            JointError
+        ):  # Motion is gone: its guard halts, and the main thread will tell
+            self._stop(_WATCHED[number])
+        if number == signal.SIGTSTP:
+            os.kill(os.getpid(), signal.SIGSTOP)
+
+
+def _leave_it_to_the_thread(*_: object) -> None:
+    """Only a signal with a handler of Python's is written to the wakeup descriptor."""

@@ -1,0 +1,90 @@
+"""What the lidar has seen around the robot, in `odom`, and what it can no longer see but that is still there."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+
+import numpy as np
+from numpy.typing import NDArray
+
+from chatrobot.core.geometry import Pose
+from chatrobot.robots.profile import Lidar
+from chatrobot.wire.messages import LaserScan
+
+Floats = NDArray[np.float64]
+
+SCANS_KEPT = 3
+NEAR_M = 0.15
+"""A return that was this little beyond the minimum range and vanishes has most likely come nearer, not gone."""
+
+SEEN_THROUGH_M = 0.10
+FORGET_AFTER_M = 1.0
+_NOTHING: Floats = np.empty((0, 2))
+
+
+class Seen:
+    """Points [n, 2] in `odom`: the last scan's, and those that came too near to be seen.
+
+    Plus infinity means that nothing is there (REP-117). A cheap lidar says zero or NaN for what is too far and for
+    what is too near alike; what was near the minimum range a moment ago is therefore remembered until its beam sees
+    farther. A point counts for `SCANS_KEPT` scans: one noisy scan does not clear the way.
+    """
+
+    def __init__(self, lidar: Lidar) -> None:
+        self._lidar = lidar
+        self._scans: deque[Floats] = deque(maxlen=SCANS_KEPT)
+        self._remembered: Floats = _NOTHING
+        self.scan_stamp_s = -math.inf
+        self._first_rad, self._step_rad, self._beams = 0.0, 0.0, 0
+
+    @property
+    def points(self) -> Floats:
+        return np.concatenate([*self._scans, self._remembered])
+
+    def covers(self, direction_rad: float) -> bool:
+        """True where a beam looks along that direction of the robot's frame."""
+        if self._beams == 0:
+            return False
+        span = abs(self._step_rad) * self._beams
+        if span >= 2.0 * math.pi - 2.0 * abs(self._step_rad):
+            return True
+        offset = (direction_rad - self._lidar.yaw_rad - self._first_rad) * math.copysign(1.0, self._step_rad)
+        return offset % (2.0 * math.pi) <= span
+
+    def take(self, scan: LaserScan, pose: Pose) -> None:
+        """A scan made where the robot stood at `pose` (of `odom`)."""
+        ranges = np.asarray(scan.ranges_m, dtype=np.float64)
+        self._first_rad, self._step_rad, self._beams = (
+            scan.angle_min_rad,
+            scan.angle_increment_rad,
+            len(ranges),
+        )
+        self.scan_stamp_s = scan.stamp_s
+        lidar = pose.compose(Pose(self._lidar.x_m, self._lidar.y_m, self._lidar.yaw_rad))
+        with np.errstate(invalid="ignore"):
+            valid = (ranges >= scan.range_min_m) & (ranges <= scan.range_max_m)
+            sees = valid | (ranges == math.inf)
+        vanished = self._still_there(scan, ranges, sees, lidar)
+        angles = lidar.yaw_rad + scan.angle_min_rad + scan.angle_increment_rad * np.flatnonzero(valid)
+        seen = ranges[valid]
+        points = np.stack([lidar.x_m + seen * np.cos(angles), lidar.y_m + seen * np.sin(angles)], axis=1)
+        self._scans.append(points)
+        self._remembered = vanished
+
+    def _still_there(self, scan: LaserScan, ranges: Floats, sees: NDArray[np.bool_], lidar: Pose) -> Floats:
+        """Of all points known so far, those that the lidar cannot see now because they are too near."""
+        known = self.points
+        if len(known) == 0 or len(ranges) == 0:
+            return _NOTHING
+        dx, dy = known[:, 0] - lidar.x_m, known[:, 1] - lidar.y_m
+        distance = np.hypot(dx, dy)
+        bearing = np.arctan2(dy, dx) - lidar.yaw_rad - scan.angle_min_rad
+        beam = np.rint((bearing % (2.0 * math.pi)) / scan.angle_increment_rad).astype(int)
+        inside = beam < len(ranges)
+        beam = np.where(inside, beam, 0)
+        looked_past = inside & sees[beam] & (ranges[beam] > distance + SEEN_THROUGH_M)
+        replaced = inside & sees[beam] & (np.abs(ranges[beam] - distance) <= SEEN_THROUGH_M)
+        too_near = distance < scan.range_min_m + NEAR_M
+        out_of_view = ~inside & (distance < FORGET_AFTER_M)
+        return np.asarray(known[(too_near | out_of_view) & ~looked_past & ~replaced])

@@ -1,0 +1,66 @@
+"""Amounts said by way of something else: a step that is defined in passing, wheels of a tricycle."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from functools import lru_cache
+
+from chatrobot.language.data_files import LANGUAGES, load_table
+from chatrobot.language.quantities import quantity
+from chatrobot.language.tokens import Atom
+
+_IS = frozenset(
+    {"being", "is", "=", "equals", "means", "are", "按", "算", "是", "为", "长", "等于", "counts as"}
+)
+
+
+@lru_cache(maxsize=1)
+def _counts() -> tuple[tuple[re.Pattern[str], dict[str, int]], ...]:
+    tables = [load_table(language, "facts") for language in LANGUAGES]
+    return tuple(
+        (re.compile(pattern), {str(k): int(v) for k, v in table["counts"].items()})
+        for table in tables
+        for pattern in table["patterns"]
+    )
+
+
+def with_known_counts(text: str) -> str:
+    """`as many metres as a tricycle has wheels` → `3 metres`; unknown things stay as they are."""
+    for pattern, counts in _counts():
+        found = pattern.search(text)
+        if found:
+            key = f"{found['thing']} {found['part']}"
+            value = counts.get(key) or counts.get(f"{found['thing'].rstrip('s')} {found['part']}")
+            if value is not None:
+                return f"{text[: found.start()]} {value} {found['unit']} {text[found.end() :]}"
+    return text
+
+
+def with_defined_units(atoms: Sequence[Atom]) -> list[Atom]:
+    """`two steps forward, …, a step being 30 cm`: the counted thing becomes a length."""
+    for i, atom in enumerate(atoms):
+        role = atom.value if atom.kind == "counter" else atom.role if _is_one(atom) else ""
+        end = i + 1
+        while role and end < len(atoms) and (atoms[end].text in _IS or atoms[end].kind == "filler"):
+            end += 1
+        linked = end > i + 1 or (bool(atom.text) and ord(atom.text[0]) > 0x2E7F)
+        if not (
+            role and linked and end < len(atoms) and atoms[end].kind == "q" and atoms[end].value == "length"
+        ):
+            continue
+        start = i - 1 if i and atoms[i - 1].kind == "num" else i
+        rest = [*atoms[:start], *atoms[end + 1 :]]
+        if any(a.kind == "q" and a.value == "count" and a.role == role for a in rest):
+            return [_measured(a, role, atoms[end].number) for a in rest]
+    return list(atoms)
+
+
+def _is_one(atom: Atom) -> bool:
+    return atom.kind == "q" and atom.value == "count" and atom.number == 1.0
+
+
+def _measured(atom: Atom, role: str, length_m: float) -> Atom:
+    if atom.kind == "q" and atom.value == "count" and atom.role == role:
+        return quantity("length", atom.number * length_m, atom.text, "1.0")
+    return atom

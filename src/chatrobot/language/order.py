@@ -1,0 +1,46 @@
+"""`After turning left, go ahead` and `turn left before you go ahead`: clauses put in the order of doing."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from chatrobot.language.tokens import Atom
+
+_CONTENT = ("verb", "dir", "rot", "q", "shape", "place")
+_THEN = Atom("conn", "then", "")
+
+
+def in_order(atoms: Sequence[Atom]) -> list[Atom]:
+    """The atoms with what is done first said first."""
+    at = next((i for i, a in enumerate(atoms) if a.kind == "order"), None)
+    if at is None:
+        return list(atoms)
+    word, head, tail = atoms[at], list(atoms[:at]), list(atoms[at + 1 :])
+    leads = not any(a.kind in _CONTENT for a in head)
+    if word.value == "reverse":
+        return _swapped(head, tail)
+    if word.value == "preceding":  # A 之前 B
+        return [*tail, _THEN, *head] if not leads else list(atoms)
+    if leads:
+        comma = next((i for i, a in enumerate(tail) if a.kind == "sep" and a.value == "weak"), None)
+        if comma is None:
+            return list(atoms)
+        first, second = tail[:comma], tail[comma + 1 :]
+        return [*first, _THEN, *second] if word.value == "after" else [*second, _THEN, *first]
+    return [*tail, _THEN, *head] if word.value == "after" else [*head, _THEN, *tail]
+
+
+def _swapped(head: list[Atom], tail: list[Atom]) -> list[Atom]:
+    """`In the opposite order: A, B`: the clauses from the last to the first, signs unchanged."""
+    whole = tail if any(a.kind in _CONTENT for a in tail) else head
+    clauses: list[list[Atom]] = [[]]
+    for atom in whole:
+        if atom.kind in ("sep", "conn") and atom.value != "paren":
+            clauses.append([])
+        else:
+            clauses[-1].append(atom)
+    clauses = [c for c in clauses if any(a.kind in _CONTENT for a in c)]
+    out: list[Atom] = []
+    for clause in reversed(clauses):
+        out += [*clause, _THEN]
+    return out

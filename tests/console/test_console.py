@@ -1,0 +1,279 @@
+"""The console in a real terminal. Nothing here sleeps: every step waits for what it is about to see."""
+
+import signal
+import sys
+
+import psutil
+import pytest
+
+from tests.console.terminal import Terminal, console
+
+pytestmark = pytest.mark.realtime
+
+STANDING, MOVING = "standing · ", "moving  "
+PLAN, DONE, STOPPED = "plan  ", "✓", "■"
+
+
+@pytest.fixture
+def chat(tmp_path):
+    with console(tmp_path) as terminal:
+        terminal.wait_for(STANDING)
+        yield terminal
+        assert "Traceback" not in terminal.text
+        assert "Unhandled" not in terminal.text
+
+
+def test_a_newcomer_is_greeted_with_robot_world_and_three_things_to_say(chat):
+    text = " ".join(chat.text.split())
+    assert "Wheeltec mini mecanum, simulated, in the world 'home'" in text
+    for example in ("drive in a square of one metre", "go to the kitchen", "向前走半米，然后左转", "/help"):
+        assert example in text
+
+
+def test_a_motion_shows_its_plan_then_the_strip_then_what_was_measured(chat):
+    chat.enter("forward 0.4 m")
+    chat.wait_for(r"plan  0\.40 m, \d\.\d s\s+1  drive 0\.4 m")
+    chat.wait_for(MOVING)
+    assert any("%" in line and "─" in line for line in chat.shown)
+    chat.wait_for(r"✓ .*\s+now at \(0\.[34]\d, -?0\.0\d\) -?\d°, after \d\.\d s")
+    chat.wait_for(STANDING)
+
+
+def test_the_strip_draws_the_robot_as_an_arrow_on_its_way(chat):
+    chat.enter("forward 0.6 m")
+    chat.wait_for(r"→[⠀-⣿]")
+
+
+def test_a_stop_word_stops_the_motion_it_is_typed_into(chat):
+    chat.enter("forward 2 m")
+    chat.wait_for(MOVING)
+    chat.enter("stop!")
+    chat.wait_for(STOPPED)
+    chat.wait_for(STANDING)
+    assert DONE not in chat.text
+
+
+def test_new_motion_replaces_the_old(chat):
+    chat.enter("forward 2 m")
+    chat.wait_for(MOVING)
+    chat.enter("turn left 20 degrees")
+    chat.wait_for(STOPPED)
+    chat.wait_for(DONE)
+
+
+def test_ctrl_c_stops_the_robot_and_says_so(chat):
+    chat.enter("forward 2 m")
+    chat.wait_for(MOVING)
+    chat.control("c")
+    chat.wait_for("The robot stops. Ctrl-C again leaves.")
+    chat.wait_for(STOPPED)
+    chat.enter("turn left 20 degrees")
+    chat.wait_for(DONE)
+
+
+def test_ctrl_c_twice_leaves(chat):
+    chat.control("c")
+    chat.wait_for("Ctrl-C again leaves")
+    chat.control("c")
+    assert chat.wait_for_end() == 0
+    assert "Bye." in chat.text
+
+
+def test_ctrl_d_lets_the_robot_finish_first(chat):
+    chat.enter("forward 0.4 m")
+    chat.wait_for(MOVING)
+    chat.control("d")
+    chat.wait_for("finishes what it was told")
+    assert chat.wait_for_end() == 0
+    assert DONE in chat.text
+
+
+def test_an_unknown_command_gets_the_nearest_one(chat):
+    chat.enter("/hlep")
+    chat.wait_for("There is no /hlep; did you mean /help?")
+    chat.enter("/qqqqqqq")
+    chat.wait_for("There is no /qqqqqqq. /help lists the commands.")
+
+
+def test_the_commands_show_robot_world_and_plan(chat, tmp_path):
+    chat.enter("/plan")
+    chat.wait_for("There is no plan yet")
+    chat.enter("/robot")
+    chat.wait_for("highest speed +1 m/s")
+    chat.enter("/world")
+    chat.wait_for("•kitchen")
+    chat.enter("turn left 20 degrees")
+    chat.wait_for(DONE)
+    chat.enter(f"/save-plan {tmp_path / 'mine.plan'}")
+    chat.wait_for("The plan is in")
+    assert (tmp_path / "mine.plan").read_text() == "turn left 20 deg\n"
+
+
+def test_after_an_emergency_stop_nothing_moves_until_it_is_released(chat):
+    chat.enter("/estop")
+    chat.wait_for("EMERGENCY STOP: /release lets it move again")
+    chat.enter("turn left 20 degrees")
+    chat.wait_for("✗")
+    chat.enter("/release")
+    chat.wait_for("Released")
+    chat.enter("turn left 20 degrees")
+    chat.wait_for(DONE)
+
+
+def test_tab_completes_commands_and_places(chat):
+    chat.type("/rel")
+    chat.wait_for("/release  release the emergency stop")
+    chat.type("\t")
+    chat.wait_for("› /release")
+    chat.type("\r")
+    chat.wait_for("Released")
+    chat.type("go to the kitc\t")
+    chat.wait_for("› go to the kitchen")
+
+
+def test_who_speaks_chinese_is_answered_in_chinese(chat):
+    chat.enter("前进0.4米")
+    chat.wait_for(r"计划  0\.40 米")
+    chat.wait_for("行驶中")
+    chat.wait_for(r"现在在 \(0\.[34]\d, ")
+    chat.enter("/mapp")
+    chat.wait_for("你是不是想用 /map")
+
+
+def test_what_was_said_is_remembered_for_the_next_time(tmp_path):
+    with console(tmp_path) as first:
+        first.wait_for(STANDING)
+        first.enter("turn left 20 degrees")
+        first.wait_for(DONE)
+        first.control("d")
+        assert first.wait_for_end() == 0
+    with console(tmp_path) as second:
+        second.wait_for(STANDING)
+        second.type("\x1b[A")
+        second.wait_for("› turn left 20 degrees")
+
+
+def test_a_paste_of_a_hundred_kilobytes_and_weird_bytes_do_no_harm(chat):
+    chat.type(b"\x1b[200~" + b"forward 1 m, " * 8000 + b"\x1b[201~")
+    chat.wait_for("forward 1 m, forward")
+    chat.type("\r")
+    chat.wait_for("too long", timeout_s=60)
+    chat.type(b"\xff\xfe\x00\xc3\x28 \xed\xa0\x80 \x07 \xf0\x9f\r")
+    chat.wait_for(r"\?")
+    chat.enter("turn left 20 degrees")
+    chat.wait_for(DONE)
+
+
+def test_a_window_can_be_made_smaller_and_larger_while_the_robot_moves(chat):
+    chat.enter("forward 1 m")
+    chat.wait_for(MOVING)
+    for rows, columns in ((12, 44), (30, 120)):
+        chat.resize(rows, columns)
+        chat.wait_for(MOVING)
+    chat.wait_for(DONE)
+
+
+def test_the_end_of_motion_is_told_and_ends_the_talk(chat):
+    chat.enter("forward 2 m")
+    chat.wait_for(MOVING)
+    children = psutil.Process(chat.child.pid).children()
+    motion = next(child for child in children if "chatrobot.session.motion_process" in child.cmdline())
+    motion.kill()
+    assert chat.wait_for_end() == 1
+    assert "Motion is gone" in chat.text
+
+
+@pytest.mark.parametrize("number", [signal.SIGHUP, signal.SIGTERM])
+def test_when_the_terminal_is_closed_the_robot_stops_and_everything_ends(chat, number):
+    chat.enter("forward 2 m")
+    chat.wait_for(MOVING)
+    processes = psutil.Process(chat.child.pid).children(recursive=True)
+    chat.child.kill(number)
+    assert chat.wait_for_end() == 129
+    _, alive = psutil.wait_procs(processes, timeout=10.0)
+    assert not alive
+
+
+def test_a_plan_can_be_approved_refused_and_edited(tmp_path):
+    with console(tmp_path, "--approve") as chat:
+        chat.wait_for(STANDING)
+        chat.enter("forward 0.4 m")
+        chat.wait_for("Do it?")
+        assert "→" in chat.text
+        chat.enter("n")
+        chat.wait_for("✗")
+        chat.enter("forward 0.3 m")
+        chat.wait_for("Do it?", times=2)
+        chat.enter("e")
+        chat.wait_for("plan› drive 0.3 m")
+        chat.type("\x15turn left 20 deg\x1b\r")
+        chat.wait_for("Do it?", times=3)
+        chat.enter("y")
+        chat.wait_for(r"✓ .*\s+now at \(0\.00, -?0\.00\) (19|20|21)°")
+
+
+def test_an_edited_plan_with_a_mistake_moves_nothing(tmp_path):
+    with console(tmp_path, "--approve") as chat:
+        chat.wait_for(STANDING)
+        chat.enter("forward 0.3 m")
+        chat.wait_for("Do it?")
+        chat.enter("e")
+        chat.wait_for("plan› drive 0.3 m")
+        chat.type("\x15fly 3 m\x1b\r")
+        chat.wait_for(r"\? .*fly")
+        assert len(chat.text.split("Do it?")) == 2
+
+
+def test_ctrl_z_stops_the_robot_and_really_suspends(tmp_path):
+    environment = {"PS1": "$ ", "HISTFILE": ""}
+    with Terminal(["bash", "--norc", "--noprofile", "-i"], environment=environment) as shell:
+        shell.wait_for(r"\$ ?")
+        shell.enter(f"{sys.executable} -m chatrobot --config-dir {tmp_path}")
+        shell.wait_for(STANDING)
+        shell.enter("forward 2 m")
+        shell.wait_for(MOVING)
+        shell.control("z")
+        shell.wait_for(r"\[1\]\+  Stopped")
+        suspended = [
+            child for child in psutil.Process(shell.child.pid).children() if child.status() == "stopped"
+        ]
+        assert len(suspended) == 1
+        shell.enter("fg")
+        shell.wait_for("The robot was stopped when we went to sleep.")
+        shell.wait_for(STOPPED)
+        shell.wait_for(STANDING)
+        shell.enter("turn left 20 degrees")
+        shell.wait_for(DONE)
+
+
+@pytest.mark.parametrize("environment", [{"TERM": "dumb"}, {"NO_COLOR": "1"}])
+def test_a_dumb_terminal_gets_plain_lines(tmp_path, environment):
+    with console(tmp_path, environment=environment) as chat:
+        chat.wait_for("/help")
+        chat.enter("forward 0.4 m")
+        chat.wait_for(r"✓ .*\s+now at \(0\.[34]\d, ")
+        chat.enter("forward 2 m")
+        chat.wait_for(r"2\.00 m, \d\.\d s\s+1  drive 2 m")
+        chat.control("c")
+        chat.wait_for(STOPPED)
+        chat.control("c")
+        assert chat.wait_for_end() == 0
+        assert b"\x1b" not in chat.raw
+
+
+def test_a_narrow_terminal_gets_plain_lines(tmp_path):
+    with console(tmp_path, columns=30) as chat:
+        chat.wait_for("/help")
+        chat.type(b"\xff\xfe weird\n")
+        chat.wait_for(r"\?")
+        chat.type("\x04")
+        assert chat.wait_for_end() == 0
+
+
+def test_fast_is_refused_because_a_talk_is_in_real_time():
+    from chatrobot.cli.console.app import run_console
+    from chatrobot.compose import Setup
+    from chatrobot.core.errors import UsageError
+
+    with pytest.raises(UsageError, match="real time"):
+        run_console(Setup(fast=True))

@@ -1,0 +1,93 @@
+"""`chatrobot eval`: items run in sessions of their own and are judged by where the robot really was."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from chatrobot.cli.eval.corpus import Expect, Item, Turn
+from chatrobot.cli.eval.run import run_items
+from chatrobot.compose import Setup
+from tests.cli.running import Command, chatrobot
+
+__all__ = ["chatrobot"]
+
+CORPUS = """
+- {id: a-1, category: metric, say: "forward 1 m", expect: {x: 1.0, y: 0, yaw_deg: 0, duration_s: 3.6}}
+- {id: a-2, category: metric, say: "forward 1 m", expect: {x: 2.0}}
+- {id: a-3, category: clarify, say: "florble the wug", expect: {answer: clarify, motion: none}}
+- {id: a-4, category: metric, say: "florble the wug", expect: {x: 1.0}}
+- id: a-5
+  category: dialogue
+  turns: ["forward 1 m", {say: "where are you?", expect: {answer: info, motion: none}}, "again"]
+  expect: {x: 2.0, path_m: 2.0}
+"""
+
+
+@pytest.fixture
+def corpus(tmp_path: Path) -> str:
+    file = tmp_path / "corpus.yaml"
+    file.write_text(CORPUS, encoding="utf-8")
+    return str(file)
+
+
+def judge_one(say: str, sim: str = "", **numbers: float) -> str:
+    item = Item("a-1", "metric", (Turn(say),), Expect(numbers=numbers))
+    (judged,) = run_items([item], Setup(world="empty", sim=sim))
+    return judged.verdict.kind
+
+
+def test_the_table_counts_by_category_and_in_total(chatrobot: Command, corpus: str) -> None:
+    done = chatrobot("eval", corpus)
+    assert done.code == 0
+    rows = {line.split()[0]: line.split()[1:] for line in done.out.splitlines() if line.strip()}
+    assert rows["metric"] == ["3", "1", "1", "1", "33.3"]
+    assert rows["clarify"] == ["1", "1", "0", "0", "100.0"]
+    assert rows["total"] == ["5", "3", "1", "1", "60.0"]
+
+
+def test_what_went_wrong_is_listed_with_what_happened(chatrobot: Command, corpus: str) -> None:
+    out = chatrobot("eval", corpus).out
+    assert "a-2 forward 1 m" in out
+    assert "did: drive 1 m" in out
+    assert "x is 1.00" in out
+
+
+def test_json_has_a_line_an_item_and_the_totals_last(chatrobot: Command, corpus: str) -> None:
+    done = chatrobot("eval", corpus, "--json")
+    items = done.named("item")
+    assert [item["verdict"] for item in items] == ["correct", "wrong", "correct", "abstained", "correct"]
+    assert items[0]["measured"]["path_m"] == pytest.approx(1.0, abs=0.02)
+    assert items[4]["outcomes"] == ["completed", "answered", "completed"]
+    assert done.events[-1]["event"] == "total"
+    assert done.events[-1]["correct"] == 3
+
+
+def test_a_bad_corpus_is_wrong_usage(chatrobot: Command, tmp_path: Path) -> None:
+    file = tmp_path / "bad.yaml"
+    file.write_text("- {id: a-1, category: metric, say: hi, expect: {z: 1}}", encoding="utf-8")
+    done = chatrobot("eval", str(file))
+    assert done.code == 2
+    assert "bad.yaml: a-1" in done.err
+
+
+def test_the_truth_is_judged_and_not_what_the_robot_believes() -> None:
+    assert judge_one("forward 2 m", x=2.0) == "correct"
+    assert judge_one("forward 2 m", sim="slip=0.2", x=2.0) == "wrong"
+
+
+def test_nothing_is_remembered_from_one_item_to_the_next() -> None:
+    turns = (Turn("remember this place as base"), Turn("forward 1 m"))
+    first = Item("a-1", "dialogue", turns, Expect(numbers={"x": 1.0}))
+    second = Item("a-2", "dialogue", (Turn("go back to base"),), Expect(no_motion=True))
+    judged = list(run_items([first, second], Setup(world="empty")))
+    assert judged[0].verdict.kind == "correct"
+    assert judged[1].records[0].outcome in ("unclear", "refused")
+
+
+def test_the_shipped_corpora_are_valid_and_run_quickly(chatrobot: Command) -> None:
+    files = [str(file) for file in sorted((Path(__file__).parent.parent / "corpus").glob("*.yaml"))]
+    done = chatrobot("eval", *files, "--json")
+    assert done.code == 0
+    assert done.events[-1]["items"] >= 200

@@ -1,0 +1,28 @@
+"""Envelopes of one source come from several threads: what may overtake what."""
+
+from pathlib import Path
+
+from tests.session.joint_rigs import SimulatedRig, finished
+
+from chatrobot.session.joint import SimulatedJoint
+
+
+def test_a_plan_that_a_heartbeat_has_overtaken_is_still_done(tmp_path: Path) -> None:
+    rig = SimulatedRig(tmp_path)
+    joint = rig.joint
+    assert isinstance(joint, SimulatedJoint)
+    plan = joint._sender.envelope("plan", 1, plan_text="drive 0.1 m")
+    joint.send("beat")
+    joint._motion.receive(plan)
+    assert finished(rig, 1).outcome == "completed"
+
+
+def test_a_plan_that_a_stop_has_overtaken_ends_as_stopped(tmp_path: Path) -> None:
+    rig = SimulatedRig(tmp_path)
+    joint = rig.joint
+    assert isinstance(joint, SimulatedJoint)
+    plan = joint._sender.envelope("plan", 1, plan_text="drive 0.1 m")
+    joint.send("stop")
+    joint._motion.receive(plan)
+    assert finished(rig, 1).outcome == "stopped"
+    assert not any(any(velocity) for velocity in rig.velocities)

@@ -1,0 +1,132 @@
+"""The Python API: a few names, values instead of exceptions, a stop from anywhere."""
+
+from __future__ import annotations
+
+import math
+import threading
+from pathlib import Path
+
+import pytest
+
+import chatrobot
+from chatrobot.core.errors import PlanTextError, ProfileError, UsageError
+from chatrobot.core.events import Event, Progress
+from chatrobot.plan.steps import Drive, Plan
+
+
+@pytest.fixture
+def runtime(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+
+
+def fast(**options: str) -> chatrobot.Robot:
+    return chatrobot.connect(fast=True, world="empty", **options)  # type: ignore[arg-type]
+
+
+def test_do_returns_what_was_measured() -> None:
+    with fast() as robot:
+        result = robot.do("forward 1 m")
+        assert result.outcome == "completed"
+        assert result.path_m == pytest.approx(1.0, abs=0.02)
+        assert robot.pose == result.pose
+
+
+@pytest.mark.parametrize(
+    ("text", "outcome"), [("fly", "refused"), ("florble the wug", "unclear"), ("where are you?", "answered")]
+)
+def test_what_cannot_be_done_is_a_value(text: str, outcome: str) -> None:
+    with fast() as robot:
+        assert robot.do(text).outcome == outcome
+
+
+def test_a_plan_runs_as_an_object_or_as_text() -> None:
+    with fast() as robot:
+        assert robot.run(Plan((Drive(distance_m=0.5),))).path_m == pytest.approx(0.5, abs=0.02)
+        assert robot.run("turn left 90 deg").turned_rad == pytest.approx(math.pi / 2, abs=0.03)
+        assert robot.do("again").turned_rad == pytest.approx(math.pi / 2, abs=0.03)
+
+
+def test_a_text_that_is_no_plan_names_its_line() -> None:
+    with fast() as robot, pytest.raises(PlanTextError, match="line 2"):
+        robot.run("drive 1 m\nfly 2 m")
+
+
+def test_every_option_is_checked() -> None:
+    with pytest.raises(UsageError, match="slip"):
+        fast(sim="slip=9")
+    with pytest.raises(ProfileError, match="r2d2"):
+        fast(robot="r2d2")
+    with pytest.raises(UsageError, match="--on"):
+        fast(on="moon")
+
+
+def test_events_are_heard_in_their_order() -> None:
+    names: list[str] = []
+    with fast() as robot:
+        robot.on_event(lambda event: names.append(event.name))
+        robot.do("forward 0.3 m")
+    heard = [name for name in names if name not in ("telemetry", "progress")]
+    assert heard == ["interpreted", "rehearsed", "started", "finished", "result"]
+
+
+def test_a_listener_may_stop_the_robot() -> None:
+    with fast() as robot:
+
+        def stop_half_way(event: Event) -> None:
+            if isinstance(event, Progress) and event.pose.x_m > 0.5:
+                robot.stop()
+
+        robot.on_event(stop_half_way)
+        result = robot.do("forward 2 m")
+    assert result.outcome == "stopped"
+    assert result.path_m < 1.0
+
+
+def break_on_start(event: Event) -> None:
+    if event.name == "started":
+        raise ZeroDivisionError("in a listener")
+
+
+def test_what_a_listener_raises_stops_the_robot_and_comes_out_of_do() -> None:
+    with fast() as robot:
+        robot.on_event(break_on_start)
+        with pytest.raises(ZeroDivisionError):
+            robot.do("forward 2 m")
+        assert robot.do("where are you?").outcome == "answered"
+        assert robot.pose.x_m < 0.1
+
+
+def test_a_closed_robot_says_so() -> None:
+    robot = fast()
+    robot.close()
+    robot.close()
+    with pytest.raises(chatrobot.ChatRobotError, match="closed"):
+        robot.do("forward 1 m")
+
+
+@pytest.mark.realtime
+@pytest.mark.usefixtures("runtime")
+def test_in_real_time_a_stop_from_another_thread_waits_for_nothing() -> None:
+    moving = threading.Event()
+    with chatrobot.connect(world="empty") as robot:
+        robot.on_event(lambda event: moving.set() if isinstance(event, Progress) else None)
+
+        def stop_when_moving() -> None:
+            assert moving.wait(30)
+            robot.stop()
+
+        threading.Thread(target=stop_when_moving).start()
+        result = robot.do("forward 10 m")
+        assert result.outcome == "stopped"
+        assert result.path_m < 5.0
+        assert robot.do("turn left 20 degrees").outcome == "completed"
+
+
+@pytest.mark.realtime
+@pytest.mark.usefixtures("runtime")
+def test_in_real_time_what_a_listener_raises_comes_out_of_do() -> None:
+    with chatrobot.connect(world="empty") as robot:
+        robot.on_event(break_on_start)
+        with pytest.raises(ZeroDivisionError):
+            robot.do("forward 10 m")
+        assert robot.do("where are you?").outcome == "answered"

@@ -1,0 +1,165 @@
+"""The house keeps its floors: imports go down only, and three names stay where they belong."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+SOURCE = Path(__file__).parent.parent / "src"
+LEVELS = {
+    "core": 0, "reflex": 0,
+    "robots": 1, "wire": 1,
+    "sim": 2,
+    "plan": 3, "box": 3,
+    "language": 4, "models": 4, "execution": 4, "governor": 4, "transports": 4, "programs": 4, "recording": 4,
+    "session": 5,
+    "compose": 6,
+    "cli": 7, "web": 7, "mcp": 7, "nodes": 7, "api": 7,
+    "__init__": 8, "__main__": 8,
+}  # fmt: skip
+BESIDE = {"guard": {"core", "wire"}}
+"""Packages that stand beside the levels: what each may import. Of the levels, session alone knows them."""
+
+
+class Import(NamedTuple):
+    """One import, wherever in the file it stands (inside functions too)."""
+
+    importer: str
+    line: int
+    module: str
+    names: tuple[str, ...]
+    at_start: bool
+
+    @property
+    def where(self) -> str:
+        return f"{self.importer}:{self.line} imports {self.module}"
+
+
+def module_name(file: Path) -> str:
+    parts = file.relative_to(SOURCE).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" and len(parts) > 2 else parts)
+
+
+@cache
+def modules() -> dict[str, ast.Module]:
+    files = sorted((SOURCE / "chatrobot").rglob("*.py"))
+    return {module_name(file): ast.parse(file.read_text(encoding="utf-8")) for file in files}
+
+
+def package(module: str) -> str:
+    """The floor a module is on: `chatrobot.sim.robot` is on `sim`."""
+    return [*module.split("."), "__init__"][1]
+
+
+@cache
+def imports() -> tuple[Import, ...]:
+    return tuple(found for name, tree in modules().items() for found in _imports(name, tree))
+
+
+def _imports(importer: str, tree: ast.Module) -> Iterator[Import]:
+    """`at_start` is true for what runs when the module is imported: not for types alone, nor late in a function."""
+    late = {
+        id(inner)
+        for node in ast.walk(tree)
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))
+        or (isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test))
+        for inner in ast.walk(node)
+    }
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                yield Import(importer, node.lineno, alias.name, (), id(node) not in late)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{importer}:{node.lineno}: imports are absolute here"
+            names = tuple(alias.name for alias in node.names)
+            yield Import(importer, node.lineno, node.module or "", names, id(node) not in late)
+
+
+def targets(found: Import) -> Iterator[str]:
+    """The modules of ours that one import reaches: `from chatrobot.cli import stop` reaches chatrobot.cli.stop."""
+    if found.module.split(".")[0] != "chatrobot":
+        return
+    submodules = [f"{found.module}.{name}" for name in found.names if f"{found.module}.{name}" in modules()]
+    if len(submodules) < len(found.names) or not found.names:
+        yield found.module
+    yield from submodules
+
+
+def test_every_package_has_a_floor() -> None:
+    assert {package(name) for name in modules()} <= {*LEVELS, *BESIDE}
+
+
+def test_imports_go_down_only() -> None:
+    wrong = []
+    for found in imports():
+        importer = package(found.importer)
+        for target in targets(found):
+            imported = package(target)
+            if imported == importer or (imported == "__init__" and found.names == ("__version__",)):
+                continue
+            if importer in BESIDE:
+                allowed = imported in BESIDE[importer]
+            elif imported in BESIDE:
+                allowed = importer == "session"
+            else:
+                allowed = LEVELS[imported] < LEVELS[importer]
+            if not allowed:
+                wrong.append(found.where)
+    assert not wrong
+
+
+def test_no_module_imports_itself_in_a_circle() -> None:
+    graph: dict[str, set[str]] = {name: set() for name in modules()}
+    for found in imports():
+        if found.at_start:
+            graph[found.importer].update(target for target in targets(found) if target in graph)
+    done: set[str] = set()
+
+    def visit(name: str, path: tuple[str, ...]) -> None:
+        assert name not in path, " → ".join((*path[path.index(name) :], name))
+        if name not in done:
+            for target in sorted(graph[name]):
+                visit(target, (*path, name))
+            done.add(name)
+
+    for name in graph:
+        visit(name, ())
+
+
+def test_session_itself_imports_nothing() -> None:
+    assert not [found for found in imports() if found.importer == "chatrobot.session"]
+
+
+def test_only_the_governor_mints_velocities() -> None:
+    users = {package(found.importer) for found in imports() if "Mint" in found.names or "*" in found.names}
+    assert users == {"governor"}
+    for name, tree in modules().items():
+        if package(name) not in ("governor", "core"):
+            assert "Mint" not in {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}, (
+                name
+            )
+
+
+@pytest.mark.parametrize("secret", ["TRUTH_TOPIC", "chatrobot/sim/truth"])
+def test_only_the_simulation_and_those_who_show_it_know_the_truth(secret: str) -> None:
+    for file in sorted((SOURCE / "chatrobot").rglob("*.py")):
+        floor = package(module_name(file))
+        if floor not in ("sim", "compose", "cli"):
+            assert secret not in file.read_text(encoding="utf-8"), file.name
+
+
+def test_the_light_packages_need_nothing_but_python() -> None:
+    """Stop, guard and every start-up stand on these."""
+    light = ("core", "reflex", "wire", "guard")
+    allowed = {"chatrobot", *__import__("sys").stdlib_module_names}
+    wrong = [
+        found.where
+        for found in imports()
+        if package(found.importer) in light and found.module.split(".")[0] not in allowed
+    ]
+    assert not wrong

@@ -1,0 +1,87 @@
+"""What each process loads: Motion knows no language, the guard nothing heavy, `stop` next to nothing."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+HEAVY = "numpy", "pydantic", "yaml", "rich", "prompt_toolkit", "PIL", "platformdirs"
+
+
+def loaded_by(code: str) -> set[str]:
+    """The modules in a fresh interpreter after `code`."""
+    done = subprocess.run(
+        [sys.executable, "-c", f"{code}\nimport sys\nprint(*sys.modules, sep='\\n')"],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=60,
+    )
+    return set(done.stdout.split())
+
+
+def among(names: set[str], unwanted: tuple[str, ...]) -> list[str]:
+    return sorted(name for name in names if name.startswith(unwanted))
+
+
+def test_motion_knows_no_language_no_model_and_no_screen() -> None:
+    loaded = loaded_by("import chatrobot.session.motion_process")
+    assert "chatrobot.session.motion" in loaded
+    assert not among(loaded, ("chatrobot.language", "chatrobot.models", "chatrobot.web", "chatrobot.cli"))
+    assert not among(loaded, ("prompt_toolkit", "rich", "chatrobot.session.understanding"))
+
+
+def test_the_guard_is_light() -> None:
+    loaded = loaded_by("import chatrobot.guard.__main__")
+    assert not among(loaded, HEAVY)
+    assert not among(loaded, ("chatrobot.session", "chatrobot.plan", "chatrobot.robots", "chatrobot.sim"))
+
+
+@pytest.mark.parametrize("arguments", [["stop"], ["--version"]])
+def test_stop_and_help_load_nothing_heavy(arguments: list[str]) -> None:
+    run = f"with contextlib.suppress(SystemExit):\n main({arguments})"
+    loaded = loaded_by(f"import contextlib\nfrom chatrobot.cli.entry import main\n{run}")
+    assert not among(loaded, HEAVY)
+    assert not among(
+        loaded, ("chatrobot.session", "chatrobot.compose", "chatrobot.language", "chatrobot.sim")
+    )
+
+
+def test_stop_does_not_even_load_the_parser_of_arguments() -> None:
+    assert "argparse" not in loaded_by("from chatrobot.cli.entry import main\nmain(['stop'])")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "limit_s"),
+    [(["stop"], 0.06), (["--help"], 0.3), (["do", "forward 1 m", "--fast", "--world", "empty"], 1.0)],
+)
+def test_start_up_is_quick(arguments: list[str], limit_s: float, tmp_path: Path) -> None:
+    """In processor time, the best of five, so that a busy machine does not matter."""
+    environment = {**os.environ, "XDG_RUNTIME_DIR": str(tmp_path)}
+    command = [sys.executable, "-m", "chatrobot", *arguments]
+    costs_s = []
+    for _ in range(5):
+        before = os.times()
+        subprocess.run(command, env=environment, check=True, stdout=subprocess.DEVNULL, timeout=60)
+        after = os.times()
+        costs_s.append(
+            after.children_user + after.children_system - before.children_user - before.children_system
+        )
+    assert min(costs_s) < limit_s
+
+
+def test_importing_chatrobot_loads_nothing_yet_offers_its_names() -> None:
+    loaded = loaded_by("import chatrobot")
+    assert among(loaded, ("chatrobot",)) == ["chatrobot"]
+
+    import chatrobot
+
+    for name in chatrobot.__all__:
+        assert getattr(chatrobot, name) is not None
+        assert name in dir(chatrobot)
+    with pytest.raises(AttributeError):
+        _ = chatrobot.nonsense
