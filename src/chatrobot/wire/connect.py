@@ -12,7 +12,7 @@ import re
 from typing import Protocol, runtime_checkable
 
 from chatrobot.core.errors import UsageError
-from chatrobot.robots.profile import Wiring
+from chatrobot.core.wiring import Wiring
 from chatrobot.wire.messages import Message
 from chatrobot.wire.wire import Wire
 

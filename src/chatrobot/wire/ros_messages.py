@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeVar
 
-from chatrobot.robots.profile import Wiring
+from chatrobot.core.wiring import Wiring
 from chatrobot.wire.messages import Flag, Imu, LaserScan, Message, Number, Odometry, Text, TwistMessage
 
 ODOM_FRAME, BASE_FRAME, LASER_FRAME = "odom", "base_link", "laser"

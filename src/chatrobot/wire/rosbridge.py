@@ -22,7 +22,7 @@ from websockets.exceptions import WebSocketException
 from websockets.sync.client import ClientConnection, connect
 
 from chatrobot.core.errors import UsageError, WireError
-from chatrobot.robots.profile import Wiring
+from chatrobot.core.wiring import Wiring
 from chatrobot.wire.messages import Message
 from chatrobot.wire.ros_messages import RosForm, ros_form, stamped
 from chatrobot.wire.stamps import StampTranslator, to_wall_s

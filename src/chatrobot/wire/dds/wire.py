@@ -13,7 +13,7 @@ from cyclonedds.domain import Domain, DomainParticipant
 from cyclonedds.internal import dds_infinity
 
 from chatrobot.core.errors import WireError
-from chatrobot.robots.profile import Wiring
+from chatrobot.core.wiring import Wiring
 from chatrobot.wire.dds.discovery import Discovery, configuration, discovery_from, machine_addresses
 from chatrobot.wire.dds.endpoints import Port, Reader, Writer
 from chatrobot.wire.dds.graph import Graph, participant_qos
