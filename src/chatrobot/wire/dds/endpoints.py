@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 from cyclonedds.core import (
@@ -73,8 +73,12 @@ class Writer:
         timed = stamped(message)
         if timed is not None:
             message = timed._replace(stamp_s=to_wall_s(timed.stamp_s))
+        self.write_fields(self._form.to_ros(message))
+
+    def write_fields(self, fields: Mapping[str, Any]) -> None:
+        """Send a ROS message as nested dictionaries; as `write` otherwise."""
         try:
-            self._writer.write(self._types.sample(self._form.type_name, self._form.to_ros(message)))
+            self._writer.write(self._types.sample(self._form.type_name, fields))
         except DDSException as error:
             if error.code != DDSException.DDS_RETCODE_TIMEOUT:
                 raise WireError(f"publishing failed: {error}") from error

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from cyclonedds.core import DDSException, GuardCondition, WaitSet
@@ -20,7 +20,7 @@ from chatrobot.wire.dds.graph import Graph, participant_qos
 from chatrobot.wire.dds.names import dds_topic_name
 from chatrobot.wire.dds.ros_types import RosTypes
 from chatrobot.wire.messages import Message
-from chatrobot.wire.ros_messages import is_sensor, ros_form
+from chatrobot.wire.ros_messages import RosForm, is_sensor, ros_form
 from chatrobot.wire.wire import M
 
 _GID_24_DISTRIBUTIONS = ("foxy", "galactic", "humble", "iron")
@@ -56,7 +56,7 @@ class DdsWire:
         self._namespace = namespace.strip("/")
         self._this_machine_only = discovery.range == "LOCALHOST" and not discovery.peers and not discovery.uri
         self._lock = threading.Lock()
-        self._writers: dict[tuple[str, type], Writer] = {}
+        self._writers: dict[tuple[str, object], Writer] = {}
         self._readers: dict[tuple[str, type], Reader] = {}
         self._closed = False
         with _as_wire_error(f"DDS cannot be opened on domain {discovery.domain_id}"):
@@ -90,6 +90,18 @@ class DdsWire:
             else:
                 reader.callbacks = (*reader.callbacks, callback)
 
+    def publish_fields(self, topic: str, type_name: str, fields: Mapping[str, Any]) -> None:
+        """Publish a ROS message that has no planar form, `tf2_msgs/msg/TFMessage` say.
+
+        Args:
+            fields: nested dictionaries; what is left out is zero. Stamps as ROS has them (`stamps.to_wall_s`).
+        """
+        writer = self._writers.get((topic, type_name))
+        if writer is None:
+            form = RosForm(type_name, dict, lambda _: None)
+            writer = self._open_writer(topic, type_name, Port(self._name(topic), form, best_effort=False))
+        writer.write_fields(fields)
+
     def advertise(self, topic: str, kind: type[Message]) -> None:
         """Let others find us as a publisher now, before the first message."""
         if (topic, kind) not in self._writers:
@@ -102,7 +114,7 @@ class DdsWire:
     def publishers_of(self, topic: str) -> list[str]:
         """Who publishes on `topic` besides the processes of our own session, by name."""
         graph = self._graph
-        return [] if graph is None else graph.publishers_of(dds_topic_name(topic, self._namespace))
+        return [] if graph is None else graph.publishers_of(self._name(topic))
 
     def close(self) -> None:
         with self._lock:
@@ -129,12 +141,12 @@ class DdsWire:
         graph = self._graph
         return not (self._this_machine_only and graph is not None and graph.is_elsewhere(publication_handle))
 
-    def _open_writer(self, topic: str, kind: type[Message]) -> Writer:
+    def _open_writer(self, topic: str, kind: Any, port: Port | None = None) -> Writer:
         with self._lock, _as_wire_error(f"cannot publish on {topic}"):
             participant, _, graph = self._open()
             writer = self._writers.get((topic, kind))
             if writer is None:
-                writer = Writer(participant, self._types, self._port(topic, kind))
+                writer = Writer(participant, self._types, port or self._port(topic, kind))
                 self._writers = {**self._writers, (topic, kind): writer}
                 self._announce(graph)
             return writer
@@ -146,7 +158,10 @@ class DdsWire:
 
     def _port(self, topic: str, kind: type[Any]) -> Port:
         form = ros_form(topic, kind, self._wiring)
-        return Port(dds_topic_name(topic, self._namespace), form, is_sensor(topic, kind, self._wiring))
+        return Port(self._name(topic), form, is_sensor(topic, kind, self._wiring))
+
+    def _name(self, topic: str) -> str:
+        return dds_topic_name(topic, self._namespace)
 
     def _announce(self, graph: Graph) -> None:
         graph.announce(
