@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import ipaddress
 import os
+import re
 import socket
 import uuid
 from collections.abc import Iterable
@@ -16,18 +18,20 @@ from cyclonedds.builtin import (
 )
 from cyclonedds.core import Policy, Qos
 from cyclonedds.domain import DomainParticipant
+from cyclonedds.internal import InvalidSample
 from cyclonedds.pub import DataWriter
 from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
 
-from chatrobot.wire.dds.discovery import LOOPBACK, machine_addresses
+from chatrobot.wire.dds.discovery import machine_addresses
 from chatrobot.wire.dds.ros_types import MALFORMED, RosTypes
 
 _INFO_TOPIC = "ros_discovery_info"
 _INFO_TYPE = "rmw_dds_common/msg/ParticipantEntitiesInfo"
-_INFO_QOS = Qos(Policy.Reliability.Reliable(0), Policy.Durability.TransientLocal, Policy.History.KeepLast(1))
+_INFO_QOS = (Policy.Reliability.Reliable(0), Policy.Durability.TransientLocal)
 _MANY = 1000
 _OWN_ID = "CHATROBOT_ID"
+_ADDRESS = re.compile(r"udp/([0-9.]+):")
 
 
 def own_id() -> str:
@@ -42,7 +46,7 @@ def participant_qos() -> Qos:
 
 @dataclass(frozen=True)
 class Stranger:
-    """A participant that is not ours, as far as it tells."""
+    """A participant that is not ours, as far as it tells. `addresses`: IPv4, those that are one machine's alone."""
 
     host: str
     addresses: frozenset[str]
@@ -52,7 +56,7 @@ class Stranger:
     def is_elsewhere(self) -> bool:
         """Known to be on another machine."""
         if self.addresses:
-            return self.addresses.isdisjoint({LOOPBACK, "localprocess", *machine_addresses()})
+            return self.addresses.isdisjoint(machine_addresses())
         return self.host not in ("", socket.gethostname())
 
 
@@ -69,8 +73,9 @@ class Graph:
         self._name, self._namespace = name, namespace
         self._guid = participant.get_guid()
         topic = Topic(participant, _INFO_TOPIC, types.topic_type(_INFO_TYPE))
-        self._writer = DataWriter(participant, topic, _INFO_QOS)
-        self._infos = DataReader(participant, topic, _INFO_QOS)
+        self._writer = DataWriter(participant, topic, Qos(*_INFO_QOS, Policy.History.KeepLast(1)))
+        self._infos = DataReader(participant, topic, Qos(*_INFO_QOS, Policy.History.KeepAll))
+        self._nodes: dict[uuid.UUID, str] = {}
         self._participants = BuiltinDataReader(participant, BuiltinTopicDcpsParticipant)
         self._publications = BuiltinDataReader(participant, BuiltinTopicDcpsPublication)
 
@@ -91,7 +96,7 @@ class Graph:
         Processes of the same session as this one (`own_id`) are left out.
         """
         strangers = self.strangers()
-        nodes = self._nodes()
+        nodes = self._hear_nodes()
         return sorted(
             {
                 nodes.get(publication.key) or strangers[publication.participant_key].process
@@ -118,19 +123,20 @@ class Graph:
         stranger = None if key is None else self.strangers().get(key)
         return stranger is not None and stranger.is_elsewhere()
 
-    def _nodes(self) -> dict[uuid.UUID, str]:
-        """Node names by the GUID of their writers."""
-        named: dict[uuid.UUID, str] = {}
-        for sample in _alive(self._infos):
+    def _hear_nodes(self) -> dict[uuid.UUID, str]:
+        """Node names by the GUID of their writers, as far as they have told."""
+        for sample in self._infos.take(_MANY):
+            if isinstance(sample, InvalidSample):
+                continue
             try:
                 info = self._types.read(_INFO_TYPE, sample.cdr)
                 for node in info.node_entities_info_seq:
                     full_name = f"{node.node_namespace.rstrip('/')}/{node.node_name}"
                     for gid in node.writer_gid_seq:
-                        named[uuid.UUID(bytes=bytes(gid.data)[:16])] = full_name
+                        self._nodes[uuid.UUID(bytes=bytes(gid.data)[:16])] = full_name
             except MALFORMED:
                 continue  # another distribution's length of GIDs
-        return named
+        return self._nodes
 
     def _gid(self, guid: uuid.UUID) -> dict[str, Any]:
         length = len(self._types.message("rmw_dds_common/msg/Gid", {}).data)
@@ -149,6 +155,14 @@ def _introduced(qos: Qos) -> Stranger:
     host = properties.get("__Hostname") or properties.get("fastdds.physical_data.host", "")
     process = properties.get("__ProcessName") or properties.get("fastdds.physical_data.process", "")
     pid = properties.get("__Pid", "")
-    addresses = properties.get("__NetworkAddresses", "").split(",")
+    addresses = _ADDRESS.findall(properties.get("__NetworkAddresses", ""))
     named = f"{process or 'a process'} {pid}".strip() + (f" on {host}" if host else "")
-    return Stranger(host, frozenset(filter(None, addresses)), named, pairs.get("chatrobot", ""))
+    return Stranger(host, frozenset(filter(_is_of_one_machine, addresses)), named, pairs.get("chatrobot", ""))
+
+
+def _is_of_one_machine(address: str) -> bool:
+    try:
+        parsed = ipaddress.ip_address(address)
+    except ValueError:
+        return False
+    return not (parsed.is_loopback or parsed.is_multicast)
