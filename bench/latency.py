@@ -13,9 +13,10 @@ import tempfile
 import time
 from pathlib import Path
 
+from tests.realtime import RunningRobot
+
 from chatrobot.wire.local import LocalWire
 from chatrobot.wire.messages import TwistMessage
-from tests.realtime import RunningRobot
 
 REPETITIONS = 60
 
@@ -34,7 +35,9 @@ def one_hop(folder: Path) -> list[float]:
     """A velocity from a process through the hub (a second process) and back."""
     path = folder / "hop.wire"
     serve = "import sys\nfrom chatrobot.wire.local import LocalHub\nhub = LocalHub(sys.argv[1])\nprint(flush=True)\n"
-    hub = subprocess.Popen([sys.executable, "-c", serve + "while True: hub.poll(1.0)", str(path)], stdout=subprocess.PIPE)
+    hub = subprocess.Popen(
+        [sys.executable, "-c", serve + "while True: hub.poll(1.0)", str(path)], stdout=subprocess.PIPE
+    )
     assert hub.stdout is not None
     hub.stdout.readline()
     wire, heard = LocalWire(path), []
