@@ -24,6 +24,8 @@ _DDS = re.compile(r"dds:(?://(?P<domain>[0-9]{0,3})(?:/(?P<namespace>[A-Za-z_][A
 class Discovering(Protocol):
     """A wire whose ends need time to find each other."""
 
+    def advertise(self, topic: str, kind: type[Message]) -> None: ...
+
     def wait_for_listener(self, topic: str, kind: type[Message], timeout_s: float) -> bool: ...
 
     def publishers_of(self, topic: str) -> list[str]: ...
@@ -54,6 +56,20 @@ def connect_wire(address: str, wiring: Wiring, node_name: str) -> Wire:
     return LocalWire(path)
 
 
+@runtime_checkable
+class Returning(Protocol):
+    """A wire whose other end may be gone for a while and come back."""
+
+    @property
+    def is_connected(self) -> bool: ...
+
+
+def advertise(wire: Wire, topic: str, kind: type[Message]) -> None:
+    """Let listeners find us before the first message, where the wire needs it: a first zero must not be lost."""
+    if isinstance(wire, Discovering):
+        wire.advertise(topic, kind)
+
+
 def wait_for_listener(wire: Wire, topic: str, kind: type[Message], timeout_s: float) -> bool:
     """Block until somebody listens on `topic`, where the wire can know; False where nobody does in time."""
     return wire.wait_for_listener(topic, kind, timeout_s) if isinstance(wire, Discovering) else True
@@ -62,6 +78,11 @@ def wait_for_listener(wire: Wire, topic: str, kind: type[Message], timeout_s: fl
 def publishers_of(wire: Wire, topic: str) -> list[str]:
     """Who publishes on `topic` besides our own session, by name, where the wire can know."""
     return wire.publishers_of(topic) if isinstance(wire, Discovering) else []
+
+
+def comes_back(wire: Wire) -> bool:
+    """Whether an error of this wire may pass: what could not be sent is worth another try."""
+    return isinstance(wire, Returning)
 
 
 def _connect_dds(address: str, wiring: Wiring, node_name: str) -> Wire:
