@@ -110,6 +110,8 @@ def test_a_secret_in_the_address_reaches_the_server_and_no_message(
     robot: FakeRosbridge, connect: Connect
 ) -> None:
     wire = connect(query="/?token=s3cret")
+    wire.publish("cmd_vel", ZERO)
+    assert robot.wait_for("publish", 1, PATIENCE_S)
     assert robot.paths == ["/?token=s3cret"]
     assert "s3cret" not in str(_when_gone(wire, robot.stop))
     robot.start()

@@ -45,7 +45,7 @@ class StampTranslator:
         if math.isfinite(known_s) and not -JUMP_S <= seen_s - known_s <= LATEST_S:
             self._previous_s = self._offset_s = known_s = seen_s
         self._offset_s = min(self._offset_s, seen_s)
-        return stamp_s + min(known_s, seen_s)
+        return min(received_s, stamp_s + min(known_s, seen_s))
 
 
 def to_wall_s(stamp_s: float) -> float:
