@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import queue
+import socket
 import subprocess
 import sys
 import threading
@@ -24,7 +25,8 @@ from dds_rig import DOMAIN_ID, HERE, PATIENCE_S, Ends
 from wire_contract import Inbox
 
 from chatrobot.core.wiring import Wiring
-from chatrobot.wire.dds.graph import Stranger
+from chatrobot.wire.dds.discovery import machine_addresses
+from chatrobot.wire.dds.fence import fence_in
 from chatrobot.wire.dds.ros_types import RosTypes
 from chatrobot.wire.dds.wire import DdsWire
 from chatrobot.wire.messages import Flag, Number, Odometry, Text, TwistMessage
@@ -237,11 +239,23 @@ def test_where_nobody_listens_waiting_ends(ends: Ends) -> None:
     assert not ends.connect().wait_for_listener("nobody", Flag, 0.01)
 
 
-def test_what_another_machine_says_is_told_by_its_addresses() -> None:
-    def somebody(host: str, *addresses: str) -> Stranger:
-        return Stranger(host, frozenset(addresses), "python", "")
-
-    assert somebody("far", "203.0.113.7").is_elsewhere()
-    assert somebody("far").is_elsewhere()
-    assert not somebody(os.uname().nodename).is_elsewhere()
-    assert not somebody("").is_elsewhere()
+def test_in_localhost_range_the_kernel_drops_what_comes_from_elsewhere() -> None:
+    addresses = machine_addresses()
+    if not addresses:
+        pytest.skip("this machine has no address but the loopback's: nothing comes from elsewhere")
+    unused_domain = 232
+    receiver, sender = (socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(2))
+    with receiver, sender:
+        receiver.bind(("", 7400 + 250 * unused_domain + 100))
+        receiver.settimeout(PATIENCE_S)
+        port = receiver.getsockname()[1]
+        sender.bind((addresses[0], 0))
+        assert fence_in(unused_domain, addresses) >= 1
+        sender.sendto(b"ours", (addresses[0], port))
+        assert receiver.recv(100) == b"ours"
+        fence_in(unused_domain, [])  # now that address is another machine's
+        sender.sendto(b"elsewhere", (addresses[0], port))
+        sender.close()
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as loopback:
+            loopback.sendto(b"loopback", ("127.0.0.1", port))
+            assert receiver.recv(100) == b"loopback"
