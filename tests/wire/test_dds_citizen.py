@@ -5,10 +5,12 @@ from __future__ import annotations
 import contextlib
 import os
 import queue
+import signal
 import socket
 import subprocess
 import sys
 import threading
+import time
 import uuid
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -101,6 +103,21 @@ def test_a_process_that_is_not_ours_hears_us(ends: Ends) -> None:
         wire.publish("user_input", Text("去厨房"))
         assert process.stdout is not None
         assert process.stdout.readline() == "去厨房\n"
+
+
+@pytest.mark.realtime
+def test_a_frozen_listener_holds_up_neither_the_publisher_nor_the_others(ends: Ends) -> None:
+    wire = ends.connect()
+    with stranger("hear", "chatter") as process:
+        assert wire.wait_for_listener("chatter", Text, PATIENCE_S)
+        process.send_signal(signal.SIGSTOP)
+        longest_s = 0.0
+        for i in range(2_000):
+            began_s = time.monotonic()
+            DdsWire.publish(wire, "chatter", Text(f"{i} " + "x" * 1000))
+            longest_s = max(longest_s, time.monotonic() - began_s)
+        process.send_signal(signal.SIGCONT)
+    assert longest_s < 0.05
 
 
 def test_who_listens_later_hears_it_too(ends: Ends) -> None:
