@@ -10,6 +10,7 @@ from typing import Literal
 from chatrobot import reflex
 from chatrobot.language import forms, questions
 from chatrobot.language.arithmetic import settle_condition
+from chatrobot.language.chatter import without_chatter
 from chatrobot.language.clauses import read_frames
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.corrections import corrected, without_negated
@@ -295,7 +296,9 @@ class _Reading:
 
 def _frames(atoms: list[Atom]) -> list[Frame]:
     return read_frames(
-        tidy(without_negated(in_order(corrected(settle_condition(with_defined_units(atoms))))))
+        tidy(
+            without_negated(in_order(corrected(settle_condition(with_defined_units(without_chatter(atoms))))))
+        )
     )
 
 

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from chatrobot.language.numbers import is_chinese, is_kind
 from chatrobot.language.quantities import quantity
 from chatrobot.language.tokens import Atom
-from chatrobot.language.unclear import Unclear
 
 _HARMLESS = ("filler", "glue", "unknown", "num", "reason", "unit_times", "flag", "question")
 _MOTION = ("q", "verb", "dir", "rot", "shape", "pace", "role", "number")
@@ -19,7 +18,7 @@ def tidy(atoms: Sequence[Atom]) -> list[Atom]:
     if any(atom.kind == "shape" for atom in settled):
         settled = [_times_sign(settled, i) for i in range(len(settled))]
     settled = _pauses(settled)
-    return _headings(_without_reasons(_fractions_of(_relative_speeds(settled))))
+    return _headings(_fractions_of(_relative_speeds(settled)))
 
 
 def _times_sign(atoms: Sequence[Atom], i: int) -> Atom:
@@ -157,23 +156,4 @@ def _fractions_of(atoms: Sequence[Atom]) -> list[Atom]:
         else:
             out.append(atom)
             i += 1
-    return out
-
-
-def _without_reasons(atoms: Sequence[Atom]) -> list[Atom]:
-    """A reason (`because …`, `so that I can …`, `I'm …`) changes no command: left out up to the next break,
-    unless there is a command in it."""
-    out: list[Atom] = []
-    i = 0
-    while i < len(atoms):
-        if atoms[i].kind != "reason":
-            out.append(atoms[i])
-            i += 1
-            continue
-        end = i + 1
-        while end < len(atoms) and not (atoms[end].kind in ("sep", "conn") and atoms[end].value != "paren"):
-            end += 1
-        if any(a.kind == "q" or a.kind in ("refuse", "negation", "condition") for a in atoms[i:end]):
-            raise Unclear("unknown_part", " ".join(a.text for a in atoms[i:end]))
-        i = end
     return out
