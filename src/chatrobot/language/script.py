@@ -10,9 +10,10 @@ from chatrobot.language.actions import State, act, inverse
 from chatrobot.language.clauses import is_times_only
 from chatrobot.language.frames import STILL, TURN, Frame, merged
 from chatrobot.language.manner import Pace
+from chatrobot.language.quantities import quantity
 from chatrobot.language.shapes import draw
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import MAX_REPEAT, Go, Repeat, Say, Step, Turn, Wait
+from chatrobot.plan.steps import MAX_REPEAT, Arc, Drive, Go, Repeat, Say, Step, Turn, Wait
 
 
 @dataclass
@@ -165,7 +166,7 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
                 _act(script, both)
                 return i + 2
     if "trip" in frame.flags or "trip" in [a.role for a in frame.q.values()]:
-        both = merged(frame, frames[i + 1]) if i + 1 < len(frames) and not frames[i + 1].moves else None
+        both = _with_measure(frame, frames[i + 1]) if i + 1 < len(frames) else None
         _round_trips(script, both or frame)
         return i + 1 + (both is not None)
     if frame.shape:
@@ -180,6 +181,11 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
         if not script.units:
             raise Unclear("nothing_before", frame.text)
         script.units += [list(unit) for unit in script.units]
+    elif frame.verb in STILL and {"each", "all"} & frame.flags and script.units:
+        frame.flags.add("after_each")
+        _insert(script, frame)
+    elif "halfway" in frame.flags and frame.verb in STILL:
+        _halve(script, frame)
     elif frame.flags & {"between", "after_each"}:
         _insert(script, frame)
     else:
@@ -197,9 +203,36 @@ def _act(script: Script, frame: Frame) -> None:
         raise Unclear("how_long_a_step", frame.q["count"].text)
     if "times" in frame.q:
         count *= _count(Frame(q={"times": frame.q["times"]}))
+    each = _relative_to_last(each, script)
     steps = _known(each, script) or act(each, script.state, script.pace)
     script.state.steps.extend(steps * count)
     script.units.extend([steps] * count if steps else [])
+
+
+def _with_measure(trip: Frame, following: Frame) -> Frame | None:
+    """`to and fro five times, half a metre each way`: the measure said after the trips."""
+    bare = not following.verb and not following.shape and not following.place and not following.rot
+    if not bare or trip.has_extent or following.joined == "then":
+        return None
+    both = trip.copy()
+    both.flags |= following.flags
+    both.q = {**following.q, **both.q}
+    both.direction = both.direction or following.direction
+    both.roles += following.roles
+    return both
+
+
+def _relative_to_last(frame: Frame, script: Script) -> Frame:
+    """`…, then a metre more twice as fast`: relative to the speed said before, if there was one."""
+    if "faster" not in frame.q:
+        return frame
+    before = next((s for s in reversed(script.state.steps) if isinstance(s, (Drive, Arc)) and s.speed_mps), None)
+    if before is None or before.speed_mps is None:
+        return frame
+    frame = frame.copy()
+    factor = frame.q.pop("faster")
+    frame.q["speed"] = quantity("speed", factor.number * before.speed_mps, factor.text)
+    return frame
 
 
 def _lists_lengths(frames: list[Frame], i: int) -> bool:
@@ -262,7 +295,9 @@ def _known(frame: Frame, script: Script) -> list[Step]:
         return []
     if frame.verb not in ("", "go", "return", "make", "shift", "halt") or frame.has_extent or frame.rot:
         raise Unclear("unclear_motion", frame.text)
-    go = script.memory.places[frame.place]
+    go = script.memory.places.get(frame.place)
+    if go is None:
+        raise Unclear("place_unusable", frame.place)
     script.state.last = "go"
     return [replace(go, speed_mps=script.pace.speed(frame))]
 
@@ -289,6 +324,22 @@ def _insert(script: Script, frame: Frame) -> None:
         if k + 1 < len(moving) or ("after_each" in frame.flags and not pause):
             units.append(steps)
     script.units = units
+
+
+def _halve(script: Script, frame: Frame) -> None:
+    """`two metres, but stop for a second halfway`: the last motion in two halves."""
+    pause = act(Frame(verb="wait", q=frame.q, texts=frame.texts), State(), script.pace)
+    unit = script.units.pop() if script.units else []
+    if len(unit) != 1:
+        raise Unclear("between_what", frame.text)
+    step = unit[0]
+    if isinstance(step, Drive) and step.distance_m:
+        half: Step = replace(step, distance_m=step.distance_m / 2)
+    elif isinstance(step, (Turn, Arc)) and step.angle_rad:
+        half = replace(step, angle_rad=step.angle_rad / 2)
+    else:
+        raise Unclear("between_what", frame.text)
+    script.units += [[half], pause, [half]]
 
 
 def _full_turns(unit: list[Step]) -> list[list[Step]]:
