@@ -123,3 +123,13 @@ def test_a_word_that_was_defined_is_done_as_often_as_said() -> None:
     once: Plan | None = Conversation().say("go forward 30 cm").plan
     assert once is not None
     assert steps("let's call going forward 30 cm a hop", "hop three times") == once.steps * 3
+
+
+def test_compass_points_count_only_from_a_heading_that_was_said() -> None:
+    first, ahead, second, on = steps(
+        "you're facing north. face east, drive 1 m, face north again and drive 2 m"
+    )
+    assert (first, second) == (Turn(math.pi / 2, left=False), Turn(math.pi / 2, left=True))
+    assert (ahead, on) == (Drive(1.0), Drive(2.0))
+    for text in ("face east", "north 2 m", "you're facing north. turn left, then face north"):
+        assert Conversation().say(text).plan is None

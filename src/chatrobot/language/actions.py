@@ -6,12 +6,14 @@ import math
 from dataclasses import dataclass, field
 
 from chatrobot.core.geometry import Pose
+from chatrobot.language.arcs import about, arc, is_left
 from chatrobot.language.frames import DIAGONALS, GO, SIDES, STILL, TURN, Frame
 from chatrobot.language.manner import Pace
 from chatrobot.language.quantities import quantity
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Step, Turn, Wait
+from chatrobot.language.undoing import inverse
+from chatrobot.plan.steps import Drive, Face, Go, Step, Turn, Wait
 
 DIRECTIONS = {
     "forward": 0.0, "left": math.pi / 2, "back": math.pi, "right": -math.pi / 2,
@@ -43,6 +45,8 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     """
     frame = _with_units(frame, state)
     _check_extents(frame)
+    if _OUTLINES & set(frame.roles):
+        raise Unclear("unknown_part", frame.text)
     if (
         "there" in frame.flags
         and frame.verb not in STILL
@@ -72,28 +76,14 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     elif frame.verb == "face" or ("original_heading" in frame.flags):
         steps = _face(frame, state, pace)
     elif frame.verb == "uturn":
-        steps = _about(frame, pace)
+        steps = about(frame, pace)
     elif frame.is_arc:
-        steps = _arc(frame, pace)
+        steps = arc(frame, pace)
     elif _is_turn(frame, state):
         steps = _turn(frame, state, pace)
     else:
         steps = _drive(frame, state, pace)
     return steps
-
-
-def _about(frame: Frame, pace: Pace) -> list[Step]:
-    """Turn around on the spot; as a half circle where a radius is said."""
-    left = _left(frame)
-    if "radius" in frame.q and left is not None:
-        return [Arc(frame.q["radius"].number, math.pi, left=left, speed_mps=pace.speed(frame))]
-    said = frame.q.get("angle") or frame.q.get("turns")
-    if frame.is_arc or "length" in frame.q or (said and abs(said.number - math.pi) > 1e-6):
-        raise Unclear("unclear_motion", frame.text)
-    rate = pace.rate(frame)
-    if "time" in frame.q:
-        rate = math.pi / frame.q["time"].number
-    return [Turn(math.pi, left=left is not False, rate_radps=rate)]
 
 
 def _with_units(frame: Frame, state: State) -> Frame:
@@ -197,8 +187,6 @@ def _all_used(frame: Frame, kind: str) -> None:
     left_over = [q for name, q in frame.q.items() if name not in _SLOTS[kind]]
     if left_over:
         raise Unclear("unclear_motion", f"{frame.text}")
-    if _OUTLINES & set(frame.roles):
-        raise Unclear("unknown_part", frame.text)
     if "each" in frame.flags and "time" in frame.q and kind != "still" and len(frame.q) > 1:
         raise Unclear("unclear_motion", frame.text)
     if _REFERRING & frame.flags or (kind in ("drive", "heading") and (frame.rot or frame.direction2)):
@@ -214,13 +202,6 @@ def _still(frame: Frame) -> list[Step]:
     if "bit" in frame.flags or frame.text:
         return [Wait(1.0)]
     raise Unclear("how_long", frame.text)
-
-
-def _left(frame: Frame) -> bool | None:
-    side = frame.rot or frame.direction2 or (frame.direction if frame.direction in SIDES else "")
-    if not side and frame.is_arc and frame.direction in DIAGONALS.values():
-        side = frame.direction.split("_")[1]
-    return None if not side else side == "left"
 
 
 def _is_turn(frame: Frame, state: State) -> bool:
@@ -248,7 +229,7 @@ def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
     rate = pace.rate(frame)
     seconds = frame.q.get("time")
     angle = frame.q.get("angle") or frame.q.get("turns")
-    left = _left(frame)
+    left = is_left(frame)
     if left is None and not frame.moves:
         left = state.left
     if left is None and state.last == "turn" and "more" in frame.flags:
@@ -391,44 +372,6 @@ def _face(frame: Frame, state: State, pace: Pace) -> list[Step]:
     raise Unclear("which_side", frame.text)
 
 
-def _arc(frame: Frame, pace: Pace) -> list[Step]:
-    left = _left(frame)
-    if left is None:
-        raise Unclear("which_side", frame.text)
-    backward = frame.direction.startswith("back")
-    angle = frame.q.get("angle") or frame.q.get("turns")
-    length, seconds = frame.q.get("length"), frame.q.get("time")
-    speed, rate = frame.q.get("speed"), frame.q.get("rate")
-    if rate and (speed or "while" in frame.flags) and seconds:
-        signed = rate.number if left else -rate.number
-        forward = speed.number if speed else pace.speed(frame) or pace.profile.defaults.speed_mps
-        return [RawTwist(-forward if backward else forward, 0.0, signed, seconds.number)]
-    radius = frame.q["radius"].number if "radius" in frame.q else None
-    if radius is not None and length is not None:
-        if angle is not None and abs(angle.number * radius - length.number) > 0.1 * length.number:
-            raise Unclear("contradiction", frame.text)
-        angle = quantity("angle", length.number / radius, length.text)
-    elif radius is not None:
-        pass
-    elif length is not None and ("radius" in frame.roles or "diameter" in frame.roles):
-        radius = length.number / (2 if "diameter" in frame.roles and "radius" not in frame.roles else 1)
-    elif length is not None and angle is not None:
-        radius = length.number / angle.number
-    elif length is not None:
-        radius = length.number / (math.pi / 2)
-    if radius is None and seconds is not None:
-        forward = pace.speed(frame) or pace.profile.defaults.speed_mps
-        turned = angle.number / seconds.number if angle else pace.profile.defaults.rate_radps
-        return [RawTwist(-forward if backward else forward, 0.0, turned if left else -turned, seconds.number)]
-    if radius is None:
-        radius = pace.profile.defaults.distance_m
-    sweep = angle.number if angle else math.pi / 2
-    said = pace.speed(frame)
-    if seconds is not None and said is None:
-        said = radius * sweep / seconds.number
-    return [Arc(radius, sweep, left=left, backward=backward, speed_mps=said)]
-
-
 def _return(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if set(frame.q) & {"length", "time"} and state.last == "drive" and not frame.direction:
         return _some_way_back(frame, state, pace)
@@ -455,34 +398,3 @@ def _some_way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
     back.verb, back.direction = "go", names[0]
     back.flags -= {"to_start", "again"}
     return _drive(back, state, pace)
-
-
-def inverse(steps: list[Step], speed_mps: float | None = None) -> list[Step]:
-    """The same way back, backwards: the last step first, each undone.
-
-    Raises:
-        Unclear: for a step that cannot be undone step by step.
-    """
-    undone: list[Step] = []
-    for step in reversed(steps):
-        undone.extend(_undone(step, speed_mps))
-    return undone
-
-
-def _undone(step: Step, speed_mps: float | None) -> list[Step]:
-    from chatrobot.plan.steps import Remember, Repeat, Say
-
-    if isinstance(step, Drive) and step.until is None:
-        back = math.remainder(step.direction_rad + math.pi, 2 * math.pi)
-        return [Drive(step.distance_m, step.duration_s, back, speed_mps or step.speed_mps)]
-    if isinstance(step, Turn):
-        return [Turn(step.angle_rad, step.duration_s, not step.left, step.rate_radps)]
-    if isinstance(step, Arc):
-        return [Arc(step.radius_m, step.angle_rad, step.left, not step.backward, speed_mps or step.speed_mps)]
-    if isinstance(step, RawTwist):
-        return [RawTwist(-step.vx_mps, -step.vy_mps, -step.wz_radps, step.duration_s)]
-    if isinstance(step, Repeat):
-        return [Repeat(step.count, tuple(inverse(list(step.steps), speed_mps)))]
-    if isinstance(step, (Wait, Say, Remember)):
-        return []
-    raise Unclear("cannot_undo")

@@ -7,12 +7,13 @@ import math
 from collections.abc import Sequence
 
 from chatrobot.core.geometry import Pose
-from chatrobot.language.actions import DIRECTIONS, State, inverse
+from chatrobot.language.actions import DIRECTIONS, State
 from chatrobot.language.context import Context, TurnRecord
 from chatrobot.language.frames import GO, SIDES, Frame
 from chatrobot.language.manner import Pace
 from chatrobot.language.quantities import quantity
 from chatrobot.language.unclear import Unclear
+from chatrobot.language.undoing import inverse
 from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Repeat, Step, Turn, Wait
 
 _CHANGES = frozenset(

@@ -12,6 +12,7 @@ from chatrobot.language import forms, questions
 from chatrobot.language.arithmetic import settle_condition
 from chatrobot.language.chatter import without_chatter
 from chatrobot.language.clauses import read_frames
+from chatrobot.language.compass import without_compass
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.corrections import corrected, without_negated
 from chatrobot.language.dialogue import refer, state_after
@@ -99,7 +100,7 @@ class _Reading:
 
     def __init__(self, text: str, language: LanguageCode, context: Context, profile: RobotProfile) -> None:
         self.text, self.language, self.context, self.profile = text, language, context, profile
-        self.plain = with_known_counts(rephrased(normalise(text), language))
+        self.plain = with_known_counts(without_compass(rephrased(normalise(text), language), language))
         dialogue = context.dialogue
         self.pace = Pace(profile, dialogue.default_speed_mps, dialogue.default_rate_radps)
 

@@ -97,7 +97,13 @@ def lexicon() -> Lexicon:
 
 
 def _keys(patterns: list[str]) -> list[Key]:
-    return [key for pattern in patterns for written in expand(pattern) if (key := cut(written))]
+    return [key for pattern in patterns for written in expand(pattern) if (key := _cut_plain(written))]
+
+
+def _cut_plain(written: str) -> Key:
+    """`cut`, by the short way where there are only Latin letters: most of the data, read at every start."""
+    words = written.split()
+    return tuple(words) if written.isascii() and "".join(words).isalpha() else cut(written)
 
 
 def _meaning(kind: str, value: str) -> Meaning:

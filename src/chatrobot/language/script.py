@@ -6,13 +6,14 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from chatrobot.language.actions import State, act, inverse
+from chatrobot.language.actions import State, act
 from chatrobot.language.clauses import is_times_only
 from chatrobot.language.frames import STILL, TURN, Frame, merged
 from chatrobot.language.manner import Pace
 from chatrobot.language.quantities import quantity
 from chatrobot.language.shapes import draw
 from chatrobot.language.unclear import Unclear
+from chatrobot.language.undoing import inverse
 from chatrobot.plan.steps import MAX_REPEAT, Arc, Drive, Go, Repeat, Say, Step, Turn, Wait
 
 
