@@ -16,6 +16,7 @@ from chatrobot.language.corrections import corrected, without_negated
 from chatrobot.language.dialogue import refer, state_after
 from chatrobot.language.facts import with_defined_units, with_known_counts
 from chatrobot.language.frames import Frame
+from chatrobot.language.idioms import put_plainly
 from chatrobot.language.lexicon import Key, Meaning, cut, lexicon
 from chatrobot.language.manner import Pace
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
@@ -95,7 +96,7 @@ class _Reading:
 
     def __init__(self, text: str, language: LanguageCode, context: Context, profile: RobotProfile) -> None:
         self.text, self.language, self.context, self.profile = text, language, context, profile
-        self.plain = with_known_counts(normalise(text))
+        self.plain = put_plainly(with_known_counts(normalise(text)), language)
         dialogue = context.dialogue
         self.pace = Pace(profile, dialogue.default_speed_mps, dialogue.default_rate_radps)
 
@@ -176,7 +177,7 @@ class _Reading:
         atoms = tidy(self._atoms(self.plain))
         if any(a.kind in ("verb", "shape", "place") for a in atoms if a.text not in ("say",)):
             return None
-        before = normalise(pending)
+        before = put_plainly(normalise(pending), self.language)
         for joined in (f"{before} {self.plain}", f"{before}, {self.plain}"):
             try:
                 found = self._command(joined)

@@ -48,7 +48,10 @@ class Lexicon:
 
 
 _SIGN = re.compile(r"(?<![\w)])[-](?=\.?\d)")
-_LISTED = re.compile(r"(?:^|(?<=[\s;,.]))\(?[1-9]\)\s*|(?:^|(?<=\n)|(?<=[;,.] ))[1-9]\. ?(?=[^\d\s])")
+_LISTED = re.compile(r"(?:^|(?<=[\s;,.]))\(?[1-9]\)\s*|(?:^|(?<=\n)|(?<=[;,.] )|(?<=[\u4e00-\u9fff°] ))[1-9][.)] ?(?=[^\d\s])")
+_FOLD = re.compile(
+    r"((?:\d|[一二两三四五六七八九十百半]) ?(?:厘米|公分|米|度|秒|圈|cm|mm|m|s|°|deg)) ?[x*] ?(\d{1,2})(?= ?(?:$|[;,!。]))"
+)
 _INCHES, _FEET = re.compile(r"(\d)\s?\""), re.compile(r"(\d)\s?'(?![a-z])")
 _COMMA = re.compile(r"(?<![\d.,])(\d),(\d{1,2})(?![\d,])")
 _ORDINAL = re.compile(r"(\d+)(?:st|nd|rd|th)\b")
@@ -59,7 +62,7 @@ def cut(text: str) -> Key:
     text = _LISTED.sub(" ; ", text)
     if text.count('"') == 1 or (text.count("'") == 1 and _FEET.search(text)):
         text = _FEET.sub(r"\1 feet ", _INCHES.sub(r"\1 inches ", text))
-    text = _COMMA.sub(r"\1.\2", text)
+    text = _FOLD.sub(r"\1, \2 times", _COMMA.sub(r"\1.\2", text))
     return tuple(UNIT.findall(_ORDINAL.sub(r"\1", _SIGN.sub(" minus ", text)).replace("-", " ")))
 
 
