@@ -46,7 +46,7 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if (
         "there" in frame.flags
         and frame.verb not in STILL
-        and not (frame.direction or frame.rot or "length" in frame.q)
+        and not (frame.direction or frame.rot)
     ):
         raise Unclear("which_place", frame.text)
     if "until" in frame.flags and not frame.has_extent and frame.verb != "face":

@@ -10,6 +10,7 @@ from typing import Literal
 from chatrobot import reflex
 from chatrobot.language import forms, questions
 from chatrobot.language.arithmetic import settle_condition
+from chatrobot.language.asides import check_finished, is_choice, without_asides
 from chatrobot.language.clauses import read_frames
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.corrections import corrected, without_negated
@@ -189,6 +190,9 @@ class _Reading:
 
     def _command(self, plain: str) -> Interpretation:
         atoms = self._atoms(plain)
+        command = questions.without_quiz(plain, self.language)
+        if command and not questions.is_question(command, self.language):
+            return self._command(command)
         asks = questions.is_question(plain, self.language)
         ability = questions.asks_ability(plain, self.language)
         refusal = next((a for a in atoms if a.kind == "refuse"), None)
@@ -200,6 +204,9 @@ class _Reading:
             if ability and plain.endswith("?"):
                 return Interpretation("answered", say(self.language, "answer_cannot"), self.language)
             raise Unclear(f"refuse_{refusal.value}", refusal.text, refused=True)
+        if is_choice(plain, self.language):
+            raise Unclear("contradiction", plain[:60])
+        check_finished(atoms)
         frames = _frames(atoms)
         default = self._default(frames)
         if default is not None:
@@ -211,12 +218,16 @@ class _Reading:
         """The answer, unless it is a command put as a question."""
         try:
             frames = _frames(atoms)
+            check_finished(atoms)
             steps = refer(frames, self.context, self.pace) or write(frames, self.pace, self._memory())
+            steps = [] if is_choice(plain, self.language) else steps
             plain_question = questions.is_plain_question(plain, self.language)
             if steps and any(f.has_extent or (f.moves and not plain_question) for f in frames):
                 return None
         except Unclear:
             pass
+        if questions.orders(plain, self.language):
+            return None
         topic = questions.topic_of(plain, self.language)
         if not topic and ability:
             topic = "ability"
@@ -253,7 +264,8 @@ class _Reading:
         return Interpretation("plan", describe_plan(plan, self.language), self.language, plan, append)
 
     def _atoms(self, plain: str) -> list[Atom]:
-        return read_quantities(tokenise(plain, lexicon(), self._names()))
+        atoms = tokenise(plain, lexicon(), self._names())
+        return read_quantities(without_asides(atoms, self.language))
 
     def _names(self) -> dict[Key, Meaning]:
         dialogue = self.context.dialogue

@@ -14,15 +14,17 @@ from typing import Any
 from chatrobot.language.data_files import LANGUAGES, expand, load_table
 
 FILES = (
-    "numbers", "units", "motion", "shapes", "dialogue", "refusals", "corrections", "filler",
+    "numbers", "units", "motion", "shapes", "dialogue", "refusals", "corrections", "asides", "filler",
 )  # fmt: skip
 UNIT = re.compile(
     r"\d+(?:,\d{3})+(?:\.\d+)?(?![\d,])|\d*\.?\d+(?:e[+-]?\d+)?(?![\d])|[a-zà-ÿ]+(?:'[a-z]+)*|\S|\n"
 )
 """What text is cut into before words are looked up: a number, a Latin word, or a single character."""
 
+_NO_WORDS = frozenset({"speaker", "clues"})
+"""Tables beside the word classes: patterns, and words that are listed elsewhere."""
 _NEVER_MEANT = frozenset(
-    {"refuse", "filler", "glue", "reason", "condition", "negation", "correction", "conn", "operator", "sep"}
+    {"refuse", "filler", "glue", "reason", "remark", "doubt", "condition", "negation", "correction", "conn", "operator", "sep"}
 )
 _POLITE = frozenset({"please", "then", "after", "robot", "thanks", "could", "would", "until"})
 Meaning = tuple[tuple[str, str], ...]
@@ -73,6 +75,8 @@ def lexicon() -> Lexicon:
     for name in FILES:
         for language in LANGUAGES:
             for kind, table in load_table(language, name).items():
+                if kind in _NO_WORDS:
+                    continue
                 for value, patterns in table.items():
                     for key in _keys(patterns):
                         words.setdefault(key, _meaning(kind, value))
@@ -115,7 +119,7 @@ def _guesses(words: dict[Key, Meaning]) -> dict[Key, Meaning]:
                 guesses[cut(written)] = words[cut(word)]
     sounds: dict[str, Any] = load_table("zh", "homophones")["characters"]
     for key, meaning in list(words.items()):
-        if not 2 <= len(key) <= 4 or meaning[0][0] in ("filler", "glue", "reason", "conn"):
+        if not 2 <= len(key) <= 4 or meaning[0][0] in ("filler", "glue", "reason", "remark", "doubt", "conn"):
             continue
         for i, character in enumerate(key):
             for other in sounds.get(character, ""):
