@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from chatrobot.language.frames import EXTENTS, Frame
+from chatrobot.language.numbers import is_chinese
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 
@@ -40,6 +41,8 @@ def _is_correction(atoms: list[Atom], i: int) -> bool:
         if atom.text in ("rather", "wrong", "make it", "还是", "算了", "不是", "应该是"):
             return i > 0 and any(a.kind in _PIECE for a in atoms[:i])
         return True
+    if atom.kind == "flag" and atom.value == "instead" and is_chinese(atom.text):
+        return any(a.kind == "q" for a in atoms[:i]) and any(a.kind in _PIECE for a in atoms[i + 1 :])
     if atom.text not in _NO or atom.kind not in ("filler", "negation", "verb", "glue"):
         return False
     if not any(a.kind in _PIECE for a in atoms[:i]) or atoms[i - 1].kind not in ("sep", "filler"):

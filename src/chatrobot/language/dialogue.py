@@ -118,6 +118,9 @@ def _is_change(whole: Frame) -> bool:
 
 
 def _changed(last: _Last, whole: Frame, pace: Pace) -> list[Step]:
+    if "fold" in whole.q and "速" in whole.q["fold"].text:
+        whole = whole.copy()
+        whole.q["speed"] = quantity("speed", pace.speed(whole) or 0.0, whole.q.pop("fold").text)
     factor = next((whole.q[name].number for name in ("scale", "fold") if name in whole.q), 1.0)
     if "percent" in whole.q:
         factor = whole.q["percent"].number

@@ -7,12 +7,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from chatrobot.language.actions import State, act, inverse
+from chatrobot.language.arrange import arranged
 from chatrobot.language.clauses import is_times_only
 from chatrobot.language.frames import STILL, TURN, Frame, merged
 from chatrobot.language.manner import Pace
 from chatrobot.language.shapes import draw
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import MAX_REPEAT, Go, Repeat, Say, Step, Turn, Wait
+from chatrobot.plan.steps import MAX_REPEAT, Drive, Go, Repeat, Say, Step, Turn, Wait
 
 
 @dataclass
@@ -46,7 +47,7 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
     Raises:
         Unclear: where a clause cannot be acted on.
     """
-    frames = _shared(frames)
+    frames = arranged(_shared(frames))
     if any("units_said" in frame.flags for frame in frames):
         frames = [f for f in frames if f.moves or f.has_extent]
         for frame in frames:
@@ -95,10 +96,13 @@ def _paced(frames: list[Frame], pace: Pace) -> list[Step] | None:
     """`Every 50 cm stop for a second, two metres in total`: as many legs as fit, pauses between them."""
     whole = next((f for f in frames if "total" in f.flags and {"length", "angle", "turns"} & set(f.q)), None)
     name = next((n for n in ("length", "angle", "turns") if whole and n in whole.q), "")
-    leg = next((f for f in frames if f is not whole and name in f.q), None)
+    leg = next((f for f in frames if whole and f is not whole and name in f.q), None)
+    if whole is None:
+        whole, leg = _covered(frames)
     if whole is None or len(frames) == 1 or "count" in whole.q or any(f.shape for f in frames):
         return None
     pause = next((f for f in frames if f.verb in STILL and "time" in f.q), None)
+    name = name or next(n for n in ("length", "angle", "turns") if n in whole.q)
     if leg is None or pause is None or len(frames) > 3:
         raise Unclear("unclear_motion", whole.text)
     count = whole.q[name].number / leg.q[name].number
@@ -112,6 +116,16 @@ def _paced(frames: list[Frame], pace: Pace) -> list[Step] | None:
     steps = act(drive, State(), pace)
     rest = act(Frame(verb="wait", q={"time": pause.q["time"]}), State(), pace)
     return [*(steps + rest) * (round(count) - 1), *steps]
+
+
+def _covered(frames: list[Frame]) -> tuple[Frame | None, Frame | None]:
+    """前进一米，每走半米停一秒: the way, and the piece of it after which there is a pause."""
+    if len(frames) != 3 or frames[2].verb not in STILL or "each" not in frames[1].flags:
+        return None, None
+    for name in ("length", "angle", "turns"):
+        if name in frames[0].q and name in frames[1].q and "each" not in frames[0].flags:
+            return frames[0], frames[1]
+    return None, None
 
 
 def _shape_first(frames: list[Frame]) -> list[Frame]:
@@ -175,7 +189,17 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
     if is_times_only(frame) or (
         "again" in frame.flags and not frame.moves and {"times", "count"} & set(frame.q)
     ):
-        script.units = _repeated(script.units, _count(frame))
+        script.units = _repeated(script.units, _count(frame) + ("extra" in frame.flags))
+    elif "total" in frame.flags and "times" in frame.q and not frame.has_extent and script.units:
+        script.units = _repeated(_period(script.units), _count(frame))
+    elif "until" in frame.flags and frame.has_extent and len(script.units) > 1:
+        _fill_up(script, frame)
+    elif "halfway" in frame.flags:
+        _insert_halfway(script, frame)
+    elif "overshot" in frame.flags and not frame.moves and not frame.q and len(frames) > 1:
+        pass
+    elif "overshot" in frame.flags:
+        return _take_back(script, frames, i)
     elif "again" in frame.flags and not frame.moves and not frame.has_extent:
         if not script.units:
             raise Unclear("nothing_before", frame.text)
@@ -289,6 +313,59 @@ def _insert(script: Script, frame: Frame) -> None:
         if k + 1 < len(moving) or ("after_each" in frame.flags and not pause):
             units.append(steps)
     script.units = units
+
+
+def _fill_up(script: Script, frame: Frame) -> None:
+    """转一圈歇两秒，转满三圈为止: the units again until the whole amount is done."""
+    period = _period(script.units)
+    steps = [step for unit in period for step in unit]
+    wanted = frame.q.get("angle") or frame.q.get("turns") or frame.q.get("length")
+    if wanted is None:
+        raise Unclear("condition", frame.text)
+    if wanted.value == "length":
+        done = sum(s.distance_m or 0.0 for s in steps if isinstance(s, Drive))
+    else:
+        done = abs(total_turn(steps))
+    rounds = wanted.number / done if done else 0.0
+    if abs(rounds - round(rounds)) > 1e-6 or not 1 <= round(rounds) <= MAX_REPEAT:
+        raise Unclear("condition", frame.text)
+    script.units = _repeated(period, round(rounds))
+
+
+def _insert_halfway(script: Script, frame: Frame) -> None:
+    """往前两米，到一半的时候停两秒: the last motion in two halves."""
+    halves = _halves(script.units[-1][0]) if script.units and len(script.units[-1]) == 1 else None
+    if halves is None:
+        raise Unclear("between_what", frame.text)
+    inner = frame.copy()
+    inner.flags.discard("halfway")
+    if not inner.moves and set(inner.q) == {"time"}:
+        inner.verb = "wait"
+    steps = act(inner, State(), script.pace)
+    script.units[-1:] = [[halves[0]], steps, [halves[1]]]
+
+
+def _halves(step: Step) -> tuple[Step, Step] | None:
+    if isinstance(step, Drive) and step.until is None:
+        metres = step.distance_m / 2 if step.distance_m else None
+        seconds = step.duration_s / 2 if step.duration_s else None
+        return replace(step, distance_m=metres, duration_s=seconds), replace(
+            step, distance_m=metres, duration_s=seconds
+        )
+    if isinstance(step, Turn) and step.angle_rad:
+        return replace(step, angle_rad=step.angle_rad / 2), replace(step, angle_rad=step.angle_rad / 2)
+    return None
+
+
+def _take_back(script: Script, frames: list[Frame], i: int) -> int:
+    """多走了二十厘米，退回来: so much of it undone."""
+    following = frames[i + 1] if i + 1 < len(frames) else None
+    if following is None or not frames[i].has_extent or following.has_extent:
+        raise Unclear("unclear_motion", frames[i].text)
+    if following.verb not in ("return", "go", "turn", ""):
+        raise Unclear("unclear_motion", frames[i].text)
+    _act(script, Frame(verb="return", q=frames[i].q, texts=frames[i].texts))
+    return i + 2
 
 
 def _full_turns(unit: list[Step]) -> list[list[Step]]:
