@@ -254,7 +254,7 @@ def _whole_angle(frame: Frame) -> Atom | None:
     angle, turns = frame.q.get("angle"), frame.q.get("turns")
     if angle is None or turns is None or abs(angle.number - turns.number) < 1e-6:
         return angle or turns
-    if angle.number >= 2 * math.pi:
+    if angle.number >= 2 * math.pi or turns.number < 2 * math.pi:
         raise Unclear("contradiction", f"{turns.text} {angle.text}")
     return quantity("angle", turns.number + angle.number, f"{turns.text} {angle.text}")
 

@@ -10,7 +10,21 @@ _LETTERS = frozenset({"letter_l", "letter_u", "letter_z"})
 
 def arranged(frames: list[Frame]) -> list[Frame]:
     """The frames that are motions of their own, in order."""
-    return _without_announcements(_without_titles(_with_manners(frames)))
+    return _without_announcements(_without_titles(_with_manners(_without_calls(frames))))
+
+
+def _without_calls(frames: list[Frame]) -> list[Frame]:
+    """让一让，往右平移…: a call to make way whose way follows; 往前，就一点点: a little, said after."""
+    out: list[Frame] = []
+    for k, frame in enumerate(frames):
+        bare = not (frame.direction or frame.rot or frame.q or frame.shape or frame.place or frame.words)
+        if bare and frame.verb == "shift" and any(f.direction for f in frames[k + 1 :]):
+            continue
+        if bare and not frame.verb and frame.flags == {"bit"} and out and not out[-1].has_extent:
+            out[-1].flags.add("bit")
+            continue
+        out.append(frame)
+    return out
 
 
 def _is_manner(frame: Frame) -> bool:

@@ -76,6 +76,9 @@ def _split(atoms: list[Atom]) -> list[Frame]:
             continue
         if atom.kind not in SLOTTED:
             raise Unclear("unknown_part", _around(atoms, i))
+        if _repeats_all(atom, atoms[i + 1 :], current):
+            frames.append(current)
+            current = Frame(joined="weak")
         if not current.add(atom):
             if _is_bare_direction(current):
                 raise Unclear("contradiction", f"{current.text} {atom.text}".strip())
@@ -86,7 +89,8 @@ def _split(atoms: list[Atom]) -> list[Frame]:
                 and not current.has_extent
             ):
                 raise Unclear("length_for_turn", f"{current.text} {atom.text}")
-            if atom.kind == "q" and atom.value in current.q and atom.value in EXTENTS and not current.shape:
+            repeated = atom.kind == "q" and atom.value in current.q and atom.value in EXTENTS
+            if repeated and not (current.shape or current.roles):
                 raise Unclear("contradiction", f"{current.text} {atom.text}")
             frames.append(current)
             current = Frame(joined="none")
@@ -95,6 +99,13 @@ def _split(atoms: list[Atom]) -> list[Frame]:
     if not current.is_empty:
         frames.append(current)
     return frames
+
+
+def _repeats_all(atom: Atom, rest: list[Atom], current: Frame) -> bool:
+    """…左转九十度重复四遍: all that was said before, not the last part alone."""
+    again = atom.kind == "flag" and atom.value == "again" and atom.text.startswith(("重复", "反复"))
+    counted = bool(rest) and rest[0].kind == "q" and rest[0].value == "times"
+    return again and counted and len(rest) == 1 and current.moves and current.has_extent
 
 
 def _is_bare_direction(frame: Frame) -> bool:

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 
 from chatrobot.language.frames import EXTENTS, Frame
 from chatrobot.language.numbers import is_chinese
+from chatrobot.language.quantities import quantity
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 
@@ -73,6 +74,12 @@ def _replaced(before: list[Atom], after: list[Atom]) -> list[Atom]:
         end += 1
     said, rest = after[start:end], after[end:]
     pieces = [a for a in said if a.kind in _PIECE]
+    unit = next((a for a in said if a.kind in ("unit_length", "unit_angle", "unit_time")), None)
+    last = next((i for i in range(len(before) - 1, -1, -1) if before[i].kind == "q"), None)
+    if not pieces and unit is not None and last is not None and before[last].value == "number":
+        name, factor = unit.kind[5:], float(unit.value)
+        amount = quantity(name, before[last].number * factor, f"{before[last].text} {unit.text}", repr(factor))
+        return [*before[:last], amount, *before[last + 1 :], *rest]
     if not pieces:
         raise Unclear("unknown_part", " ".join(a.text for a in after[:end]))
     if _is_clause(pieces):

@@ -26,6 +26,8 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     Raises:
         Unclear: where there is nothing to refer to.
     """
+    if len(frames) == 2 and frames[0].verb == "undo" and frames[1].verb == "return" and not frames[1].q:
+        frames = frames[:1]
     whole = _whole(frames)
     if whole is None:
         return None
@@ -74,7 +76,7 @@ def _whole(frames: Sequence[Frame]) -> Frame | None:
             frame.verb not in ("", "make", "turn", "go", "face")
             or frame.place
             or frame.shape
-            or frame.joined == "then"
+            or (frame.joined == "then" and not _is_only_again(whole))
         ):
             return None
         if any(name in whole.q for name in frame.q):
@@ -90,14 +92,20 @@ def _whole(frames: Sequence[Frame]) -> Frame | None:
     return whole
 
 
+def _is_only_again(frame: Frame) -> bool:
+    return "again" in frame.flags and not frame.moves and not frame.q
+
+
 def _is_change(whole: Frame) -> bool:
     if "same_amount" in whole.flags:
         return False
+    if "again" in whole.flags and "count" in whole.q:
+        raise Unclear("nothing_before", whole.text)
     if whole.shape or whole.place or whole.verb not in ("", "make", "again"):
         repeats = (
             "again" in whole.flags
             and whole.verb in (*GO, "turn")
-            and not whole.direction
+            and (not whole.direction or whole.verb == "go")
             and not whole.has_extent
         )
         bare = not whole.has_extent and not whole.direction

@@ -11,6 +11,7 @@ from chatrobot.language.arrange import arranged
 from chatrobot.language.clauses import is_times_only
 from chatrobot.language.frames import STILL, TURN, Frame, merged
 from chatrobot.language.manner import Pace
+from chatrobot.language.quantities import quantity
 from chatrobot.language.shapes import draw
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import MAX_REPEAT, Drive, Go, Repeat, Say, Step, Turn, Wait
@@ -196,19 +197,26 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
         _fill_up(script, frame)
     elif "halfway" in frame.flags:
         _insert_halfway(script, frame)
-    elif "overshot" in frame.flags and not frame.moves and not frame.q and len(frames) > 1:
+        goes_on = i + 1 < len(frames) and frames[i + 1].verb == "go" and not frames[i + 1].has_extent
+        return i + 1 + (goes_on and not frames[i + 1].direction)
+    elif frame.flags & {"short_of", "overshot"} and not frame.moves and not frame.q and i + 1 < len(frames):
         pass
-    elif "overshot" in frame.flags:
+    elif "overshot" in frame.flags and not (frame.direction or frame.verb == "return"):
         return _take_back(script, frames, i)
     elif "again" in frame.flags and not frame.moves and not frame.has_extent:
         if not script.units:
             raise Unclear("nothing_before", frame.text)
         script.units += [list(unit) for unit in script.units]
-    elif frame.flags & {"between", "after_each"}:
+    elif frame.flags & {"between", "after_each"} or _is_each_pause(script, frame):
         _insert(script, frame)
     else:
         _act(script, frame)
     return i + 1
+
+
+def _is_each_pause(script: Script, frame: Frame) -> bool:
+    """分五段走，每段停一秒."""
+    return "each" in frame.flags and frame.verb in STILL and "time" in frame.q and len(script.units) > 1
 
 
 def _act(script: Script, frame: Frame) -> None:
@@ -217,13 +225,25 @@ def _act(script: Script, frame: Frame) -> None:
         count = _count(Frame(q={"times": frame.q["count"]}))
         each = frame.copy()
         del each.q["count"]
+        if "split" in frame.flags and "each" not in frame.flags:
+            each.q["length"] = quantity("length", frame.q["length"].number / count, frame.q["length"].text)
     elif "count" in frame.q:
         raise Unclear("how_long_a_step", frame.q["count"].text)
     if "times" in frame.q:
         count *= _count(Frame(q={"times": frame.q["times"]}))
+        if "split" in frame.flags and "each" not in frame.flags:
+            each = _part(each, count)
     steps = _known(each, script) or act(each, script.state, script.pace)
     script.state.steps.extend(steps * count)
     script.units.extend([steps] * count if steps else [])
+
+
+def _part(frame: Frame, count: int) -> Frame:
+    part = frame.copy()
+    for name in ("length", "angle", "turns", "time"):
+        if name in part.q:
+            part.q[name] = quantity(name, part.q[name].number / count, part.q[name].text)
+    return part
 
 
 def _lists_lengths(frames: list[Frame], i: int) -> bool:

@@ -102,6 +102,8 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
     if atom.kind == "per" or (atom.kind == "unit_times" and atom.text in ("time", "次", "下来")):
         return Atom("glue", "x", atom.text)
     if atom.kind == "unit_turn":
+        if is_kind(atoms, i + 1, "role"):
+            return Atom("glue", "x", atom.text)  # 每个圈半径三十厘米
         return Atom("verb", "turn", atom.text)
     if atom.kind == "unit_angle" and atom.text == "弧":
         return Atom("verb", "curve", atom.text)

@@ -11,6 +11,7 @@ from chatrobot.language.lexicon import Key, Lexicon, Meaning, cut
 from chatrobot.language.typos import correct
 
 _DIGITS = frozenset("零一二两三四五六七八九十半")
+_MEASURED = frozenset("长宽高")
 _WORD, _GUESS, _UNKNOWN = 1.0, 2.2, 6.0
 
 
@@ -86,6 +87,8 @@ def _cover(units: Key, words: Lexicon, names: dict[Key, Meaning]) -> list[tuple[
                 and units[start] == "一"
             ):
                 continue  # 一点二米 is a number, not 一点
+            if key[-1] in _MEASURED and length > 1 and end < count and _is_digit(units[end]):
+                continue  # 长一米宽半米: the width is that of what follows
             if meaning is not None and best[end] + price <= best[start]:
                 best[start], choice[start] = best[end] + price, (end, meaning)
     covered = []
@@ -95,6 +98,10 @@ def _cover(units: Key, words: Lexicon, names: dict[Key, Meaning]) -> list[tuple[
         covered.append((at, end, meaning))
         at = end
     return covered
+
+
+def _is_digit(unit: str) -> bool:
+    return unit in _DIGITS or unit[0].isdigit()
 
 
 def _join(units: Key) -> str:
