@@ -26,6 +26,7 @@ from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.program_request import read_program_request
 from chatrobot.language.quantities import read_quantities
 from chatrobot.language.script import Memory, write
+from chatrobot.language.sounds import mended
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import Atom, tokenise
 from chatrobot.language.tutorial_form import read_twist
@@ -97,6 +98,7 @@ class _Reading:
 
     def __init__(self, text: str, language: LanguageCode, context: Context, profile: RobotProfile) -> None:
         self.text, self.language, self.context, self.profile = text, language, context, profile
+        self.by_ear = False
         self.plain = put_plainly(with_known_counts(normalise(text)), language)
         dialogue = context.dialogue
         self.pace = Pace(profile, dialogue.default_speed_mps, dialogue.default_rate_radps)
@@ -176,7 +178,9 @@ class _Reading:
         if not pending or len(pending) + len(self.plain) > MAX_CHARACTERS:
             return None
         atoms = tidy(self._atoms(self.plain))
-        if any(a.kind in ("verb", "shape", "place") for a in atoms if a.text not in ("say",)):
+        ways = [k for k, a in enumerate(atoms) if k and a.kind == "dir" and atoms[k - 1].text == a.text]
+        verbs = [a for k, a in enumerate(atoms) if k + 1 not in ways and a.text not in ("say",)]
+        if any(a.kind in ("verb", "shape", "place") for a in verbs):
             return None
         before = put_plainly(normalise(pending), self.language)
         for joined in (f"{before} {self.plain}", f"{before}, {self.plain}"):
@@ -189,10 +193,32 @@ class _Reading:
         return None
 
     def _command(self, plain: str) -> Interpretation:
+        """What a command means as it stands; else, what it sounds like."""
+        try:
+            return self._understood(plain)
+        except Unclear as problem:
+            heard = None if problem.refused or self.by_ear else self._heard(plain)
+            if heard is None:
+                raise
+            return heard
+
+    def _heard(self, plain: str) -> Interpretation | None:
+        if self.language == "en":
+            return None
+        self.by_ear = True
+        try:
+            found = self._understood(mended(plain, self.language))
+        except Unclear:
+            return None
+        finally:
+            self.by_ear = False
+        return found if found.outcome == "plan" else None
+
+    def _understood(self, plain: str) -> Interpretation:
         atoms = self._atoms(plain)
         command = questions.without_quiz(plain, self.language)
         if command and not questions.is_question(command, self.language):
-            return self._command(command)
+            return self._understood(command)
         asks = questions.is_question(plain, self.language)
         ability = questions.asks_ability(plain, self.language)
         refusal = next((a for a in atoms if a.kind == "refuse"), None)
@@ -264,7 +290,7 @@ class _Reading:
         return Interpretation("plan", describe_plan(plan, self.language), self.language, plan, append)
 
     def _atoms(self, plain: str) -> list[Atom]:
-        atoms = tokenise(plain, lexicon(), self._names())
+        atoms = tokenise(plain, lexicon(), self._names(), by_ear=self.by_ear)
         return read_quantities(without_asides(atoms, self.language))
 
     def _names(self) -> dict[Key, Meaning]:

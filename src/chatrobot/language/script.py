@@ -187,7 +187,9 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
         end, steps = draw(frames, i, script.pace)
         _finish(script, [steps])
         return end
-    if is_times_only(frame) or (
+    if _is_moves_only(script, frame):
+        script.units = _repeated(script.units, _count(frame))
+    elif is_times_only(frame) or (
         "again" in frame.flags and not frame.moves and {"times", "count"} & set(frame.q)
     ):
         script.units = _repeated(script.units, _count(frame) + ("extra" in frame.flags))
@@ -212,6 +214,13 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
     else:
         _act(script, frame)
     return i + 1
+
+
+def _is_moves_only(script: Script, frame: Frame) -> bool:
+    """这样来四下: so often, what was said before."""
+    count = frame.q.get("count")
+    bare = not (frame.direction or frame.rot or frame.has_extent or frame.shape) and frame.verb in ("", "make")
+    return count is not None and count.role == "move" and bare and bool(script.units)
 
 
 def _is_each_pause(script: Script, frame: Frame) -> bool:
@@ -267,6 +276,9 @@ def _round_trips(script: Script, frame: Frame) -> None:
     if not each.has_extent:
         if not script.units:
             raise Unclear("how_long_a_step", frame.text)
+        if len(script.units) > 1 and _is_there_and_back(script.steps()):
+            script.units = _repeated(script.units, trips)
+            return
         out = script.units.pop()
     elif each.verb in TURN or each.rot:
         raise Unclear("unclear_motion", frame.text)
@@ -275,6 +287,16 @@ def _round_trips(script: Script, frame: Frame) -> None:
         out = act(each, script.state, script.pace)
     for _ in range(trips):
         script.units += [out, inverse(out)]
+
+
+def _is_there_and_back(steps: list[Step]) -> bool:
+    """Whether drives, seen without turning, end where they began."""
+    drives = [s for s in steps if isinstance(s, Drive) and s.distance_m]
+    if len(drives) < len([s for s in steps if not isinstance(s, Wait)]):
+        return False
+    x = sum((s.distance_m or 0.0) * math.cos(s.direction_rad) for s in drives)
+    y = sum((s.distance_m or 0.0) * math.sin(s.direction_rad) for s in drives)
+    return math.hypot(x, y) < 1e-6
 
 
 def _is_heading_back(script: Script, frame: Frame) -> bool:
