@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from chatrobot.core.geometry import Pose
 from chatrobot.language.frames import DIAGONALS, GO, SIDES, STILL, TURN, Frame
 from chatrobot.language.manner import Pace
+from chatrobot.language.numbers import is_chinese
 from chatrobot.language.quantities import quantity
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
@@ -252,7 +253,7 @@ def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
 def _whole_angle(frame: Frame) -> Atom | None:
     """`One turn and 90 degrees` is their sum; `one turn, 360 degrees` says it twice."""
     angle, turns = frame.q.get("angle"), frame.q.get("turns")
-    if angle is None or turns is None or abs(angle.number - turns.number) < 1e-6:
+    if angle is None or turns is None or abs(angle.number - turns.number) < 1e-6 or not is_chinese(turns.text):
         return angle or turns
     if angle.number >= 2 * math.pi or turns.number < 2 * math.pi:
         raise Unclear("contradiction", f"{turns.text} {angle.text}")

@@ -179,7 +179,7 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
             if both is not None:
                 _act(script, both)
                 return i + 2
-    if "trip" in frame.flags or "trip" in [a.role for a in frame.q.values()]:
+    if "trip" in (*frame.flags, *frame.roles, *[a.role for a in frame.q.values()]):
         both = merged(frame, frames[i + 1]) if i + 1 < len(frames) and not frames[i + 1].moves else None
         _round_trips(script, both or frame)
         return i + 1 + (both is not None)

@@ -13,7 +13,7 @@ from chatrobot.language.typos import correct
 _DIGITS = frozenset("零一二两三四五六七八九十半")
 _MEASURED = frozenset("长宽高")
 _WORD, _GUESS, _UNKNOWN = 1.0, 2.2, 6.0
-_HEARD, _NAMED = 0.8, 0.4
+_HEARD, _NAMED = 0.8, -0.1
 
 
 class Atom(NamedTuple):
