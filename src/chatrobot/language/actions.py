@@ -9,6 +9,7 @@ from chatrobot.core.geometry import Pose
 from chatrobot.language.arcs import about, arc, is_left
 from chatrobot.language.frames import DIAGONALS, GO, SIDES, STILL, TURN, Frame
 from chatrobot.language.manner import Pace
+from chatrobot.language.numbers import is_chinese
 from chatrobot.language.quantities import quantity
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
@@ -35,6 +36,7 @@ class State:
     left: bool | None = None
     last: str = ""
     home: Pose | None = None
+    unsaid: list[Frame] = field(default_factory=list)
 
 
 def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
@@ -67,6 +69,8 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
         steps = _clock(frame, pace)
     elif frame.verb in STILL:
         steps = _still(frame)
+    elif frame.verb == "return" and {"length", "angle", "turns"} & set(frame.q) and not frame.direction:
+        steps = _partly_back(frame, state, pace)
     elif frame.verb == "return" or (
         "to_start" in frame.flags
         and frame.verb in (*GO, "", "uturn")
@@ -107,6 +111,12 @@ def _with_units(frame: Frame, state: State) -> Frame:
         state.length = frame.q["length"]
     number = frame.q.get("number")
     if number is None:
+        return frame
+    before = state.angle if frame.turning else state.length
+    if number.text == "一半" and before is not None and not frame.has_extent:
+        frame = frame.copy()
+        del frame.q["number"]
+        frame.q[before.value] = quantity(before.value, before.number / 2, number.text)
         return frame
     dimension = ""
     if "units_said" in frame.flags:
@@ -228,7 +238,7 @@ def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
     _all_used(frame, "turn")
     rate = pace.rate(frame)
     seconds = frame.q.get("time")
-    angle = frame.q.get("angle") or frame.q.get("turns")
+    angle = _whole_angle(frame)
     left = is_left(frame)
     if left is None and not frame.moves:
         left = state.left
@@ -263,6 +273,21 @@ def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
     return [Turn(angle_rad, left=left, rate_radps=rate)]
 
 
+def _whole_angle(frame: Frame) -> Atom | None:
+    """`One turn and 90 degrees` is their sum; `one turn, 360 degrees` says it twice."""
+    angle, turns = frame.q.get("angle"), frame.q.get("turns")
+    if (
+        angle is None
+        or turns is None
+        or abs(angle.number - turns.number) < 1e-6
+        or not is_chinese(turns.text)
+    ):
+        return angle or turns
+    if angle.number >= 2 * math.pi or turns.number < 2 * math.pi:
+        raise Unclear("contradiction", f"{turns.text} {angle.text}")
+    return quantity("angle", turns.number + angle.number, f"{turns.text} {angle.text}")
+
+
 def _same_either_way(angle_rad: float) -> bool:
     half_turns = angle_rad / math.pi
     return half_turns >= 1 and abs(half_turns - round(half_turns)) < 1e-6
@@ -277,6 +302,8 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
     diagonal = "diagonal" in frame.flags
     if diagonal and direction not in DIAGONALS.values():
         raise Unclear("which_diagonal", frame.text)
+    if not direction and not frame.has_extent and any(text.endswith("到") for text in frame.texts):
+        raise Unclear("which_place", frame.text)
     if not direction:
         if frame.verb == "slide" or "sideways" in frame.flags:
             raise Unclear("which_side", frame.text)
@@ -318,6 +345,7 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if seconds is not None:
         return [Drive(duration_s=seconds.number, direction_rad=angle, speed_mps=speed)]
     distance = pace.profile.defaults.distance_m * (0.5 if "bit" in frame.flags else 1.0)
+    state.unsaid.append(frame)
     return [Drive(distance, direction_rad=angle, speed_mps=speed)]
 
 
@@ -398,3 +426,15 @@ def _some_way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
     back.verb, back.direction = "go", names[0]
     back.flags -= {"to_start", "again"}
     return _drive(back, state, pace)
+
+
+def _partly_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    """退回来二十厘米: against the last motion, by so much."""
+    if "length" in frame.q:
+        angle = DIRECTIONS[state.direction] if state.last == "drive" else 0.0
+        opposite = math.remainder(angle + math.pi, 2 * math.pi)
+        return [Drive(frame.q["length"].number, direction_rad=opposite, speed_mps=pace.speed(frame))]
+    if state.left is None or state.last != "turn":
+        raise Unclear("which_side", frame.text)
+    amount = frame.q.get("angle") or frame.q["turns"]
+    return [Turn(amount.number, left=not state.left, rate_radps=pace.rate(frame))]

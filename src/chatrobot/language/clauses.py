@@ -79,6 +79,9 @@ def _split(atoms: list[Atom], drawing: bool = False) -> list[Frame]:
             continue
         if atom.kind not in SLOTTED:
             raise Unclear("unknown_part", _around(atoms, i))
+        if _repeats_all(atom, atoms[i + 1 :], current):
+            frames.append(current)
+            current = Frame(joined="weak")
         if not current.add(atom):
             if _is_bare_direction(current):
                 raise Unclear("contradiction", f"{current.text} {atom.text}".strip())
@@ -89,12 +92,8 @@ def _split(atoms: list[Atom], drawing: bool = False) -> list[Frame]:
                 and not current.has_extent
             ):
                 raise Unclear("length_for_turn", f"{current.text} {atom.text}")
-            if (
-                atom.kind == "q"
-                and atom.value in current.q
-                and atom.value in EXTENTS
-                and not (drawing or current.shape)
-            ):
+            repeated = atom.kind == "q" and atom.value in current.q and atom.value in EXTENTS
+            if repeated and not (drawing or current.shape or current.roles):
                 raise Unclear("contradiction", f"{current.text} {atom.text}")
             frames.append(current)
             current = Frame(joined="none")
@@ -103,6 +102,13 @@ def _split(atoms: list[Atom], drawing: bool = False) -> list[Frame]:
     if not current.is_empty:
         frames.append(current)
     return frames
+
+
+def _repeats_all(atom: Atom, rest: list[Atom], current: Frame) -> bool:
+    """…左转九十度重复四遍: all that was said before, not the last part alone."""
+    again = atom.kind == "flag" and atom.value == "again" and atom.text.startswith(("重复", "反复"))
+    counted = bool(rest) and rest[0].kind == "q" and rest[0].value == "times"
+    return again and counted and len(rest) == 1 and current.moves and current.has_extent
 
 
 def _is_bare_direction(frame: Frame) -> bool:
@@ -145,6 +151,8 @@ def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
         or "after_each" in first.flags
         or "all" in first.flags
     ):
+        return None
+    if "trip" in first.roles and last.verb == "return":
         return None
     if "again" in first.flags or is_times_only(first) or is_times_only(last):
         return None
@@ -191,7 +199,8 @@ def is_times_only(frame: Frame) -> bool:
     """`four times`, and nothing that moves."""
     bare = frame.verb in ("", "make", "go", "turn", "shift", "slide") and "trip" not in frame.flags
     way = frame.direction or frame.rot or frame.shape or frame.place
-    return "times" in frame.q and bare and not way and not frame.has_extent
+    counted = "times" in frame.q or ("count" in frame.q and frame.q["count"].role == "move")
+    return counted and bare and not way and not frame.has_extent
 
 
 def _is_fragment(frame: Frame) -> bool:

@@ -29,6 +29,8 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     """
     if _goes_on_the_same_way(frames):
         return None
+    if len(frames) == 2 and frames[0].verb == "undo" and frames[1].verb == "return" and not frames[1].q:
+        frames = frames[:1]
     whole = _whole(frames)
     if whole is None:
         return None
@@ -90,7 +92,7 @@ def _whole(frames: Sequence[Frame]) -> Frame | None:
             frame.verb not in ("", "make", "turn", "go", "face")
             or frame.place
             or frame.shape
-            or frame.joined == "then"
+            or (frame.joined == "then" and not _is_only_again(whole))
         ):
             return None
         if any(name in whole.q for name in frame.q):
@@ -108,14 +110,20 @@ def _whole(frames: Sequence[Frame]) -> Frame | None:
     return whole
 
 
+def _is_only_again(frame: Frame) -> bool:
+    return "again" in frame.flags and not frame.moves and not frame.q
+
+
 def _is_change(whole: Frame) -> bool:
     if "same_amount" in whole.flags:
         return False
+    if "again" in whole.flags and "count" in whole.q:
+        raise Unclear("nothing_before", whole.text)
     if whole.shape or whole.place or whole.verb not in ("", "make", "again"):
         repeats = (
             "again" in whole.flags
             and whole.verb in (*GO, "turn")
-            and not whole.direction
+            and (not whole.direction or whole.verb == "go")
             and not whole.has_extent
         )
         bare = not whole.has_extent and not whole.direction
@@ -137,7 +145,10 @@ def _is_change(whole: Frame) -> bool:
 
 def _changed(last: _Last, whole: Frame, pace: Pace) -> list[Step]:
     whole = _speed_said(whole, last)
-    factor = whole.q["scale"].number if "scale" in whole.q else 1.0
+    if "fold" in whole.q and "速" in whole.q["fold"].text:
+        whole = whole.copy()
+        whole.q["speed"] = quantity("speed", pace.speed(whole) or 0.0, whole.q.pop("fold").text)
+    factor = next((whole.q[name].number for name in ("scale", "fold") if name in whole.q), 1.0)
     if "percent" in whole.q and not whole.pace:
         factor = whole.q["percent"].number
     if "number" in whole.q or "count" in whole.q or "clock" in whole.q:

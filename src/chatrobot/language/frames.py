@@ -161,7 +161,7 @@ class Frame:
             return self._set_verb(verb)
         if verb == "make":
             return not self.has_extent
-        if old in TURN and verb in ("curve", *TURN) and not self.has_extent:
+        if old in TURN and verb in ("curve", *TURN) and (not self.has_extent or set(self.q) == {"angle"}):
             return self._set_verb("curve" if verb == "curve" else old)
         if (
             old == "curve"

@@ -10,6 +10,7 @@ from typing import Literal
 from chatrobot import reflex
 from chatrobot.language import forms, questions
 from chatrobot.language.arithmetic import settle_condition
+from chatrobot.language.asides import check_finished, is_choice, without_asides
 from chatrobot.language.chatter import without_chatter
 from chatrobot.language.clauses import read_frames
 from chatrobot.language.compass import without_compass
@@ -18,6 +19,7 @@ from chatrobot.language.corrections import corrected, without_negated
 from chatrobot.language.dialogue import refer, state_after
 from chatrobot.language.facts import with_defined_units, with_known_counts
 from chatrobot.language.frames import STILL, Frame
+from chatrobot.language.idioms import put_plainly
 from chatrobot.language.lexicon import Key, Meaning, cut, lexicon
 from chatrobot.language.manner import Pace
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
@@ -27,6 +29,7 @@ from chatrobot.language.program_request import read_program_request
 from chatrobot.language.quantities import read_quantities
 from chatrobot.language.rephrase import rephrased
 from chatrobot.language.script import Memory, write
+from chatrobot.language.sounds import mended
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import Atom, tokenise
 from chatrobot.language.tutorial_form import read_twist
@@ -100,7 +103,9 @@ class _Reading:
 
     def __init__(self, text: str, language: LanguageCode, context: Context, profile: RobotProfile) -> None:
         self.text, self.language, self.context, self.profile = text, language, context, profile
-        self.plain = with_known_counts(without_compass(rephrased(normalise(text), language), language))
+        self.by_ear = False
+        said = without_compass(rephrased(normalise(text), language), language)
+        self.plain = put_plainly(with_known_counts(said), language)
         dialogue = context.dialogue
         self.pace = Pace(profile, dialogue.default_speed_mps, dialogue.default_rate_radps)
 
@@ -179,9 +184,11 @@ class _Reading:
         if not pending or len(pending) + len(self.plain) > MAX_CHARACTERS:
             return None
         atoms = tidy(self._atoms(self.plain))
-        if any(a.kind in ("verb", "shape", "place") for a in atoms if a.text not in ("say",)):
+        ways = [k for k, a in enumerate(atoms) if k and a.kind == "dir" and atoms[k - 1].text == a.text]
+        verbs = [a for k, a in enumerate(atoms) if k + 1 not in ways and a.text not in ("say",)]
+        if any(a.kind in ("verb", "shape", "place") for a in verbs):
             return None
-        before = rephrased(normalise(pending), self.language)
+        before = put_plainly(rephrased(normalise(pending), self.language), self.language)
         for joined in (f"{before} {self.plain}", f"{before}, {self.plain}"):
             try:
                 found = self._command(joined)
@@ -192,7 +199,32 @@ class _Reading:
         return None
 
     def _command(self, plain: str) -> Interpretation:
+        """What a command means as it stands; else, what it sounds like."""
+        try:
+            return self._understood(plain)
+        except Unclear as problem:
+            heard = None if problem.refused or self.by_ear else self._heard(plain)
+            if heard is None:
+                raise
+            return heard
+
+    def _heard(self, plain: str) -> Interpretation | None:
+        if self.language == "en":
+            return None
+        self.by_ear = True
+        try:
+            found = self._understood(mended(plain, self.language))
+        except Unclear:
+            return None
+        finally:
+            self.by_ear = False
+        return found if found.outcome == "plan" else None
+
+    def _understood(self, plain: str) -> Interpretation:
         atoms = self._atoms(plain)
+        command = questions.without_quiz(plain, self.language)
+        if command and not questions.is_question(command, self.language):
+            return self._understood(command)
         asks = questions.is_question(plain, self.language)
         ability = questions.asks_ability(plain, self.language)
         refusal = next((a for a in atoms if a.kind == "refuse"), None)
@@ -209,6 +241,9 @@ class _Reading:
         loose = "" if asks else breaks_off(plain, self.language)
         if loose and not self._known_name(loose):
             raise Unclear("unknown_part", f"{loose} …")
+        if is_choice(plain, self.language):
+            raise Unclear("contradiction", plain[:60])
+        check_finished(atoms)
         until = read_until(plain, self.language)
         if until is not None:
             return self._until(until)
@@ -253,12 +288,16 @@ class _Reading:
         """The answer, unless it is a command put as a question."""
         try:
             frames = _frames(atoms)
+            check_finished(atoms)
             steps = refer(frames, self.context, self.pace) or write(frames, self.pace, self._memory())
+            steps = [] if is_choice(plain, self.language) else steps
             plain_question = questions.is_plain_question(plain, self.language)
             if steps and any(f.has_extent or (f.moves and not plain_question) for f in frames):
                 return None
         except Unclear:
             pass
+        if questions.orders(plain, self.language):
+            return None
         topic = questions.topic_of(plain, self.language)
         if not topic and ability:
             topic = "ability"
@@ -295,7 +334,8 @@ class _Reading:
         return Interpretation("plan", describe_plan(plan, self.language), self.language, plan, append)
 
     def _atoms(self, plain: str) -> list[Atom]:
-        atoms = read_quantities(tokenise(plain, lexicon(), self._names()))
+        atoms = tokenise(plain, lexicon(), self._names(), by_ear=self.by_ear)
+        atoms = read_quantities(without_asides(atoms, self.language))
         if any(a.kind == "role" and a.value == "apart" for a in atoms):  # rows side by side, no garden work
             atoms = [Atom("shape", "lawn", a.text) if a.text == "mow the lawn" else a for a in atoms]
         return atoms

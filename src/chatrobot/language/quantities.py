@@ -88,6 +88,8 @@ def _quantity_at(atoms: Sequence[Atom], i: int) -> tuple[list[Atom], int] | None
             )
         ], i + 1
     number = read_number(atoms, i) or _determined(atoms, i)
+    if number is None and atoms[i].text in ("一个", "个") and is_kind(atoms, i + 1, "unit_turn"):
+        number = Number(1.0, i + 1)  # 转一个圈圈
     if number is None and is_kind(atoms, i, "num", "article"):
         number = _article(atoms, i)
     if number is None:
@@ -117,6 +119,8 @@ def _bare_dimension(atoms: Sequence[Atom], i: int, number: Number) -> str:
         before = atoms[i - 2].text
     after = "".join(a.text for a in atoms[number.end : number.end + 2])
     said = before in _SPEED_WORDS or after.startswith(("的速度",))
+    if any(a.text in ("π", "pi") for a in atoms[i : number.end]):
+        return "angle"
     return "speed" if said and 0 < number.value <= 2 else "number"
 
 
@@ -209,8 +213,13 @@ def _unit_suffix(
     if more is None or more.percent or _unit(atoms, _skip(atoms, more.end)[0]) or not 0 < more.value < 100:
         return value, i
     if is_chinese(atoms[i].text) and all(a.kind == "number" for a in atoms[i : more.end]):
-        digits = "".join(f"{float(a.value):g}" for a in atoms[i : more.end])
-        return value + float(f"0.{digits}") * factor, more.end
+        end = more.end
+        while is_kind(atoms, end, "number") and is_chinese(atoms[end].text) and _unit(atoms, end + 1) is None:
+            end += 1
+        digits = "".join(f"{float(a.value):g}" for a in atoms[i:end])
+        return value + float(f"0.{digits}") * factor, end
+    if is_chinese(atoms[i - 1].text) and atoms[i].text.isdigit() and more.end == i + 1:
+        return value + float(f"0.{atoms[i].text}") * factor, more.end  # 1米2, 1米75
     if factor == 0.3048 and more.value < 12:
         return value + more.value * 0.0254, more.end
     if factor == 1.0 and 10 <= more.value < 100:
@@ -257,7 +266,7 @@ def _speeds(atoms: list[Atom]) -> list[Atom]:
         if time_s and is_kind(atoms, end, "q") and atoms[end].value in ("length", "angle", "turns"):
             kind = "speed" if atoms[end].value == "length" else "rate"
             text = "".join(a.text for a in atoms[i : end + 1])
-            verbs = [a for a in atoms[i:end] if a.kind == "verb"]
+            verbs = [a for a in atoms[i:end] if a.kind in ("verb", "dir", "rot")]
             role = "" if atom.kind in ("per", "flag") else atoms[end].value
             out.extend([*verbs, quantity(kind, atoms[end].number / time_s, text, role)])
             i = end + 1
@@ -298,7 +307,7 @@ def _each_time(atoms: list[Atom], i: int) -> tuple[int, float]:
             end, time_s = i + 2, atoms[i + 1].number
     elif is_kind(atoms, i, "q", "time") and is_chinese(atoms[i].text) and atoms[i].number == 1.0:
         end, time_s = i + 1, atoms[i].number
-    while time_s and (is_kind(atoms, end, "glue") or is_kind(atoms, end, "verb")):
+    while time_s and end < len(atoms) and atoms[end].kind in ("glue", "verb", "dir", "rot"):
         end += 1
     return end, time_s
 

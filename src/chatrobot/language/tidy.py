@@ -12,6 +12,9 @@ _HARMLESS = ("filler", "glue", "unknown", "num", "reason", "unit_times", "flag",
 _MOTION = ("q", "verb", "dir", "rot", "shape", "pace", "role", "number")
 
 
+_HALVES = ("一半", "half")
+
+
 def tidy(atoms: Sequence[Atom]) -> list[Atom]:
     """The atoms as the clause reader wants them."""
     settled = [_settled(atoms, i) for i in range(len(atoms))]
@@ -132,7 +135,13 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
     if atom.kind == "per" or (atom.kind == "unit_times" and atom.text in ("time", "次", "下来")):
         return Atom("glue", "x", atom.text)
     if atom.kind == "unit_turn":
+        if is_kind(atoms, i + 1, "role"):
+            return Atom("glue", "x", atom.text)  # 每个圈半径三十厘米
         return Atom("verb", "turn", atom.text)
+    if atom.kind == "unit_angle" and atom.text == "弧":
+        return Atom("verb", "curve", atom.text)
+    if atom.kind == "unit_angle" and atom.text in ("直角", "直角弯", "平角"):
+        return quantity("angle", float(atom.value), atom.text)
     return atom
 
 
@@ -162,6 +171,20 @@ def _relative_speeds(atoms: Sequence[Atom]) -> list[Atom]:
             i = j + 1
         elif is_kind(atoms, i, "q", "times") and is_kind(atoms, j, "pace", "default"):
             out.append(quantity("fold", atom.number, atom.text))
+            i = j + 1
+        elif is_kind(atoms, i, "pace", "default") and is_kind(atoms, j, "pace", "half_max"):
+            out.append(quantity("fold", 0.5, f"{atom.text} {atoms[j].text}"))
+            i = j + 1
+        elif fraction and atom.number < 1 and is_kind(atoms, j, "pace", "default"):
+            out.append(quantity("fold", atom.number, f"{atom.text} {atoms[j].text}"))
+            i = j + 1
+        elif (
+            is_kind(atoms, i, "pace", "default")
+            and is_kind(atoms, j, "q")
+            and atoms[j].value in ("number", "percent", "speed")
+            and atoms[j].text in _HALVES
+        ):
+            out.append(quantity("fold", 0.5, f"{atom.text} {atoms[j].text}"))
             i = j + 1
         else:
             out.append(atom)
