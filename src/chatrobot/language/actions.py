@@ -56,7 +56,9 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
         return _return(Frame(verb="return", pace=frame.pace), state, pace)
     if "asked_distance" in frame.flags:
         return []  # only worked out; what is done with it comes after
-    if "clock" in frame.q:
+    if "heading" in frame.q:
+        steps = _by_compass(frame, state, pace)
+    elif "clock" in frame.q:
         steps = _clock(frame, pace)
     elif frame.verb in STILL:
         steps = _still(frame)
@@ -341,6 +343,26 @@ def _clock(frame: Frame, pace: Pace) -> list[Step]:
     if abs(angle) < 1e-9:
         raise Unclear("already_facing", frame.text)
     return [Turn(abs(angle), left=angle > 0, rate_radps=pace.rate(frame))]
+
+
+def _by_compass(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    """To a point of the compass, facing it; going backward, away from what it faces."""
+    heading = frame.q["heading"].number
+    plain = frame.copy()
+    del plain.q["heading"]
+    going = plain.has_extent or plain.verb in GO or plain.direction == "back"
+    backward = going and plain.direction == "back"
+    yaw = math.remainder(heading + (math.pi if backward else 0.0), 2 * math.pi)
+    face = Face(yaw, frame="start", rate_radps=pace.rate(plain) if not going else None)
+    if not going or {"angle", "turns"} & set(plain.q):
+        if {"angle", "turns", "length"} & set(plain.q):
+            raise Unclear("contradiction", frame.text)
+        return [face]
+    if plain.direction not in ("", "forward", "back") or "sideways" in plain.flags:
+        raise Unclear("contradiction", frame.text)
+    plain.verb = "go"
+    plain.direction = plain.direction or "forward"
+    return [face, *_drive(plain, state, pace)]
 
 
 def _face(frame: Frame, state: State, pace: Pace) -> list[Step]:

@@ -12,6 +12,7 @@ from chatrobot.language import forms, questions
 from chatrobot.language.arithmetic import settle_condition
 from chatrobot.language.asides import check_finished, is_choice, without_asides
 from chatrobot.language.clauses import read_frames
+from chatrobot.language.compass import split_convention, with_headings
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.corrections import corrected, without_negated
 from chatrobot.language.dialogue import refer, state_after
@@ -99,7 +100,9 @@ class _Reading:
     def __init__(self, text: str, language: LanguageCode, context: Context, profile: RobotProfile) -> None:
         self.text, self.language, self.context, self.profile = text, language, context, profile
         self.by_ear = False
-        self.plain = put_plainly(with_known_counts(normalise(text)), language)
+        plain = put_plainly(with_known_counts(normalise(text)), language)
+        rest, self.facing_rad = split_convention(plain, language)
+        self.plain = rest or plain
         dialogue = context.dialogue
         self.pace = Pace(profile, dialogue.default_speed_mps, dialogue.default_rate_radps)
 
@@ -291,7 +294,7 @@ class _Reading:
 
     def _atoms(self, plain: str) -> list[Atom]:
         atoms = tokenise(plain, lexicon(), self._names(), by_ear=self.by_ear)
-        return read_quantities(without_asides(atoms, self.language))
+        return with_headings(read_quantities(without_asides(atoms, self.language)), self.facing_rad)
 
     def _names(self) -> dict[Key, Meaning]:
         dialogue = self.context.dialogue

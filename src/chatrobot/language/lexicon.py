@@ -14,14 +14,15 @@ from typing import Any
 from chatrobot.language.data_files import LANGUAGES, expand, load_table
 
 FILES = (
-    "numbers", "units", "motion", "shapes", "dialogue", "refusals", "corrections", "asides", "filler",
+    "numbers", "units", "motion", "shapes", "dialogue", "refusals", "corrections", "asides", "compass",
+    "filler",
 )  # fmt: skip
 UNIT = re.compile(
     r"\d+(?:,\d{3})+(?:\.\d+)?(?![\d,])|\d*\.?\d+(?:e[+-]?\d+)?(?![\d])|[a-zà-ÿ]+(?:'[a-z]+)*|\S|\n"
 )
 """What text is cut into before words are looked up: a number, a Latin word, or a single character."""
 
-_NO_WORDS = frozenset({"speaker", "clues"})
+_NO_WORDS = frozenset({"speaker", "clues", "convention"})
 """Tables beside the word classes: patterns, and words that are listed elsewhere."""
 _NEVER_MEANT = frozenset(
     {"refuse", "filler", "glue", "reason", "remark", "doubt", "condition", "negation", "correction", "conn", "operator", "sep"}
