@@ -100,10 +100,16 @@ def _with_units(frame: Frame, state: State) -> Frame:
         covered = frame.q.pop("speed").number * frame.q.pop("time").number
         frame.q["length"] = quantity("length", covered, f"{covered:g} m")
         state.length = frame.q["length"]
+    before = state.angle if frame.turning else state.length
+    scale = frame.q.get("scale")
+    if scale is not None and before is not None and frame.moves and not frame.has_extent:
+        frame = frame.copy()
+        del frame.q["scale"]
+        frame.q[before.value] = quantity(before.value, before.number * scale.number, scale.text)
+        return frame
     number = frame.q.get("number")
     if number is None:
         return frame
-    before = state.angle if frame.turning else state.length
     if number.text == "一半" and before is not None and not frame.has_extent:
         frame = frame.copy()
         del frame.q["number"]

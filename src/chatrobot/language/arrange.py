@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from chatrobot.language.frames import EXTENTS, GO, TURN, Frame
+from chatrobot.language.frames import EXTENTS, GO, STILL, TURN, Frame
 
 _MANNER = frozenset({"speed", "rate", "percent", "fold"})
 _LETTERS = frozenset({"letter_l", "letter_u", "letter_z"})
@@ -10,7 +10,31 @@ _LETTERS = frozenset({"letter_l", "letter_u", "letter_z"})
 
 def arranged(frames: list[Frame]) -> list[Frame]:
     """The frames that are motions of their own, in order."""
-    return _without_announcements(_without_titles(_with_manners(_without_calls(frames))))
+    frames = _distributed(_without_calls(frames))
+    return _without_announcements(_without_titles(_with_manners(frames)))
+
+
+def _distributed(frames: list[Frame]) -> list[Frame]:
+    """先前进再后退，都是一米; 左移右移各二十厘米: an amount that all the motions before it share."""
+    out: list[Frame] = []
+    for frame in frames:
+        shared = bool({"all", "each"} & frame.flags) and frame.has_extent and "times" not in frame.q
+        if shared and out:
+            takers = [f for f in out if f.moves and not f.has_extent and f.verb not in STILL and not f.q]
+            for name in ("length", "angle", "turns"):
+                for taker in takers:
+                    turning = taker.turning or taker.verb == "curve"
+                    if name in frame.q and name not in taker.q and turning == (name != "length"):
+                        taker.q[name] = frame.q[name]
+            radius = "radius" in frame.roles and "length" in frame.q and not frame.moves
+            bends = [f for f in out if f.turning and not {"length"} & set(f.q)] if radius else []
+            for bend in bends:
+                bend.q["length"] = frame.q["length"]
+                bend.roles.append("radius")
+            if bends or (takers and not frame.moves):
+                continue
+        out.append(frame)
+    return out
 
 
 def _without_calls(frames: list[Frame]) -> list[Frame]:

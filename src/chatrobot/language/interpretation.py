@@ -224,6 +224,9 @@ class _Reading:
             return self._understood(command)
         asks = questions.is_question(plain, self.language)
         ability = questions.asks_ability(plain, self.language)
+        doubt = next((a for a in atoms if a.kind == "doubt" and a.text != "来着"), None)
+        if doubt is not None and not plain.endswith("?") and not any(a.kind == "refuse" for a in atoms):
+            raise Unclear("unknown_part", doubt.text)
         refusal = next((a for a in atoms if a.kind == "refuse"), None)
         if (asks and refusal is None) or (refusal is None and ability):
             found = self._question(plain, atoms, ability)

@@ -50,7 +50,7 @@ class Lexicon:
     before_unit: dict[str, float]
 
 
-_SIGN = re.compile(r"(?<![\w)])[-](?=\.?\d)")
+_SIGN = re.compile(r"(?<![0-9a-z_)])[-](?=\.?\d)")
 _LISTED = re.compile(r"(?:^|(?<=[\s;,.]))\(?[1-9]\)\s*|(?:^|(?<=\n)|(?<=[;,.] )|(?<=[\u4e00-\u9fff°] ))[1-9][.)] ?(?=[^\d\s])")
 _FOLD = re.compile(
     r"((?:\d|[一二两三四五六七八九十百半]) ?(?:厘米|公分|米|度|秒|圈|cm|mm|m|s|°|deg)) ?[x*] ?(\d{1,2})(?= ?(?:$|[;,!。]))"

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 
 from chatrobot.language.frames import Frame
+from chatrobot.language.numbers import is_chinese
 from chatrobot.language.unclear import Unclear
 from chatrobot.robots.profile import RobotProfile
 
@@ -48,6 +50,8 @@ def _positive(frame: Frame, name: str) -> float:
 def _relative(frame: Frame, default: float, maximum: float) -> float | None:
     if "percent" in frame.q:
         return _positive(frame, "percent") * maximum
+    if "fold" in frame.q and is_chinese(frame.q["fold"].text) and not re.search("速|快|平|默|正|车|原|半", frame.q["fold"].text):
+        raise Unclear("unclear_motion", frame.text)  # twice what?
     if "fold" in frame.q:
         return _positive(frame, "fold") * default
     factors = {

@@ -142,7 +142,7 @@ def _shape_first(frames: list[Frame]) -> list[Frame]:
 
 def _is_measure(frame: Frame) -> bool:
     bare = not frame.moves or (
-        frame.verb == "go" and not (frame.direction or frame.rot or frame.shape or frame.place)
+        frame.verb in ("go", "") and not (frame.direction or frame.shape or frame.place)
     )
     return bare and "length" in frame.q and "time" not in frame.q
 
@@ -236,6 +236,10 @@ def _act(script: Script, frame: Frame) -> None:
         del each.q["count"]
         if "split" in frame.flags and "each" not in frame.flags:
             each.q["length"] = quantity("length", frame.q["length"].number / count, frame.q["length"].text)
+    elif "count" in frame.q and frame.q["count"].role == "move":
+        each = frame.copy()
+        del each.q["count"]
+        each.flags.add("bit")
     elif "count" in frame.q:
         raise Unclear("how_long_a_step", frame.q["count"].text)
     if "times" in frame.q:

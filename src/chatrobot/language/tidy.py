@@ -105,6 +105,10 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
         if is_kind(atoms, i + 1, "role"):
             return Atom("glue", "x", atom.text)  # 每个圈半径三十厘米
         return Atom("verb", "turn", atom.text)
+    if atom.kind == "unit_percent" and atom.text == "成":
+        return Atom("glue", "x", atom.text)
+    if atom.kind == "glue" and atom.text == "左右" and not (i and atoms[i - 1].kind == "q"):
+        return Atom("unknown", atom.text, atom.text)
     if atom.kind == "unit_angle" and atom.text == "弧":
         return Atom("verb", "curve", atom.text)
     if atom.kind == "unit_angle" and atom.text in ("直角", "直角弯", "平角"):
