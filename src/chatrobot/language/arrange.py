@@ -20,7 +20,7 @@ def _distributed(frames: list[Frame]) -> list[Frame]:
     for frame in frames:
         shared = bool({"all", "each"} & frame.flags) and frame.has_extent and "times" not in frame.q
         if shared and out:
-            takers = [f for f in out if f.moves and not f.has_extent and f.verb not in STILL and not f.q]
+            takers = [f for f in out if f.moves and not (f.q or f.shape) and f.verb not in STILL]
             for name in ("length", "angle", "turns"):
                 for taker in takers:
                     turning = taker.turning or taker.verb == "curve"

@@ -142,7 +142,8 @@ def _join(frames: list[Frame], segment: Segment) -> None:
 def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
     if joined == "then" or "between" in first.flags or "after_each" in first.flags or "all" in first.flags:
         return None
-    if "trip" in first.roles and last.verb == "return":
+    trip = "trip" in (*first.flags, *first.roles) and not first.has_extent
+    if trip and (last.verb == "return" or (last.direction and last.has_extent)):
         return None
     if "again" in first.flags or is_times_only(first) or is_times_only(last) or last.flags & {"again", "all"}:
         return None
@@ -172,7 +173,7 @@ def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
 def is_times_only(frame: Frame) -> bool:
     """`four times`, and nothing that moves."""
     bare = frame.verb in ("", "make", "go", "turn", "shift", "slide")
-    way = frame.direction or frame.rot or frame.shape or frame.place
+    way = frame.direction or frame.rot or frame.shape or frame.place or "trip" in (*frame.flags, *frame.roles)
     counted = "times" in frame.q or ("count" in frame.q and frame.q["count"].role == "move")
     return counted and bare and not way and not frame.has_extent
 

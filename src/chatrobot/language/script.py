@@ -144,7 +144,8 @@ def _is_measure(frame: Frame) -> bool:
     bare = not frame.moves or (
         frame.verb in ("go", "") and not (frame.direction or frame.shape or frame.place)
     )
-    return bare and "length" in frame.q and "time" not in frame.q
+    lone_rotation = bool(frame.rot) and not (frame.verb or frame.q or frame.direction or frame.shape)
+    return (bare and "length" in frame.q and "time" not in frame.q) or lone_rotation
 
 
 def _leading_count(frames: list[Frame]) -> tuple[int | None, list[Frame]]:
