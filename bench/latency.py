@@ -13,9 +13,10 @@ import tempfile
 import time
 from pathlib import Path
 
+from tests.realtime import RunningRobot
+
 from chatrobot.wire.local import LocalWire
 from chatrobot.wire.messages import TwistMessage
-from tests.realtime import RunningRobot
 
 REPETITIONS = 60
 
@@ -34,7 +35,9 @@ def one_hop(folder: Path) -> list[float]:
     """A velocity from a process through the hub (a second process) and back."""
     path = folder / "hop.wire"
     serve = "import sys\nfrom chatrobot.wire.local import LocalHub\nhub = LocalHub(sys.argv[1])\nprint(flush=True)\n"
-    hub = subprocess.Popen([sys.executable, "-c", serve + "while True: hub.poll(1.0)", str(path)], stdout=subprocess.PIPE)
+    hub = subprocess.Popen(
+        [sys.executable, "-c", serve + "while True: hub.poll(1.0)", str(path)], stdout=subprocess.PIPE
+    )
     assert hub.stdout is not None
     hub.stdout.readline()
     wire, heard = LocalWire(path), []
@@ -60,8 +63,9 @@ def motion_and_stop(robot: RunningRobot) -> tuple[list[float], list[float]]:
         starts.append(robot.ear.wait_for_motion(said_s) - said_s)
         said_s = robot.say("stop")
         stops.append(robot.ear.wait_for(lambda message: not any(message), said_s) - said_s)
-        robot.wait_for_event("result", turn=turn)
-        robot.wait_for_event("result", turn=turn + 1)
+        ended = {robot.wait_for_event("result")["turn"] for _ in range(2)}
+        assert ended == {turn, turn + 1}
+        time.sleep(0.3)  # the robot rolls out: new motion waits until it has been seen standing
         robot.ear.velocities.clear()
     return starts, stops
 

@@ -19,9 +19,11 @@ ROOT = Path(__file__).parent.parent
 def installed(folder: Path) -> tuple[int, float]:
     """Distributions and megabytes, bytecode included, of a core install (pip and setuptools aside)."""
     subprocess.run([sys.executable, "-m", "venv", str(folder)], check=True)
-    pip = [str(folder / "bin" / "python"), "-m", "pip", "--disable-pip-version-check", "-q"]
-    subprocess.run([*pip, "install", str(ROOT)], check=True, stderr=subprocess.DEVNULL)
-    listed = subprocess.run([*pip, "list", "--format=freeze"], check=True, capture_output=True, text=True).stdout
+    pip = [str(folder / "bin" / "python"), "-m", "pip", "--disable-pip-version-check"]
+    subprocess.run([*pip, "install", "-q", str(ROOT)], check=True, stderr=subprocess.DEVNULL)
+    listed = subprocess.run(
+        [*pip, "list", "--format=freeze"], check=True, capture_output=True, text=True
+    ).stdout
     names = [line.split("==")[0] for line in listed.splitlines()]
     ours = [name for name in names if name not in ("pip", "setuptools")]
     packages = next((folder / "lib").glob("python*/site-packages"))
@@ -54,7 +56,10 @@ def processes(folder: Path) -> dict[str, float]:
             if entry.isdigit():
                 words = (Path("/proc") / entry / "cmdline").read_bytes().split(b"\0")
                 if str(wire).encode() in words:
-                    for name, module in (("guard", b"chatrobot.guard"), ("simulated robot", b"chatrobot.sim")):
+                    for name, module in (
+                        ("guard", b"chatrobot.guard"),
+                        ("simulated robot", b"chatrobot.sim"),
+                    ):
                         if module in words:
                             found[name] = resident_mb(int(entry))
         return found

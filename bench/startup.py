@@ -37,7 +37,9 @@ def main() -> None:
                 ours.append(seconds([sys.executable, "-m", "chatrobot", *arguments], folder))
                 bare.append(seconds([sys.executable, "-c", "pass"], folder))
             ratio = statistics.median(a / b for a, b in zip(ours, bare))
-            print(f"{name:40s} {statistics.median(ours) * 1e3:7.0f} ms {max(ours) * 1e3:7.0f} ms {ratio:8.1f}x")
+            print(
+                f"{name:40s} {statistics.median(ours) * 1e3:7.0f} ms {max(ours) * 1e3:7.0f} ms {ratio:8.1f}x"
+            )
 
 
 if __name__ == "__main__":

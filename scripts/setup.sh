@@ -25,7 +25,7 @@ if [ -x "$venv/bin/chatrobot" ] && [ "$(cat "$stamp" 2>/dev/null)" = "$wanted" ]
 fi
 
 echo "setup: making $venv (a minute or two; later only when pyproject.toml changes)"
-[ -x "$venv/bin/python" ] || "$python" -m venv "$venv"
+"$venv/bin/python" -m pip --version >/dev/null 2>&1 || "$python" -m venv --clear "$venv"
 constraints=
 [ "${CI:-}" = true ] && constraints="-c requirements.lock"
 echo "setup: installing ChatRobot and what it needs"

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -51,6 +53,25 @@ def test_stop_and_help_load_nothing_heavy(arguments: list[str]) -> None:
 
 def test_stop_does_not_even_load_the_parser_of_arguments() -> None:
     assert "argparse" not in loaded_by("from chatrobot.cli.entry import main\nmain(['stop'])")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "limit_s"),
+    [(["stop"], 0.06), (["--help"], 0.3), (["do", "forward 1 m", "--fast", "--world", "empty"], 1.0)],
+)
+def test_start_up_is_quick(arguments: list[str], limit_s: float, tmp_path: Path) -> None:
+    """In processor time, the best of five, so that a busy machine does not matter."""
+    environment = {**os.environ, "XDG_RUNTIME_DIR": str(tmp_path)}
+    command = [sys.executable, "-m", "chatrobot", *arguments]
+    costs_s = []
+    for _ in range(5):
+        before = os.times()
+        subprocess.run(command, env=environment, check=True, stdout=subprocess.DEVNULL, timeout=60)
+        after = os.times()
+        costs_s.append(
+            after.children_user + after.children_system - before.children_user - before.children_system
+        )
+    assert min(costs_s) < limit_s
 
 
 def test_importing_chatrobot_loads_nothing_yet_offers_its_names() -> None:

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+import array
+import fcntl
 import itertools
 import json
 import math
+import signal
+import subprocess
+import sys
+import termios
+import time
 from pathlib import Path
 
 import pytest
 
-from tests.cli.running import Command
+from tests.cli.running import PATIENCE_S, Command, environment
 
 FAST = ("--fast", "--world", "empty")
 
@@ -132,6 +139,25 @@ def test_plan_rehearses_and_moves_nothing(chatrobot: Command) -> None:
     assert done.named("result")[0]["path_m"] == 0.0
 
 
+def test_plan_draws_the_way(chatrobot: Command, tmp_path: Path) -> None:
+    file = tmp_path / "way.png"
+    assert chatrobot("plan", "forward 20 m", "--png", str(file), "--world", "home").code == 4
+    assert file.read_bytes().startswith(b"\x89PNG")
+
+
+def test_where_there_is_no_plan_there_is_no_picture(chatrobot: Command, tmp_path: Path) -> None:
+    file = tmp_path / "way.png"
+    done = chatrobot("plan", "where are you?", "--png", str(file))
+    assert "no plan to draw" in done.err
+    assert not file.exists()
+
+
+def test_a_picture_that_cannot_be_written_is_told(chatrobot: Command, tmp_path: Path) -> None:
+    done = chatrobot("plan", "forward 1 m", "--png", str(tmp_path / "no" / "such" / "way.png"))
+    assert done.code == 1
+    assert "No such file" in done.err
+
+
 def test_plan_says_what_would_be_hit(chatrobot: Command) -> None:
     done = chatrobot("plan", "forward 20 m", "--world", "home")
     assert done.code == 4
@@ -189,6 +215,48 @@ def test_a_plan_is_approved_over_json(chatrobot: Command) -> None:
         robot.say('{"approve": false}')
         assert robot.event("result")["outcome"] == "refused"
         assert robot.end() == 4
+
+
+# --- signals and streams ---
+
+
+def test_ctrl_c_ends_a_long_simulation(chatrobot: Command) -> None:
+    with chatrobot.start("do", "wait 3000 seconds", "forward 1 m", "--json", *FAST) as robot:
+        robot.event("started")
+        robot.process.send_signal(signal.SIGINT)
+        assert robot.event("result")["outcome"] == "stopped"
+        assert robot.end() == 5
+
+
+def test_a_second_ctrl_c_quits_at_once_whatever_hangs(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "chatrobot", "do", "forward 500 m", "--json", "--trace", *FAST]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, env=environment(tmp_path)) as process:
+        assert process.stdout is not None
+        wait_until_full(process.stdout.fileno())  # nobody reads: it hangs in the middle of a write
+        process.send_signal(signal.SIGINT)
+        with pytest.raises(subprocess.TimeoutExpired):
+            process.wait(0.5)
+        process.send_signal(signal.SIGINT)
+        assert process.wait(PATIENCE_S) == 130
+
+
+def wait_until_full(descriptor: int) -> None:
+    """Until a pipe holds (nearly) all it can."""
+    capacity = fcntl.fcntl(descriptor, fcntl.F_GETPIPE_SZ)
+    waiting = array.array("i", [0])
+    deadline_s = time.monotonic() + PATIENCE_S
+    while waiting[0] < capacity - 2 * 4096:  # a write that does not fit its page begins another
+        assert time.monotonic() < deadline_s
+        time.sleep(0.01)
+        fcntl.ioctl(descriptor, termios.FIONREAD, waiting)
+
+
+@pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
+def test_closed_streams_do_no_harm(tmp_path: Path, closed: str) -> None:
+    command = f'"{sys.executable}" -m chatrobot do "forward 1 m" --fast --world empty {closed}'
+    assert (
+        subprocess.run(["sh", "-c", command], env=environment(tmp_path), timeout=PATIENCE_S).returncode == 0
+    )
 
 
 # --- the rest ---

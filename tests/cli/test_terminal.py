@@ -69,6 +69,14 @@ def test_approval_is_asked_for_and_only_a_yes_is_one(terminal: Terminal, answer:
 
 
 @pytest.mark.realtime
+def test_without_a_command_a_terminal_gets_the_console(terminal: Terminal) -> None:
+    child = terminal(*EMPTY)
+    child.expect_exact("› ")
+    child.sendeof()
+    assert code(child) == 0
+
+
+@pytest.mark.realtime
 def test_ctrl_c_stops_and_reports(terminal: Terminal) -> None:
     child = terminal("do", "forward 10 m", *EMPTY)
     child.expect("0.[1-9]. / 10.00 m")

@@ -20,10 +20,11 @@ TIMEOUT_S = 20.0
 class _Screen(pyte.HistoryScreen):
     """Answers what programs ask a terminal."""
 
-    answer = staticmethod(lambda data: None)
+    child: pexpect.spawn | None = None
 
     def write_process_input(self, data: str) -> None:
-        self.answer(data)
+        if self.child is not None:
+            self.child.send(data)
 
 
 class Terminal:
@@ -47,7 +48,10 @@ class Terminal:
                 for name, value in os.environ.items()
                 if name not in ("NO_COLOR", "COLUMNS", "LINES")
             },
-            **{"TERM": "xterm-256color", "LANG": "C.UTF-8", "LC_ALL": "C.UTF-8", "PYTHONPATH": source},
+            "TERM": "xterm-256color",
+            "LANG": "C.UTF-8",
+            "LC_ALL": "C.UTF-8",
+            "PYTHONPATH": source,
             "XDG_RUNTIME_DIR": self._runtime.name,  # nobody else's `chatrobot stop` reaches us
             **(environment or {}),
         }
@@ -55,7 +59,7 @@ class Terminal:
             arguments[0], arguments[1:], dimensions=(rows, columns), env=env, timeout=TIMEOUT_S
         )
         self.child.delaybeforesend = None
-        self.screen.answer = self.child.send
+        self.screen.child = self.child
         self.raw = b""
 
     def __enter__(self) -> Terminal:
@@ -133,16 +137,8 @@ class Terminal:
         )
 
 
-_RUN = (
-    "import sys; from pathlib import Path; from dataclasses import replace; from chatrobot.compose import Setup;"
-    "from chatrobot.session.session import Options; from chatrobot.cli.console.app import run_console;"
-    "setup = Setup(folder=Path(sys.argv[1]), world=sys.argv[2], options=Options(approve=sys.argv[3] == 'approve'));"
-    "sys.exit(run_console(setup))"
-)
-
-
-def console(folder: Path, *, world: str = "home", approve: bool = False, columns: int = 100, rows: int = 40,
+def console(folder: Path, *options: str, columns: int = 100, rows: int = 40,
             environment: dict[str, str] | None = None) -> Terminal:  # fmt: skip
-    """The console with its files in `folder`."""
-    arguments = [sys.executable, "-c", _RUN, str(folder), world, "approve" if approve else "stream"]
+    """`chatrobot` without a command, with its files in `folder`."""
+    arguments = [sys.executable, "-m", "chatrobot", "--config-dir", str(folder), *options]
     return Terminal(arguments, columns=columns, rows=rows, environment=environment)

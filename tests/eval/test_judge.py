@@ -97,8 +97,10 @@ def test_asking_back_after_having_moved_is_wrong() -> None:
     assert verdict(numbers(x=1.0), forward(0.5), outcome="unclear").kind == "wrong"
 
 
-def test_saying_done_without_having_moved_is_wrong() -> None:
-    assert verdict(numbers(x=1.0)).kind == "wrong"
+def test_saying_done_without_having_moved_is_wrong_and_told() -> None:
+    result = verdict(numbers(x=1.0))
+    assert result.kind == "wrong"
+    assert "it did not move; completed: a reply" in result.reasons
 
 
 def test_answering_instead_of_moving_is_wrong() -> None:

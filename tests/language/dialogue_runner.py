@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Literal
 
-from tests.language.ideal_motion import Track, judge
-from tests.language.profiles import MECANUM
-
 from chatrobot.language.context import Context, Dialogue, Place, RobotState, TurnRecord
 from chatrobot.language.interpretation import Interpretation, OfflineInterpreter
+from tests.language.ideal_motion import Track, judge
+from tests.language.profiles import MECANUM
 
 Verdict = Literal["correct", "wrong", "abstained"]
 ANSWERS = {"clarify": "unclear", "refuse": "refused", "info": "answered"}

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 import yaml
+
 from tests.language.dialogue_runner import run_item
 
 CORPUS = Path(__file__).parent.parent / "corpus"

@@ -7,11 +7,11 @@ import time
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.language.dialogue_runner import Conversation
-from tests.language.profiles import MECANUM
 
 from chatrobot.language.context import Context
 from chatrobot.language.interpretation import OfflineInterpreter
+from tests.language.dialogue_runner import Conversation
+from tests.language.profiles import MECANUM
 
 STILL = [
     "go five", "drive over there", "go to the kitchen", "turn by 20 metres", "rotate to the left by 3 metres",

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from tests.language.dialogue_runner import Conversation
-
 from chatrobot.plan.steps import RawTwist, Repeat
+from tests.language.dialogue_runner import Conversation
 
 ROTATE = """Generate a ROS 2 Python program to control the car rotation. Specific requirements are:
 1, the car needs to rotate at the angular speed of 0.5 for 6 seconds, after the rotation is finished,

@@ -6,9 +6,9 @@ import itertools
 import math
 
 import pytest
-from tests.language.dialogue_runner import Conversation
 
 from chatrobot.plan.steps import Drive, Turn
+from tests.language.dialogue_runner import Conversation
 
 LENGTHS = {
     "one metre": 1.0, "2 m": 2.0, "fifty centimetres": 0.5, "half a meter": 0.5, "two and a half feet": 0.762,

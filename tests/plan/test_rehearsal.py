@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
+from chatrobot.plan.core_motion import RAMP_SHARE
 from chatrobot.plan.findings import Finding
 from chatrobot.plan.lowering import PlannedMotion
 from chatrobot.plan.rehearsal import MARGIN_M, Rehearsal, rehearse
@@ -49,8 +50,8 @@ def test_a_square_ends_where_it_began_and_takes_its_time() -> None:
     result = rehearsed("repeat 4\n drive 1 m\n turn left 90 deg\nend")
     assert result.ok
     assert result.end_pose == pytest.approx((0, 0, 2 * math.pi), abs=1e-9)
-    side_s = 1 / 0.3 + 0.3 / 1.0
-    corner_s = math.pi / 2 / 0.6 + 0.6 / 2.0
+    side_s = 1 / 0.3 + 0.3 / (RAMP_SHARE * 1.0)
+    corner_s = math.pi / 2 / 0.6 + 0.6 / (RAMP_SHARE * 2.0)
     assert result.duration_s == pytest.approx(4 * (side_s + corner_s))
     assert result.length_m == pytest.approx(4.0, abs=1e-6)
     assert [step.number for step in result.steps] == list(range(1, 9))
@@ -111,16 +112,16 @@ def test_an_area_with_a_corner_cut_out_is_seen_as_it_is() -> None:
     ("text", "code"),
     [
         ("drive 1 m at 5 m/s", "speed_above_limit"),
-        ("repeat 1000\nwait 10 s\nend", "too_long"),
-        ("drive 3000 s", "too_long"),
-        ("drive 1 m at 1e-300 m/s", "too_long"),
-        ("drive 1e300 m", "too_long"),
+        ("repeat 1000\nwait 10 s\nend", "lasts_too_long"),
+        ("drive 3000 s", "lasts_too_long"),
+        ("drive 1 m at 1e-300 m/s", "lasts_too_long"),
+        ("drive 1e300 m", "lasts_too_long"),
         ("go to 1e300 1e300", "too_far"),
         ("go to 1100 0 at 1 m/s", "too_far"),
     ],
 )
 def test_what_cannot_be_done_is_refused(text: str, code: str) -> None:
-    long_wait = "wait 1000 s\n" if code == "too_long" else ""
+    long_wait = "wait 1000 s\n" if code == "lasts_too_long" else ""
     assert refusal(rehearsed(long_wait + text)).reason.code == code
 
 

@@ -1,4 +1,4 @@
-"""Who says yes to a rehearsed plan: `--yes`, a person at the terminal, or nobody."""
+"""Who says yes to a rehearsed plan: a person at the terminal, the program that reads our events, or nobody."""
 
 from __future__ import annotations
 
@@ -15,13 +15,11 @@ class Approver:
     """Hears the events of a session and answers those that ask.
 
     Args:
-        yes: say yes to everything.
         can_ask: a person sits at standard input and has nothing else to type there.
-        others_answer: whoever reads our events answers; see `piped`.
+        others_answer: whoever reads our events answers; see `talk`.
     """
 
-    def __init__(self, *, yes: bool, can_ask: bool, others_answer: bool = False) -> None:
-        self._yes = yes
+    def __init__(self, *, can_ask: bool, others_answer: bool = False) -> None:
         self._can_ask = can_ask
         self._others_answer = others_answer
         self._turn: int | None = None
@@ -42,9 +40,7 @@ class Approver:
         """Answer what waits, if there is an answer by now. Never blocks."""
         if self._turn is None:
             return
-        if self._yes:
-            self.give(session, True)
-        elif self._can_ask:
+        if self._can_ask:
             self._ask(session)
         elif not self._others_answer:
             print(

@@ -30,7 +30,7 @@ def setup_from(args: argparse.Namespace, *, options: Options | None = None, worl
         fast=args.fast,
         trace=args.trace,
         folder=config_folder(args),
-        options=options or Options(approve=args.approve),
+        options=options or Options(approve=args.approve and not args.yes),
     )
 
 

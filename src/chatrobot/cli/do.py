@@ -14,7 +14,7 @@ from chatrobot.cli.printer import printer_for
 def run(args: argparse.Namespace) -> int:
     """The exit code of the last turn."""
     printer = printer_for(args)
-    approver = Approver(yes=args.yes, can_ask=sys.stdin.isatty())
+    approver = Approver(can_ask=sys.stdin.isatty())
     with Conversation(setup_from(args), printer, approver) as conversation:
         for text in args.texts:
             if conversation.is_leaving:

@@ -26,11 +26,13 @@ PAPER, INK, FAINT, GRID, GRID_STRONG = (
     (234, 236, 240),
     (214, 218, 226),
 )
+SWEPT, SWEPT_EDGE = (232, 237, 247), (168, 180, 204)
 OBSTACLE, OBSTACLE_EDGE = (222, 226, 233), (150, 158, 172)
 PLACE, START, END, RED, AMBER = (15, 118, 110), (31, 119, 214), (226, 76, 38), (205, 24, 40), (201, 122, 0)
 
 MAP_WIDTH_PX, MAX_MAP_HEIGHT_PX, MIN_MAP_HEIGHT_PX = 1080, 860, 420
-LEFT_PX, RIGHT_PX, TOP_PX, FOOT_PX, LINE_PX = 62, 28, 92, 96, 24
+LEFT_PX, RIGHT_PX, TOP_PX, FOOT_PX, LINE_PX, TITLE_SIZE_PX = 62, 28, 108, 96, 24, 26
+WAY_CLEARANCE_PX = 9
 
 Words = Callable[[FindingSeen], str]
 
@@ -47,7 +49,7 @@ def draw_plan(
     """Write the picture of `rehearsed` in `world` to `path`, a PNG.
 
     Args:
-        words: puts a finding into words for the legend; without it its code stands there.
+        words: puts a finding into words for the legend; English without it.
 
     Raises:
         OSError: the file cannot be written.
@@ -160,13 +162,13 @@ class _Picture:
     def _label(self, name: str, spot: XY, looks_right: bool) -> None:
         x, y = spot
         right = x + (17 if looks_right else 10)
-        for at, anchor in (((right, y), "lm"), ((x - 17, y), "rm"), ((x, y - 9), "mb"), ((x, y + 9), "mt")):
-            box = self.canvas.text_box(at, name, 15, anchor)
-            inside = box[0] > LEFT_PX and box[2] < LEFT_PX + self._map_w
-            if inside and self._is_free(box):
-                self.canvas.text(at, name, PLACE, 15, anchor, halo=(255, 255, 255, 215))
-                self._taken.append(box)
-                return
+        spots = (((right, y), "lm"), ((x - 17, y), "rm"), ((x, y - 10), "mb"), ((x, y + 10), "mt"))
+        boxes = [(at, anchor, self.canvas.text_box(at, name, 15, anchor)) for at, anchor in spots]
+        inside = [b for b in boxes if b[2][0] > LEFT_PX and b[2][2] < LEFT_PX + self._map_w]
+        free = [b for b in inside if self._is_free(b[2])]
+        for at, anchor, box in (free or inside)[:1]:
+            self.canvas.text(at, name, PLACE, 15, anchor, halo=(255, 255, 255, 215))
+            self._taken.append(box)
 
     def _is_free(self, box: Box) -> bool:
         return not any(
@@ -180,10 +182,16 @@ class _Picture:
         way = rehearsed.path
         if not way:
             return
-        spacing_m = max(profile.footprint_radius_m * 0.9, rehearsed.length_m / 60.0)
-        for point in standing_points(way, spacing_m):
+        radius_m = profile.footprint_radius_m
+        for point in standing_points(way, radius_m / 4.0, math.radians(6)):
+            self.canvas.polygon(self._points(outline_at(profile.footprint, Pose(*point))), fill=SWEPT)
+        for point in standing_points(way, max(radius_m * 2.0, rehearsed.length_m / 40.0), math.radians(45)):
             outline = self._points(outline_at(profile.footprint, Pose(*point)))
-            self.canvas.polygon(outline, fill=(60, 80, 120, 16), edge=(60, 80, 120, 70), width_px=0.8)
+            self.canvas.polygon(outline, edge=SWEPT_EDGE, width_px=0.8)
+        for point in standing_points(way, WAY_CLEARANCE_PX / self._px_per_m, math.tau):
+            x, y = self._at(*point[:2])
+            clear = WAY_CLEARANCE_PX
+            self._taken.append((x - clear, y - clear, x + clear, y + clear))
         for i, (a, b) in enumerate(pairwise(way)):
             ends = [self._at(*a[:2]), self._at(*b[:2])]
             self.canvas.line(ends, progress_colour(i / max(1, len(way) - 2)), 4.5)
@@ -223,18 +231,24 @@ class _Picture:
     # --- words around the map ---
 
     def _headline(self, world: World, profile: RobotProfile, rehearsed: Rehearsed, title: str) -> None:
-        shown = title if fonts.for_text(title, 12) is not None else "plan"
-        if len(shown) > 80:
-            shown = f"{shown[:79]}…"
-        self.canvas.text((LEFT_PX, 20), shown, INK, 26)
+        self.canvas.text((LEFT_PX, 14), self._fitting(title), INK, TITLE_SIZE_PX)
         turned = rehearsed.path[-1][2] - rehearsed.path[0][2] if rehearsed.path else 0.0
         facts = (
             f"{rehearsed.length_m:.2f} m · {rehearsed.duration_s:.1f} s · turns {math.degrees(turned):+.0f}°"
         )
         verdict = "" if rehearsed.ok else " · refused"
         where = "in the open" if world.is_empty else f"in '{world.name}'"
-        self.canvas.text((LEFT_PX + self._map_w, 26), facts + verdict, INK if rehearsed.ok else RED, 17, "ra")
-        self.canvas.text((LEFT_PX + self._map_w, 50), f"{profile.title} {where}", FAINT, 13, "ra")
+        self.canvas.text((LEFT_PX, 50), facts + verdict, INK if rehearsed.ok else RED, 17)
+        self.canvas.text((LEFT_PX + self._map_w, 54), f"{profile.title} {where}", FAINT, 13, "ra")
+
+    def _fitting(self, title: str) -> str:
+        """The title, cut where the picture ends; "plan" where no font has its letters."""
+        shown = " ".join(title.split())
+        if not shown or fonts.for_text(shown, TITLE_SIZE_PX) is None:
+            return "plan"
+        while self.canvas.text_box((0.0, 0.0), shown, TITLE_SIZE_PX)[2] > self._map_w:
+            shown = f"{shown[:-2].rstrip()}…"
+        return shown
 
     def _legend(self, rehearsed: Rehearsed, words: Words, has_places: bool) -> None:
         y = TOP_PX + self._map_h + 58
@@ -244,11 +258,11 @@ class _Picture:
         along = f"0 to {rehearsed.duration_s:.1f} s along the predicted way"
         self.canvas.text((x + 130, y), along, INK, 14, "lm")
         x = self.canvas.text_box((x + 130, y), along, 14, "lm")[2]
-        self.canvas.box((x + 30, y - 7, x + 48, y + 7), fill=(60, 80, 120, 16), edge=(60, 80, 120, 120))
-        self.canvas.text((x + 56, y), "footprint", INK, 14, "lm")
+        self.canvas.box((x + 30, y - 7, x + 48, y + 7), fill=SWEPT, edge=SWEPT_EDGE)
+        self.canvas.text((x + 56, y), "swept by the footprint", INK, 14, "lm")
         if has_places:
-            self.canvas.circle((x + 148, y), 5, fill=PLACE)
-            self.canvas.text((x + 160, y), "named place", INK, 14, "lm")
+            self.canvas.circle((x + 238, y), 5, fill=PLACE)
+            self.canvas.text((x + 250, y), "named place", INK, 14, "lm")
         for number, finding in enumerate(rehearsed.findings, 1):
             y += LINE_PX
             self._mark_small((LEFT_PX + 9, y), str(number), _severity_colour(finding))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 from collections.abc import Sequence
@@ -18,6 +19,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     `CHATROBOT_DEBUG=1` lets the traceback through.
     """
     arguments = sys.argv[1:] if arguments is None else arguments
+    _mend_streams()
     try:
         return _run(arguments)
     except KeyboardInterrupt:
@@ -32,6 +34,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
         print(f"chatrobot: {_sentence(error)}", file=sys.stderr)
         return USAGE if isinstance(error, InputError) else FAILED
+
+
+def _mend_streams() -> None:
+    """A stream that was closed (`>&-`) becomes empty, before a socket gets its number; no locale is an error."""
+    for number, (name, mode) in enumerate((("stdin", "r"), ("stdout", "w"), ("stderr", "w"))):
+        if getattr(sys, name) is None:
+            os.open(os.devnull, os.O_RDWR)  # takes the lowest number that is free: this one
+            setattr(sys, name, os.fdopen(number, mode))
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
 
 
 def forget_stdout() -> None:

@@ -12,6 +12,7 @@ from chatrobot.cli.printer import printer_for
 from chatrobot.compose import connect
 from chatrobot.core.errors import UsageError
 from chatrobot.core.events import EXIT_CODES, Event, Rehearsed
+from chatrobot.language.phrases import render_reason
 from chatrobot.session.session import Options
 
 
@@ -41,8 +42,14 @@ def run(args: argparse.Namespace) -> int:
         if rehearsed:
             from chatrobot.cli.draw import draw_plan
 
-            world, profile = connection.world, connection.profile
-            draw_plan(png, world=world, profile=profile, rehearsed=rehearsed[-1], title=args.text)
+            draw_plan(
+                png,
+                world=connection.world,
+                profile=connection.profile,
+                rehearsed=rehearsed[-1],
+                title=args.text,
+                words=lambda finding: render_reason(finding.reason, session.understanding.language),
+            )
         else:
             print("chatrobot: there is no plan to draw", file=sys.stderr)
     return EXIT_CODES[result.outcome]

@@ -24,7 +24,7 @@ def run(args: argparse.Namespace) -> int:
 
         return run_console(setup)
     printer = printer_for(args)
-    approver = Approver(yes=args.yes, can_ask=False, others_answer=args.json)
+    approver = Approver(can_ask=False, others_answer=args.json)
     with Conversation(setup, printer, approver) as conversation:
         reader = LineReader(JsonInput(conversation, approver).hear if args.json else conversation.hear)
         reader.start()

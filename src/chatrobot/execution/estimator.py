@@ -127,9 +127,13 @@ class PoseEstimator:
         turn = wheel_turn
         rate = message.wz_radps
         if self.has_gyro and message.stamp_s - self._imu_at_s < IMU_SILENT_S:
-            turn = self._gyro_yaw - self._gyro_yaw_at_odometry
+            # Odometry may come a sample before the gyro of the same moment: carry the heading on to its stamp.
+            gyro_yaw = self._gyro_yaw + self._gyro_rate * (message.stamp_s - self._imu_at_s)
+            turn = gyro_yaw - self._gyro_yaw_at_odometry
             rate = self._gyro_rate
-        self._gyro_yaw_at_odometry = self._gyro_yaw
+            self._gyro_yaw_at_odometry = gyro_yaw
+        else:
+            self._gyro_yaw_at_odometry = self._gyro_yaw
         # The wheels' chord is seen at half their own turn; put it at half of the turn that really happened.
         swing = (turn - wheel_turn) / 2.0
         cos, sin = math.cos(swing), math.sin(swing)

@@ -13,7 +13,7 @@ from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 
 _STRENGTH = {"start": 0, "and": 1, "weak": 2, "colon": 3, "strong": 4, "then": 5}
-MANNER = frozenset({"speed", "rate", "percent", "fold"})
+MANNER = frozenset({"speed", "rate", "percent", "fold", "faster"})
 
 
 @dataclass
@@ -66,6 +66,8 @@ def _separator(atom: Atom) -> str | None:
 
 def _split(atoms: list[Atom]) -> list[Frame]:
     """The frames of a stretch without separators."""
+    bearing = [a for a in atoms if a.kind == "flag" and a.value == "bearing"]
+    atoms = [*bearing, *[a for a in atoms if a not in bearing]]
     curve = next((a for a in atoms if a.kind == "verb" and a.value == "curve"), None)
     if curve is not None and not any(a.kind == "shape" for a in atoms):
         atoms = [curve, *[a for a in atoms if a is not curve and a.value != "go"]]
@@ -140,12 +142,16 @@ def _join(frames: list[Frame], segment: Segment) -> None:
 
 
 def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
-    if joined == "then" or "between" in first.flags or "after_each" in first.flags or "all" in first.flags:
+    if "trip" in last.flags and "each" in first.flags and not first.verb:
         return None
     trip = "trip" in (*first.flags, *first.roles) and not first.has_extent
     if trip and (last.verb == "return" or (last.direction and last.has_extent)):
         return None
-    if "again" in first.flags or is_times_only(first) or is_times_only(last) or last.flags & {"again", "all"}:
+    if joined == "then" or {"between", "halfway", "after_each", "all"} & first.flags:
+        return None
+    if "again" in first.flags or is_times_only(first) or is_times_only(last):
+        return None
+    if "all" in last.flags or ("again" in last.flags and not last.has_extent):
         return None
     if (
         {"between", "after_each"} & last.flags
@@ -154,6 +160,8 @@ def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
         and last.moves
         and last.has_extent
     ):
+        return None
+    if "number" in first.q and (last.has_extent or "number" in last.q) and not (last.shape or first.shape):
         return None
     if "while" in first.flags and last.verb in GO and first.verb in TURN and not last.has_extent:
         last = last.copy()

@@ -15,6 +15,7 @@ from chatrobot.language.unclear import Unclear
 
 _NO = frozenset({"no", "nope", "不", "wait", "sorry", "oops", "whoops", "等等", "no no", "rather"})
 _DENIALS = frozenset({"不是", "not that"})
+_AFTERTHOUGHTS = frozenset({"i mean", "i meant", "i mean to say", "rather"})
 _PIECE = ("dir", "rot", "q", "pace", "verb", "shape")
 
 
@@ -26,6 +27,9 @@ def corrected(atoms: Sequence[Atom]) -> list[Atom]:
         if at is None:
             return out
         before, after = out[:at], out[at + 1 :]
+        if _is_afterthought(before, out[at], after):
+            out = [*before, *after]
+            continue
         if out[at].kind == "correction" and out[at].value == "cancel":
             if not any(a.kind in _PIECE for a in after):
                 raise Unclear("taken_back", out[at].text)
@@ -54,6 +58,12 @@ def _is_correction(atoms: list[Atom], i: int) -> bool:
     # `sorry, right`: only where a lone piece follows.
     real = [a for a in following if a.kind not in ("sep", "filler", "glue")]
     return atom.text in ("sorry", "oops", "whoops") and bool(real) and real[0].kind in ("dir", "rot", "q")
+
+
+def _is_afterthought(before: list[Atom], word: Atom, after: list[Atom]) -> bool:
+    """`…, sideways I mean`: what was meant stands before it already."""
+    ends = not any(a.kind in _PIECE for a in after)
+    return ends and word.text in _AFTERTHOUGHTS and bool(before) and before[-1].kind not in ("sep", "conn")
 
 
 def _trimmed(atoms: list[Atom]) -> list[Atom]:

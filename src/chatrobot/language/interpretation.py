@@ -11,14 +11,14 @@ from chatrobot import reflex
 from chatrobot.language import forms, questions
 from chatrobot.language.arithmetic import settle_condition
 from chatrobot.language.asides import check_finished, is_choice, without_asides
+from chatrobot.language.chatter import without_chatter
 from chatrobot.language.clauses import read_frames
 from chatrobot.language.compass import split_convention, with_headings
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.corrections import corrected, without_negated
 from chatrobot.language.dialogue import refer, state_after
 from chatrobot.language.facts import with_defined_units, with_known_counts
-from chatrobot.language.frames import Frame
-from chatrobot.language.idioms import put_plainly
+from chatrobot.language.frames import STILL, Frame
 from chatrobot.language.lexicon import Key, Meaning, cut, lexicon
 from chatrobot.language.manner import Pace
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
@@ -26,11 +26,13 @@ from chatrobot.language.order import in_order
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.program_request import read_program_request
 from chatrobot.language.quantities import read_quantities
+from chatrobot.language.rephrase import rephrased
 from chatrobot.language.script import Memory, write
 from chatrobot.language.sounds import mended
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import Atom, tokenise
 from chatrobot.language.tutorial_form import read_twist
+from chatrobot.language.unfinished import breaks_off
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Go, Plan, Remember, Step
 from chatrobot.robots.profile import RobotProfile
@@ -100,7 +102,7 @@ class _Reading:
     def __init__(self, text: str, language: LanguageCode, context: Context, profile: RobotProfile) -> None:
         self.text, self.language, self.context, self.profile = text, language, context, profile
         self.by_ear = False
-        plain = put_plainly(with_known_counts(normalise(text)), language)
+        plain = with_known_counts(rephrased(normalise(text), language))
         rest, self.facing_rad = split_convention(plain, language)
         self.plain = rest or plain
         dialogue = context.dialogue
@@ -185,7 +187,7 @@ class _Reading:
         verbs = [a for k, a in enumerate(atoms) if k + 1 not in ways and a.text not in ("say",)]
         if any(a.kind in ("verb", "shape", "place") for a in verbs):
             return None
-        before = put_plainly(normalise(pending), self.language)
+        before = rephrased(normalise(pending), self.language)
         for joined in (f"{before} {self.plain}", f"{before}, {self.plain}"):
             try:
                 found = self._command(joined)
@@ -239,12 +241,30 @@ class _Reading:
         if is_choice(plain, self.language):
             raise Unclear("contradiction", plain[:60])
         check_finished(atoms)
+        if self._is_stop(plain):
+            return Interpretation("stop", say(self.language, "stop"), self.language)
+        loose = "" if asks else breaks_off(plain, self.language)
+        if loose and not self._known_name(loose):
+            raise Unclear("unknown_part", f"{loose} …")
         frames = _frames(atoms)
         default = self._default(frames)
         if default is not None:
             return default
         steps = refer(frames, self.context, self.pace) or write(frames, self.pace, self._memory())
         return self._plan(steps, append=_appends(atoms))
+
+    def _known_name(self, words: str) -> bool:
+        return any(words.split()[-1] in key for key in self._names())
+
+    def _is_stop(self, plain: str) -> bool:
+        """Whether one clause is a stop and none of the others could move anything."""
+        clauses = [part for part in re.split(r"[,.;!?…—\n]| - ", plain) if part.strip()]
+        stops = [reflex.is_stop(clause) for clause in clauses]
+        if len(clauses) < 2 or not any(stops):
+            return False
+        others = [a for clause, stop in zip(clauses, stops) if not stop for a in self._atoms(clause)]
+        moving = ("q", "dir", "rot", "shape", "place", "defined", "number", "pace", "condition")
+        return not any(a.kind in moving or (a.kind == "verb" and a.value not in (*STILL, "make")) for a in others)
 
     def _question(self, plain: str, atoms: list[Atom], ability: bool) -> Interpretation | None:
         """The answer, unless it is a command put as a question."""
@@ -340,7 +360,9 @@ class _Reading:
 
 def _frames(atoms: list[Atom]) -> list[Frame]:
     return read_frames(
-        tidy(without_negated(in_order(corrected(settle_condition(with_defined_units(atoms))))))
+        tidy(
+            without_negated(in_order(corrected(settle_condition(with_defined_units(without_chatter(atoms))))))
+        )
     )
 
 

@@ -93,7 +93,9 @@ def lexicon() -> Lexicon:
         for unit in key
         if unit[0].isalpha() and unit.isascii()
     )
-    ordinary = frozenset(str(load_table("en", "words")["words"]).split())
+    ordinary = frozenset(
+        word for name in ("words", "real_words") for word in str(load_table("en", name)["words"]).split()
+    )
     before = {
         word: float(value)
         for value, listed in load_table("en", "homophones")["before_unit"].items()

@@ -50,10 +50,12 @@ def _positive(frame: Frame, name: str) -> float:
 def _relative(frame: Frame, default: float, maximum: float) -> float | None:
     if "percent" in frame.q:
         return _positive(frame, "percent") * maximum
-    if "fold" in frame.q and is_chinese(frame.q["fold"].text) and not re.search("速|快|平|默|正|车|原|半", frame.q["fold"].text):
+    fold = frame.q.get("fold")
+    if fold is not None and is_chinese(fold.text) and not re.search("速|快|平|默|正|车|原|半", fold.text):
         raise Unclear("unclear_motion", frame.text)  # twice what?
-    if "fold" in frame.q:
-        return _positive(frame, "fold") * default
+    for name in ("fold", "faster"):
+        if name in frame.q:
+            return _positive(frame, name) * default
     factors = {
         "slow": SLOW * default,
         "fast": min(FAST * default, maximum),

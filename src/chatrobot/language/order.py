@@ -17,6 +17,8 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
         return list(atoms)
     word, head, tail = atoms[at], list(atoms[:at]), list(atoms[at + 1 :])
     leads = not any(a.kind in _CONTENT for a in head)
+    if word.value == "after" and not leads and any(a.kind == "flag" and a.value == "first" for a in head):
+        return in_order([*head, _THEN, *tail])  # `first …, after you …`: as said
     if word.value == "reverse":
         return _swapped(head, tail)
     if word.value == "preceding" and not leads and _is_told_again(head, tail):

@@ -14,7 +14,7 @@ from chatrobot.language.manner import Pace
 from chatrobot.language.quantities import quantity
 from chatrobot.language.shapes import draw
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import MAX_REPEAT, Drive, Go, Repeat, Say, Step, Turn, Wait
+from chatrobot.plan.steps import MAX_REPEAT, Arc, Drive, Go, Repeat, Say, Step, Turn, Wait
 
 
 @dataclass
@@ -181,7 +181,7 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
                 _act(script, both)
                 return i + 2
     if "trip" in (*frame.flags, *frame.roles, *[a.role for a in frame.q.values()]):
-        both = merged(frame, frames[i + 1]) if i + 1 < len(frames) and not frames[i + 1].moves else None
+        both = _with_measure(frame, frames[i + 1]) if i + 1 < len(frames) else None
         _round_trips(script, both or frame)
         return i + 1 + (both is not None)
     if frame.shape:
@@ -210,7 +210,10 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
         if not script.units:
             raise Unclear("nothing_before", frame.text)
         script.units += [list(unit) for unit in script.units]
-    elif frame.flags & {"between", "after_each"} or _is_each_pause(script, frame):
+    elif frame.verb in STILL and {"each", "all"} & frame.flags and script.units:
+        frame.flags.add("after_each")
+        _insert(script, frame)
+    elif frame.flags & {"between", "after_each"}:
         _insert(script, frame)
     else:
         _act(script, frame)
@@ -222,11 +225,6 @@ def _is_moves_only(script: Script, frame: Frame) -> bool:
     count = frame.q.get("count")
     bare = not (frame.direction or frame.rot or frame.has_extent or frame.shape) and frame.verb in ("", "make")
     return count is not None and count.role == "move" and bare and bool(script.units)
-
-
-def _is_each_pause(script: Script, frame: Frame) -> bool:
-    """分五段走，每段停一秒."""
-    return "each" in frame.flags and frame.verb in STILL and "time" in frame.q and len(script.units) > 1
 
 
 def _act(script: Script, frame: Frame) -> None:
@@ -247,6 +245,7 @@ def _act(script: Script, frame: Frame) -> None:
         count *= _count(Frame(q={"times": frame.q["times"]}))
         if "split" in frame.flags and "each" not in frame.flags:
             each = _part(each, count)
+    each = _relative_to_last(each, script)
     steps = _known(each, script) or act(each, script.state, script.pace)
     script.state.steps.extend(steps * count)
     script.units.extend([steps] * count if steps else [])
@@ -258,6 +257,32 @@ def _part(frame: Frame, count: int) -> Frame:
         if name in part.q:
             part.q[name] = quantity(name, part.q[name].number / count, part.q[name].text)
     return part
+
+
+def _with_measure(trip: Frame, following: Frame) -> Frame | None:
+    """`to and fro five times, half a metre each way`: the measure said after the trips."""
+    bare = not following.verb and not following.shape and not following.place and not following.rot
+    if not bare or trip.has_extent or following.joined == "then":
+        return None
+    both = trip.copy()
+    both.flags |= following.flags
+    both.q = {**following.q, **both.q}
+    both.direction = both.direction or following.direction
+    both.roles += following.roles
+    return both
+
+
+def _relative_to_last(frame: Frame, script: Script) -> Frame:
+    """`…, then a metre more twice as fast`: relative to the speed said before, if there was one."""
+    if "faster" not in frame.q:
+        return frame
+    before = next((s for s in reversed(script.state.steps) if isinstance(s, (Drive, Arc)) and s.speed_mps), None)
+    if before is None or before.speed_mps is None:
+        return frame
+    frame = frame.copy()
+    factor = frame.q.pop("faster")
+    frame.q["speed"] = quantity("speed", factor.number * before.speed_mps, factor.text)
+    return frame
 
 
 def _lists_lengths(frames: list[Frame], i: int) -> bool:
@@ -333,7 +358,9 @@ def _known(frame: Frame, script: Script) -> list[Step]:
         return []
     if frame.verb not in ("", "go", "return", "make", "shift", "halt") or frame.has_extent or frame.rot:
         raise Unclear("unclear_motion", frame.text)
-    go = script.memory.places[frame.place]
+    go = script.memory.places.get(frame.place)
+    if go is None:
+        raise Unclear("place_unusable", frame.place)
     script.state.last = "go"
     return [replace(go, speed_mps=script.pace.speed(frame))]
 
@@ -399,7 +426,7 @@ def _halves(step: Step) -> tuple[Step, Step] | None:
         return replace(step, distance_m=metres, duration_s=seconds), replace(
             step, distance_m=metres, duration_s=seconds
         )
-    if isinstance(step, Turn) and step.angle_rad:
+    if isinstance(step, (Turn, Arc)) and step.angle_rad:
         return replace(step, angle_rad=step.angle_rad / 2), replace(step, angle_rad=step.angle_rad / 2)
     return None
 

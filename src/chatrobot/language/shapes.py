@@ -80,8 +80,11 @@ def _is_part(head: Frame, frame: Frame) -> bool:
     lone_side = frame.direction in SIDES and not frame.q and frame.verb in ("", "curve", "turn")
     if head.shape == "sbend" and (frame.shape == "quarter_circle" or lone_side):
         return True
-    if frame.joined == "then" or frame.verb in TURN:
+    if frame.joined == "then":
         return False
+    if frame.verb in TURN:
+        by_the_way = frame.text.split()[0].endswith("ing") or {"all", "each"} & frame.flags or frame.roles
+        return bool((lone_side or frame.rot) and not frame.has_extent and by_the_way)
     return not (
         frame.verb in GO
         and frame.has_extent
@@ -147,7 +150,7 @@ def _measure(parts: list[Frame], pace: Pace) -> Measures:
             found.angle_rad = math.pi
         if {"left_right", "right_left"} & part.flags:
             found.left, found.side_said = "left_right" in part.flags, True
-        side = part.rot or (part.direction if part.direction in SIDES else "")
+        side = part.rot or part.direction2 or (part.direction if part.direction in SIDES else "")
         if not side and part.direction in DIAGONALS.values():
             side = part.direction.split("_")[1]
         if side and not (parts[0].shape == "sbend" and found.side_said):
@@ -217,7 +220,10 @@ def _drawn(shape: str, found: Measures, pace: Pace, text: str) -> list[Step]:
             raise Unclear("which_size", text)
         if len(set(found.plain())) > 1 and sides == 4:
             return _rectangle(found, text)
-        side = _side(found, pace, sides)
+        diagonal = found.with_role("diagonal")
+        side = diagonal / math.sqrt(2) if diagonal and sides == 4 else _side(found, pace, sides)
+        if diagonal and sides != 4:
+            raise Unclear("which_size", text)
         if found.seconds and speed is None:
             speed = None
         if sides == 4 and found.sliding:

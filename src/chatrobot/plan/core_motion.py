@@ -9,6 +9,9 @@ from chatrobot.core.geometry import Pose, Twist
 from chatrobot.plan.base import Condition
 from chatrobot.robots.profile import Limits
 
+RAMP_SHARE = 0.9
+"""Of the accelerations of the profile; the governor holds the sum to all of it, and feedback needs the rest."""
+
 
 @dataclass(frozen=True)
 class RampedTwist:
@@ -82,4 +85,4 @@ def ramp_rate(limits: Limits, twist: Twist) -> float:
         rates.append(limits.angular_acceleration_radps2 / abs(twist.wz_radps))
     if not rates:
         raise ValueError("a zero twist has no ramp: use Pause")
-    return min(*rates, _STEEPEST_PER_S)
+    return min(RAMP_SHARE * min(rates), _STEEPEST_PER_S)

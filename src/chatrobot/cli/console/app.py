@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shutil
 import sys
@@ -11,14 +12,14 @@ from dataclasses import replace
 from rich.console import Console, RenderableType
 from rich.text import Text
 
-from chatrobot.cli.console import plain
+from chatrobot.cli.console import commands, plain
 from chatrobot.cli.console.lines import indented
 from chatrobot.cli.console.tables import example_place, place_in
 from chatrobot.cli.console.talk import Talk
 from chatrobot.cli.console.words import Words, language_of_environment
 from chatrobot.compose import Connection, OnEvent, Setup, connect
 from chatrobot.core.clock import RealClock
-from chatrobot.core.errors import UsageError
+from chatrobot.core.errors import JointError, UsageError
 from chatrobot.core.events import Event
 from chatrobot.robots.load import load_profile
 
@@ -43,7 +44,7 @@ def run_console(setup: Setup) -> int:
         talk.hear(event)
 
     connection = _connect(setup, words, hear)
-    talk = Talk(connection, words, RealClock())
+    talk = Talk(connection, words, RealClock(), commands.run)
     try:
         code = _converse(talk, setup)
     finally:
@@ -73,7 +74,8 @@ def _connect(setup: Setup, words: Words, hear: OnEvent) -> Connection:
 
 def _converse(talk: Talk, setup: Setup) -> int:
     def hang_up() -> None:
-        talk.stop("terminal closed")
+        with contextlib.suppress(JointError):  # nothing is said: nobody is there to read it
+            talk.session.stop("terminal closed")
         talk.connection.close()
 
     if can_chat():
@@ -86,7 +88,10 @@ def _converse(talk: Talk, setup: Setup) -> int:
     talk.face = face
     face.print(*greeting(talk))
     code = face.run()
-    if code == 0:
+    if code != 0:
+        with contextlib.suppress(JointError):
+            talk.session.stop("the console has ended")
+    else:
         print(f"  {talk.words.say('goodbye')}")
     return code
 

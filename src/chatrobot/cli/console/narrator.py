@@ -103,7 +103,9 @@ class Narrator:
     def _interpreted(self, event: Interpreted) -> Iterator[RenderableType]:
         if event.plan_text:
             self._plans[event.turn] = event
-            if event.reply:
+            if event.reply and (
+                event.by == "model" or self._words.language != "en"
+            ):  # a plan is English already
                 yield indented(Text(event.reply, "cyan"))
 
     def _rehearsed(self, event: Rehearsed) -> Iterator[RenderableType]:
@@ -113,7 +115,7 @@ class Narrator:
 
     def _limited(self, event: Limited) -> Iterator[RenderableType]:
         asked, sent = self._twist(event.asked), self._twist(event.sent)
-        yield marked("!", "yellow", self._words.say("limited", asked=asked, sent=sent))
+        yield marked("!", "yellow", self._words.say("limited_to", asked=asked, sent=sent))
 
     def _said(self, event: Said) -> Iterator[RenderableType]:
         yield marked("»", "magenta", Text(event.text, "bold"))
@@ -131,11 +133,7 @@ class Narrator:
         yield marked(mark, style, event.reply)
         if event.path_m > _LEAST_M or abs(event.turned_rad) > _LEAST_RAD:
             measured = self._words.say(
-                "measured",
-                pose=self._words.pose(event.pose),
-                path=f"{event.path_m:.2f}",
-                turned=f"{math.degrees(event.turned_rad):+.1f}",
-                duration=f"{event.duration_s:.1f}",
+                "measured", pose=self._words.pose(event.pose), duration=f"{event.duration_s:.1f}"
             )
             yield marked("", "", Text(measured, "dim"))
 

@@ -17,11 +17,15 @@ class Pump:
 
     Args:
         on_lost: hears, on the thread, that Motion is gone; the thread ends then.
+        on_end: hears that the thread has ended, for whatever reason, without `stop`.
     """
 
-    def __init__(self, session: Session, on_lost: Callable[[JointError], None]) -> None:
+    def __init__(
+        self, session: Session, on_lost: Callable[[JointError], None], on_end: Callable[[], None]
+    ) -> None:
         self._session = session
         self._on_lost = on_lost
+        self._on_end = on_end
         self._jobs: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._run, name="pump", daemon=True)
@@ -47,3 +51,6 @@ class Pump:
                 self._session.pump(PUMP_S)
         except JointError as error:
             self._on_lost(error)
+        finally:
+            if not self._ended.is_set():
+                self._on_end()

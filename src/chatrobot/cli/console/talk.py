@@ -12,7 +12,6 @@ from typing import Protocol
 from rich.console import RenderableType
 from rich.text import Text
 
-from chatrobot.cli.console import commands
 from chatrobot.cli.console.clean import LONGEST_CHARS, clean
 from chatrobot.cli.console.lines import indented, marked
 from chatrobot.cli.console.maps import way_map
@@ -29,6 +28,8 @@ from chatrobot.reflex import is_emergency_stop
 
 TWICE_S = 1.5
 """Two Ctrl-C within this time leave."""
+
+ECHO_CHARS = 600
 
 YES = frozenset({"y", "yes", "ok", "okay", "do it", "go", "好", "好的", "是", "可以", "行", "执行"})
 NO = frozenset({"n", "no", "nope", "不", "不要", "否", "取消", "算了"})
@@ -64,18 +65,25 @@ class Face(Protocol):
 
 
 class Talk:
-    """See the module. `face` is attached once it exists."""
+    """See the module. `face` is attached once it exists; `run_command` does a line that begins with a slash."""
 
     face: Face
 
-    def __init__(self, connection: Connection, words: Words, clock: Clock) -> None:
+    def __init__(
+        self,
+        connection: Connection,
+        words: Words,
+        clock: Clock,
+        run_command: Callable[[Talk, str], None],
+    ) -> None:
+        self._run_command = run_command
         self.connection = connection
         self.session = connection.session
         self.words = words
         self.ride = Ride()
         self.strip = Strip(self.ride, words, connection.world)
         self.narrator = Narrator(words)
-        self.pump = Pump(self.session, self.lose)
+        self.pump = Pump(self.session, self.lose, lambda: self.face.leave(1))
         self.latched = False
         self._clock = clock
         self._asked: Rehearsed | None = None
@@ -89,18 +97,20 @@ class Talk:
     def enter(self, raw: str) -> None:
         """A line was sent. A stop in it has gone out before this returns."""
         text = clean(raw).strip()
-        if len(text) > LONGEST_CHARS:
-            self.tell("too_long", count=len(text), limit=LONGEST_CHARS)
+        if len(raw) > LONGEST_CHARS:  # it may have been cut: never do a part of it
+            self.tell("line_too_long", limit=LONGEST_CHARS)
         elif text.startswith("/"):
             self._echo(text)
-            commands.run(self, text)
+            self._run_command(self, text)
         elif text and not self._answer(text):
             self._say(text)
 
     def take_edited(self, plan_text: str) -> None:
         """The plan that `Face.edit` was asked for."""
         text = clean(plan_text).strip()
-        if text:
+        if len(plan_text) > LONGEST_CHARS:
+            self.tell("line_too_long", limit=LONGEST_CHARS)
+        elif text:
             with self._order:
                 self.attempt(lambda: self.session.say_plan(text))
                 self._echo(self.words.say("edited"))
@@ -122,6 +132,10 @@ class Talk:
             self.face.leave(0)
             return
         self._leaving = True
+        asked, self._asked = self._asked, None
+        if asked is not None:
+            self.attempt(lambda: self.session.approve(asked.turn, False))
+            return
         self.tell("finishing")
 
     def stop(self, why: str) -> None:
@@ -175,7 +189,10 @@ class Talk:
             lines: list[RenderableType] = list(self.narrator.tell(event))
             if isinstance(event, Rehearsed) and event.needs_approval:
                 self._asked = event
-                lines += [way_map(self), Text(f"  {self.words.say('ask_approval')}", "bold")]
+                lines += [
+                    way_map(self.ride, self.connection.world),
+                    Text(f"  {self.words.say('ask_approval')}", "bold"),
+                ]
             if isinstance(event, Interpreted) and event.by == "reflex" and self.ride.is_moving:
                 self._muted.add(event.turn)  # what was moving is about to say how it ended
             if lines and event.turn not in self._muted:
@@ -206,4 +223,5 @@ class Talk:
 
     def _echo(self, text: str) -> None:
         if not self.face.echoes:
-            self.face.print(Text("› ", "bold blue").append(text, "bold"))
+            shown = text if len(text) <= ECHO_CHARS else f"{text[:ECHO_CHARS]}…"
+            self.face.print(Text("› ", "bold blue").append(shown, "bold"))

@@ -33,7 +33,10 @@ class Words:
 
     def pose(self, pose: Pose) -> str:
         """A pose as `(1.00, -0.50) 90°`: metres and heading in the odom frame."""
-        return f"({_zero(pose.x_m):.2f}, {_zero(pose.y_m):.2f}) {math.degrees(wrap_angle(pose.yaw_rad)):.0f}°"
+        heading_deg = round(math.degrees(wrap_angle(pose.yaw_rad)))
+        return (
+            f"({_zero(pose.x_m):.2f}, {_zero(pose.y_m):.2f}) {180 if heading_deg == -180 else heading_deg}°"
+        )
 
 
 def language_of_environment(environment: Mapping[str, str] = os.environ) -> LanguageCode:

@@ -76,6 +76,8 @@ def judge_turn(expect: Expect, record: Record, so_far: Measured) -> Verdict:
     if not moved and record.outcome in _DECLINED and record.outcome != _OUTCOMES.get(expect.answer or ""):
         return Verdict("abstained", (f"{record.outcome}: {record.reply}",))
     problems = [*_motion_problems(expect, so_far), *_answer_problems(expect, record, moved)]
+    if problems and not moved:
+        problems.append(f"it did not move; {record.outcome}: {record.reply}")
     return Verdict("wrong", tuple(problems)) if problems else Verdict("correct")
 
 
