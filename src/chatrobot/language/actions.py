@@ -293,7 +293,12 @@ def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
 def _whole_angle(frame: Frame) -> Atom | None:
     """`One turn and 90 degrees` is their sum; `one turn, 360 degrees` says it twice."""
     angle, turns = frame.q.get("angle"), frame.q.get("turns")
-    if angle is None or turns is None or abs(angle.number - turns.number) < 1e-6 or not is_chinese(turns.text):
+    if (
+        angle is None
+        or turns is None
+        or abs(angle.number - turns.number) < 1e-6
+        or not is_chinese(turns.text)
+    ):
         return angle or turns
     if angle.number >= 2 * math.pi or turns.number < 2 * math.pi:
         raise Unclear("contradiction", f"{turns.text} {angle.text}")

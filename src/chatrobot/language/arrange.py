@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from chatrobot.language.frames import EXTENTS, GO, STILL, TURN, Frame
+from chatrobot.language.frames import EXTENTS, GO, SIDES, STILL, TURN, Frame
 
 _MANNER = frozenset({"speed", "rate", "percent", "fold"})
 _LETTERS = frozenset({"letter_l", "letter_u", "letter_z"})
@@ -94,8 +94,9 @@ def _without_titles(frames: list[Frame]) -> list[Frame]:
     for k, frame in enumerate(frames):
         rest = frames[k + 1 :]
         spelt = sum(1 for f in rest if f.has_extent) >= 2
-        title = rest and rest[0].joined == "colon" and not frame.q and not frame.roles and frame.verb in ("", "go", "turn", "make")  # fmt: skip
-        if title and spelt and not (frame.direction or frame.rot or frame.shape or frame.place):
+        bare = not (frame.q or frame.roles or frame.direction or frame.rot or frame.shape or frame.place)
+        title = bool(rest) and rest[0].joined == "colon" and frame.verb in ("", "go", "turn", "make")
+        if title and bare and spelt:
             continue
         letter = frame.shape in _LETTERS and not frame.q and sum("length" in f.q for f in rest) >= 2
         if letter and any(f.turning or f.verb in TURN for f in rest):
@@ -109,12 +110,12 @@ def _without_announcements(frames: list[Frame]) -> list[Frame]:
     out: list[Frame] = []
     for k, frame in enumerate(frames):
         named = next((n for n in EXTENTS if n in frame.q), "")
-        if named and not frame.rot and not (frame.direction in ("left", "right")) and not frame.shape:
-            if _is_sum(frame, frames[k + 1 :], named):
-                for part in frames[k + 1 :]:
-                    part.verb = part.verb or frame.verb
-                    part.direction = part.direction or frame.direction
-                continue
+        unsided = named and not frame.rot and frame.direction not in SIDES and not frame.shape
+        if unsided and _is_sum(frame, frames[k + 1 :], named):
+            for part in frames[k + 1 :]:
+                part.verb = part.verb or frame.verb
+                part.direction = part.direction or frame.direction
+            continue
         out.append(frame)
     return out
 

@@ -90,7 +90,9 @@ def _replaced(before: list[Atom], after: list[Atom]) -> list[Atom]:
     last = next((i for i in range(len(before) - 1, -1, -1) if before[i].kind == "q"), None)
     if not pieces and unit is not None and last is not None and before[last].value == "number":
         name, factor = unit.kind[5:], float(unit.value)
-        amount = quantity(name, before[last].number * factor, f"{before[last].text} {unit.text}", repr(factor))
+        amount = quantity(
+            name, before[last].number * factor, f"{before[last].text} {unit.text}", repr(factor)
+        )
         return [*before[:last], amount, *before[last + 1 :], *rest]
     if pieces and all(a.kind == "q" for a in pieces) and not any(a.kind in _PIECE for a in before):
         return [Atom("flag", "short_of", "not"), *said, *rest]

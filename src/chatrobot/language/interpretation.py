@@ -32,8 +32,8 @@ from chatrobot.language.sounds import mended
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import Atom, tokenise
 from chatrobot.language.tutorial_form import read_twist
-from chatrobot.language.unfinished import breaks_off
 from chatrobot.language.unclear import Unclear
+from chatrobot.language.unfinished import breaks_off
 from chatrobot.plan.steps import Go, Plan, Remember, Step
 from chatrobot.robots.profile import RobotProfile
 
@@ -264,7 +264,9 @@ class _Reading:
             return False
         others = [a for clause, stop in zip(clauses, stops) if not stop for a in self._atoms(clause)]
         moving = ("q", "dir", "rot", "shape", "place", "defined", "number", "pace", "condition")
-        return not any(a.kind in moving or (a.kind == "verb" and a.value not in (*STILL, "make")) for a in others)
+        return not any(
+            a.kind in moving or (a.kind == "verb" and a.value not in (*STILL, "make")) for a in others
+        )
 
     def _question(self, plain: str, atoms: list[Atom], ability: bool) -> Interpretation | None:
         """The answer, unless it is a command put as a question."""

@@ -25,7 +25,20 @@ UNIT = re.compile(
 _NO_WORDS = frozenset({"speaker", "clues", "convention"})
 """Tables beside the word classes: patterns, and words that are listed elsewhere."""
 _NEVER_MEANT = frozenset(
-    {"refuse", "filler", "glue", "reason", "remark", "doubt", "condition", "negation", "correction", "conn", "operator", "sep"}
+    {
+        "refuse",
+        "filler",
+        "glue",
+        "reason",
+        "remark",
+        "doubt",
+        "condition",
+        "negation",
+        "correction",
+        "conn",
+        "operator",
+        "sep",
+    }
 )
 _POLITE = frozenset({"please", "then", "after", "robot", "thanks", "could", "would", "until"})
 Meaning = tuple[tuple[str, str], ...]
@@ -51,9 +64,12 @@ class Lexicon:
 
 
 _SIGN = re.compile(r"(?<![0-9a-z_)])[-](?=\.?\d)")
-_LISTED = re.compile(r"(?:^|(?<=[\s;,.]))\(?[1-9]\)\s*|(?:^|(?<=\n)|(?<=[;,.] )|(?<=[\u4e00-\u9fff°] ))[1-9][.)] ?(?=[^\d\s])")
+_LISTED = re.compile(
+    r"(?:^|(?<=[\s;,.]))\(?[1-9]\)\s*|(?:^|(?<=\n)|(?<=[;,.] )|(?<=[\u4e00-\u9fff°] ))[1-9][.)] ?(?=[^\d\s])"
+)
 _FOLD = re.compile(
-    r"((?:\d|[一二两三四五六七八九十百半]) ?(?:厘米|公分|米|度|秒|圈|cm|mm|m|s|°|deg)) ?[x*] ?(\d{1,2})(?= ?(?:$|[;,!。]))"
+    r"((?:\d|[一二两三四五六七八九十百半]) ?(?:厘米|公分|米|度|秒|圈|cm|mm|m|s|°|deg)) ?"
+    r"[x*] ?(\d{1,2})(?= ?(?:$|[;,!。]))"
 )
 _INCHES, _FEET = re.compile(r"(\d)\s?\""), re.compile(r"(\d)\s?'(?![a-z])")
 _COMMA = re.compile(r"(?<![\d.,])(\d),(\d{1,2})(?![\d,])")

@@ -42,7 +42,10 @@ def without_quiz(text: str, language: str) -> str:
 
 def orders(text: str, language: str) -> bool:
     """Whether what is asked is to be acted on: `as far as …, that far you go`."""
-    return "orders" in load_table(language, "questions") and _pattern(language, "orders").search(text) is not None
+    return (
+        "orders" in load_table(language, "questions")
+        and _pattern(language, "orders").search(text) is not None
+    )
 
 
 def asks_ability(text: str, language: str) -> bool:

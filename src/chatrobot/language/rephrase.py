@@ -28,7 +28,7 @@ def _dialect(language: str) -> tuple[dict[str, str], re.Pattern[str]]:
     """Words of a language without spaces, the longest first."""
     written = dict(load_table(language, "rephrase").get("dialect", {}))
     longest_first = sorted(written, key=len, reverse=True)
-    return written, re.compile("|".join(map(re.escape, longest_first)) or "$^")
+    return written, re.compile("|".join(map(re.escape, longest_first)) or "(?!)")
 
 
 def rephrased(text: str, language: str) -> str:

@@ -223,7 +223,10 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
 def _is_moves_only(script: Script, frame: Frame) -> bool:
     """这样来四下: so often, what was said before."""
     count = frame.q.get("count")
-    bare = not (frame.direction or frame.rot or frame.has_extent or frame.shape) and frame.verb in ("", "make")
+    bare = not (frame.direction or frame.rot or frame.has_extent or frame.shape) and frame.verb in (
+        "",
+        "make",
+    )
     return count is not None and count.role == "move" and bare and bool(script.units)
 
 
@@ -276,7 +279,9 @@ def _relative_to_last(frame: Frame, script: Script) -> Frame:
     """`…, then a metre more twice as fast`: relative to the speed said before, if there was one."""
     if "faster" not in frame.q:
         return frame
-    before = next((s for s in reversed(script.state.steps) if isinstance(s, (Drive, Arc)) and s.speed_mps), None)
+    before = next(
+        (s for s in reversed(script.state.steps) if isinstance(s, (Drive, Arc)) and s.speed_mps), None
+    )
     if before is None or before.speed_mps is None:
         return frame
     frame = frame.copy()

@@ -279,7 +279,9 @@ def _round(shape: str, found: Measures, pace: Pace) -> list[Step]:
     if shape == "sbend":
         found.times = 1
         return outlines.s_bend(radius, found.angle_rad or math.pi / 2, left, speed)
-    sweep = {"circle": 2 * math.pi * found.rounds, "half_circle": math.pi, "quarter_circle": math.pi / 2}[shape]
+    sweep = {"circle": 2 * math.pi * found.rounds, "half_circle": math.pi, "quarter_circle": math.pi / 2}[
+        shape
+    ]
     if shape != "circle" and not found.side_said:
         raise Unclear("which_side", shape.replace("_", " "))
     if found.seconds and speed is None:

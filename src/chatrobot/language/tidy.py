@@ -117,8 +117,12 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
         return Atom("verb", "shift", atom.text)
     if atom.kind == "second":
         return Atom("conn", "then", atom.text)
+    if atom.kind == "letter" and atom.text == "r" and is_kind(atoms, _next_real(atoms, i + 1), "q", "length"):
+        return Atom("role", "radius", atom.text)  # r = 0.5 m
     if atom.kind == "letter":
-        beside = is_kind(atoms, i + 1, "q") or (is_kind(atoms, i - 1, "q") and not is_kind(atoms, i + 1, "unknown"))
+        beside = is_kind(atoms, i + 1, "q") or (
+            is_kind(atoms, i - 1, "q") and not is_kind(atoms, i + 1, "unknown")
+        )
         return Atom("dir" if beside else "unknown", atom.value if beside else atom.text, atom.text)
     if atom.kind == "counter":
         if atom.text in ("step", "pace", "steps"):
