@@ -206,6 +206,8 @@ def _belongs(last: Frame, first: Frame) -> bool:
     """Across a comma or an `and`."""
     if "count" in last.q and "length" in first.q and "each" not in first.flags and not last.shape:
         return False
+    if last.shape and _is_laps(first):
+        return True
     if last.shape or first.shape:
         return not (last.shape and first.verb in (*GO, *TURN, *STILL, "return") and first.has_extent)
     if first.joined == "and" and last.verb in STILL and first.moves:
@@ -237,6 +239,12 @@ def _belongs(last: Frame, first: Frame) -> bool:
     if first.direction and first.has_extent:
         return not last.has_extent and not last.direction
     return True
+
+
+def _is_laps(frame: Frame) -> bool:
+    """…的圆，走两圈: how often the shape is gone round."""
+    bare = not (frame.direction or frame.rot or frame.shape) and frame.verb in ("", "make", *GO)
+    return set(frame.q) == {"turns"} and bare
 
 
 def _adds_time(last: Frame, first: Frame) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -9,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from chatrobot.language.actions import State, act, inverse
 from chatrobot.language.arrange import arranged
 from chatrobot.language.clauses import is_times_only
-from chatrobot.language.frames import STILL, TURN, Frame, merged
+from chatrobot.language.frames import SIDES, STILL, TURN, Frame, merged
 from chatrobot.language.manner import Pace
 from chatrobot.language.quantities import quantity
 from chatrobot.language.shapes import draw
@@ -54,6 +55,7 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
         for frame in frames:
             frame.flags.add("units_said")
     frames = _shape_first(frames)
+    _check_amounts(frames)
     paced = _paced(frames, pace)
     if paced is not None:
         return paced
@@ -91,6 +93,19 @@ def _shared(frames: list[Frame]) -> list[Frame]:
                     other.verb = frame.verb
             other.pace = other.pace or frame.pace
     return kept
+
+
+def _check_amounts(frames: list[Frame]) -> None:
+    """走直线，八十厘米，倒着走: a way said right after an amount may be how, or what comes next.
+
+    Raises:
+        Unclear: for a drive without an amount that is only set off by a comma from one that has it.
+    """
+    for last, frame in itertools.pairwise(frames):
+        bare = not (frame.q or frame.shape or frame.place or frame.rot or frame.words or frame.flags)
+        plain = frame.verb in ("", "go") and bool(frame.direction) and frame.direction not in SIDES
+        if bare and plain and frame.joined == "weak" and "length" in last.q and last.verb in ("", "go"):
+            raise Unclear("unclear_motion", f"{last.text} {frame.text}")
 
 
 def _paced(frames: list[Frame], pace: Pace) -> list[Step] | None:

@@ -146,7 +146,7 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
         return Atom("unknown", atom.text, atom.text)
     if atom.kind == "unit_angle" and atom.text == "弧":
         return Atom("verb", "curve", atom.text)
-    if atom.kind == "unit_angle" and atom.text in ("直角", "直角弯", "平角"):
+    if atom.kind == "unit_angle" and atom.text.lstrip("个") in ("直角", "直角弯", "平角"):
         return quantity("angle", float(atom.value), atom.text)
     return atom
 
