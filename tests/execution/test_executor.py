@@ -7,7 +7,6 @@ import math
 import pytest
 from tests.rig import Rig
 
-from chatrobot.plan.core_motion import RAMP_SHARE
 from chatrobot.plan.steps import Drive, ObstacleWithin, Plan, RawTwist, Repeat, Turn, Wait
 from chatrobot.sim.shapes import rectangle
 
@@ -66,7 +65,7 @@ def test_a_step_costs_no_time_beyond_its_trapezoid() -> None:
     plan = Plan((Drive(distance_m=0.3), Wait(1.0), Drive(distance_m=0.3)))
     rig.run(plan)
     moving = sum(not twist.is_zero for twist in rig.sent) * 0.02
-    assert moving <= 2 * (1.0 + 0.3 / RAMP_SHARE) + 2 * 0.03
+    assert moving <= 2 * (1.0 + 0.3) + 2 * 0.03
 
 
 def test_silent_odometry_stops_the_robot_and_is_named() -> None:

@@ -10,7 +10,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
-from chatrobot.plan.core_motion import RAMP_SHARE
 from chatrobot.plan.findings import Finding
 from chatrobot.plan.lowering import PlannedMotion
 from chatrobot.plan.rehearsal import MARGIN_M, Rehearsal, rehearse
@@ -50,8 +49,8 @@ def test_a_square_ends_where_it_began_and_takes_its_time() -> None:
     result = rehearsed("repeat 4\n drive 1 m\n turn left 90 deg\nend")
     assert result.ok
     assert result.end_pose == pytest.approx((0, 0, 2 * math.pi), abs=1e-9)
-    side_s = 1 / 0.3 + 0.3 / (RAMP_SHARE * 1.0)
-    corner_s = math.pi / 2 / 0.6 + 0.6 / (RAMP_SHARE * 2.0)
+    side_s = 1 / 0.3 + 0.3 / 1.0
+    corner_s = math.pi / 2 / 0.6 + 0.6 / 2.0
     assert result.duration_s == pytest.approx(4 * (side_s + corner_s))
     assert result.length_m == pytest.approx(4.0, abs=1e-6)
     assert [step.number for step in result.steps] == list(range(1, 9))

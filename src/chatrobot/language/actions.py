@@ -34,6 +34,7 @@ class State:
     left: bool | None = None
     last: str = ""
     home: Pose | None = None
+    unsaid: list[Frame] = field(default_factory=list)
 
 
 def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
@@ -362,6 +363,7 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if seconds is not None:
         return [Drive(duration_s=seconds.number, direction_rad=angle, speed_mps=speed)]
     distance = pace.profile.defaults.distance_m * (0.5 if "bit" in frame.flags else 1.0)
+    state.unsaid.append(frame)
     return [Drive(distance, direction_rad=angle, speed_mps=speed)]
 
 

@@ -238,14 +238,14 @@ class _Reading:
             if ability and plain.endswith("?"):
                 return Interpretation("answered", say(self.language, "answer_cannot"), self.language)
             raise Unclear(f"refuse_{refusal.value}", refusal.text, refused=True)
-        if is_choice(plain, self.language):
-            raise Unclear("contradiction", plain[:60])
-        check_finished(atoms)
         if self._is_stop(plain):
             return Interpretation("stop", say(self.language, "stop"), self.language)
         loose = "" if asks else breaks_off(plain, self.language)
         if loose and not self._known_name(loose):
             raise Unclear("unknown_part", f"{loose} …")
+        if is_choice(plain, self.language):
+            raise Unclear("contradiction", plain[:60])
+        check_finished(atoms)
         frames = _frames(atoms)
         default = self._default(frames)
         if default is not None:

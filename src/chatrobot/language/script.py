@@ -69,7 +69,16 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
     steps = script.steps()
     if not steps:
         raise Unclear("nothing_to_do")
+    _check_unsaid(script.state.unsaid, frames)
     return steps
+
+
+def _check_unsaid(unsaid: list[Frame], frames: list[Frame]) -> None:
+    """A drive without an amount beside clauses that have one is most likely a clause that was misread: ask."""
+    if any(frame.has_extent for frame in frames):
+        for frame in unsaid:
+            if frame.joined not in ("then", "and"):
+                raise Unclear("how_far", frame.text)
 
 
 def _shared(frames: list[Frame]) -> list[Frame]:
@@ -196,9 +205,12 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
                 _act(script, both)
                 return i + 2
     if "trip" in (*frame.flags, *frame.roles, *[a.role for a in frame.q.values()]):
-        both = _with_measure(frame, frames[i + 1]) if i + 1 < len(frames) else None
-        _round_trips(script, both or frame)
-        return i + 1 + (both is not None)
+        after = frames[i + 1] if i + 1 < len(frames) else None
+        trip = _with_measure(frame, after) if after is not None else None
+        if trip is None and after is not None and not after.moves:
+            trip = merged(frame, after)
+        _round_trips(script, trip or frame)
+        return i + 1 + (trip is not None)
     if frame.shape:
         end, steps = draw(frames, i, script.pace)
         _finish(script, [steps])
@@ -247,11 +259,12 @@ def _is_moves_only(script: Script, frame: Frame) -> bool:
 
 def _act(script: Script, frame: Frame) -> None:
     count, each = 1, frame
+    split = "split" in frame.flags and "each" not in frame.flags
     if "count" in frame.q and "length" in frame.q:
         count = _count(Frame(q={"times": frame.q["count"]}))
         each = frame.copy()
         del each.q["count"]
-        if "split" in frame.flags and "each" not in frame.flags:
+        if split:
             each.q["length"] = quantity("length", frame.q["length"].number / count, frame.q["length"].text)
     elif "count" in frame.q and frame.q["count"].role == "move":
         each = frame.copy()
@@ -261,7 +274,7 @@ def _act(script: Script, frame: Frame) -> None:
         raise Unclear("how_long_a_step", frame.q["count"].text)
     if "times" in frame.q:
         count *= _count(Frame(q={"times": frame.q["times"]}))
-        if "split" in frame.flags and "each" not in frame.flags:
+        if split:
             each = _part(each, count)
     each = _relative_to_last(each, script)
     steps = _known(each, script) or act(each, script.state, script.pace)
