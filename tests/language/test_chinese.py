@@ -11,25 +11,28 @@ import pytest
 import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.language.dialogue_runner import Conversation
 
 from chatrobot.language.data_files import load_table
 from chatrobot.language.lexicon import lexicon
 from chatrobot.plan.steps import Drive, Plan, RawTwist, Turn
+from tests.language.dialogue_runner import Conversation
 
 LENGTHS = {
     "一米": 1.0, "壹米": 1.0, "1米": 1.0, "1 m": 1.0, "一公尺": 1.0, "100公分": 1.0, "一百厘米": 1.0, "十分米": 1.0,
     "一千毫米": 1.0, "三尺": 1.0, "一米二": 1.2, "1米2": 1.2, "一米二五": 1.25, "1.25米": 1.25, "一米零五": 1.05,
-    "两米半": 2.5, "一又二分之一米": 1.5, "三分之一米": 1 / 3, "半米": 0.5, "零点八米": 0.8, "0.8m": 0.8, "二十公分": 0.2,
+    "两米半": 2.5, "一又二分之一米": 1.5, "三分之一米": 1 / 3, "半米": 0.5, "零点八米": 0.8, "0.8m": 0.8,
+    "二十公分": 0.2,
     "三英尺": 0.9144,
 }  # fmt: skip
 WAYS = {
     "往前走": 0.0, "前进": 0.0, "直走": 0.0, "向前开": 0.0, "后退": math.pi, "往后倒": math.pi, "倒车": math.pi,
-    "往左平移": math.pi / 2, "左移": math.pi / 2, "横着往左挪": math.pi / 2, "向右横移": -math.pi / 2, "右移": -math.pi / 2,
+    "往左平移": math.pi / 2, "左移": math.pi / 2, "横着往左挪": math.pi / 2, "向右横移": -math.pi / 2,
+    "右移": -math.pi / 2,
 }  # fmt: skip
 SAID = [
     "{way}{length}", "请{way}{length}", "麻烦你{way}{length}，谢谢", "那个，{way}{length}吧", "给我{way}{length}看看",
-    "能不能{way}{length}呀", "小车同学，{way}{length}，好吗", "{way}，{length}", "{length}，{way}", "唔該{way}{length}啦",
+    "能不能{way}{length}呀", "小车同学，{way}{length}，好吗", "{way}，{length}", "{length}，{way}",
+    "唔該{way}{length}啦",
     "我赶时间，{way}{length}", "前面没人，{way}{length}",
 ]  # fmt: skip
 ANGLES = {
@@ -93,7 +96,8 @@ def test_either_script_means_the_same() -> None:
 @pytest.mark.parametrize(
     ("heard", "said"),
     [
-        ("前近一米", "前进一米"), ("有转九十度", "右转九十度"), ("左砖九十度", "左转九十度"), ("向钱走一米", "向前走一米"),
+        ("前近一米", "前进一米"), ("有转九十度", "右转九十度"), ("左砖九十度", "左转九十度"),
+        ("向钱走一米", "向前走一米"),
         ("往作平移一米", "往左平移一米"), ("前进五里米", "前进五厘米"), ("左转九是度", "左转九十度"),
         ("前进无秒中", "前进五秒钟"), ("后腿一米", "后退一米"), ("前进一蜜", "前进一米"), ("右转九十肚", "右转九十度"),
     ],
@@ -151,7 +155,8 @@ def test_a_condition_is_never_passed_over(condition: str, command: str) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "往前走5", "转30", "左转二十还是三十", "往左还是往右", "走到墙边", "往那个方向走一米", "往东走一米", "绕着它转一圈",
+        "往前走5", "转30", "左转二十还是三十", "往左还是往右", "走到墙边", "往那个方向走一米", "往东走一米",
+        "绕着它转一圈",
         "先往前，再……", "往前走到", "左转，那个，就是", "往左右移动一米", "前进一米或者两米", "前面没人就往前走一米",
         "前进负一米", "前进一到两米", "左转一米", "前进九十度", "去那个谁旁边", "往前走，我满意了你就停", "斜着走一米",
         "跟着我走一米", "前进半", "照老样子走一圈", "平移一米", "转个九十度", "再来一次", "回厨房",
