@@ -53,7 +53,7 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
         "there" in frame.flags
         and frame.verb not in STILL
         and "clock" not in frame.q
-        and not (frame.direction or frame.rot or "length" in frame.q)
+        and not (frame.direction or frame.rot)
     ):
         raise Unclear("which_place", frame.text)
     if "until" in frame.flags and not frame.has_extent and frame.verb != "face":
@@ -65,7 +65,9 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
         frame.flags.discard("to_start")  # the way to it is told in full
     if "asked_distance" in frame.flags:
         return []  # only worked out; what is done with it comes after
-    if "clock" in frame.q:
+    if "heading" in frame.q:
+        steps = _by_compass(frame, state, pace)
+    elif "clock" in frame.q:
         steps = _clock(frame, pace)
     elif frame.verb in STILL:
         steps = _still(frame)
@@ -109,10 +111,16 @@ def _with_units(frame: Frame, state: State) -> Frame:
         covered = frame.q.pop("speed").number * frame.q.pop("time").number
         frame.q["length"] = quantity("length", covered, f"{covered:g} m")
         state.length = frame.q["length"]
+    before = state.angle if frame.turning else state.length
+    scale = frame.q.get("scale")
+    if scale is not None and before is not None and frame.moves and not frame.has_extent:
+        frame = frame.copy()
+        del frame.q["scale"]
+        frame.q[before.value] = quantity(before.value, before.number * scale.number, scale.text)
+        return frame
     number = frame.q.get("number")
     if number is None:
         return frame
-    before = state.angle if frame.turning else state.length
     if number.text == "一半" and before is not None and not frame.has_extent:
         frame = frame.copy()
         del frame.q["number"]
@@ -379,6 +387,26 @@ def _clock(frame: Frame, pace: Pace) -> list[Step]:
     return [Turn(abs(angle), left=angle > 0, rate_radps=pace.rate(frame))]
 
 
+def _by_compass(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    """To a point of the compass, facing it; going backward, away from what it faces."""
+    heading = frame.q["heading"].number
+    plain = frame.copy()
+    del plain.q["heading"]
+    going = plain.has_extent or plain.verb in GO or plain.direction == "back"
+    backward = going and plain.direction == "back"
+    yaw = math.remainder(heading + (math.pi if backward else 0.0), 2 * math.pi)
+    face = Face(yaw, frame="start", rate_radps=pace.rate(plain) if not going else None)
+    if not going or {"angle", "turns"} & set(plain.q):
+        if {"angle", "turns", "length"} & set(plain.q):
+            raise Unclear("contradiction", frame.text)
+        return [face]
+    if plain.direction not in ("", "forward", "back") or "sideways" in plain.flags:
+        raise Unclear("contradiction", frame.text)
+    plain.verb = "go"
+    plain.direction = plain.direction or "forward"
+    return [face, *_drive(plain, state, pace)]
+
+
 def _face(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if ("original_heading" in frame.flags or "to_start" in frame.flags) and not frame.has_extent:
         if state.home is not None and not state.steps:
@@ -418,16 +446,6 @@ def _return(frame: Frame, state: State, pace: Pace) -> list[Step]:
     return [Go(0.0, 0.0, frame="start", speed_mps=speed)]
 
 
-def _some_way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
-    """`…, then come back 50 cm`: so much of the last drive, undone."""
-    opposite = math.remainder(DIRECTIONS[state.direction] + math.pi, 2 * math.pi)
-    names = [n for n, a in DIRECTIONS.items() if abs(math.remainder(a - opposite, 2 * math.pi)) < 1e-6]
-    back = frame.copy()
-    back.verb, back.direction = "go", names[0]
-    back.flags -= {"to_start", "again"}
-    return _drive(back, state, pace)
-
-
 def _partly_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
     """退回来二十厘米: against the last motion, by so much."""
     if "length" in frame.q:
@@ -438,3 +456,13 @@ def _partly_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
         raise Unclear("which_side", frame.text)
     amount = frame.q.get("angle") or frame.q["turns"]
     return [Turn(amount.number, left=not state.left, rate_radps=pace.rate(frame))]
+
+
+def _some_way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    """`…, then come back 50 cm`: so much of the last drive, undone."""
+    opposite = math.remainder(DIRECTIONS[state.direction] + math.pi, 2 * math.pi)
+    names = [n for n, a in DIRECTIONS.items() if abs(math.remainder(a - opposite, 2 * math.pi)) < 1e-6]
+    back = frame.copy()
+    back.verb, back.direction = "go", names[0]
+    back.flags -= {"to_start", "again"}
+    return _drive(back, state, pace)

@@ -145,14 +145,10 @@ def _join(frames: list[Frame], segment: Segment) -> None:
 def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
     if "trip" in last.flags and "each" in first.flags and not first.verb:
         return None
-    if (
-        joined == "then"
-        or {"between", "halfway"} & first.flags
-        or "after_each" in first.flags
-        or "all" in first.flags
-    ):
+    trip = "trip" in (*first.flags, *first.roles) and not first.has_extent
+    if trip and (last.verb == "return" or (last.direction and last.has_extent)):
         return None
-    if "trip" in first.roles and last.verb == "return":
+    if joined == "then" or {"between", "halfway", "after_each", "all"} & first.flags:
         return None
     if "again" in first.flags or is_times_only(first) or is_times_only(last):
         return None
@@ -197,8 +193,8 @@ def _says_how(last: Frame, first: Frame) -> bool:
 
 def is_times_only(frame: Frame) -> bool:
     """`four times`, and nothing that moves."""
-    bare = frame.verb in ("", "make", "go", "turn", "shift", "slide") and "trip" not in frame.flags
-    way = frame.direction or frame.rot or frame.shape or frame.place
+    bare = frame.verb in ("", "make", "go", "turn", "shift", "slide")
+    way = frame.direction or frame.rot or frame.shape or frame.place or "trip" in (*frame.flags, *frame.roles)
     counted = "times" in frame.q or ("count" in frame.q and frame.q["count"].role == "move")
     return counted and bare and not way and not frame.has_extent
 
@@ -223,6 +219,8 @@ def _belongs(last: Frame, first: Frame) -> bool:
     """Across a comma or an `and`."""
     if "count" in last.q and "length" in first.q and "each" not in first.flags and not last.shape:
         return False
+    if last.shape and _is_laps(first):
+        return True
     if last.shape or first.shape:
         return not (last.shape and first.verb in (*GO, *TURN, *STILL, "return") and first.has_extent)
     if first.joined == "and" and last.verb in STILL and first.moves:
@@ -254,6 +252,12 @@ def _belongs(last: Frame, first: Frame) -> bool:
     if first.direction and first.has_extent:
         return not last.has_extent and not last.direction
     return True
+
+
+def _is_laps(frame: Frame) -> bool:
+    """…的圆，走两圈: how often the shape is gone round."""
+    bare = not (frame.direction or frame.rot or frame.shape) and frame.verb in ("", "make", *GO)
+    return set(frame.q) == {"turns"} and bare
 
 
 def _adds_time(last: Frame, first: Frame) -> bool:

@@ -1,46 +1,55 @@
-"""`You're facing north. Face east, drive 1 m`: compass words where the person says which way the robot looks.
-
-Each is turned into the turn to it from the heading before. Without that statement, or beside other turns, nothing is
-rewritten, and the compass word is asked about.
-"""
+"""North, south, east and west: they mean something once it is said which of them the robot faces."""
 
 from __future__ import annotations
 
+import math
 import re
+from collections.abc import Sequence
 from functools import cache
-from typing import Any
 
 from chatrobot.language.data_files import load_table
+from chatrobot.language.quantities import quantity
+from chatrobot.language.tokens import Atom
+
+HEADINGS = {
+    "north": math.pi / 2, "east": 0.0, "south": -math.pi / 2, "west": math.pi,
+    "north_east": math.pi / 4, "north_west": 3 * math.pi / 4,
+    "south_east": -math.pi / 4, "south_west": -3 * math.pi / 4,
+}  # fmt: skip
+"""Directions on a map, radians from east, counter-clockwise (REP-103)."""
 
 
 @cache
-def _table(language: str) -> tuple[dict[str, float], dict[str, re.Pattern[str]]]:
-    table: dict[str, Any] = load_table(language, "compass")
-    points = {str(k): float(v) for k, v in table.get("points", {}).items()}
-    listed = "|".join(sorted(map(re.escape, points), key=len, reverse=True))
-    patterns = {
-        k: re.compile(p.replace("POINT", f"(?:{listed})")) for k, p in table.get("patterns", {}).items()
-    }
-    return points, patterns
+def _convention(language: str) -> re.Pattern[str] | None:
+    pattern = load_table(language, "compass").get("convention", {}).get("pattern")
+    return re.compile(pattern) if pattern else None
 
 
-def without_compass(text: str, language: str) -> str:
-    """`text` (normalised) with turns by degrees in the place of compass points."""
-    points, patterns = _table(language)
-    stated = patterns["stated"].search(text) if patterns else None
-    if stated is None:
-        return text
-    rest = f"{text[: stated.start()]} {text[stated.end() :]}"
-    if not any(point in rest for point in points):
-        return rest
-    if patterns["other_turns"].search(rest):
-        return text
-    heading = points[next(v for v in stated.groupdict().values() if v)]
+@cache
+def _words(language: str) -> dict[str, str]:
+    table = load_table(language, "compass").get("compass", {})
+    return {word: name for name, listed in table.items() for word in listed}
 
-    def turned(found: re.Match[str]) -> str:
-        nonlocal heading
-        off = (points[found["point"]] - heading + 180.0) % 360.0 - 180.0
-        heading = points[found["point"]]
-        return f"turn {'left' if off < 0 else 'right'} {abs(off):g} degrees" if off else ""
 
-    return patterns["to"].sub(turned, rest)
+def split_convention(text: str, language: str) -> tuple[str, float | None]:
+    """The text without `you face north`, and the heading that was said, radians on the map."""
+    pattern = _convention(language)
+    found = pattern.search(text) if pattern else None
+    if found is None:
+        return text, None
+    name = _words(language).get(found["side"])
+    if name is None:
+        return text, None
+    return f"{text[: found.start()]} {text[found.end() :]}".strip(), HEADINGS[name]
+
+
+def with_headings(atoms: Sequence[Atom], facing_rad: float | None) -> list[Atom]:
+    """Points of the compass as headings against the start; unchanged where no convention was said."""
+    if facing_rad is None:
+        return list(atoms)
+    return [
+        quantity("heading", math.remainder(HEADINGS[a.value] - facing_rad, 2 * math.pi), a.text)
+        if a.kind == "compass"
+        else a
+        for a in atoms
+    ]

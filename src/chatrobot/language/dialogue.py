@@ -11,6 +11,7 @@ from chatrobot.language.actions import DIRECTIONS, State
 from chatrobot.language.context import Context, TurnRecord
 from chatrobot.language.frames import GO, SIDES, Frame
 from chatrobot.language.manner import Pace
+from chatrobot.language.numbers import is_chinese
 from chatrobot.language.quantities import quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undoing import inverse
@@ -145,10 +146,14 @@ def _is_change(whole: Frame) -> bool:
 
 def _changed(last: _Last, whole: Frame, pace: Pace) -> list[Step]:
     whole = _speed_said(whole, last)
-    if "fold" in whole.q and "速" in whole.q["fold"].text:
+    fold = whole.q.get("fold")
+    if fold is not None and is_chinese(fold.text):
         whole = whole.copy()
-        whole.q["speed"] = quantity("speed", pace.speed(whole) or 0.0, whole.q.pop("fold").text)
-    factor = next((whole.q[name].number for name in ("scale", "fold") if name in whole.q), 1.0)
+        del whole.q["fold"]
+        name = "speed" if "速" in fold.text else "scale"
+        usual = pace.speed_mps or pace.profile.defaults.speed_mps
+        whole.q[name] = quantity(name, fold.number * (usual if name == "speed" else 1.0), fold.text)
+    factor = whole.q["scale"].number if "scale" in whole.q else 1.0
     if "percent" in whole.q and not whole.pace:
         factor = whole.q["percent"].number
     if "number" in whole.q or "count" in whole.q or "clock" in whole.q:

@@ -13,13 +13,13 @@ from chatrobot.language.arithmetic import settle_condition
 from chatrobot.language.asides import check_finished, is_choice, without_asides
 from chatrobot.language.chatter import without_chatter
 from chatrobot.language.clauses import read_frames
-from chatrobot.language.compass import without_compass
+from chatrobot.language.compass import split_convention, with_headings
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.corrections import corrected, without_negated
 from chatrobot.language.dialogue import refer, state_after
+from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import with_defined_units, with_known_counts
 from chatrobot.language.frames import STILL, Frame
-from chatrobot.language.idioms import put_plainly
 from chatrobot.language.lexicon import Key, Meaning, cut, lexicon
 from chatrobot.language.manner import Pace
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
@@ -104,8 +104,9 @@ class _Reading:
     def __init__(self, text: str, language: LanguageCode, context: Context, profile: RobotProfile) -> None:
         self.text, self.language, self.context, self.profile = text, language, context, profile
         self.by_ear = False
-        said = without_compass(rephrased(normalise(text), language), language)
-        self.plain = put_plainly(with_known_counts(said), language)
+        plain = with_known_counts(without_compass(rephrased(normalise(text), language), language))
+        rest, self.facing_rad = split_convention(plain, language)
+        self.plain = rest or plain
         dialogue = context.dialogue
         self.pace = Pace(profile, dialogue.default_speed_mps, dialogue.default_rate_radps)
 
@@ -188,7 +189,7 @@ class _Reading:
         verbs = [a for k, a in enumerate(atoms) if k + 1 not in ways and a.text not in ("say",)]
         if any(a.kind in ("verb", "shape", "place") for a in verbs):
             return None
-        before = put_plainly(rephrased(normalise(pending), self.language), self.language)
+        before = rephrased(normalise(pending), self.language)
         for joined in (f"{before} {self.plain}", f"{before}, {self.plain}"):
             try:
                 found = self._command(joined)
@@ -227,6 +228,9 @@ class _Reading:
             return self._understood(command)
         asks = questions.is_question(plain, self.language)
         ability = questions.asks_ability(plain, self.language)
+        doubt = next((a for a in atoms if a.kind == "doubt" and a.text != "来着"), None)
+        if doubt is not None and not plain.endswith("?") and not any(a.kind == "refuse" for a in atoms):
+            raise Unclear("unknown_part", doubt.text)
         refusal = next((a for a in atoms if a.kind == "refuse"), None)
         if (asks and refusal is None) or (refusal is None and ability):
             found = self._question(plain, atoms, ability)
@@ -335,7 +339,7 @@ class _Reading:
 
     def _atoms(self, plain: str) -> list[Atom]:
         atoms = tokenise(plain, lexicon(), self._names(), by_ear=self.by_ear)
-        atoms = read_quantities(without_asides(atoms, self.language))
+        atoms = with_headings(read_quantities(without_asides(atoms, self.language)), self.facing_rad)
         if any(a.kind == "role" and a.value == "apart" for a in atoms):  # rows side by side, no garden work
             atoms = [Atom("shape", "lawn", a.text) if a.text == "mow the lawn" else a for a in atoms]
         return atoms

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -9,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from chatrobot.language.actions import State, act
 from chatrobot.language.arrange import arranged
 from chatrobot.language.clauses import is_times_only
-from chatrobot.language.frames import STILL, TURN, Frame, merged
+from chatrobot.language.frames import SIDES, STILL, TURN, Frame, merged
 from chatrobot.language.manner import Pace
 from chatrobot.language.quantities import quantity
 from chatrobot.language.shapes import draw
@@ -55,6 +56,7 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
         for frame in frames:
             frame.flags.add("units_said")
     frames = _shape_first(frames)
+    _check_amounts(frames)
     paced = _paced(frames, pace)
     if paced is not None:
         return paced
@@ -101,6 +103,19 @@ def _shared(frames: list[Frame]) -> list[Frame]:
                     other.verb = frame.verb
             other.pace = other.pace or frame.pace
     return kept
+
+
+def _check_amounts(frames: list[Frame]) -> None:
+    """走直线，八十厘米，倒着走: a way said right after an amount may be how, or what comes next.
+
+    Raises:
+        Unclear: for a drive without an amount that is only set off by a comma from one that has it.
+    """
+    for last, frame in itertools.pairwise(frames):
+        bare = not (frame.q or frame.shape or frame.place or frame.rot or frame.words or frame.flags)
+        plain = frame.verb in ("", "go") and bool(frame.direction) and frame.direction not in SIDES
+        if bare and plain and frame.joined == "weak" and "length" in last.q and last.verb in ("", "go"):
+            raise Unclear("unclear_motion", f"{last.text} {frame.text}")
 
 
 def _paced(frames: list[Frame], pace: Pace) -> list[Step] | None:
@@ -152,7 +167,7 @@ def _shape_first(frames: list[Frame]) -> list[Frame]:
 
 def _is_measure(frame: Frame) -> bool:
     bare = not frame.moves or (
-        frame.verb in ("go", "") and not (frame.direction or frame.rot or frame.shape or frame.place)
+        frame.verb in ("go", "") and not (frame.direction or frame.shape or frame.place)
     )
     lone_rotation = bool(frame.rot) and not (frame.verb or frame.q or frame.direction or frame.shape)
     return (bare and "length" in frame.q and "time" not in frame.q) or lone_rotation
@@ -226,7 +241,7 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
     elif frame.verb in STILL and {"each", "all"} & frame.flags and script.units:
         frame.flags.add("after_each")
         _insert(script, frame)
-    elif frame.flags & {"between", "after_each"} or _is_each_pause(script, frame):
+    elif frame.flags & {"between", "after_each"}:
         _insert(script, frame)
     else:
         _act(script, frame)
@@ -241,11 +256,6 @@ def _is_moves_only(script: Script, frame: Frame) -> bool:
         "make",
     )
     return count is not None and count.role == "move" and bare and bool(script.units)
-
-
-def _is_each_pause(script: Script, frame: Frame) -> bool:
-    """分五段走，每段停一秒."""
-    return "each" in frame.flags and frame.verb in STILL and "time" in frame.q and len(script.units) > 1
 
 
 def _act(script: Script, frame: Frame) -> None:
@@ -271,6 +281,14 @@ def _act(script: Script, frame: Frame) -> None:
     steps = _known(each, script) or act(each, script.state, script.pace)
     script.state.steps.extend(steps * count)
     script.units.extend([steps] * count if steps else [])
+
+
+def _part(frame: Frame, count: int) -> Frame:
+    part = frame.copy()
+    for name in ("length", "angle", "turns", "time"):
+        if name in part.q:
+            part.q[name] = quantity(name, part.q[name].number / count, part.q[name].text)
+    return part
 
 
 def _with_measure(trip: Frame, following: Frame) -> Frame | None:
@@ -299,14 +317,6 @@ def _relative_to_last(frame: Frame, script: Script) -> Frame:
     factor = frame.q.pop("faster")
     frame.q["speed"] = quantity("speed", factor.number * before.speed_mps, factor.text)
     return frame
-
-
-def _part(frame: Frame, count: int) -> Frame:
-    part = frame.copy()
-    for name in ("length", "angle", "turns", "time"):
-        if name in part.q:
-            part.q[name] = quantity(name, part.q[name].number / count, part.q[name].text)
-    return part
 
 
 def _lists_lengths(frames: list[Frame], i: int) -> bool:
@@ -450,7 +460,7 @@ def _halves(step: Step) -> tuple[Step, Step] | None:
         return replace(step, distance_m=metres, duration_s=seconds), replace(
             step, distance_m=metres, duration_s=seconds
         )
-    if isinstance(step, Turn) and step.angle_rad:
+    if isinstance(step, (Turn, Arc)) and step.angle_rad:
         return replace(step, angle_rad=step.angle_rad / 2), replace(step, angle_rad=step.angle_rad / 2)
     return None
 
