@@ -133,3 +133,8 @@ def test_compass_points_count_only_from_a_heading_that_was_said() -> None:
     assert (ahead, on) == (Drive(1.0), Drive(2.0))
     for text in ("face east", "north 2 m", "you're facing north. turn left, then face north"):
         assert Conversation().say(text).plan is None
+
+
+def test_lengths_that_happen_to_add_up_are_all_driven() -> None:
+    done = steps("three feet forward, one foot back, then two feet to the left")
+    assert [round(s.distance_m or 0.0, 4) for s in done if isinstance(s, Drive)] == [0.9144, 0.3048, 0.6096]

@@ -124,5 +124,7 @@ def _is_sum(frame: Frame, rest: list[Frame], name: str) -> bool:
     parts = [f for f in rest if name in f.q]
     if len(parts) < 2 or len(parts) != len(rest) or any(f.joined == "then" for f in parts[:1]):
         return False
+    if frame.direction and any(f.direction not in ("", frame.direction) for f in parts):
+        return False  # `three feet forward, one back, two left`: a motion of its own
     manners = all(f.rot or f.direction or f.pace or _MANNER & set(f.q) for f in parts)
     return manners and abs(sum(f.q[name].number for f in parts) - frame.q[name].number) < 1e-9

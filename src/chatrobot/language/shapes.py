@@ -32,7 +32,6 @@ class Measures:
     angle_rad: float | None = None
     seconds: float | None = None
     speed: float | None = None
-    part: float = 1.0
 
     def with_role(self, *roles: str) -> float | None:
         """The first length that was said with one of these roles."""
@@ -171,9 +170,7 @@ def _is_its_parts(head: Frame, part: Frame, value: float) -> bool:
 
 
 def _multiply(found: Measures, part: Frame, name: str, value: float) -> None:
-    if part.shape == "circle" and value != int(value) and 0 < value < 20:
-        found.part = value
-    elif part.shape == "polygon" and name == "number":
+    if part.shape == "polygon" and name == "number":
         found.counts["side"] = _whole(value)
     elif part.shape == "circle" or (name == "times" and part.q["times"].value == "turns"):
         rounds = value / (2 * math.pi) if part.q[name].value == "turns" else value
@@ -292,8 +289,7 @@ def _round(shape: str, found: Measures, pace: Pace) -> list[Step]:
     sweep = {"circle": 2 * math.pi * found.rounds, "half_circle": math.pi, "quarter_circle": math.pi / 2}[
         shape
     ]
-    sweep *= found.part
-    if (shape != "circle" or found.part < 1) and not found.side_said:
+    if (shape != "circle" or found.rounds < 1) and not found.side_said:
         raise Unclear("which_side", shape.replace("_", " "))
     if found.seconds and speed is None:
         speed = radius * sweep / found.seconds
