@@ -11,6 +11,7 @@ from chatrobot.core.governed import StopEpoch
 from chatrobot.execution.executor import Executor
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import TICK_S, Governor
+from chatrobot.governor.rule import Sensed
 from chatrobot.plan.context import LoweringContext
 from chatrobot.plan.lowering import iterate_core
 from chatrobot.plan.steps import Plan
@@ -44,6 +45,9 @@ class Rig:
         self.sent: list[Twist] = []
         self.live(0.5)
 
+    def sensed(self) -> Sensed:
+        return Sensed(self.sensors.ages_s(), self.sensors.battery_percent)
+
     def live(self, duration_s: float) -> None:
         """Let time pass."""
         for _ in range(round(duration_s / TICK_S)):
@@ -59,6 +63,7 @@ class Rig:
         context = LoweringContext(self.profile, start, start)
         executor = Executor(self.profile, self.sensors, self.events.append)
         began_s = self.clock.now_s()
+        assert self.governor.begin("rig", self.clock.now_s(), self.sensed()).refusal is None
         executor.start(1, iterate_core(plan, context), 10.0, began_s)
         while self.clock.now_s() - began_s < limit_s:
             if each_tick is not None:
@@ -69,7 +74,7 @@ class Rig:
             self._look()
             estimate = self.sensors.estimate
             verdict = self.governor.govern(
-                asked, "rig", self.clock.now_s(), estimate.pose if estimate else None
+                asked, "rig", self.clock.now_s(), estimate.pose if estimate else None, self.sensed()
             )
             self._transport.send(verdict.sent)
             executor.note(verdict.rule, verdict.reason, verdict.sent.twist, self.clock.now_s())
