@@ -64,7 +64,7 @@ class Seen:
             scan.angle_increment_rad,
             len(ranges),
         )
-        if not _makes_sense(scan):
+        if not (_makes_sense(scan) and all(map(math.isfinite, pose))):
             self._beams = 0  # then it has seen nothing
             return
         lidar = pose.compose(Pose(self.lidar.x_m, self.lidar.y_m, self.lidar.yaw_rad))
@@ -86,7 +86,9 @@ class Seen:
         dx, dy = known[:, 0] - lidar.x_m, known[:, 1] - lidar.y_m
         distance = np.hypot(dx, dy)
         bearing = np.arctan2(dy, dx) - lidar.yaw_rad - scan.angle_min_rad
-        beam = np.rint((bearing % (2.0 * math.pi)) / scan.angle_increment_rad).astype(int)
+        onwards = bearing * math.copysign(1.0, scan.angle_increment_rad)  # many lidars turn clockwise
+        whole = max(len(ranges), round(2.0 * math.pi / abs(scan.angle_increment_rad)))
+        beam = np.rint((onwards % (2.0 * math.pi)) / abs(scan.angle_increment_rad)).astype(int) % whole
         inside = beam < len(ranges)
         beam = np.where(inside, beam, 0)
         looked_past = inside & sees[beam] & (ranges[beam] > distance + SEEN_THROUGH_M)
