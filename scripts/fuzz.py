@@ -38,7 +38,7 @@ SOURCES = ("joystick", "console", "agent", "chatgpt_node", "nobody has heard of"
 LEASES = tuple(f"lease of {source}" for source in SOURCES)
 
 
-class Broken(AssertionError):
+class BrokenPromiseError(AssertionError):
     """A promise of the governor does not hold."""
 
 
@@ -152,13 +152,13 @@ class Sequence:
         if self.governor.begin(source.lease_id, self.now_s, sensed).refusal is not None:
             return
         if self.latched:
-            raise Broken("a motion began under an emergency stop")
+            raise BrokenPromiseError("a motion began under an emergency stop")
         if not source.is_alive(self.now_s):
-            raise Broken("a motion began without a lease")
+            raise BrokenPromiseError("a motion began without a lease")
         rank = self.sources.index(source)
         for other_rank, other in enumerate(self.sources):
             if other is not source and other.may_move and other.is_alive(self.now_s) and other_rank <= rank:
-                raise Broken("a source took over from one that goes before it")
+                raise BrokenPromiseError("a source took over from one that goes before it")
             other.may_move = other is source
 
     def end(self, source: Source) -> None:
@@ -190,7 +190,7 @@ class Sequence:
         """A transport's thread that slept: what it holds may go out only if no stop came since."""
         for governed, stops in self.held_back:
             if governed.epoch == self.epoch.value and stops != self.stops:
-                raise Broken("a velocity of before a stop went out after it")
+                raise BrokenPromiseError("a velocity of before a stop went out after it")
         self.held_back.clear()
 
     def scan(self) -> None:
@@ -244,7 +244,7 @@ class Sequence:
         governed = verdict.sent
         if governed.epoch != self.epoch.value:
             if verdict.rule != "outranked":
-                raise Broken(f"{verdict.rule} made a velocity that is void from the start")
+                raise BrokenPromiseError(f"{verdict.rule} made a velocity that is void from the start")
             return
         if self.chance.random() < 0.05:
             self.held_back.append((governed, self.stops))
@@ -254,42 +254,42 @@ class Sequence:
     def _check(self, sent: Twist, source: Source) -> None:
         vx, vy, wz = sent
         if not sent.is_finite:
-            raise Broken(f"not finite: {sent}")
+            raise BrokenPromiseError(f"not finite: {sent}")
         if vx == 0.0 and vy == 0.0 and wz == 0.0:
             return  # zero is exempt
         if self.latched:
-            raise Broken("motion under an emergency stop")
+            raise BrokenPromiseError("motion under an emergency stop")
         if not source.is_alive(self.now_s):
-            raise Broken("motion after the end of a lease")
+            raise BrokenPromiseError("motion after the end of a lease")
         if not source.may_move:
-            raise Broken("motion after a stop, or of a source that did not begin")
+            raise BrokenPromiseError("motion after a stop, or of a source that did not begin")
         self._check_speed(sent)
         elapsed_s = self.now_s - self.sent_at_s
         if elapsed_s < 0.0:
-            raise Broken("motion though the clock went back")
+            raise BrokenPromiseError("motion though the clock went back")
         step_s = LONGEST_STEP_S if self.sent.is_zero else min(elapsed_s, LONGEST_STEP_S)
         limits = self.profile.limits
         change = math.hypot(vx - self.sent.vx_mps, vy - self.sent.vy_mps)
         if change > limits.acceleration_mps2 * step_s + EPSILON:
-            raise Broken(f"{change} m/s in {step_s} s")
+            raise BrokenPromiseError(f"{change} m/s in {step_s} s")
         if abs(wz - self.sent.wz_radps) > limits.angular_acceleration_radps2 * step_s + EPSILON:
-            raise Broken(f"{wz - self.sent.wz_radps} rad/s in {step_s} s")
+            raise BrokenPromiseError(f"{wz - self.sent.wz_radps} rad/s in {step_s} s")
 
     def _check_speed(self, sent: Twist) -> None:
         limits, profile = self.profile.limits, self.profile
         speed, rate = math.hypot(sent.vx_mps, sent.vy_mps), abs(sent.wz_radps)
         if speed > limits.max_speed_mps + EPSILON or abs(sent.vy_mps) > limits.max_sideways_mps + EPSILON:
-            raise Broken(f"{sent} is above the profile's speed")
+            raise BrokenPromiseError(f"{sent} is above the profile's speed")
         if rate > limits.max_rate_radps + EPSILON:
-            raise Broken(f"{sent} is above the profile's rate")
+            raise BrokenPromiseError(f"{sent} is above the profile's rate")
         if not profile.can_go_sideways and sent.vy_mps != 0.0:
-            raise Broken("sideways on a base that cannot")
+            raise BrokenPromiseError("sideways on a base that cannot")
         if rate * limits.min_turning_radius_m > abs(sent.vx_mps) + EPSILON:
-            raise Broken("a tighter curve than the base can do")
+            raise BrokenPromiseError("a tighter curve than the base can do")
         if speed > max(self.most_mps, self.sent.speed_mps) + EPSILON:
-            raise Broken("faster than the limit that was narrowed")
+            raise BrokenPromiseError("faster than the limit that was narrowed")
         if rate > max(self.most_radps, abs(self.sent.wz_radps)) + EPSILON:
-            raise Broken("turns faster than the limit that was narrowed")
+            raise BrokenPromiseError("turns faster than the limit that was narrowed")
 
 
 def _good_scan(chance: random.Random) -> LaserScan:
@@ -313,7 +313,7 @@ def run_chunk(seed: int, sequences: int) -> str:
         profile = robots[number % len(robots)]
         try:
             Sequence(profile, chance).run()
-        except Broken as broken:
+        except BrokenPromiseError as broken:
             return f"{profile.name}: {broken} (chunk {seed}, sequence {number})"
     return ""
 

@@ -16,6 +16,7 @@ from chatrobot.plan.context import LoweringContext
 from chatrobot.plan.lowering import iterate_core
 from chatrobot.plan.steps import Plan
 from chatrobot.robots.load import load_profile
+from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.lies import SimLies
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import SimRobot
@@ -26,8 +27,10 @@ from chatrobot.wire.memory import MemoryHub
 class Rig:
     """Runs plans on the executor as Motion would, without Motion."""
 
-    def __init__(self, profile: str = "wheeltec_mini_mec", lies: str = "", world: str = "empty") -> None:
-        self.profile = load_profile(profile)
+    def __init__(
+        self, profile: str | RobotProfile = "wheeltec_mini_mec", lies: str = "", world: str = "empty"
+    ) -> None:
+        self.profile = load_profile(profile) if isinstance(profile, str) else profile
         self.clock = VirtualClock()
         hub = MemoryHub()
         self.robot = SimRobot(

@@ -16,8 +16,8 @@ LOOK_AHEAD_S = 0.5
 LOOK_AHEAD_M = 0.2
 """How far before the moving parts of the outline the lidar has to look: this long at their speed, and at least this."""
 
-OUTWARDS_MPS = 1e-6
-"""What moves slower than this out of the outline does not move out of it."""
+OUTWARDS_MPS = 0.02
+"""A side that moves outwards slower than this hardly does: feedback swings the tail a little on any straight way."""
 
 
 class BlindRule:

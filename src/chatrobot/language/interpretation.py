@@ -296,7 +296,9 @@ class _Reading:
 
 def _frames(atoms: list[Atom]) -> list[Frame]:
     return read_frames(
-        tidy(without_negated(in_order(corrected(settle_condition(with_defined_units(without_chatter(atoms)))))))
+        tidy(
+            without_negated(in_order(corrected(settle_condition(with_defined_units(without_chatter(atoms))))))
+        )
     )
 
 

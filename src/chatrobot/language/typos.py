@@ -98,7 +98,9 @@ def is_slip(typed: str, meant: str) -> bool:
     """Whether one slip of the finger makes `meant` into `typed`."""
     if len(typed) != len(meant):
         short, long = sorted((typed, meant), key=len)
-        return len(long) - len(short) == 1 and any(long[:i] + long[i + 1 :] == short for i in range(len(long)))
+        return len(long) - len(short) == 1 and any(
+            long[:i] + long[i + 1 :] == short for i in range(len(long))
+        )
     off = [i for i in range(len(typed)) if typed[i] != meant[i]]
     if len(off) == 2 and off[1] == off[0] + 1:
         return typed[off[0]] == meant[off[1]] and typed[off[1]] == meant[off[0]]
