@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.events import Event
@@ -16,7 +16,7 @@ from chatrobot.plan.context import LoweringContext
 from chatrobot.plan.lowering import iterate_core
 from chatrobot.plan.steps import Plan
 from chatrobot.robots.load import load_profile
-from chatrobot.robots.profile import RobotProfile
+from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.sim.lies import SimLies
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import SimRobot
@@ -28,7 +28,11 @@ class Rig:
     """Runs plans on the executor as Motion would, without Motion."""
 
     def __init__(
-        self, profile: str | RobotProfile = "wheeltec_mini_mec", lies: str = "", world: str = "empty"
+        self,
+        profile: str | RobotProfile = "wheeltec_mini_mec",
+        lies: str = "",
+        world: str = "empty",
+        area: Sequence[Point] | None = None,
     ) -> None:
         self.profile = load_profile(profile) if isinstance(profile, str) else profile
         self.clock = VirtualClock()
@@ -40,7 +44,7 @@ class Rig:
         wire = hub.connect()
         self.sensors.attach(wire)
         epoch = StopEpoch()
-        self.governor = Governor(self.profile, epoch)
+        self.governor = Governor(self.profile, epoch, area)
         self.governor.leases.open("rig", "rig", float("inf"), 0.0)
         self._transport = WireTransport(wire, self.profile.wiring, epoch)
         self._looked_at: object = None

@@ -203,6 +203,8 @@ class Executor:
         begin, wheel_yaw_rad = self._begin
         if self._is_mending or estimate.stamp_s < self._segment_at_s:
             return None
+        if self._barred_since_s is not None:
+            return None  # it was halted at once, and rolls on as far as it takes to brake
         # Measured from where the robot really began: an error it brought along is not this motion's.
         moved = reference.relative_to(segment.start)
         return tracking_fault(
