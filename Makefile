@@ -44,11 +44,16 @@ fuzz: setup
 	$(BIN)/python -m scripts.fuzz $(FUZZ)
 
 coverage: setup
-	$(BIN)/python -m scripts.coverage
+	$(BIN)/coverage run -m pytest -q -m "not realtime and not slow" \
+		tests/governor tests/guard tests/reflex tests/safety
+	$(BIN)/coverage report
 
 # About half an hour on two cores; docs/safety.md argues what survives.
 mutants: setup
-	$(BIN)/python -m scripts.mutants
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[mutants]'
+	rm -rf mutants
+	$(BIN)/mutmut run --max-children 2
+	$(BIN)/mutmut results
 
 # Needs DejaVu Sans Mono and a font with Chinese on the system.
 pictures: setup
