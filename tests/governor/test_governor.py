@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.governed import StopEpoch
 from chatrobot.governor.governor import LONGEST_STEP_S, TICK_S, Governor
 from chatrobot.robots.load import load_profile
 
-PROFILE = load_profile("wheeltec_mini_mec")
+PROFILE = replace(load_profile("wheeltec_mini_mec"), lidar=None)
 SLOW = Twist(0.3, 0.0, 0.0)
 
 
 def governor_with_lease(term_s: float = 0.3) -> tuple[Governor, StopEpoch]:
     epoch = StopEpoch()
     governor = Governor(PROFILE, epoch)
-    governor.leases.open("lease", "test", term_s, 0.0)
+    governor.leases.open("lease", "console", term_s, 0.0)
+    governor.begin("lease", 0.0)
     return governor, epoch
 
 
@@ -32,6 +34,7 @@ def test_a_lease_without_beats_ends_after_its_term_and_a_beat_revives_it() -> No
     assert governor.govern(SLOW, "lease", 0.3).action != "refused"
     assert governor.govern(SLOW, "lease", 0.31).action == "refused"
     governor.leases.beat("lease", 0.4)
+    governor.begin("lease", 0.4)
     assert governor.govern(SLOW, "lease", 0.4).action != "refused"
 
 
@@ -62,10 +65,12 @@ def test_a_late_tick_buys_no_jump_in_velocity() -> None:
     assert step <= PROFILE.limits.acceleration_mps2 * LONGEST_STEP_S + 1e-9
 
 
-def test_a_clock_that_goes_back_never_speeds_the_robot_up() -> None:
+def test_a_clock_that_goes_back_stops_the_robot_which_then_begins_at_zero() -> None:
     governor, _ = governor_with_lease(term_s=math.inf)
     first = governor.govern(SLOW, "lease", 1.0).sent.twist
-    assert governor.govern(SLOW, "lease", 0.5).sent.twist == first
+    back = governor.govern(SLOW, "lease", 0.5)
+    assert (back.rule, back.sent.twist) == ("clock_went_back", ZERO_TWIST)
+    assert governor.govern(SLOW, "lease", 0.52).sent.twist == first
 
 
 def test_an_emergency_stop_holds_until_it_is_released_and_says_who_set_it() -> None:
@@ -74,7 +79,7 @@ def test_an_emergency_stop_holds_until_it_is_released_and_says_who_set_it() -> N
     assert governor.govern(SLOW, "lease", 0.0).rule == "emergency_stop"
     assert governor.latched is not None
     assert governor.latched.values["source"] == "console"
-    governor.release()
+    assert governor.release("console")
     assert governor.govern(SLOW, "lease", 0.0).action == "limited"
 
 
@@ -83,6 +88,8 @@ def test_after_a_stop_ramps_begin_at_zero_again() -> None:
     for tick in range(30):
         governor.govern(SLOW, "lease", tick * TICK_S)
     epoch.stop()
+    assert governor.govern(SLOW, "lease", 30 * TICK_S).rule == "not_begun"
+    governor.begin("lease", 30 * TICK_S)
     assert governor.govern(SLOW, "lease", 30 * TICK_S).sent.twist.vx_mps <= 0.02 + 1e-9
 
 
