@@ -25,6 +25,21 @@ def _counts() -> tuple[tuple[re.Pattern[str], dict[str, int]], ...]:
     )
 
 
+@lru_cache(maxsize=1)
+def _unit_patterns() -> tuple[re.Pattern[str], ...]:
+    tables = [load_table(language, "facts") for language in LANGUAGES]
+    return tuple(re.compile(pattern) for table in tables for pattern in table.get("units", ()))
+
+
+def defined_unit(text: str) -> tuple[str, str] | None:
+    """The counted word and its measure, where all that `text` (normalised) says is what one of them is."""
+    for pattern in _unit_patterns():
+        found = pattern.fullmatch(text.strip(" ,.!;。"))
+        if found:
+            return found["unit"], found["measure"]
+    return None
+
+
 def with_known_counts(text: str) -> str:
     """`as many metres as a tricycle has wheels` → `3 metres`; unknown things stay as they are."""
     for pattern, counts in _counts():

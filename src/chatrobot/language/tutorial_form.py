@@ -45,11 +45,12 @@ def read_twist(text: str) -> RawTwist | None:
     if "\n" not in text.strip() and _LINE.fullmatch(text):
         found = [(f"{g}.{axis}", value) for g, axis, value in re.findall(_ASSIGNMENT, text)]
         return _twist({name: float(value) for name, value in found}, 1.0)
+    marked = any(mark in text for mark in _marks())
     text = _ROS_CLI.sub(" ", _plainer(text))
     blocks = _BLOCK.findall(text)
     if blocks:
         return _blocks(text, blocks)
-    if not any(mark in text for mark in _marks()):
+    if not marked and not any(mark in text for mark in _marks()):
         return None
     return _spoken(text)
 
