@@ -145,6 +145,7 @@ def _connect_real_time(
     joint: SocketJoint | None = None
     try:
         joint = SocketJoint(str(wire_path), profile_argument, setup.world)
+        understanding.warm()
         joint.wait_until_ready()
     except JointError:
         robot.terminate()

@@ -53,6 +53,10 @@ class WireContract:
         """Makes a further end of one and the same wire."""
         raise NotImplementedError
 
+    def as_it_arrives(self, message: Message) -> object:
+        """What equals `message` at the other end, where a backend's format rounds or translates clocks."""
+        return message
+
     @pytest.mark.parametrize("message", ONE_OF_EACH, ids=lambda message: type(message).__name__)
     def test_every_kind_of_message_arrives_as_it_was_sent(
         self, connect: Callable[[], Wire], message: Message
@@ -60,8 +64,8 @@ class WireContract:
         inbox = Inbox(connect(), "topic", type(message))
         connect().publish("topic", message)
         arrived = inbox.next()
-        assert arrived == message
         assert type(arrived) is type(message)
+        assert self.as_it_arrives(message) == arrived
 
     def test_messages_arrive_in_the_order_they_were_sent(self, connect: Callable[[], Wire]) -> None:
         inbox = Inbox(connect(), "topic", Number)
@@ -109,7 +113,7 @@ class WireContract:
         inbox = Inbox(connect(), "scan", LaserScan)
         scan = LaserScan(1.0, -math.pi, 0.001, 0.05, 40.0, [i / 7.0 for i in range(6000)])
         connect().publish("scan", scan)
-        assert inbox.next() == scan
+        assert self.as_it_arrives(scan) == inbox.next()
 
     def test_a_callback_may_publish_and_subscribe(self, connect: Callable[[], Wire]) -> None:
         wire, asker = connect(), connect()

@@ -1,4 +1,4 @@
-"""The guard's process: `python -m chatrobot.guard --wire PATH --topic cmd_vel --odom odom --fd N`.
+"""The guard's process: `python -m chatrobot.guard --wire ADDRESS --topic cmd_vel --odom odom --fd N`.
 
 Started by Motion in a session of its own, so that neither Ctrl-C, Ctrl-Z nor a closed terminal reaches it.
 """
@@ -13,9 +13,11 @@ import sys
 import time
 
 from chatrobot.core.errors import WireError
+from chatrobot.core.wiring import Wiring
 from chatrobot.guard.watch import BEAT_S, GOODBYE, TRIPPED, Watch
-from chatrobot.wire.local import LocalWire
+from chatrobot.wire.connect import advertise, comes_back, connect_wire
 from chatrobot.wire.messages import Odometry, TwistMessage
+from chatrobot.wire.wire import Wire
 
 STANDING_S = 1.0
 """A robot whose Motion is dead has been seen standing this long: the guard's work is done."""
@@ -45,13 +47,14 @@ class Standing:
 class Guard:
     """Reads Motion's words from `line`, halts over `wire`."""
 
-    def __init__(self, line: socket.socket, wire: LocalWire, cmd_vel_topic: str, odom_topic: str) -> None:
+    def __init__(self, line: socket.socket, wire: Wire, cmd_vel_topic: str, odom_topic: str) -> None:
         self._line = line
         self._wire = wire
         self._topic = cmd_vel_topic
         self._watch = Watch()
         self._standing = Standing()
         self._motion_is_gone = False
+        advertise(wire, cmd_vel_topic, TwistMessage)
         if odom_topic:
             wire.subscribe(odom_topic, Odometry, self._standing.on_odometry)
 
@@ -62,13 +65,20 @@ class Guard:
             now_s = time.monotonic()
             if self._watch.must_halt(now_s):
                 tripped_at_s = now_s if tripped_at_s is None else tripped_at_s
-                self._wire.publish(self._topic, ZERO)
+                self._halt()
                 if self._motion_is_gone and self._may_leave(now_s, tripped_at_s):
                     return
             else:
                 tripped_at_s = None
             if self._listen(self._watch.seconds_left(now_s)):
                 return
+
+    def _halt(self) -> None:
+        try:
+            self._wire.publish(self._topic, ZERO)
+        except WireError:
+            if not comes_back(self._wire):
+                raise
 
     def _may_leave(self, now_s: float, tripped_at_s: float) -> bool:
         halted_s = now_s - tripped_at_s
@@ -106,6 +116,15 @@ def _die_last() -> None:
         score.write("-900")
 
 
+def _wiring(options: dict[str, str]) -> Wiring:
+    return Wiring(
+        cmd_vel_topic=options["--topic"],
+        cmd_vel_type="TwistStamped" if options.get("--type") == "TwistStamped" else "Twist",
+        odom_topic=options.get("--odom", ""),
+        odom_type="turtlesim/Pose" if options.get("--odom-type") == "turtlesim/Pose" else "Odometry",
+    )
+
+
 def main(arguments: list[str]) -> int:
     options = dict(zip(arguments[::2], arguments[1::2]))
     for name in ("SIGINT", "SIGTSTP", "SIGHUP", "SIGTTIN", "SIGTTOU", "SIGPIPE", "SIGTERM"):
@@ -113,8 +132,9 @@ def main(arguments: list[str]) -> int:
     _die_last()
     line = socket.socket(fileno=int(options["--fd"]))
     try:
-        wire = LocalWire(options["--wire"])
-        Guard(line, wire, options["--topic"], options.get("--odom", "")).run()
+        wiring = _wiring(options)
+        wire = connect_wire(options["--wire"], wiring, "chatrobot_guard")
+        Guard(line, wire, wiring.cmd_vel_topic, wiring.odom_topic).run()
     except WireError:
         return 1  # the robot's end is gone: there is nothing left to halt
     return 0

@@ -6,12 +6,15 @@ import math
 from dataclasses import dataclass, field
 
 from chatrobot.core.geometry import Pose
+from chatrobot.language.arcs import about, arc, is_left
 from chatrobot.language.frames import DIAGONALS, GO, SIDES, STILL, TURN, Frame
 from chatrobot.language.manner import Pace
+from chatrobot.language.numbers import is_chinese
 from chatrobot.language.quantities import quantity
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Step, Turn, Wait
+from chatrobot.language.undoing import inverse
+from chatrobot.plan.steps import Drive, Face, Go, Step, Turn, Wait
 
 DIRECTIONS = {
     "forward": 0.0, "left": math.pi / 2, "back": math.pi, "right": -math.pi / 2,
@@ -33,6 +36,7 @@ class State:
     left: bool | None = None
     last: str = ""
     home: Pose | None = None
+    unsaid: list[Frame] = field(default_factory=list)
 
 
 def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
@@ -43,32 +47,44 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     """
     frame = _with_units(frame, state)
     _check_extents(frame)
+    if _OUTLINES & set(frame.roles):
+        raise Unclear("unknown_part", frame.text)
     if (
         "there" in frame.flags
         and frame.verb not in STILL
-        and not (frame.direction or frame.rot or "length" in frame.q)
+        and "clock" not in frame.q
+        and not (frame.direction or frame.rot)
     ):
         raise Unclear("which_place", frame.text)
     if "until" in frame.flags and not frame.has_extent and frame.verb != "face":
         raise Unclear("condition", frame.text)
     if _goes_back(frame, state):
         return _return(Frame(verb="return", pace=frame.pace), state, pace)
+    if "to_start" in frame.flags and frame.direction and "length" in frame.q:
+        frame = frame.copy()
+        frame.flags.discard("to_start")  # the way to it is told in full
     if "asked_distance" in frame.flags:
         return []  # only worked out; what is done with it comes after
-    if "clock" in frame.q:
+    if "heading" in frame.q:
+        steps = _by_compass(frame, state, pace)
+    elif "clock" in frame.q:
         steps = _clock(frame, pace)
     elif frame.verb in STILL:
         steps = _still(frame)
-    elif frame.verb == "return" or ("to_start" in frame.flags and frame.verb in (*GO, "", "uturn")):
+    elif frame.verb == "return" and {"length", "angle", "turns"} & set(frame.q) and not frame.direction:
+        steps = _partly_back(frame, state, pace)
+    elif frame.verb == "return" or (
+        "to_start" in frame.flags
+        and frame.verb in (*GO, "", "uturn")
+        and not (frame.direction and "length" in frame.q)
+    ):
         steps = _return(frame, state, pace)
     elif frame.verb == "face" or ("original_heading" in frame.flags):
         steps = _face(frame, state, pace)
     elif frame.verb == "uturn":
-        steps = [Turn(math.pi, left=_left(frame) is not False, rate_radps=pace.rate(frame))]
-        if frame.is_arc or "length" in frame.q:
-            raise Unclear("unclear_motion", frame.text)
+        steps = about(frame, pace)
     elif frame.is_arc:
-        steps = _arc(frame, pace)
+        steps = arc(frame, pace)
     elif _is_turn(frame, state):
         steps = _turn(frame, state, pace)
     else:
@@ -95,14 +111,33 @@ def _with_units(frame: Frame, state: State) -> Frame:
         covered = frame.q.pop("speed").number * frame.q.pop("time").number
         frame.q["length"] = quantity("length", covered, f"{covered:g} m")
         state.length = frame.q["length"]
+    before = state.angle if frame.turning else state.length
+    scale = frame.q.get("scale")
+    if scale is not None and before is not None and frame.moves and not frame.has_extent:
+        frame = frame.copy()
+        del frame.q["scale"]
+        frame.q[before.value] = quantity(before.value, before.number * scale.number, scale.text)
+        return frame
     number = frame.q.get("number")
     if number is None:
+        return frame
+    if number.text == "一半" and before is not None and not frame.has_extent:
+        frame = frame.copy()
+        del frame.q["number"]
+        frame.q[before.value] = quantity(before.value, before.number / 2, number.text)
         return frame
     dimension = ""
     if "units_said" in frame.flags:
         dimension = "angle" if frame.turning else "length"
         factor = math.pi / 180 if frame.turning else 1.0
-    elif _means_degrees(frame, number.number):
+    elif _means_degrees(frame, number.number) or (
+        state.last == "turn"
+        and state.angle is not None
+        and not frame.has_extent
+        and (frame.turning or frame.direction in SIDES or ("more" in frame.flags and not frame.moves))
+        and 1 <= number.number <= 1080
+        and frame.verb not in GO
+    ):
         dimension, factor = "angle", math.pi / 180
     elif (
         "more" in frame.flags
@@ -144,11 +179,12 @@ def _check_extents(frame: Frame) -> None:
 
 _SLOTS = {
     "still": {"time"},
-    "turn": {"angle", "turns", "time", "rate", "percent", "fold", "times"},
-    "drive": {"length", "time", "speed", "percent", "fold", "times"},
-    "heading": {"length", "time", "speed", "percent", "fold", "times", "angle"},
+    "turn": {"angle", "turns", "time", "rate", "percent", "fold", "faster", "times"},
+    "drive": {"length", "time", "speed", "percent", "fold", "faster", "times"},
+    "heading": {"length", "time", "speed", "percent", "fold", "faster", "times", "angle"},
 }
 _REFERRING = {
+    "halfway",
     "other_way",
     "short_of",
     "from_now_on",
@@ -160,6 +196,10 @@ _REFERRING = {
 }
 
 
+_OUTLINES = {"short", "apart", "circumference", "ends", "straights", "diagonal"}
+"""Measures that only a drawn shape has."""
+
+
 def _all_used(frame: Frame, kind: str) -> None:
     """No slot may be left over: what is not acted on was not understood."""
     left_over = [q for name, q in frame.q.items() if name not in _SLOTS[kind]]
@@ -167,7 +207,7 @@ def _all_used(frame: Frame, kind: str) -> None:
         raise Unclear("unclear_motion", f"{frame.text}")
     if "each" in frame.flags and "time" in frame.q and kind != "still" and len(frame.q) > 1:
         raise Unclear("unclear_motion", frame.text)
-    if _REFERRING & frame.flags:
+    if _REFERRING & frame.flags or (kind in ("drive", "heading") and (frame.rot or frame.direction2)):
         raise Unclear("unclear_motion", frame.text)
 
 
@@ -182,16 +222,13 @@ def _still(frame: Frame) -> list[Step]:
     raise Unclear("how_long", frame.text)
 
 
-def _left(frame: Frame) -> bool | None:
-    side = frame.rot or frame.direction2 or (frame.direction if frame.direction in SIDES else "")
-    if not side and frame.is_arc and frame.direction in DIAGONALS.values():
-        side = frame.direction.split("_")[1]
-    return None if not side else side == "left"
-
-
 def _is_turn(frame: Frame, state: State) -> bool:
     if frame.verb in TURN or (frame.rot and frame.verb not in GO):
         return True
+    if frame.rot and {"in_place", "around"} & frame.flags and "length" not in frame.q:
+        return True
+    if "bearing" in frame.flags and {"length", "time"} & set(frame.q) and "angle" in frame.q:
+        return False
     if "angle" in frame.q or "turns" in frame.q:
         return frame.direction not in DIAGONALS.values() and "diagonal" not in frame.flags
     if "rate" in frame.q:
@@ -209,8 +246,8 @@ def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
     _all_used(frame, "turn")
     rate = pace.rate(frame)
     seconds = frame.q.get("time")
-    angle = frame.q.get("angle") or frame.q.get("turns")
-    left = _left(frame)
+    angle = _whole_angle(frame)
+    left = is_left(frame)
     if left is None and not frame.moves:
         left = state.left
     if left is None and state.last == "turn" and "more" in frame.flags:
@@ -218,12 +255,15 @@ def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
     state.last = "turn"
     around = "around" in frame.flags and seconds is None
     left = True if left is None and around else left
-    if frame.verb == "spin" and angle is None and ("times" in frame.q or around):
+    whole = frame.verb == "spin" or (frame.verb == "turn" and ("in_place" in frame.flags or bool(frame.rot)))
+    if whole and angle is None and ("times" in frame.q or (around and frame.verb == "spin")):
         angle_rad: float | None = 2 * math.pi
     elif angle is not None:
         angle_rad = angle.number
     else:
         angle_rad = None
+    if left is None and rate is not None and rate > pace.profile.limits.max_rate_radps:
+        left = True  # too fast to either side: the rehearsal says so
     if left is None:
         if angle_rad is None or not _same_either_way(angle_rad):
             raise Unclear("which_side", frame.text)
@@ -241,17 +281,37 @@ def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
     return [Turn(angle_rad, left=left, rate_radps=rate)]
 
 
+def _whole_angle(frame: Frame) -> Atom | None:
+    """`One turn and 90 degrees` is their sum; `one turn, 360 degrees` says it twice."""
+    angle, turns = frame.q.get("angle"), frame.q.get("turns")
+    if (
+        angle is None
+        or turns is None
+        or abs(angle.number - turns.number) < 1e-6
+        or not is_chinese(turns.text)
+    ):
+        return angle or turns
+    if angle.number >= 2 * math.pi or turns.number < 2 * math.pi:
+        raise Unclear("contradiction", f"{turns.text} {angle.text}")
+    return quantity("angle", turns.number + angle.number, f"{turns.text} {angle.text}")
+
+
 def _same_either_way(angle_rad: float) -> bool:
     half_turns = angle_rad / math.pi
     return half_turns >= 1 and abs(half_turns - round(half_turns)) < 1e-6
 
 
 def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
-    _all_used(frame, "heading" if frame.direction in DIAGONALS.values() else "drive")
+    bearing = "bearing" in frame.flags and "angle" in frame.q
+    _all_used(frame, "heading" if bearing or frame.direction in DIAGONALS.values() else "drive")
+    if bearing and frame.direction not in SIDES:
+        raise Unclear("which_side", frame.text)
     direction = frame.direction
     diagonal = "diagonal" in frame.flags
     if diagonal and direction not in DIAGONALS.values():
         raise Unclear("which_diagonal", frame.text)
+    if not direction and not frame.has_extent and any(text.endswith("到") for text in frame.texts):
+        raise Unclear("which_place", frame.text)
     if not direction:
         if frame.verb == "slide" or "sideways" in frame.flags:
             raise Unclear("which_side", frame.text)
@@ -265,6 +325,8 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
         raise Unclear("contradiction", frame.text)
     if not frame.has_extent and not frame.direction and frame.joined == "none":
         raise Unclear("which_way", frame.text)
+    if not frame.moves and set(frame.q) == {"time"} and state.last != "drive":
+        raise Unclear("unclear_motion", frame.text)
     ellipsis = "again" in frame.flags or ("more" in frame.flags and state.last == "drive")
     if not frame.moves and not frame.has_extent and not ellipsis:
         raise Unclear("unclear_motion", frame.text)
@@ -273,6 +335,8 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
     angle = DIRECTIONS[direction]
     if "angle" in frame.q and direction in DIAGONALS.values():
         angle = _heading_angle(direction, frame.q["angle"].number)
+    if bearing:
+        angle = math.copysign(frame.q["angle"].number, angle)
     speed = pace.speed(frame)
     length, seconds = frame.q.get("length"), frame.q.get("time")
     if length is None and "speed" in frame.q and frame.q["speed"].role and seconds is None:
@@ -289,6 +353,7 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if seconds is not None:
         return [Drive(duration_s=seconds.number, direction_rad=angle, speed_mps=speed)]
     distance = pace.profile.defaults.distance_m * (0.5 if "bit" in frame.flags else 1.0)
+    state.unsaid.append(frame)
     return [Drive(distance, direction_rad=angle, speed_mps=speed)]
 
 
@@ -322,6 +387,26 @@ def _clock(frame: Frame, pace: Pace) -> list[Step]:
     return [Turn(abs(angle), left=angle > 0, rate_radps=pace.rate(frame))]
 
 
+def _by_compass(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    """To a point of the compass, facing it; going backward, away from what it faces."""
+    heading = frame.q["heading"].number
+    plain = frame.copy()
+    del plain.q["heading"]
+    going = plain.has_extent or plain.verb in GO or plain.direction == "back"
+    backward = going and plain.direction == "back"
+    yaw = math.remainder(heading + (math.pi if backward else 0.0), 2 * math.pi)
+    face = Face(yaw, frame="start", rate_radps=pace.rate(plain) if not going else None)
+    if not going or {"angle", "turns"} & set(plain.q):
+        if {"angle", "turns", "length"} & set(plain.q):
+            raise Unclear("contradiction", frame.text)
+        return [face]
+    if plain.direction not in ("", "forward", "back") or "sideways" in plain.flags:
+        raise Unclear("contradiction", frame.text)
+    plain.verb = "go"
+    plain.direction = plain.direction or "forward"
+    return [face, *_drive(plain, state, pace)]
+
+
 def _face(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if ("original_heading" in frame.flags or "to_start" in frame.flags) and not frame.has_extent:
         if state.home is not None and not state.steps:
@@ -343,40 +428,10 @@ def _face(frame: Frame, state: State, pace: Pace) -> list[Step]:
     raise Unclear("which_side", frame.text)
 
 
-def _arc(frame: Frame, pace: Pace) -> list[Step]:
-    left = _left(frame)
-    if left is None:
-        raise Unclear("which_side", frame.text)
-    backward = frame.direction.startswith("back")
-    angle = frame.q.get("angle") or frame.q.get("turns")
-    length, seconds = frame.q.get("length"), frame.q.get("time")
-    speed, rate = frame.q.get("speed"), frame.q.get("rate")
-    if rate and (speed or "while" in frame.flags) and seconds:
-        signed = rate.number if left else -rate.number
-        forward = speed.number if speed else pace.speed(frame) or pace.profile.defaults.speed_mps
-        return [RawTwist(-forward if backward else forward, 0.0, signed, seconds.number)]
-    radius = None
-    if length is not None and ("radius" in frame.roles or "diameter" in frame.roles):
-        radius = length.number / (2 if "diameter" in frame.roles and "radius" not in frame.roles else 1)
-    elif length is not None and angle is not None:
-        radius = length.number / angle.number
-    elif length is not None:
-        radius = length.number / (math.pi / 2)
-    if radius is None and seconds is not None:
-        forward = pace.speed(frame) or pace.profile.defaults.speed_mps
-        turned = angle.number / seconds.number if angle else pace.profile.defaults.rate_radps
-        return [RawTwist(-forward if backward else forward, 0.0, turned if left else -turned, seconds.number)]
-    if radius is None:
-        radius = pace.profile.defaults.distance_m
-    sweep = angle.number if angle else math.pi / 2
-    said = pace.speed(frame)
-    if seconds is not None and said is None:
-        said = radius * sweep / seconds.number
-    return [Arc(radius, sweep, left=left, backward=backward, speed_mps=said)]
-
-
 def _return(frame: Frame, state: State, pace: Pace) -> list[Step]:
-    if set(frame.q) - {"speed", "percent", "fold"}:
+    if set(frame.q) & {"length", "time"} and state.last == "drive" and not frame.direction:
+        return _some_way_back(frame, state, pace)
+    if set(frame.q) - {"speed", "percent", "fold", "faster"}:
         raise Unclear("unclear_motion", frame.text)
     if frame.direction or (frame.has_extent and frame.verb != "return"):
         raise Unclear("unclear_motion", frame.text)
@@ -391,32 +446,23 @@ def _return(frame: Frame, state: State, pace: Pace) -> list[Step]:
     return [Go(0.0, 0.0, frame="start", speed_mps=speed)]
 
 
-def inverse(steps: list[Step], speed_mps: float | None = None) -> list[Step]:
-    """The same way back, backwards: the last step first, each undone.
+def _partly_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    """退回来二十厘米: against the last motion, by so much."""
+    if "length" in frame.q:
+        angle = DIRECTIONS[state.direction] if state.last == "drive" else 0.0
+        opposite = math.remainder(angle + math.pi, 2 * math.pi)
+        return [Drive(frame.q["length"].number, direction_rad=opposite, speed_mps=pace.speed(frame))]
+    if state.left is None or state.last != "turn":
+        raise Unclear("which_side", frame.text)
+    amount = frame.q.get("angle") or frame.q["turns"]
+    return [Turn(amount.number, left=not state.left, rate_radps=pace.rate(frame))]
 
-    Raises:
-        Unclear: for a step that cannot be undone step by step.
-    """
-    undone: list[Step] = []
-    for step in reversed(steps):
-        undone.extend(_undone(step, speed_mps))
-    return undone
 
-
-def _undone(step: Step, speed_mps: float | None) -> list[Step]:
-    from chatrobot.plan.steps import Remember, Repeat, Say
-
-    if isinstance(step, Drive) and step.until is None:
-        back = math.remainder(step.direction_rad + math.pi, 2 * math.pi)
-        return [Drive(step.distance_m, step.duration_s, back, speed_mps or step.speed_mps)]
-    if isinstance(step, Turn):
-        return [Turn(step.angle_rad, step.duration_s, not step.left, step.rate_radps)]
-    if isinstance(step, Arc):
-        return [Arc(step.radius_m, step.angle_rad, step.left, not step.backward, speed_mps or step.speed_mps)]
-    if isinstance(step, RawTwist):
-        return [RawTwist(-step.vx_mps, -step.vy_mps, -step.wz_radps, step.duration_s)]
-    if isinstance(step, Repeat):
-        return [Repeat(step.count, tuple(inverse(list(step.steps), speed_mps)))]
-    if isinstance(step, (Wait, Say, Remember)):
-        return []
-    raise Unclear("cannot_undo")
+def _some_way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    """`…, then come back 50 cm`: so much of the last drive, undone."""
+    opposite = math.remainder(DIRECTIONS[state.direction] + math.pi, 2 * math.pi)
+    names = [n for n, a in DIRECTIONS.items() if abs(math.remainder(a - opposite, 2 * math.pi)) < 1e-6]
+    back = frame.copy()
+    back.verb, back.direction = "go", names[0]
+    back.flags -= {"to_start", "again"}
+    return _drive(back, state, pace)

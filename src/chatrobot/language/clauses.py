@@ -13,7 +13,7 @@ from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 
 _STRENGTH = {"start": 0, "and": 1, "weak": 2, "colon": 3, "strong": 4, "then": 5}
-MANNER = frozenset({"speed", "rate", "percent", "fold"})
+MANNER = frozenset({"speed", "rate", "percent", "fold", "faster"})
 
 
 @dataclass
@@ -31,12 +31,13 @@ def read_frames(atoms: Sequence[Atom]) -> list[Frame]:
         Unclear: for a word that nothing accounts for.
     """
     frames: list[Frame] = []
-    for segment in _segments(atoms):
+    drawing = any(atom.kind == "shape" for atom in atoms)
+    for segment in _segments(atoms, drawing):
         _join(frames, segment)
     return frames
 
 
-def _segments(atoms: Sequence[Atom]) -> list[Segment]:
+def _segments(atoms: Sequence[Atom], drawing: bool) -> list[Segment]:
     segments: list[Segment] = []
     joined = "start"
     pending: list[Atom] = []
@@ -45,7 +46,7 @@ def _segments(atoms: Sequence[Atom]) -> list[Segment]:
         if separator is None:
             pending.append(atom)
             continue
-        frames = _split(pending)
+        frames = _split(pending, drawing)
         if frames:
             frames[0].joined = joined
             segments.append(Segment(joined, frames))
@@ -64,8 +65,10 @@ def _separator(atom: Atom) -> str | None:
     return None
 
 
-def _split(atoms: list[Atom]) -> list[Frame]:
+def _split(atoms: list[Atom], drawing: bool = False) -> list[Frame]:
     """The frames of a stretch without separators."""
+    bearing = [a for a in atoms if a.kind == "flag" and a.value == "bearing"]
+    atoms = [*bearing, *[a for a in atoms if a not in bearing]]
     curve = next((a for a in atoms if a.kind == "verb" and a.value == "curve"), None)
     if curve is not None and not any(a.kind == "shape" for a in atoms):
         atoms = [curve, *[a for a in atoms if a is not curve and a.value != "go"]]
@@ -76,6 +79,9 @@ def _split(atoms: list[Atom]) -> list[Frame]:
             continue
         if atom.kind not in SLOTTED:
             raise Unclear("unknown_part", _around(atoms, i))
+        if _repeats_all(atom, atoms[i + 1 :], current):
+            frames.append(current)
+            current = Frame(joined="weak")
         if not current.add(atom):
             if _is_bare_direction(current):
                 raise Unclear("contradiction", f"{current.text} {atom.text}".strip())
@@ -86,7 +92,8 @@ def _split(atoms: list[Atom]) -> list[Frame]:
                 and not current.has_extent
             ):
                 raise Unclear("length_for_turn", f"{current.text} {atom.text}")
-            if atom.kind == "q" and atom.value in current.q and atom.value in EXTENTS and not current.shape:
+            repeated = atom.kind == "q" and atom.value in current.q and atom.value in EXTENTS
+            if repeated and not (drawing or current.shape or current.roles):
                 raise Unclear("contradiction", f"{current.text} {atom.text}")
             frames.append(current)
             current = Frame(joined="none")
@@ -95,6 +102,13 @@ def _split(atoms: list[Atom]) -> list[Frame]:
     if not current.is_empty:
         frames.append(current)
     return frames
+
+
+def _repeats_all(atom: Atom, rest: list[Atom], current: Frame) -> bool:
+    """…左转九十度重复四遍: all that was said before, not the last part alone."""
+    again = atom.kind == "flag" and atom.value == "again" and atom.text.startswith(("重复", "反复"))
+    counted = bool(rest) and rest[0].kind == "q" and rest[0].value == "times"
+    return again and counted and len(rest) == 1 and current.moves and current.has_extent
 
 
 def _is_bare_direction(frame: Frame) -> bool:
@@ -129,9 +143,16 @@ def _join(frames: list[Frame], segment: Segment) -> None:
 
 
 def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
-    if joined == "then" or "between" in first.flags or "after_each" in first.flags or "all" in first.flags:
+    if "trip" in last.flags and "each" in first.flags and not first.verb:
         return None
-    if "again" in first.flags or is_times_only(first) or is_times_only(last) or last.flags & {"again", "all"}:
+    trip = "trip" in (*first.flags, *first.roles) and not first.has_extent
+    if trip and (last.verb == "return" or (last.direction and last.has_extent)):
+        return None
+    if joined == "then" or {"between", "halfway", "after_each", "all"} & first.flags:
+        return None
+    if "again" in first.flags or is_times_only(first) or is_times_only(last):
+        return None
+    if "all" in last.flags or ("again" in last.flags and not last.has_extent):
         return None
     if (
         {"between", "after_each"} & last.flags
@@ -141,13 +162,20 @@ def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
         and last.has_extent
     ):
         return None
+    if "number" in first.q and (last.has_extent or "number" in last.q) and not (last.shape or first.shape):
+        return None
     if "while" in first.flags and last.verb in GO and first.verb in TURN and not last.has_extent:
         last = last.copy()
         last.flags.add("while")
     together = "speed" in last.q and "rate" in first.q and not last.has_extent
-    if together and joined in ("and", "weak") and last.verb in GO and first.verb in TURN:
+    if together and joined in ("and", "weak") and last.verb in (*GO, "") and first.verb in (*TURN, ""):
         last = last.copy()
         last.flags.add("while")
+    if _says_how(last, first):
+        how = last.copy()
+        how.flags |= first.flags | {"sideways"}
+        how.texts += first.texts
+        return how
     both = merged(last, first)
     if both is None:
         return None
@@ -156,11 +184,19 @@ def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
     return both if _belongs(last, first) else None
 
 
+def _says_how(last: Frame, first: Frame) -> bool:
+    """`half a metre to the right, sliding`: the manner of what stands before it."""
+    bare = not (first.q or first.direction or first.rot or first.shape or first.place)
+    sideways = last.direction not in ("", "forward", "back") and "length" in last.q
+    return bare and first.verb == "slide" and first.text.endswith("ing") and sideways
+
+
 def is_times_only(frame: Frame) -> bool:
     """`four times`, and nothing that moves."""
     bare = frame.verb in ("", "make", "go", "turn", "shift", "slide")
-    way = frame.direction or frame.rot or frame.shape or frame.place
-    return "times" in frame.q and bare and not way and not frame.has_extent
+    way = frame.direction or frame.rot or frame.shape or frame.place or "trip" in (*frame.flags, *frame.roles)
+    counted = "times" in frame.q or ("count" in frame.q and frame.q["count"].role == "move")
+    return counted and bare and not way and not frame.has_extent
 
 
 def _is_fragment(frame: Frame) -> bool:
@@ -183,6 +219,8 @@ def _belongs(last: Frame, first: Frame) -> bool:
     """Across a comma or an `and`."""
     if "count" in last.q and "length" in first.q and "each" not in first.flags and not last.shape:
         return False
+    if last.shape and _is_laps(first):
+        return True
     if last.shape or first.shape:
         return not (last.shape and first.verb in (*GO, *TURN, *STILL, "return") and first.has_extent)
     if first.joined == "and" and last.verb in STILL and first.moves:
@@ -214,6 +252,12 @@ def _belongs(last: Frame, first: Frame) -> bool:
     if first.direction and first.has_extent:
         return not last.has_extent and not last.direction
     return True
+
+
+def _is_laps(frame: Frame) -> bool:
+    """…的圆，走两圈: how often the shape is gone round."""
+    bare = not (frame.direction or frame.rot or frame.shape) and frame.verb in ("", "make", *GO)
+    return set(frame.q) == {"turns"} and bare
 
 
 def _adds_time(last: Frame, first: Frame) -> bool:

@@ -52,6 +52,10 @@ def with_defined_units(atoms: Sequence[Atom]) -> list[Atom]:
         start = i - 1 if i and atoms[i - 1].kind == "num" else i
         rest = [*atoms[:start], *atoms[end + 1 :]]
         if any(a.kind == "q" and a.value == "count" and a.role == role for a in rest):
+            if any(a.kind == "flag" and a.value in ("each", "between", "after_each") for a in rest):
+                unit = quantity("length", atoms[end].number, atoms[end].text, "1.0")
+                at = next(k for k, a in enumerate(rest) if a.kind == "q" and a.role == role)
+                return [*rest[: at + 1], unit, *rest[at + 1 :]]
             return [_measured(a, role, atoms[end].number) for a in rest]
     return list(atoms)
 

@@ -12,13 +12,43 @@ _HARMLESS = ("filler", "glue", "unknown", "num", "reason", "unit_times", "flag",
 _MOTION = ("q", "verb", "dir", "rot", "shape", "pace", "role", "number")
 
 
+_HALVES = ("一半", "half")
+
+
 def tidy(atoms: Sequence[Atom]) -> list[Atom]:
     """The atoms as the clause reader wants them."""
     settled = [_settled(atoms, i) for i in range(len(atoms))]
     if any(atom.kind == "shape" for atom in settled):
         settled = [_times_sign(settled, i) for i in range(len(settled))]
+    else:
+        settled = _radii(settled)
     settled = _pauses(settled)
     return _headings(_fractions_of(_relative_speeds(settled)))
+
+
+def _radii(atoms: Sequence[Atom]) -> list[Atom]:
+    """`a 1.5 m radius`, `radius of 1.5 m`, `3 m in diameter`: a quantity of its own beside the length of an arc."""
+    out = list(atoms)
+    for i, atom in enumerate(atoms):
+        if atom.kind != "role" or atom.value not in ("radius", "diameter"):
+            continue
+        after, before = _next_real(out, i + 1), i - 1
+        while before > 0 and out[before].kind == "glue":
+            before -= 1
+        at = next((j for j in _binding(atoms, i, before, after) if is_kind(out, j, "q", "length")), None)
+        if at is None:
+            continue
+        size = out[at].number / (2.0 if atom.value == "diameter" else 1.0)
+        out[at] = quantity("radius", size, f"{out[at].text} {atom.text}")
+        out[i] = Atom("glue", "x", atom.text)
+    return out
+
+
+def _binding(atoms: Sequence[Atom], i: int, before: int, after: int) -> tuple[int, ...]:
+    """Where the amount of the role at `i` stands: before it, unless `of`, `is` or `with` say it follows."""
+    of = after > i + 1 or (i > 0 and atoms[i - 1].text in ("with", "the", "a", "its", "of"))
+    apart = before >= 0 and atoms[before].kind != "q"
+    return (after, before) if of or apart else (before, after)
 
 
 def _times_sign(atoms: Sequence[Atom], i: int) -> Atom:
@@ -83,8 +113,17 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
         and is_kind(atoms, _next_real(atoms, i + 1), "q", "time")
     ):
         return Atom("verb", "wait", atom.text)
+    if atom.kind == "unit_length" and atom.text == "inch" and is_kind(atoms, i + 1, "dir"):
+        return Atom("verb", "shift", atom.text)
     if atom.kind == "second":
         return Atom("conn", "then", atom.text)
+    if atom.kind == "letter" and atom.text == "r" and is_kind(atoms, _next_real(atoms, i + 1), "q", "length"):
+        return Atom("role", "radius", atom.text)  # r = 0.5 m
+    if atom.kind == "letter":
+        beside = is_kind(atoms, i + 1, "q") or (
+            is_kind(atoms, i - 1, "q") and not is_kind(atoms, i + 1, "unknown")
+        )
+        return Atom("dir" if beside else "unknown", atom.value if beside else atom.text, atom.text)
     if atom.kind == "counter":
         if atom.text in ("step", "pace", "steps"):
             return (
@@ -98,7 +137,17 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
     if atom.kind == "per" or (atom.kind == "unit_times" and atom.text in ("time", "次", "下来")):
         return Atom("glue", "x", atom.text)
     if atom.kind == "unit_turn":
+        if is_kind(atoms, i + 1, "role"):
+            return Atom("glue", "x", atom.text)  # 每个圈半径三十厘米
         return Atom("verb", "turn", atom.text)
+    if atom.kind == "unit_percent" and atom.text == "成":
+        return Atom("glue", "x", atom.text)
+    if atom.kind == "glue" and atom.text == "左右" and not (i and atoms[i - 1].kind == "q"):
+        return Atom("unknown", atom.text, atom.text)
+    if atom.kind == "unit_angle" and atom.text == "弧":
+        return Atom("verb", "curve", atom.text)
+    if atom.kind == "unit_angle" and atom.text.lstrip("个") in ("直角", "直角弯", "平角"):
+        return quantity("angle", float(atom.value), atom.text)
     return atom
 
 
@@ -128,6 +177,20 @@ def _relative_speeds(atoms: Sequence[Atom]) -> list[Atom]:
             i = j + 1
         elif is_kind(atoms, i, "q", "times") and is_kind(atoms, j, "pace", "default"):
             out.append(quantity("fold", atom.number, atom.text))
+            i = j + 1
+        elif is_kind(atoms, i, "pace", "default") and is_kind(atoms, j, "pace", "half_max"):
+            out.append(quantity("fold", 0.5, f"{atom.text} {atoms[j].text}"))
+            i = j + 1
+        elif fraction and atom.number < 1 and is_kind(atoms, j, "pace", "default"):
+            out.append(quantity("fold", atom.number, f"{atom.text} {atoms[j].text}"))
+            i = j + 1
+        elif (
+            is_kind(atoms, i, "pace", "default")
+            and is_kind(atoms, j, "q")
+            and atoms[j].value in ("number", "percent", "speed")
+            and atoms[j].text in _HALVES
+        ):
+            out.append(quantity("fold", 0.5, f"{atom.text} {atoms[j].text}"))
             i = j + 1
         else:
             out.append(atom)

@@ -23,6 +23,17 @@ _ROS_CLI = re.compile(
     r"ros2 topic pub|rostopic pub|--once|--rate \d+|-r \d+|-1\b|/?cmd_vel\b|geometry_msgs(?:/msg)?(?:/twist)?"
 )
 _AXES = ("vx", "vy", "wz")
+_NAMES = {
+    "vx": "vx", "vy": "vy", "wz": "wz", "x": "vx", "y": "vy", "theta": "wz", "yaw": "wz", "v": "vx", "w": "wz",
+    "omega": "wz", "phi": "wz", "psi": "wz", "z": "wz",
+}  # fmt: skip
+_LIST = rf"{_NUMBER}(?: ?, ?{_NUMBER})*"
+_TUPLE = re.compile(
+    rf"[(\[]((?:vx|vy|wz|v|w|omega)(?: ?, ?(?:vx|vy|wz|v|w|omega))+)[)\]] ?(?:=|:|to|is) ?[(\[] ?({_LIST}) ?[)\]]"
+)
+_CALL = re.compile(rf"\b(linear|angular) ?[=:] ?(?:vector3)? ?[(\[] ?({_LIST}) ?[)\]]")
+_DOT = re.compile(r"\b(x|y|theta|yaw|phi|psi)[ -]?dot\b ?(?:is|=|of|equals)? ?")
+_LETTERS = re.compile(rf"\bv ?= ?{_NUMBER}.*\bw ?= ?{_NUMBER}|\bw ?= ?{_NUMBER}.*\bv ?= ?{_NUMBER}")
 
 
 def read_twist(text: str) -> RawTwist | None:
@@ -34,13 +45,33 @@ def read_twist(text: str) -> RawTwist | None:
     if "\n" not in text.strip() and _LINE.fullmatch(text):
         found = [(f"{g}.{axis}", value) for g, axis, value in re.findall(_ASSIGNMENT, text)]
         return _twist({name: float(value) for name, value in found}, 1.0)
-    text = _ROS_CLI.sub(" ", text)
+    text = _ROS_CLI.sub(" ", _plainer(text))
     blocks = _BLOCK.findall(text)
     if blocks:
         return _blocks(text, blocks)
     if not any(mark in text for mark in _marks()):
         return None
     return _spoken(text)
+
+
+def _plainer(text: str) -> str:
+    """Other notations in that of the blocks and the spoken form: tuples, single letters, dots for derivatives."""
+    tuple_form = _TUPLE.search(text)
+    if tuple_form:
+        names = [_NAMES[name] for name in re.findall(r"[a-z]+", tuple_form[1])]
+        values = re.findall(_NUMBER, tuple_form[2])
+        if len(names) == len(values):
+            said = " ".join(f"{name} {value}" for name, value in zip(names, values))
+            return f"{text[: tuple_form.start()]} {said} {text[tuple_form.end() :]}"
+    text = _CALL.sub(
+        lambda m: f"{m[1]}: {{{', '.join(f'{a}: {v}' for a, v in zip('xyz', re.findall(_NUMBER, m[2])))}}}",
+        text,
+    )
+    text = re.sub(r"\btwist ?\((.*)\)", r"\1", text)
+    text = _DOT.sub(lambda m: _NAMES[m[1]] + " ", text)
+    if _LETTERS.search(text):
+        text = re.sub(r"\bt ?= ?", "for ", re.sub(r"\bw ?= ?", "wz ", re.sub(r"\bv ?= ?", "vx ", text)))
+    return text
 
 
 def _twist(values: dict[str, float], seconds: float) -> RawTwist:
@@ -96,7 +127,7 @@ def _marks() -> frozenset[str]:
     return frozenset({
         "linear", "angular", "vx", "vy", "wz", "cmd_vel", "twist", " in x", " in y", "yaw rate", "yawrate",
         "x velocity", "y velocity", "omega", "x方向", "线速度", "角速度", "x 方向", "转速", "y方向",
-        "y 方向", "x=", "vth",
+        "y 方向", "x=", "vth", "w=", "w =", "ω",
     })  # fmt: skip
 
 

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
+from chatrobot.core.wiring import Wiring as Wiring
+
 Kinematics = Literal["differential", "mecanum", "ackermann"]
 Point = tuple[float, float]
 
@@ -74,28 +76,6 @@ class Safety:
     requires: tuple[Literal["odom", "scan", "imu"], ...] = ()
     blind_speed_mps: float = 0.1
     battery_low_percent: float | None = None
-
-
-@dataclass(frozen=True)
-class Wiring:
-    """Topics, types and habits of the base. Nothing here bounds a motion.
-
-    Topics are ROS names, None where the robot has no such sensor. Their types: imu sensor_msgs/Imu, scan
-    sensor_msgs/LaserScan, bumper std_msgs/Bool, battery sensor_msgs/BatteryState, camera sensor_msgs/Image;
-    odometry as `odom_type` says. `base_timeout_s` is how long the base holds its last command; None means
-    for ever.
-    """
-
-    cmd_vel_topic: str = "cmd_vel"
-    cmd_vel_type: Literal["Twist", "TwistStamped"] = "Twist"
-    odom_topic: str = "odom"
-    odom_type: Literal["Odometry", "turtlesim/Pose"] = "Odometry"
-    imu_topic: str | None = None
-    scan_topic: str | None = None
-    bumper_topic: str | None = None
-    battery_topic: str | None = None
-    camera_topic: str | None = None
-    base_timeout_s: float | None = None
 
 
 @dataclass(frozen=True)

@@ -35,11 +35,11 @@ class GuardProcess:
     """A guard in a process and session of its own.
 
     Args:
-        wire_path: the local wire's socket.
+        wire_address: the robot's wire (`chatrobot.wire.connect`).
         wiring: names the topics it halts and watches.
     """
 
-    def __init__(self, wire_path: str, wiring: Wiring, clock: Clock) -> None:
+    def __init__(self, wire_address: str, wiring: Wiring, clock: Clock) -> None:
         self._clock = clock
         self._echo_at_s = float("-inf")
         self._tripped = False
@@ -47,8 +47,9 @@ class GuardProcess:
         ours.setblocking(False)
         self._line = ours
         command = [
-            *(sys.executable, "-m", "chatrobot.guard", "--wire", wire_path),
-            *("--topic", wiring.cmd_vel_topic, "--odom", wiring.odom_topic, "--fd", str(theirs.fileno())),
+            *(sys.executable, "-m", "chatrobot.guard", "--wire", wire_address),
+            *("--topic", wiring.cmd_vel_topic, "--type", wiring.cmd_vel_type),
+            *("--odom", wiring.odom_topic, "--odom-type", wiring.odom_type, "--fd", str(theirs.fileno())),
         ]
         self.process = subprocess.Popen(
             command,

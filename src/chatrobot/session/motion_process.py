@@ -22,6 +22,7 @@ from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Telemetry
 from chatrobot.core.reason import Reason
+from chatrobot.core.wiring import Wiring
 from chatrobot.governor.governor import TICK_S
 from chatrobot.robots.load import load_profile
 from chatrobot.session.envelope import READY, Envelope
@@ -29,9 +30,11 @@ from chatrobot.session.guard_link import GuardProcess
 from chatrobot.session.motion import Motion
 from chatrobot.session.planner import Planner
 from chatrobot.sim.load import load_world
-from chatrobot.wire.local import PACKET_BYTES, LocalWire
-from chatrobot.wire.messages import Text
+from chatrobot.wire.connect import advertise, connect_wire
+from chatrobot.wire.local import PACKET_BYTES
+from chatrobot.wire.messages import Text, TwistMessage
 from chatrobot.wire.runtime_dir import stop_socket_path
+from chatrobot.wire.wire import Wire
 
 OUTBOX_LIMIT = 200
 CONNECT_S = 20.0
@@ -70,7 +73,7 @@ class MotionProcess:
         clock = RealClock()
         profile = load_profile(options["--profile"])
         world = load_world(options["--world"])
-        self._wire = _connect(options["--wire"])
+        self._wire = _connect(options["--wire"], profile.wiring)
         self._guard = GuardProcess(options["--wire"], profile.wiring, clock)
         self._wake = threading.Event()
         self._plans: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
@@ -158,16 +161,19 @@ class MotionProcess:
                 self._wake.set()
 
 
-def _connect(path: str) -> LocalWire:
+def _connect(address: str, wiring: Wiring) -> Wire:
     """The robot's wire; it may still be starting."""
     deadline_s = time.monotonic() + CONNECT_S
     while True:
         try:
-            return LocalWire(path)
+            wire = connect_wire(address, wiring, "chatrobot_motion")
         except WireError:
             if time.monotonic() > deadline_s:
                 raise
             time.sleep(0.01)
+        else:
+            advertise(wire, wiring.cmd_vel_topic, TwistMessage)
+            return wire
 
 
 def main(arguments: list[str]) -> int:

@@ -8,12 +8,15 @@ import sys
 from collections.abc import Sequence
 
 from chatrobot.core.clock import RealClock
-from chatrobot.core.errors import ChatRobotError, InputError
+from chatrobot.core.errors import ChatRobotError, InputError, UsageError
+from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.control import SimControl
 from chatrobot.sim.lies import SimLies
 from chatrobot.sim.load import load_world
+from chatrobot.sim.marshalled import MarshalledWire
 from chatrobot.sim.robot import SimRobot
 from chatrobot.sim.server import SimServer
+from chatrobot.sim.tf import FieldsPublisher, TransformPublisher
 from chatrobot.wire.local import LocalHub
 from chatrobot.wire.messages import TwistMessage
 
@@ -37,7 +40,12 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--profile", required=True, help="a robot profile, by name or path")
     parser.add_argument("--world", default="home", help="empty, home or a world file")
     parser.add_argument("--sim", default="", metavar="KEY=VALUE,…", help="how it lies: slip=0.03,noise=on,…")
-    parser.add_argument("--socket", required=True, help="where its wire is served")
+    parser.add_argument(
+        "--on",
+        default="local",
+        help="local (the default), dds, dds://DOMAIN/NAMESPACE or rosbridge:ws://HOST:9090",
+    )
+    parser.add_argument("--socket", default="", help="where its wire is served; with --on local alone")
     parser.add_argument("--ready-fd", type=int, default=1, help="where it writes `ready` once it listens")
     return parser
 
@@ -49,7 +57,7 @@ def _serve(options: argparse.Namespace) -> None:
     lies = SimLies.parse(options.sim)
     world = load_world(options.world)
     clock = RealClock()
-    hub = LocalHub(options.socket)
+    hub = _open_wire(options, profile)
     server: SimServer | None = None
 
     def bring_to_the_present(_: TwistMessage) -> None:
@@ -65,6 +73,24 @@ def _serve(options: argparse.Namespace) -> None:
     if options.ready_fd > 2:
         os.close(options.ready_fd)
     server.run()
+
+
+def _open_wire(options: argparse.Namespace, profile: RobotProfile) -> LocalHub | MarshalledWire:
+    if options.on == "local":
+        if not options.socket:
+            raise UsageError("a simulated robot on a local wire needs --socket", where="--socket")
+        return LocalHub(options.socket)
+    address = "dds:" if options.on == "dds" else options.on
+    if not address.startswith(("dds:", "rosbridge:")):
+        raise UsageError(
+            f"{options.on!r} is no wire", where="--on", allowed="local, dds or rosbridge:ws://host:9090"
+        )
+    from chatrobot.wire.connect import connect_wire
+
+    wire = connect_wire(address, profile.wiring, "chatrobot_sim")
+    if isinstance(wire, FieldsPublisher):
+        return MarshalledWire(wire, TransformPublisher(wire, profile).after)
+    return MarshalledWire(wire)
 
 
 if __name__ == "__main__":

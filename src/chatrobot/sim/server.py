@@ -1,10 +1,11 @@
-"""The simulated robot in real time, on a local wire whose hub it runs."""
+"""The simulated robot in real time, on a local wire whose hub it runs, or as a citizen of any other wire."""
 
 from __future__ import annotations
 
 import math
 import signal
 from types import FrameType
+from typing import Protocol
 
 from chatrobot.core.clock import Clock
 from chatrobot.sim.robot import TICK_S, SimRobot
@@ -19,10 +20,19 @@ GAP_S = 0.5
 one was a busy machine: physics catches up."""
 
 
-class SimServer:
-    """Lets a simulated robot live in real time as long as somebody is there."""
+class Polled(Protocol):
+    """An end of a wire that delivers when it is polled."""
 
-    def __init__(self, robot: SimRobot, hub: LocalHub, clock: Clock) -> None:
+    def poll(self, timeout_s: float) -> None: ...
+
+    def close(self) -> None: ...
+
+
+class SimServer:
+    """Lets a simulated robot live in real time: on a hub as long as somebody is there, on another wire until it is
+    told to end, by Ctrl-C too."""
+
+    def __init__(self, robot: SimRobot, hub: Polled, clock: Clock) -> None:
         self._robot = robot
         self._hub = hub
         self._clock = clock
@@ -41,11 +51,15 @@ class SimServer:
     def run(self) -> None:
         """Until everybody has left, nobody came or SIGTERM; the hub is closed then.
 
-        A terminal's signals are for whoever talks to a person: the robot goes on, as a real one would.
+        A terminal's signals are for whoever talks to a person: the robot goes on, as a real one would. Only where
+        nobody has to be there, it is a person who ends it.
         """
         for ignored in (signal.SIGINT, signal.SIGTSTP, signal.SIGHUP):
             signal.signal(ignored, signal.SIG_IGN)
-        signal.signal(signal.SIGTERM, self._on_terminate)
+        for ending in (
+            (signal.SIGTERM,) if self._serves_clients else (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
+        ):
+            signal.signal(ending, self._on_terminate)
         try:
             while not self._terminated and not self._deserted():
                 self.catch_up()
@@ -57,8 +71,14 @@ class SimServer:
         elapsed_s = self._clock.now_s() - self._robot.start_s
         return (math.floor(elapsed_s / TICK_S) + 1) * TICK_S - elapsed_s
 
+    @property
+    def _serves_clients(self) -> bool:
+        return isinstance(self._hub, LocalHub)
+
     def _deserted(self) -> bool:
         now_s = self._clock.now_s()
+        if not isinstance(self._hub, LocalHub):
+            return False
         if self._hub.client_count:
             self._alone_since_s = now_s
             return False

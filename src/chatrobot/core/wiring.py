@@ -1,0 +1,28 @@
+"""How a robot is wired: plain data, for who reads profiles and who carries messages."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+
+@dataclass(frozen=True)
+class Wiring:
+    """Topics, types and habits of the base. Nothing here bounds a motion.
+
+    Topics are ROS names, None where the robot has no such sensor. Their types: imu sensor_msgs/Imu, scan
+    sensor_msgs/LaserScan, bumper std_msgs/Bool, battery sensor_msgs/BatteryState, camera sensor_msgs/Image;
+    odometry as `odom_type` says. `base_timeout_s` is how long the base holds its last command; None means
+    for ever.
+    """
+
+    cmd_vel_topic: str = "cmd_vel"
+    cmd_vel_type: Literal["Twist", "TwistStamped"] = "Twist"
+    odom_topic: str = "odom"
+    odom_type: Literal["Odometry", "turtlesim/Pose"] = "Odometry"
+    imu_topic: str | None = None
+    scan_topic: str | None = None
+    bumper_topic: str | None = None
+    battery_topic: str | None = None
+    camera_topic: str | None = None
+    base_timeout_s: float | None = None

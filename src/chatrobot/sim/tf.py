@@ -1,0 +1,48 @@
+"""The simulated robot's transforms for RViz and Nav2 (REP-105): `odom` → `base_link` → `laser`, on `/tf`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Protocol, runtime_checkable
+
+from chatrobot.robots.profile import RobotProfile
+from chatrobot.wire.messages import Message, Odometry
+from chatrobot.wire.ros_messages import BASE_FRAME, LASER_FRAME, ODOM_FRAME, transform
+from chatrobot.wire.stamps import to_wall_s
+from chatrobot.wire.wire import Wire
+
+TF_TOPIC = "/tf"
+TF_TYPE = "tf2_msgs/msg/TFMessage"
+_EVERY = 2
+"""Of 100 odometry messages a second, every second one: RViz draws no faster."""
+
+
+@runtime_checkable
+class FieldsPublisher(Wire, Protocol):
+    """A wire that also carries ROS messages that have no planar form."""
+
+    def publish_fields(self, topic: str, type_name: str, fields: Mapping[str, Any]) -> None: ...
+
+
+class TransformPublisher:
+    """Says with the odometry where the frames are."""
+
+    def __init__(self, wire: FieldsPublisher, profile: RobotProfile) -> None:
+        self._wire = wire
+        self._odom_topic = profile.wiring.odom_topic
+        self._lidar = profile.lidar
+        self._count = 0
+
+    def after(self, topic: str, message: Message) -> None:
+        """To be called after each message the robot has published."""
+        if topic != self._odom_topic or not isinstance(message, Odometry):
+            return
+        self._count += 1
+        if self._count % _EVERY:
+            return
+        at_s = to_wall_s(message.stamp_s)
+        transforms = [transform(ODOM_FRAME, BASE_FRAME, at_s, message.x_m, message.y_m, message.yaw_rad)]
+        if self._lidar is not None:
+            mount = self._lidar
+            transforms.append(transform(BASE_FRAME, LASER_FRAME, at_s, mount.x_m, mount.y_m, mount.yaw_rad))
+        self._wire.publish_fields(TF_TOPIC, TF_TYPE, {"transforms": transforms})

@@ -1,0 +1,130 @@
+"""Who is on the domain, and how we appear to the others (`ros2 node list`, `ros2 topic info`)."""
+
+from __future__ import annotations
+
+import os
+import uuid
+from collections.abc import Iterable
+from typing import Any
+
+from cyclonedds.builtin import (
+    BuiltinDataReader,
+    BuiltinTopicDcpsParticipant,
+    BuiltinTopicDcpsPublication,
+)
+from cyclonedds.core import Policy, Qos
+from cyclonedds.domain import DomainParticipant
+from cyclonedds.internal import InvalidSample
+from cyclonedds.pub import DataWriter
+from cyclonedds.sub import DataReader
+from cyclonedds.topic import Topic
+
+from chatrobot.wire.dds.ros_types import MALFORMED, RosTypes
+
+_INFO_TOPIC = "ros_discovery_info"
+_INFO_TYPE = "rmw_dds_common/msg/ParticipantEntitiesInfo"
+_INFO_QOS = (Policy.Reliability.Reliable(0), Policy.Durability.TransientLocal)
+_MANY = 1000
+_OWN_ID = "CHATROBOT_ID"
+
+
+def own_id() -> str:
+    """What marks the processes of one session as ours: made once, inherited by the processes we start."""
+    return os.environ.setdefault(_OWN_ID, uuid.uuid4().hex)
+
+
+def participant_qos() -> Qos:
+    """How a participant of ours introduces itself."""
+    return Qos(Policy.Userdata(f"enclave=/;chatrobot={own_id()};".encode()))
+
+
+class Graph:
+    """The participants and endpoints seen from one participant of ours.
+
+    Args:
+        name: our node's name.
+        namespace: our node's namespace, `/` or `/robot1`.
+    """
+
+    def __init__(self, participant: DomainParticipant, types: RosTypes, name: str, namespace: str) -> None:
+        self._types = types
+        self._name, self._namespace = name, namespace
+        self._guid = participant.get_guid()
+        topic = Topic(participant, _INFO_TOPIC, types.topic_type(_INFO_TYPE))
+        self._writer = DataWriter(participant, topic, Qos(*_INFO_QOS, Policy.History.KeepLast(1)))
+        self._infos = DataReader(participant, topic, Qos(*_INFO_QOS, Policy.History.KeepAll))
+        self._nodes: dict[uuid.UUID, str] = {}
+        self._participants = BuiltinDataReader(participant, BuiltinTopicDcpsParticipant)
+        self._publications = BuiltinDataReader(participant, BuiltinTopicDcpsPublication)
+
+    def announce(self, readers: Iterable[uuid.UUID], writers: Iterable[uuid.UUID]) -> None:
+        """Say which endpoints are our node's; ROS lists a node once it has heard this."""
+        node = {
+            "node_namespace": self._namespace,
+            "node_name": self._name,
+            "reader_gid_seq": [self._gid(guid) for guid in readers],
+            "writer_gid_seq": [self._gid(guid) for guid in writers],
+        }
+        fields = {"gid": self._gid(self._guid), "node_entities_info_seq": [node]}
+        self._writer.write(self._types.sample(_INFO_TYPE, fields))
+
+    def publishers_of(self, dds_topic: str) -> list[str]:
+        """Who else publishes there, sorted: node names where they tell them, otherwise process and host.
+
+        Processes of the same session as this one (`own_id`) are left out.
+        """
+        strangers = self._strangers()
+        nodes = self._hear_nodes()
+        return sorted(
+            {
+                nodes.get(publication.key) or strangers[publication.participant_key]
+                for publication in _alive(self._publications)
+                if publication.topic_name == dds_topic and publication.participant_key in strangers
+            }
+        )
+
+    def _strangers(self) -> dict[uuid.UUID, str]:
+        """The participants that are not of our session: GUID and process."""
+        return {
+            participant.key: _process(participant.qos)
+            for participant in _alive(self._participants)
+            if _userdata(participant.qos).get("chatrobot") != own_id()
+        }
+
+    def _hear_nodes(self) -> dict[uuid.UUID, str]:
+        """Node names by the GUID of their writers, as far as they have told."""
+        for sample in self._infos.take(_MANY):
+            if isinstance(sample, InvalidSample):
+                continue
+            try:
+                info = self._types.read(_INFO_TYPE, sample.cdr)
+                for node in info.node_entities_info_seq:
+                    full_name = f"{node.node_namespace.rstrip('/')}/{node.node_name}"
+                    for gid in node.writer_gid_seq:
+                        self._nodes[uuid.UUID(bytes=bytes(gid.data)[:16])] = full_name
+            except MALFORMED:
+                continue  # another distribution's length of GIDs
+        return self._nodes
+
+    def _gid(self, guid: uuid.UUID) -> dict[str, Any]:
+        length = len(self._types.message("rmw_dds_common/msg/Gid", {}).data)
+        return {"data": list(guid.bytes.ljust(length, b"\0"))}
+
+
+def _alive(reader: Any) -> list[Any]:
+    return [sample for sample in reader.read(_MANY) if sample.sample_info.valid_data]
+
+
+def _userdata(qos: Qos) -> dict[str, str]:
+    """The pairs of `key=value;` that ROS and we put there."""
+    userdata = next((policy.data for policy in qos if isinstance(policy, Policy.Userdata)), b"")
+    text = bytes(userdata).decode(errors="replace")
+    return dict(pair.split("=", 1) for pair in text.split(";") if "=" in pair)
+
+
+def _process(qos: Qos) -> str:
+    """What a participant tells of its process; Cyclone and Fast DDS have keys of their own."""
+    told = {policy.key: policy.value for policy in qos if isinstance(policy, Policy.Property)}
+    name = told.get("__ProcessName") or told.get("fastdds.physical_data.process") or "a process"
+    host = told.get("__Hostname") or told.get("fastdds.physical_data.host", "")
+    return f"{name} {told.get('__Pid', '')}".strip() + (f" on {host}" if host else "")

@@ -1,0 +1,212 @@
+"""The planar messages as ROS 2 messages and back, apart from how any backend writes them down.
+
+Towards ROS a message becomes nested dictionaries with the fields that matter; what is left out is zero. From ROS
+it is read by attribute, whatever library made the object. Frames are REP-105's: `odom`, `base_link`, and `laser`
+for the lidar. Stamps pass through as they are: the backend knows the clocks.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeVar
+
+from chatrobot.core.wiring import Wiring
+from chatrobot.wire.messages import Flag, Imu, LaserScan, Message, Number, Odometry, Text, TwistMessage
+
+ODOM_FRAME, BASE_FRAME, LASER_FRAME = "odom", "base_link", "laser"
+
+T = TypeVar("T")
+_STAMPED = (Odometry, Imu, LaserScan)
+
+
+class RosForm(NamedTuple):
+    """How one planar message travels in ROS.
+
+    `type_name` is `package/msg/Name`. `to_ros` gives nested dictionaries; `from_ros` reads an object's attributes
+    and gives None where nothing was measured; it raises AttributeError, TypeError or ValueError for an object of
+    another shape.
+    """
+
+    type_name: str
+    to_ros: Callable[[Any], dict[str, Any]]
+    from_ros: Callable[[Any], Message | None]
+
+
+def ros_form(topic: str, kind: type[Any], wiring: Wiring) -> RosForm:
+    """What `kind` is on `topic` of a robot wired like this."""
+    if kind is TwistMessage and topic == wiring.cmd_vel_topic and wiring.cmd_vel_type == "TwistStamped":
+        return _TWIST_STAMPED
+    if kind is Odometry and topic == wiring.odom_topic and wiring.odom_type == "turtlesim/Pose":
+        return _TURTLE_POSE
+    if kind is Number and topic == wiring.battery_topic:
+        return _BATTERY
+    return _PLAIN[kind]
+
+
+def is_sensor(topic: str, kind: type[Any], wiring: Wiring) -> bool:
+    """Whether robots may publish this with ROS's sensor QoS (best effort)."""
+    sensors = (
+        wiring.odom_topic,
+        wiring.imu_topic,
+        wiring.scan_topic,
+        wiring.bumper_topic,
+        wiring.battery_topic,
+    )
+    return kind in _STAMPED or topic in sensors
+
+
+def stamped(message: Message) -> Odometry | Imu | LaserScan | None:
+    """The message itself if it carries a stamp."""
+    return message if isinstance(message, _STAMPED) else None
+
+
+def transform(
+    parent: str, child: str, stamp_s: float, x_m: float, y_m: float, yaw_rad: float
+) -> dict[str, Any]:
+    """geometry_msgs/TransformStamped: where `child` is in `parent`."""
+    return {
+        "header": _header(stamp_s, parent),
+        "child_frame_id": child,
+        "transform": {"translation": {"x": x_m, "y": y_m}, "rotation": _quaternion(yaw_rad)},
+    }
+
+
+def _header(stamp_s: float, frame: str) -> dict[str, Any]:
+    sec = math.floor(stamp_s)
+    return {"stamp": {"sec": sec, "nanosec": int((stamp_s - sec) * 1e9)}, "frame_id": frame}
+
+
+def _stamp_s(message: Any) -> float:
+    stamp = message.header.stamp
+    return float(stamp.sec) + float(stamp.nanosec) * 1e-9
+
+
+def _quaternion(yaw_rad: float) -> dict[str, float]:
+    return {"x": 0.0, "y": 0.0, "z": math.sin(yaw_rad / 2.0), "w": math.cos(yaw_rad / 2.0)}
+
+
+def _yaw_rad(q: Any) -> float:
+    """The heading of a quaternion, whatever its roll and pitch (an unset one, all zeros, looks along x)."""
+    return math.atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z))
+
+
+def _twist_to(message: TwistMessage | Odometry) -> dict[str, Any]:
+    return {"linear": {"x": message.vx_mps, "y": message.vy_mps}, "angular": {"z": message.wz_radps}}
+
+
+def _twist_from(twist: Any) -> TwistMessage:
+    return TwistMessage(float(twist.linear.x), float(twist.linear.y), float(twist.angular.z))
+
+
+def _twist_stamped_to(message: TwistMessage) -> dict[str, Any]:
+    # A zero stamp is "the newest" to every base: one that compares clocks must not refuse a stop.
+    return {"header": _header(0.0, BASE_FRAME), "twist": _twist_to(message)}
+
+
+def _odometry_to(message: Odometry) -> dict[str, Any]:
+    pose = {"position": {"x": message.x_m, "y": message.y_m}, "orientation": _quaternion(message.yaw_rad)}
+    return {
+        "header": _header(message.stamp_s, ODOM_FRAME),
+        "child_frame_id": BASE_FRAME,
+        "pose": {"pose": pose},
+        "twist": {"twist": _twist_to(message)},
+    }
+
+
+def _odometry_from(message: Any) -> Odometry:
+    position, yaw_rad = message.pose.pose.position, _yaw_rad(message.pose.pose.orientation)
+    twist = _twist_from(message.twist.twist)
+    return Odometry(_stamp_s(message), float(position.x), float(position.y), yaw_rad, *twist)
+
+
+def _turtle_pose_to(message: Odometry) -> dict[str, Any]:
+    return {
+        "x": message.x_m,
+        "y": message.y_m,
+        "theta": message.yaw_rad,
+        "linear_velocity": message.vx_mps,
+        "angular_velocity": message.wz_radps,
+    }
+
+
+def _turtle_pose_from(message: Any) -> Odometry:
+    speed_mps, rate_radps = float(message.linear_velocity), float(message.angular_velocity)
+    return Odometry(0.0, float(message.x), float(message.y), float(message.theta), speed_mps, 0.0, rate_radps)
+
+
+def _imu_to(message: Imu) -> dict[str, Any]:
+    return {"header": _header(message.stamp_s, BASE_FRAME), "angular_velocity": {"z": message.wz_radps}}
+
+
+def _scan_to(message: LaserScan) -> dict[str, Any]:
+    last = max(0, len(message.ranges_m) - 1)
+    return {
+        "header": _header(message.stamp_s, LASER_FRAME),
+        "angle_min": message.angle_min_rad,
+        "angle_max": message.angle_min_rad + last * message.angle_increment_rad,
+        "angle_increment": message.angle_increment_rad,
+        "range_min": message.range_min_m,
+        "range_max": message.range_max_m,
+        "ranges": message.ranges_m,
+    }
+
+
+def _scan_from(message: Any) -> LaserScan:
+    ranges = message.ranges
+    ranges_m: list[float] = ranges.tolist() if hasattr(ranges, "tolist") else [_range_m(r) for r in ranges]
+    return LaserScan(
+        _stamp_s(message),
+        float(message.angle_min),
+        float(message.angle_increment),
+        float(message.range_min),
+        float(message.range_max),
+        ranges_m,
+    )
+
+
+def _range_m(value: Any) -> float:
+    """JSON has neither infinity nor NaN: rosbridge says null for both, and we cannot know which it was."""
+    return math.nan if value is None else float(value)
+
+
+def _data_to(message: Flag | Number | Text) -> dict[str, Any]:
+    return {"data": message.data}
+
+
+def _of(kind: type[T], value: Any) -> T:
+    if not isinstance(value, kind):
+        raise TypeError(f"not a {kind.__name__}")
+    return value
+
+
+def _battery_from(message: Any) -> Number | None:
+    """`percentage` is 0 to 1, NaN or null where unmeasured; drivers that mean per cent say more than 1."""
+    share = math.nan if message.percentage is None else float(message.percentage)
+    if not math.isfinite(share) or share < 0.0:
+        return None
+    return Number(share if share > 1.0 else share * 100.0)
+
+
+_TWIST_STAMPED = RosForm(
+    "geometry_msgs/msg/TwistStamped", _twist_stamped_to, lambda message: _twist_from(message.twist)
+)
+_TURTLE_POSE = RosForm("turtlesim/msg/Pose", _turtle_pose_to, _turtle_pose_from)
+_BATTERY = RosForm(
+    "sensor_msgs/msg/BatteryState",
+    lambda message: {"percentage": message.data / 100.0, "present": True},
+    _battery_from,
+)
+_PLAIN: dict[type[Message], RosForm] = {
+    TwistMessage: RosForm("geometry_msgs/msg/Twist", _twist_to, _twist_from),
+    Odometry: RosForm("nav_msgs/msg/Odometry", _odometry_to, _odometry_from),
+    Imu: RosForm(
+        "sensor_msgs/msg/Imu",
+        _imu_to,
+        lambda message: Imu(_stamp_s(message), float(message.angular_velocity.z)),
+    ),
+    LaserScan: RosForm("sensor_msgs/msg/LaserScan", _scan_to, _scan_from),
+    Flag: RosForm("std_msgs/msg/Bool", _data_to, lambda message: Flag(_of(bool, message.data))),
+    Number: RosForm("std_msgs/msg/Float64", _data_to, lambda message: Number(float(message.data))),
+    Text: RosForm("std_msgs/msg/String", _data_to, lambda message: Text(_of(str, message.data))),
+}

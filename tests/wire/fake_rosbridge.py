@@ -1,0 +1,114 @@
+"""A rosbridge server small enough to read: a real websocket that speaks protocol 2 and routes between its clients.
+
+As the real one does, it holds a topic to the type it was first given, and converts no message of another type.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import socket
+import threading
+from typing import Any
+
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.server import ServerConnection, serve
+
+
+class FakeRosbridge:
+    """Serves on a port of its own until it is closed; `cut` drops all connections, `restart` listens again."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._changed = threading.Condition(self._lock)
+        self._types: dict[str, str] = {}
+        self._subscribers: dict[str, set[ServerConnection]] = {}
+        self._advertised: dict[tuple[ServerConnection, str], str] = {}
+        self._clients: set[ServerConnection] = set()
+        self.requests: list[dict[str, Any]] = []
+        self.paths: list[str] = []
+        self.port = 0
+        self.start()
+
+    @property
+    def url(self) -> str:
+        return f"ws://127.0.0.1:{self.port}"
+
+    def start(self) -> None:
+        listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listener.bind(("127.0.0.1", self.port))
+        listener.listen()
+        self.port = listener.getsockname()[1]
+        self._server = serve(self._serve, sock=listener, compression=None, max_size=None, close_timeout=0.1)
+        self._thread = threading.Thread(target=self._server.serve_forever)
+        self._thread.start()
+
+    def stop(self) -> None:
+        """As if the robot were switched off."""
+        self._server.shutdown()
+        self._thread.join()
+        self.cut()
+
+    def cut(self) -> None:
+        """All connections break, without a word."""
+        with self._lock:
+            clients, self._clients = self._clients, set()
+        for client in clients:
+            with contextlib.suppress(OSError):
+                client.socket.shutdown(socket.SHUT_RDWR)
+
+    def say(self, topic: str, message: Any) -> None:
+        """Publish as somebody else on the robot would; `message` is any JSON value."""
+        with self._lock:
+            self._route(topic, message)
+
+    def say_raw(self, text: str) -> None:
+        """Send this text to every client."""
+        with self._lock:
+            for client in self._clients:
+                client.send(text)
+
+    def wait_for(self, operation: str, count: int, timeout_s: float) -> bool:
+        """Until so many such requests have come."""
+        with self._changed:
+            return self._changed.wait_for(lambda: len(self.of(operation)) >= count, timeout_s)
+
+    def of(self, operation: str) -> list[dict[str, Any]]:
+        return [request for request in self.requests if request["op"] == operation]
+
+    def _serve(self, client: ServerConnection) -> None:
+        with self._lock:
+            self._clients.add(client)
+            self.paths.append(client.request.path if client.request else "")
+        with contextlib.suppress(ConnectionClosed, OSError):
+            for text in client:
+                with self._changed:
+                    self._do(client, json.loads(text))
+                    self._changed.notify_all()
+        with self._lock:
+            self._clients.discard(client)
+            for subscribers in self._subscribers.values():
+                subscribers.discard(client)
+
+    def _do(self, client: ServerConnection, request: dict[str, Any]) -> None:
+        self.requests.append(request)
+        topic = request["topic"]
+        if request["op"] == "publish":
+            if self._advertised.get((client, topic)) == self._types[topic]:
+                self._route(topic, request["msg"])
+            return
+        known = self._types.setdefault(topic, request["type"])
+        if request["op"] == "advertise":
+            self._advertised[client, topic] = request["type"]
+        elif request["op"] == "subscribe" and known == request["type"]:
+            self._subscribers.setdefault(topic, set()).add(client)
+        if known != request["type"]:
+            problem = f"{topic} is {known}, not {request['type']}"
+            client.send(json.dumps({"op": "status", "level": "error", "id": request["id"], "msg": problem}))
+
+    def _route(self, topic: str, message: Any) -> None:
+        text = json.dumps({"op": "publish", "topic": topic, "msg": message})
+        for subscriber in tuple(self._subscribers.get(topic, ())):
+            with contextlib.suppress(ConnectionClosed, OSError):
+                subscriber.send(text)
