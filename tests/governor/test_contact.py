@@ -43,6 +43,7 @@ def test_a_footprint_need_not_have_sides_of_one_length_or_right_angles() -> None
         (1.0, 0.05, Twist(0.5, 0.0, 0.0), 1.0 - 0.2 - MARGIN_M),
         (-1.0, -0.05, Twist(-0.5, 0.0, 0.0), 1.0 - 0.2 - MARGIN_M),
         (0.1, 0.8, Twist(0.0, 0.5, 0.0), 0.8 - 0.1 - MARGIN_M),
+        (0.0, 1.1, Twist(0.0, 0.5, 0.0), 1.1 - 0.1 - MARGIN_M),
         (-0.1, -0.8, Twist(0.0, -0.5, 0.0), 0.8 - 0.1 - MARGIN_M),
     ],
 )

@@ -5,10 +5,13 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from chatrobot.core.geometry import ZERO_TWIST, Twist
+import pytest
+
+from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 from chatrobot.core.governed import StopEpoch
 from chatrobot.governor.governor import LONGEST_STEP_S, TICK_S, Governor
 from chatrobot.robots.load import load_profile
+from chatrobot.wire.messages import LaserScan
 
 PROFILE = replace(load_profile("wheeltec_mini_mec"), lidar=None)
 SLOW = Twist(0.3, 0.0, 0.0)
@@ -99,3 +102,37 @@ def test_what_was_limited_says_by_which_rule() -> None:
     assert governor.govern(SLOW, "lease", TICK_S).rule == "acceleration"
     assert governor.govern(Twist(math.nan, 0.0, 0.0), "lease", 2 * TICK_S).rule == "not_finite"
     assert governor.govern(ZERO_TWIST, "lease", 3 * TICK_S).action == "passed"
+
+
+def test_rounding_is_no_limit_and_a_little_too_fast_is_one() -> None:
+    governor, _ = governor_with_lease(term_s=10.0)
+    for tick in range(60):
+        governor.govern(Twist(1.0, 0.0, 0.0), "lease", tick * TICK_S)
+    exact = governor.govern(Twist(1.0 + 1e-9, 0.0, 1e-12), "lease", 60 * TICK_S)
+    assert exact.rule == "acceleration", "which is no news"
+    assert governor.govern(Twist(1.00001, 0.0, 0.0), "lease", 61 * TICK_S).rule == "speed"
+
+
+def test_a_pose_that_is_none_is_no_pose() -> None:
+    robot = load_profile("wheeltec_mini_mec")
+    governor = Governor(robot, StopEpoch(), area=((-9.0, -9.0), (9.0, -9.0), (0.0, 9.0)))
+    governor.leases.open("lease", "console", 0.3, 0.0)
+    governor.begin("lease", 0.0)
+    for bad in (Pose(math.nan, 0.0, 0.0), Pose(0.0, math.inf, 0.0), Pose(0.0, 0.0, -math.inf), None):
+        verdict = governor.govern(SLOW, "lease", 0.0, bad)
+        assert (verdict.rule, verdict.sent.twist.is_zero) == ("fence", True)
+
+
+@pytest.mark.parametrize("now_s", [math.nan, math.inf, -math.inf])
+def test_a_clock_that_shows_no_time_stops_the_robot(now_s: float) -> None:
+    governor, _ = governor_with_lease(term_s=math.inf)
+    governor.govern(SLOW, "lease", 1.0)
+    for _ in range(3):
+        assert governor.govern(Twist(1.0, 0.0, 0.0), "lease", now_s).sent.twist.vx_mps <= 0.02
+    assert governor.govern(SLOW, "lease", 2.0).sent.twist.vx_mps <= 0.04
+
+
+def test_a_scan_is_nothing_to_a_robot_without_a_lidar() -> None:
+    governor, _ = governor_with_lease()
+    governor.take_scan(LaserScan(0.0, -math.pi, 0.1, 0.1, 8.0, [0.2] * 63), ORIGIN)
+    assert governor.govern(SLOW, "lease", 0.0, ORIGIN).rule == "acceleration"

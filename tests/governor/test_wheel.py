@@ -12,8 +12,9 @@ from chatrobot.core.geometry import Twist
 from chatrobot.core.governed import StopEpoch
 from chatrobot.governor.governor import TICK_S, VOID_EPOCH, Governor
 from chatrobot.governor.priority import PRIORITIES, RELEASERS, Priority, priority_of
+from chatrobot.governor.rule import Sensed
 from chatrobot.robots.load import load_profile
-from chatrobot.robots.profile import Wiring
+from chatrobot.robots.profile import Safety, Wiring
 from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import TwistMessage
@@ -124,6 +125,7 @@ def test_nobody_begins_without_a_lease_or_under_an_emergency_stop() -> None:
     assert latched is governor.latched
     assert latched is not None
     assert latched.values == {"source": "bystander", "why": "smoke"}
+    assert latched.code == "emergency_stop"
 
 
 def test_an_emergency_stop_is_above_them_all() -> None:
@@ -170,3 +172,23 @@ def test_what_an_outranked_source_asks_does_not_change_the_ramp_of_who_drives() 
         governor.govern(SLOW, "joystick", tick * TICK_S)
         governor.govern(Twist(math.nan, 0.0, 0.0), "agent", tick * TICK_S)
     assert governor.govern(SLOW, "joystick", 5 * TICK_S).sent.twist.vx_mps == pytest.approx(0.12)
+
+
+def test_the_wheel_is_free_after_a_motion_ended_whatever_stops_there_were_before() -> None:
+    for stops in range(4):
+        governor, epoch = governor_with("joystick", "agent")
+        for _ in range(stops):
+            epoch.stop()
+        governor.begin("joystick", 0.0)
+        governor.end("joystick")
+        assert governor.begin("agent", 0.0).refusal is None
+
+
+def test_a_low_battery_refuses_a_new_motion_whoever_asks() -> None:
+    low = replace(PROFILE, safety=Safety(battery_low_percent=30.0))
+    governor = Governor(low, StopEpoch())
+    governor.leases.open("joystick", "joystick", 0.3, 0.0)
+    refusal = governor.begin("joystick", 0.0, Sensed(battery_percent=29.0)).refusal
+    assert refusal is not None
+    assert refusal.code == "battery_low"
+    assert governor.begin("joystick", 0.0, Sensed(battery_percent=30.0)).refusal is None

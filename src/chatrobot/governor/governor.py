@@ -191,7 +191,7 @@ class Governor:
             return "not_finite"
         if holder != lease_id:
             return "not_begun"
-        if not self._sent_at_s <= now_s < math.inf:
+        if not (math.isfinite(now_s) and self._sent_at_s <= now_s):
             return "clock_went_back"
         return ""
 

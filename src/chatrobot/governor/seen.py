@@ -49,10 +49,8 @@ class Seen:
 
     def covers(self, direction_rad: float) -> bool:
         """True where a beam looks along that direction of the robot's frame."""
-        if self._beams == 0:
-            return False
-        if self.covers_all:
-            return True
+        if self._beams == 0 or self.covers_all:
+            return self._beams > 0
         offset = (direction_rad - self.lidar.yaw_rad - self._first_rad) * math.copysign(1.0, self._step_rad)
         return offset % (2.0 * math.pi) <= abs(self._step_rad) * (self._beams - 1)
 
