@@ -2,12 +2,14 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: help setup run test lint bench lock clean
+.PHONY: help setup run test lint bench pictures lock clean faults
 
 help:
 	@echo "make setup   .venv with everything in it        make run    talk to the simulated robot"
 	@echo "make test    lint, types, layers, tests         make lint   ruff and mypy alone"
 	@echo "make bench   how fast it is, measured           make lock   write requirements.lock anew"
+	@echo "make pictures   draw docs/images anew, from the real program"
+	@echo "make faults  kill and freeze each process 20 times; worst time to zero"
 	@echo "make clean   remove .venv and what tools left"
 
 setup:
@@ -29,6 +31,14 @@ test: lint
 bench: setup
 	@for file in bench/[a-z]*.py; do \
 		echo "== $$file"; $(BIN)/python -m "bench.$$(basename "$$file" .py)" || exit 1; done
+
+# Twenty blows of each kind in real time: five minutes.
+faults: setup
+	$(BIN)/python -m scripts.faults
+
+# Needs DejaVu Sans Mono and a font with Chinese on the system.
+pictures: setup
+	$(BIN)/python scripts/make_pictures.py
 
 lock: setup
 	$(BIN)/python scripts/lock.py

@@ -63,8 +63,9 @@ def motion_and_stop(robot: RunningRobot) -> tuple[list[float], list[float]]:
         starts.append(robot.ear.wait_for_motion(said_s) - said_s)
         said_s = robot.say("stop")
         stops.append(robot.ear.wait_for(lambda message: not any(message), said_s) - said_s)
-        robot.wait_for_event("result", turn=turn)
-        robot.wait_for_event("result", turn=turn + 1)
+        ended = {robot.wait_for_event("result")["turn"] for _ in range(2)}
+        assert ended == {turn, turn + 1}
+        time.sleep(0.3)  # the robot rolls out: new motion waits until it has been seen standing
         robot.ear.velocities.clear()
     return starts, stops
 

@@ -16,8 +16,8 @@ from chatrobot.plan.lowering import iterate_core
 from chatrobot.plan.steps import Plan
 from chatrobot.robots.load import load_profile
 from chatrobot.sim.lies import SimLies
+from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import SimRobot
-from chatrobot.sim.world import load_world
 from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.memory import MemoryHub
 

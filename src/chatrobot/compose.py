@@ -23,8 +23,9 @@ from chatrobot.session.joint import SimulatedJoint
 from chatrobot.session.session import Options, Session
 from chatrobot.session.understanding import Understanding
 from chatrobot.sim.lies import SimLies
+from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import TRUTH_TOPIC, SimRobot
-from chatrobot.sim.world import World, load_world
+from chatrobot.sim.world import World
 from chatrobot.wire.messages import Odometry
 
 if TYPE_CHECKING:

@@ -25,8 +25,8 @@ def chat(tmp_path):
 
 def test_a_newcomer_is_greeted_with_robot_world_and_three_things_to_say(chat):
     text = " ".join(chat.text.split())
-    assert "Wheeltec mini mecanum, simulated, in the world 'home'" in text
-    for example in ("drive in a square of one metre", "go to the kitchen", "向前走半米，然后左转", "/help"):
+    assert "Wheeltec mini mecanum (simulated) in world 'home'" in text
+    for example in ("drive a 1 m square", "go to the kitchen", "向前走半米，然后左转", "/help"):
         assert example in text
 
 

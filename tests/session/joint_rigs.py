@@ -16,8 +16,8 @@ from chatrobot.session.motion import Motion
 from chatrobot.session.planner import Planner
 from chatrobot.session.socket_joint import SocketJoint
 from chatrobot.sim.lies import SimLies
+from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import SimRobot
-from chatrobot.sim.world import load_world
 from chatrobot.wire.local import LocalWire
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import TwistMessage

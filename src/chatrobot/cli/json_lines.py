@@ -6,7 +6,7 @@ import json
 import math
 from typing import Any
 
-from chatrobot.cli.printer import Output
+from chatrobot.cli.output import Output
 from chatrobot.core.events import Event
 from chatrobot.language.interpretation import LanguageCode
 

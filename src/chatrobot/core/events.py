@@ -119,7 +119,7 @@ class TruePose(Event):
 
 @dataclass(frozen=True)
 class Limited(Event):
-    """The governor sent less than was asked for."""
+    """The governor allows less than was asked for: `sent` is the most it will send of it."""
 
     name: ClassVar[str] = "limited"
     rule: str

@@ -28,12 +28,16 @@ LATE_RADPS = 0.1
 
 @dataclass(frozen=True)
 class Verdict:
-    """What the governor made of a request. `asked` and `sent` differ where `action` is not `passed`."""
+    """What the governor made of a request. `asked` and `sent` differ where `action` is not `passed`.
+
+    `allowed` is what the rules leave of `asked`; `sent` is on its way there as fast as the ramps allow.
+    """
 
     action: Literal["passed", "limited", "refused"]
     rule: str
     asked: Twist
     sent: GovernedTwist
+    allowed: Twist
     reason: Reason | None = None
 
 
@@ -81,18 +85,19 @@ class Governor:
         epoch = self._epoch.value
         refusal = self._refusal(asked, lease_id, now_s)
         if refusal:
-            return self._verdict("refused", refusal, asked, ZERO_TWIST, epoch, now_s)
+            return self._verdict("refused", refusal, asked, ZERO_TWIST, ZERO_TWIST, epoch, now_s)
         previous = self._sent if epoch == self._sent_epoch else ZERO_TWIST
         target = bounded(self._profile, asked)
         ruling = self._obstacles.judge(target, pose) if pose is not None else FREE
         if ruling.factor < 1.0:
-            slowed = self._brake(previous, target.scaled(ruling.factor), now_s)
-            return self._verdict("limited", "obstacle", asked, slowed, epoch, now_s, ruling.reason)
+            allowed = target.scaled(ruling.factor)
+            slowed = self._brake(previous, allowed, now_s)
+            return self._verdict("limited", "obstacle", asked, slowed, allowed, epoch, now_s, ruling.reason)
         sent = self._kernel(previous, asked, self._step_s(now_s))
         if sent == asked:
-            return self._verdict("passed", "", asked, sent, epoch, now_s)
-        rule = "speed" if not _close(bounded(self._profile, asked), asked) else "acceleration"
-        return self._verdict("limited", rule, asked, sent, epoch, now_s)
+            return self._verdict("passed", "", asked, sent, target, epoch, now_s)
+        rule = "speed" if not _close(target, asked) else "acceleration"
+        return self._verdict("limited", rule, asked, sent, target, epoch, now_s)
 
     def _brake(self, previous: Twist, target: Twist, now_s: float) -> Twist:
         """Ramp to `target`; where the ramp would come too late, zero at once (zero is exempt from the ramp)."""
@@ -122,12 +127,13 @@ class Governor:
         rule: str,
         asked: Twist,
         sent: Twist,
+        allowed: Twist,
         epoch: int,
         now_s: float,
         reason: Reason | None = None,
     ) -> Verdict:
         self._sent, self._sent_at_s, self._sent_epoch = sent, now_s, epoch
-        return Verdict(action, rule, asked, self._mint.twist(sent, epoch), reason)
+        return Verdict(action, rule, asked, self._mint.twist(sent, epoch), allowed, reason)
 
 
 def _close(a: Twist, b: Twist) -> bool:

@@ -26,7 +26,7 @@ class Impossible:
 
 def too_long(duration_s: float) -> Reason:
     """Longer than an hour; the number may be beyond what floats (and JSON) hold."""
-    return Reason("too_long", {"duration_s": _sayable(duration_s), "max_s": MAX_DURATION_S})
+    return Reason("lasts_too_long", {"duration_s": _sayable(duration_s), "max_s": MAX_DURATION_S})
 
 
 def too_far(distance_m: float) -> Reason:

@@ -8,15 +8,12 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import Any
 
 from chatrobot.core.clock import Clock
-from chatrobot.core.events import Event, Finished, Limited, Notice, Outcome, Started, Telemetry
+from chatrobot.core.events import Event, Outcome, Started, Telemetry
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose
 from chatrobot.core.governed import StopEpoch
 from chatrobot.core.reason import Reason
-from chatrobot.execution.executor import Executor
 from chatrobot.execution.lookahead import nearest_m
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
@@ -25,12 +22,14 @@ from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.approval import Approval
 from chatrobot.session.envelope import Envelope
 from chatrobot.session.guard_link import GuardLink
+from chatrobot.session.intake import Intake
+from chatrobot.session.job import Job
 from chatrobot.session.planner import Planned, Planner
+from chatrobot.session.run import Run
 from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.messages import LaserScan
 from chatrobot.wire.wire import Wire
 
-QUEUE_LIMIT = 10
 FROZEN_S = 0.12
 """A gap this long between two ticks of a moving robot means that this process stood still: the plan is over."""
 
@@ -39,37 +38,8 @@ ZEROING_S = 2.0
 
 TELEMETRY_S = 0.1
 ODOMETRY_WAIT_S = 2.0
-
-
-@dataclass
-class Job:
-    """One turn's plan on its way through Motion."""
-
-    turn: int
-    lease: str
-    plan_text: str
-    approve: bool
-    rehearse_only: bool
-    epoch: int
-    planned: Planned | None = None
-    received_s: float = 0.0
-    start: Pose = ORIGIN
-    approval: Approval | None = None
-
-
-@dataclass
-class Totals:
-    """What one run measured so far."""
-
-    started_s: float
-    start: Pose
-    start_path_m: float
-    counted_to_s: float = 0.0
-    moving_s: float = 0.0
-    paused_s: float = 0.0
-    pending_pause_s: float = 0.0
-    has_moved: bool = False
-    limited: set[tuple[int, str]] = field(default_factory=set)
+ODOMETRY_FRESH_S = 0.3
+_FAILURES = frozenset({"guard_lost", "bumped", "motion_froze"})
 
 
 class Motion:
@@ -105,17 +75,13 @@ class Motion:
         self._sensors = Sensors(profile, clock)
         self._looked_at: LaserScan | None = None
         self._inbox: deque[Callable[[], None]] = deque()
-        self._jobs: deque[Job] = deque()
+        self._intake = Intake()
         self._current: Job | None = None
-        self._executor: Executor | None = None
-        self._totals: Totals | None = None
+        self._run: Run | None = None
         self._zeroing_since_s: float | None = None
         self._last_tick_s: float | None = None
         self._next_telemetry_s = 0.0
-        self._sequences: dict[tuple[str, bool], int] = {}
         self._leaving: set[str] = set()
-        self._void_turns: dict[str, int] = {}
-        """By lease, the last turn that a stop has made void: a plan of such a turn may still be on its way."""
 
     # --- from any thread -------------------------------------------------------------------------------------
 
@@ -134,7 +100,7 @@ class Motion:
             self._governor.latch(envelope.source, str(envelope.payload.get("why", "")))
         if envelope.word in ("stop", "emergency_stop"):
             why = str(envelope.payload.get("why", ""))
-            self._void_turns[envelope.lease] = envelope.turn
+            self._intake.void_turn(envelope.lease, envelope.turn)
             self.halt(Reason("stopped_by", {"source": envelope.source, "why": why}))
         # What was said before a stop must not run after it, however late it is handled.
         epoch = self._epoch.value
@@ -158,7 +124,11 @@ class Motion:
         """True while anything is moving, queued, being rehearsed, awaited or zeroed."""
         unbooked_stop = self._seen_epoch != self._epoch.value
         return bool(
-            self._current or self._jobs or self._inbox or unbooked_stop or self._zeroing_since_s is not None
+            self._current
+            or self._intake.jobs
+            or self._inbox
+            or unbooked_stop
+            or self._zeroing_since_s is not None
         )
 
     @property
@@ -172,15 +142,12 @@ class Motion:
 
     def _handle(self, envelope: Envelope, epoch: int) -> None:
         """One envelope, received in that stop epoch. Stops have been heard already; here they are only booked."""
-        kind = (
-            envelope.lease,
-            envelope.word == "beat",
-        )  # a beat comes from another thread: it may overtake a plan
-        if envelope.sequence <= self._sequences.get(kind, -1):
+        if self._intake.is_old(envelope):
             if envelope.word == "plan":  # overtaken by a later word, most likely a stop: its turn ends here
-                self._finish_unstarted(self._job(envelope, epoch), "stopped", self._stop_reason)
+                self._finish_unmoved(
+                    Job.of(envelope, epoch, self._clock.now_s()), "stopped", self._stop_reason
+                )
             return
-        self._sequences[kind] = envelope.sequence
         now_s = self._clock.now_s()
         self._governor.leases.beat(envelope.lease, now_s)
         if envelope.word == "hello":
@@ -207,7 +174,7 @@ class Motion:
         while self._inbox:
             self._inbox.popleft()()
         self._book_stop()
-        self._run(now_s)
+        self._drive(now_s)
         self._keep_zeroing(now_s)
         self._begin_next(now_s)
         self._tell(now_s)
@@ -224,52 +191,36 @@ class Motion:
 
     # --- plans -----------------------------------------------------------------------------------------------
 
-    def _job(self, envelope: Envelope, epoch: int) -> Job:
-        payload = envelope.payload
-        return Job(
-            turn=envelope.turn,
-            lease=envelope.lease,
-            plan_text=str(payload.get("plan_text", "")),
-            approve=bool(payload.get("approve")),
-            rehearse_only=bool(payload.get("rehearse_only")),
-            epoch=epoch,
-            received_s=self._clock.now_s(),
-        )
-
     def _accept(self, envelope: Envelope, epoch: int) -> None:
-        job = self._job(envelope, epoch)
+        job = Job.of(envelope, epoch, self._clock.now_s())
         if envelope.payload.get("mode") == "replace":
             self._replace()
-        if epoch != self._epoch.value or job.turn <= self._void_turns.get(job.lease, 0):
-            self._finish_unstarted(job, "stopped", self._stop_reason)
+        declined = self._intake.add(job, self._epoch.value)
+        if declined is not None:
+            outcome: Outcome = "stopped" if declined.code == "stopped" else "refused"
+            self._finish_unmoved(job, outcome, declined)
             return
-        if len(self._jobs) >= QUEUE_LIMIT:
-            self._finish_unstarted(job, "refused", Reason("queue_full", {"limit": QUEUE_LIMIT}))
-            return
-        self._jobs.append(job)
         self._begin_next(self._clock.now_s())
 
     def _replace(self) -> None:
         """New motion takes the place of the old, after a controlled stop; what was queued is dropped."""
-        for job in self._jobs:
-            self._finish_unstarted(job, "stopped", Reason("replaced"))
-        self._jobs.clear()
-        if self._executor is not None:
-            self._executor.ramp_down(Reason("replaced"))
+        for job in self._intake.take_all():
+            self._finish_unmoved(job, "stopped", Reason("replaced"))
+        if self._run is not None:
+            self._run.executor.ramp_down(Reason("replaced"))
         elif self._current is not None:
-            job, self._current = self._current, None
-            self._finish_unstarted(job, "stopped", Reason("replaced"))
+            self._finish_current("stopped", Reason("replaced"))
 
     def _begin_next(self, now_s: float) -> None:
-        if self._current is not None or not self._jobs or self._zeroing_since_s is not None:
+        jobs = self._intake.jobs
+        if self._current is not None or not jobs or self._zeroing_since_s is not None:
             return
-        job = self._jobs[0]
+        job = jobs[0]
         if self._is_waiting_for_odometry(job, now_s):
             return
-        self._jobs.popleft()
+        jobs.popleft()
         self._current = job
-        estimate = self._sensors.estimate
-        job.start = estimate.pose if estimate is not None else ORIGIN
+        job.start = self._pose()
 
         def plan() -> None:
             planned = self._planner.plan(job.turn, job.plan_text, job.start)
@@ -283,10 +234,8 @@ class Motion:
             return False
         if now_s - job.received_s < ODOMETRY_WAIT_S:
             return True
-        self._jobs.popleft()
-        self._finish_unstarted(
-            job, "failed", Reason("no_odometry", {"topic": self._profile.wiring.odom_topic})
-        )
+        self._intake.jobs.popleft()
+        self._finish_unmoved(job, "failed", Reason("no_odometry", {"topic": self._profile.wiring.odom_topic}))
         return True
 
     def _on_planned(self, job: Job, planned: Planned) -> None:
@@ -295,13 +244,10 @@ class Motion:
         job.planned = planned
         needs_approval = job.approve and planned.ok and not job.rehearse_only
         self._emit(planned.event(needs_approval))
-        if job.rehearse_only:
-            self._current = None
-            outcome: Outcome = "completed" if planned.ok else "refused"
-            self._finish_unstarted(job, outcome, planned.refusal)
-        elif not planned.ok:
-            self._current = None
-            self._finish_unstarted(job, "refused", planned.refusal)
+        if not planned.ok:
+            self._finish_current("refused", planned.refusal)
+        elif job.rehearse_only:
+            self._finish_current("completed", None)
         elif needs_approval:
             job.approval = Approval(self._clock.now_s(), job.start)
         else:
@@ -312,28 +258,21 @@ class Motion:
         if job is None or job.approval is None or job.turn != turn:
             return
         approval, job.approval = job.approval, None
-        estimate = self._sensors.estimate
-        lapse = approval.lapsed(self._clock.now_s(), estimate.pose if estimate is not None else job.start)
+        lapse = approval.lapsed(self._clock.now_s(), self._pose())
         if not yes or lapse is not None:
-            self._current = None
-            self._finish_unstarted(job, "refused", lapse or Reason("not_approved"))
-            return
-        self._launch(job)
+            self._finish_current("refused", lapse or Reason("not_approved"))
+        else:
+            self._launch(job)
 
     def _launch(self, job: Job) -> None:
         now_s = self._clock.now_s()
         blocker = self._blocker(job, now_s)
         if blocker is not None:
-            self._current = None
-            self._finish_unstarted(job, "refused", blocker)
+            self._finish_current("refused", blocker)
             return
-        assert job.planned is not None
-        estimate = self._sensors.estimate
-        self._executor = Executor(self._profile, self._sensors, self._emit)
-        self._executor.start(job.turn, job.planned.walk(), job.planned.duration_s, now_s)
-        self._totals = Totals(now_s, job.start, estimate.path_m if estimate is not None else 0.0, now_s)
+        self._run = Run(job, self._profile, self._sensors, self._governor, self._transport, self._emit, now_s)
         self._emit(Started(job.turn, job.start))
-        self._run(now_s)
+        self._drive(now_s)
 
     def _blocker(self, job: Job, now_s: float) -> Reason | None:
         """Why nothing may move just now."""
@@ -347,106 +286,53 @@ class Motion:
 
     # --- a running plan --------------------------------------------------------------------------------------
 
-    def _run(self, now_s: float) -> None:
-        job, executor = self._current, self._executor
-        if job is None or executor is None:
+    def _drive(self, now_s: float) -> None:
+        run = self._run
+        if run is None:
             self._expire_approval(now_s)
             return
-        blocker = self._blocker(job, now_s)
+        blocker = self._blocker(run.job, now_s)
         if blocker is None and self._sensors.bumped:
             blocker = Reason("bumped")
         if blocker is not None:
             self.halt(blocker)
             self._book_stop()
             return
-        asked = executor.tick(now_s)
-        if executor.is_done:
-            self._end_run("completed" if executor.reason is None else executor.outcome, executor.reason)
-            return
-        estimate = self._sensors.estimate
-        verdict = self._governor.govern(
-            asked, job.lease, now_s, estimate.pose if estimate is not None else None
-        )
-        self._transport.send(verdict.sent)
-        executor.note(verdict.rule, verdict.reason, verdict.sent.twist, now_s)
-        self._count(verdict.sent.twist.is_zero, now_s)
-        if verdict.action == "limited" and verdict.rule != "acceleration" and self._totals is not None:
-            key = (executor.step, verdict.rule)
-            if key not in self._totals.limited:
-                self._totals.limited.add(key)
-                self._emit(Limited(job.turn, verdict.rule, asked, verdict.sent.twist, verdict.reason))
-
-    def _count(self, standing: bool, now_s: float) -> None:
-        """Time in motion, and time standing between two motions: the last pause counts once motion follows."""
-        totals = self._totals
-        if totals is None:
-            return
-        elapsed_s, totals.counted_to_s = now_s - totals.counted_to_s, now_s
-        if not standing:
-            totals.has_moved = True
-            totals.moving_s += elapsed_s
-            totals.paused_s += totals.pending_pause_s
-            totals.pending_pause_s = 0.0
-        elif totals.has_moved:
-            totals.pending_pause_s += elapsed_s
+        run.tick(now_s)
+        if run.executor.is_done:
+            self._end_run(run.executor.outcome, run.executor.reason)
 
     def _end_run(self, outcome: Outcome, reason: Reason | None) -> None:
-        job, executor, totals = self._current, self._executor, self._totals
-        assert job is not None
-        assert executor is not None
-        assert totals is not None
-        self._current = self._executor = self._totals = None
+        run = self._run
+        assert run is not None
+        self._current = self._run = None
         if outcome != "completed":
             self.halt(reason or Reason("stopped"))
             self._seen_epoch = self._epoch.value
             self._zeroing_since_s = self._clock.now_s()
-        estimate = self._sensors.estimate
-        pose = estimate.pose if estimate is not None else totals.start
-        self._emit(
-            Finished(
-                job.turn,
-                outcome,
-                reason,
-                start=totals.start,
-                pose=pose,
-                turned_rad=pose.yaw_rad - totals.start.yaw_rad,
-                path_m=(estimate.path_m - totals.start_path_m) if estimate is not None else 0.0,
-                duration_s=totals.moving_s,
-                paused_s=totals.paused_s,
-                planned_m=executor.planned_m,
-                planned_turn_rad=executor.planned_turn_rad,
-                steps_done=executor.steps_done,
-                steps=executor.steps,
-                measured=self._sensors.has_odometry,
-            )
-        )
+        self._emit(run.finished(outcome, reason))
 
-    def _finish_unstarted(self, job: Job, outcome: Outcome, reason: Reason | None) -> None:
-        estimate = self._sensors.estimate
-        pose = estimate.pose if estimate is not None else ORIGIN
-        self._emit(
-            Finished(
-                job.turn,
-                outcome,
-                reason,
-                start=pose,
-                pose=pose,
-                turned_rad=0.0,
-                path_m=0.0,
-                duration_s=0.0,
-                paused_s=0.0,
-            )
-        )
+    def _finish_current(self, outcome: Outcome, reason: Reason | None) -> None:
+        """End the current job, which has not begun to move."""
+        job, self._current = self._current, None
+        assert job is not None
+        self._finish_unmoved(job, outcome, reason)
+
+    def _finish_unmoved(self, job: Job, outcome: Outcome, reason: Reason | None) -> None:
+        self._emit(job.unmoved(outcome, reason, self._pose()))
 
     def _expire_approval(self, now_s: float) -> None:
         job = self._current
         if job is None or job.approval is None:
             return
-        estimate = self._sensors.estimate
-        lapse = job.approval.lapsed(now_s, estimate.pose if estimate is not None else job.start)
+        lapse = job.approval.lapsed(now_s, self._pose())
         if lapse is not None:
-            self._current = None
-            self._finish_unstarted(job, "refused", lapse)
+            self._finish_current("refused", lapse)
+
+    def _pose(self) -> Pose:
+        """Where the robot is, as far as it is known."""
+        estimate = self._sensors.estimate
+        return estimate.pose if estimate is not None else ORIGIN
 
     # --- stopping --------------------------------------------------------------------------------------------
 
@@ -457,18 +343,12 @@ class Motion:
         self._seen_epoch = self._epoch.value
         self._zeroing_since_s = self._clock.now_s()
         why = self._stop_reason
-        if self._executor is not None:
+        if self._run is not None:
             self._end_run("failed" if why.code in _FAILURES else "stopped", why)
         elif self._current is not None:
-            job, self._current = self._current, None
-            self._finish_unstarted(job, "stopped", why)
-        self._drop_stopped_jobs(why)
-
-    def _drop_stopped_jobs(self, why: Reason) -> None:
-        """What was said before the stop is dropped; what was said after it stays."""
-        for job in [job for job in self._jobs if job.epoch != self._epoch.value]:
-            self._jobs.remove(job)
-            self._finish_unstarted(job, "stopped", why)
+            self._finish_current("stopped", why)
+        for job in self._intake.take_void(self._epoch.value):
+            self._finish_unmoved(job, "stopped", why)
 
     def _keep_zeroing(self, now_s: float) -> None:
         since_s = self._zeroing_since_s
@@ -490,7 +370,7 @@ class Motion:
         """This process was frozen, or the guard thinks so: what moved is over; shake hands anew."""
         gap_s = now_s - self._last_tick_s if self._last_tick_s is not None else 0.0
         tripped = self._guard.was_tripped()
-        if self._executor is not None and (gap_s > FROZEN_S or tripped):
+        if self._run is not None and (gap_s > FROZEN_S or tripped):
             self.halt(Reason("motion_froze", {"gap_s": round(gap_s, 2)}))
         if tripped or gap_s > FROZEN_S:
             self._guard.handshake()
@@ -498,33 +378,22 @@ class Motion:
     # --- telling ---------------------------------------------------------------------------------------------
 
     def _tell(self, now_s: float) -> None:
-        job, executor = self._current, self._executor
         if now_s < self._next_telemetry_s:
             return
         self._next_telemetry_s = now_s + TELEMETRY_S
-        estimate = self._sensors.estimate
+        estimate, scan, run = self._sensors.estimate, self._sensors.scan, self._run
         if estimate is None:
             return
-        if job is not None and executor is not None:
-            self._emit(executor.progress(job.turn, now_s))
-        scan = self._sensors.scan
+        if run is not None:
+            self._emit(run.progress(now_s))
         self._emit(
             Telemetry(
-                job.turn if job is not None else 0,
+                run.job.turn if run is not None else 0,
                 estimate.pose,
                 estimate.twist,
                 estimate.path_m,
                 self._sensors.battery_percent,
                 nearest_m(scan) if scan is not None else None,
-                executor is not None,
+                run is not None,
             )
         )
-
-
-ODOMETRY_FRESH_S = 0.3
-_FAILURES = frozenset({"guard_lost", "bumped", "motion_froze"})
-
-
-def notice(code: str, **values: Any) -> Notice:
-    """A notice that belongs to no turn."""
-    return Notice(0, Reason(code, values))

@@ -36,7 +36,7 @@ class Options:
     rehearse_only: bool = False
 
 
-_Kind = Literal["text", "plan", "stop", "too_many"]
+_Kind = Literal["text", "plan", "stop", "emergency_stop", "too_many"]
 _WAITING: tuple[_Kind, ...] = ("text", "plan")
 
 
@@ -74,7 +74,7 @@ class Session:
         """Take in what a person said; the number of its turn. A stop is out before this returns."""
         if is_emergency_stop(text):
             self.emergency_stop(text.strip()[:80])
-            kind: _Kind = "stop"
+            kind: _Kind = "emergency_stop"
         elif leads_with_stop(text) if self.is_moving else is_stop(text):
             self.stop(text.strip()[:80])
             kind = "stop"
@@ -176,9 +176,10 @@ class Session:
                 self._understand(said)
             elif said.kind == "plan":
                 self._read_plan(said)
-            elif said.kind == "stop":
+            elif said.kind in ("stop", "emergency_stop"):
+                code = "stopped_now" if said.kind == "stop" else "emergency_stopped"
                 self._emit(Interpreted(said.turn, "reflex", "", ""))
-                self._conclude(said.turn, "stopped", self.understanding.say("stopped_now", said.text))
+                self._conclude(said.turn, "stopped", self.understanding.say(code, said.text))
             else:
                 self._conclude(said.turn, "refused", self.understanding.say("queue_full", said.text))
 

@@ -10,6 +10,7 @@ from chatrobot.core.events import Finished, Outcome, Remembered, Telemetry
 from chatrobot.core.geometry import ZERO_TWIST, Pose
 from chatrobot.language.context import Context, Dialogue, RobotState, TurnRecord
 from chatrobot.language.interpretation import Interpretation, LanguageCode, OfflineInterpreter
+from chatrobot.language.normalise import has_chinese
 from chatrobot.language.phrases import say
 from chatrobot.plan.steps import Plan
 from chatrobot.robots.profile import RobotProfile
@@ -64,7 +65,9 @@ class Understanding:
         return Interpretation("plan", "", self.language, plan)
 
     def say(self, code: str, text: str, **values: float | str) -> str:
-        """A phrase in the language of the last question."""
+        """A phrase in the language of `text`, what the person said."""
+        if any(character.isalpha() for character in text):
+            self.language = "zh" if has_chinese(text) else "en"
         return say(self.language, code, text=text[:80], **values)
 
     def note_telemetry(self, event: Telemetry) -> None:

@@ -12,11 +12,11 @@ from chatrobot.core.errors import ChatRobotError, InputError, UsageError
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.control import SimControl
 from chatrobot.sim.lies import SimLies
+from chatrobot.sim.load import load_world
 from chatrobot.sim.marshalled import MarshalledWire
 from chatrobot.sim.robot import SimRobot
 from chatrobot.sim.server import SimServer
 from chatrobot.sim.tf import FieldsPublisher, TransformPublisher
-from chatrobot.sim.world import load_world
 from chatrobot.wire.local import LocalHub
 from chatrobot.wire.messages import TwistMessage
 

@@ -9,10 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from chatrobot.core.errors import WorldError
 from chatrobot.core.geometry import Pose
 from chatrobot.sim.shapes import Point, Polygon, Shape
 
@@ -108,25 +106,3 @@ class World:
 
 
 EMPTY_WORLD = World("empty")
-
-_BUILT_IN = Path(__file__).with_name("worlds")
-
-
-def load_world(name_or_path: str) -> World:
-    """The world of that name, or in that YAML file (anything with a slash, or ending in .yaml or .yml).
-
-    Raises:
-        WorldError: there is none, or it cannot be used; names file, line, field and what is allowed.
-    """
-    if name_or_path == EMPTY_WORLD.name:
-        return EMPTY_WORLD
-    from chatrobot.sim.world_file import read_world
-
-    if "/" in name_or_path or name_or_path.endswith((".yaml", ".yml")):
-        return read_world(Path(name_or_path))
-    path = _BUILT_IN / f"{name_or_path}.yaml"
-    if path.is_file():
-        return read_world(path)
-    names = sorted(file.stem for file in _BUILT_IN.glob("*.yaml"))
-    allowed = f"{', '.join((EMPTY_WORLD.name, *names))}, or a path to a .yaml file"
-    raise WorldError(f"there is no world named {name_or_path!r}", allowed=allowed)

@@ -12,7 +12,7 @@ from dataclasses import replace
 from rich.console import Console, RenderableType
 from rich.text import Text
 
-from chatrobot.cli.console import plain
+from chatrobot.cli.console import commands, plain
 from chatrobot.cli.console.lines import indented
 from chatrobot.cli.console.tables import example_place, place_in
 from chatrobot.cli.console.talk import Talk
@@ -44,7 +44,7 @@ def run_console(setup: Setup) -> int:
         talk.hear(event)
 
     connection = _connect(setup, words, hear)
-    talk = Talk(connection, words, RealClock())
+    talk = Talk(connection, words, RealClock(), commands.run)
     try:
         code = _converse(talk, setup)
     finally:
@@ -74,7 +74,8 @@ def _connect(setup: Setup, words: Words, hear: OnEvent) -> Connection:
 
 def _converse(talk: Talk, setup: Setup) -> int:
     def hang_up() -> None:
-        talk.stop("terminal closed")
+        with contextlib.suppress(JointError):  # nothing is said: nobody is there to read it
+            talk.session.stop("terminal closed")
         talk.connection.close()
 
     if can_chat():

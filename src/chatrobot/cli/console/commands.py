@@ -6,15 +6,12 @@ import difflib
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from rich.text import Text
 
 from chatrobot.cli.console import tables
 from chatrobot.cli.console.maps import big_map
-
-if TYPE_CHECKING:
-    from chatrobot.cli.console.talk import Talk
+from chatrobot.cli.console.talk import Talk
 
 
 @dataclass(frozen=True)
@@ -25,6 +22,11 @@ class Command:
     act: Callable[[Talk, str], None]
     takes: str = ""
     at_once: bool = False
+
+    @property
+    def typed(self) -> str:
+        """As a person types it, with what it takes."""
+        return f"/{self.name} {self.takes}".strip()
 
     @property
     def help_code(self) -> str:
@@ -61,7 +63,8 @@ def _unknown(talk: Talk, word: str) -> None:
 
 
 def _help(talk: Talk, _: str) -> None:
-    talk.face.print(tables.help_table(talk.words, talk.connection.world, COMMANDS))
+    shown = [(command.typed, command.help_code) for command in COMMANDS]
+    talk.face.print(tables.help_table(talk.words, talk.connection.world, shown))
 
 
 def _robot(talk: Talk, _: str) -> None:
@@ -69,7 +72,10 @@ def _robot(talk: Talk, _: str) -> None:
 
 
 def _world(talk: Talk, _: str) -> None:
-    talk.face.print(big_map(talk, talk.face.width), tables.world_table(talk.words, talk.connection.world))
+    talk.face.print(
+        big_map(talk.ride, talk.connection.world, talk.face.width),
+        tables.world_table(talk.words, talk.connection.world),
+    )
 
 
 def _places(talk: Talk, _: str) -> None:
@@ -104,7 +110,7 @@ def _save_plan(talk: Talk, argument: str) -> None:
 
 def _map(talk: Talk, argument: str) -> None:
     if argument.casefold() in ("big", "大"):
-        talk.face.print(big_map(talk, talk.face.width))
+        talk.face.print(big_map(talk.ride, talk.connection.world, talk.face.width))
         return
     talk.strip.shows_map = not talk.strip.shows_map
     talk.tell("map_on" if talk.strip.shows_map else "map_off")
@@ -121,7 +127,7 @@ def _estop(talk: Talk, _: str) -> None:
 
 def _release(talk: Talk, _: str) -> None:
     talk.release()
-    talk.tell("released")
+    talk.tell("estop_released")
 
 
 def _quit(talk: Talk, _: str) -> None:

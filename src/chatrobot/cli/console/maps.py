@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from rich.text import Text
 
+from chatrobot.cli.console.ride import Ride
 from chatrobot.cli.drawing.extent import Extent, extent_around, extent_of_world
 from chatrobot.cli.drawing.map_text import MapLines, draw_map_text
-
-if TYPE_CHECKING:
-    from chatrobot.cli.console.talk import Talk
+from chatrobot.sim.world import World
 
 COLOURS = {
     "wall": "bright_black", "path": "blue", "trail": "dark_orange", "place": "cyan", "robot": "bold red", "": "",
@@ -19,24 +16,22 @@ BIG_COLUMNS, BIG_ROWS = 100, 30
 WAY_COLUMNS, WAY_ROWS = 60, 14
 
 
-def big_map(talk: Talk, width: int) -> Text:
+def big_map(ride: Ride, world: World, width: int) -> Text:
     """The whole world with its names, the last plan's way and what was driven of it."""
-    ride, world = talk.ride, talk.connection.world
     extent = extent_of_world(world, (*ride.path, *ride.trail), margin_m=0.1, least_m=3.0)
-    return _draw(talk, extent, min(width - 4, BIG_COLUMNS), BIG_ROWS)
+    return _draw(ride, world, extent, min(width - 4, BIG_COLUMNS), BIG_ROWS)
 
 
-def way_map(talk: Talk) -> Text:
+def way_map(ride: Ride, world: World) -> Text:
     """The predicted way of the last plan and what stands around it."""
-    extent = extent_around(talk.ride.path, margin_m=0.8, least_m=3.0)
-    return _draw(talk, extent, WAY_COLUMNS, WAY_ROWS)
+    extent = extent_around(ride.path, margin_m=0.8, least_m=3.0)
+    return _draw(ride, world, extent, WAY_COLUMNS, WAY_ROWS)
 
 
-def _draw(talk: Talk, extent: Extent, columns: int, rows: int) -> Text:
-    ride = talk.ride
+def _draw(ride: Ride, world: World, extent: Extent, columns: int, rows: int) -> Text:
     columns, rows = _shape(extent, columns, rows)
     lines = draw_map_text(
-        talk.connection.world,
+        world,
         extent,
         columns=columns,
         rows=rows,

@@ -115,7 +115,7 @@ class Narrator:
 
     def _limited(self, event: Limited) -> Iterator[RenderableType]:
         asked, sent = self._twist(event.asked), self._twist(event.sent)
-        yield marked("!", "yellow", self._words.say("limited", asked=asked, sent=sent))
+        yield marked("!", "yellow", self._words.say("limited_to", asked=asked, sent=sent))
 
     def _said(self, event: Said) -> Iterator[RenderableType]:
         yield marked("»", "magenta", Text(event.text, "bold"))

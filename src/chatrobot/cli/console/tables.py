@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
 
 from rich.console import Group, RenderableType
 from rich.padding import Padding
@@ -17,9 +16,6 @@ from chatrobot.cli.console.words import Words
 from chatrobot.language.context import Place
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.world import World
-
-if TYPE_CHECKING:
-    from chatrobot.cli.console.commands import Command
 
 _UNITS = {"mps": "m/s", "mps2": "m/s²", "radps": "rad/s", "radps2": "rad/s²", "s": "s", "m": "m"}
 
@@ -41,16 +37,16 @@ def place_in(language: str, world: World, name: str) -> str:
     return next((alias for alias in also_called(world, name) if not alias.isascii()), name)
 
 
-def help_table(words: Words, world: World, commands: Sequence[Command]) -> RenderableType:
-    """What one can say, the commands, the keys."""
+def help_table(words: Words, world: World, commands: Sequence[tuple[str, str]]) -> RenderableType:
+    """What one can say, the commands (as they are typed, with the code of their help), the keys."""
     place = place_in(words.language, world, example_place(world)) or words.say("place_name")
     examples = [
         Text("    ").append(part.strip(), "cyan")
         for part in words.say("help_examples", place=place).split("|")
     ]
     table = _table()
-    for command in commands:
-        table.add_row(Text(f"/{command.name} {command.takes}".strip(), "bold"), words.say(command.help_code))
+    for typed, help_code in commands:
+        table.add_row(Text(typed, "bold"), words.say(help_code))
     return Group(
         indented(Text(words.say("help_talk"))),
         *examples,

@@ -12,7 +12,6 @@ from typing import Protocol
 from rich.console import RenderableType
 from rich.text import Text
 
-from chatrobot.cli.console import commands
 from chatrobot.cli.console.clean import LONGEST_CHARS, clean
 from chatrobot.cli.console.lines import indented, marked
 from chatrobot.cli.console.maps import way_map
@@ -66,11 +65,18 @@ class Face(Protocol):
 
 
 class Talk:
-    """See the module. `face` is attached once it exists."""
+    """See the module. `face` is attached once it exists; `run_command` does a line that begins with a slash."""
 
     face: Face
 
-    def __init__(self, connection: Connection, words: Words, clock: Clock) -> None:
+    def __init__(
+        self,
+        connection: Connection,
+        words: Words,
+        clock: Clock,
+        run_command: Callable[[Talk, str], None],
+    ) -> None:
+        self._run_command = run_command
         self.connection = connection
         self.session = connection.session
         self.words = words
@@ -92,10 +98,10 @@ class Talk:
         """A line was sent. A stop in it has gone out before this returns."""
         text = clean(raw).strip()
         if len(raw) > LONGEST_CHARS:  # it may have been cut: never do a part of it
-            self.tell("too_long", limit=LONGEST_CHARS)
+            self.tell("line_too_long", limit=LONGEST_CHARS)
         elif text.startswith("/"):
             self._echo(text)
-            commands.run(self, text)
+            self._run_command(self, text)
         elif text and not self._answer(text):
             self._say(text)
 
@@ -103,7 +109,7 @@ class Talk:
         """The plan that `Face.edit` was asked for."""
         text = clean(plan_text).strip()
         if len(plan_text) > LONGEST_CHARS:
-            self.tell("too_long", limit=LONGEST_CHARS)
+            self.tell("line_too_long", limit=LONGEST_CHARS)
         elif text:
             with self._order:
                 self.attempt(lambda: self.session.say_plan(text))
@@ -126,6 +132,10 @@ class Talk:
             self.face.leave(0)
             return
         self._leaving = True
+        asked, self._asked = self._asked, None
+        if asked is not None:
+            self.attempt(lambda: self.session.approve(asked.turn, False))
+            return
         self.tell("finishing")
 
     def stop(self, why: str) -> None:
@@ -179,7 +189,10 @@ class Talk:
             lines: list[RenderableType] = list(self.narrator.tell(event))
             if isinstance(event, Rehearsed) and event.needs_approval:
                 self._asked = event
-                lines += [way_map(self), Text(f"  {self.words.say('ask_approval')}", "bold")]
+                lines += [
+                    way_map(self.ride, self.connection.world),
+                    Text(f"  {self.words.say('ask_approval')}", "bold"),
+                ]
             if isinstance(event, Interpreted) and event.by == "reflex" and self.ride.is_moving:
                 self._muted.add(event.turn)  # what was moving is about to say how it ended
             if lines and event.turn not in self._muted:

@@ -1,0 +1,54 @@
+"""What reaches Motion: envelopes in order, each judged by the stops that came before and after it."""
+
+from __future__ import annotations
+
+from collections import deque
+
+from chatrobot.core.reason import Reason
+from chatrobot.session.envelope import Envelope
+from chatrobot.session.job import Job
+
+QUEUE_LIMIT = 10
+
+
+class Intake:
+    """The queue of jobs, and who may still join it. `void_turn` may be called from any thread."""
+
+    def __init__(self) -> None:
+        self.jobs: deque[Job] = deque()
+        self._sequences: dict[tuple[str, bool], int] = {}
+        self._void_turns: dict[str, int] = {}
+
+    def void_turn(self, lease: str, turn: int) -> None:
+        """A stop said after that turn: plans of it and of earlier ones may still be on their way."""
+        self._void_turns[lease] = turn
+
+    def is_old(self, envelope: Envelope) -> bool:
+        """A later one of the same lease was here before. Beats, sent by a thread of their own, count for themselves."""
+        kind = (envelope.lease, envelope.word == "beat")
+        if envelope.sequence <= self._sequences.get(kind, -1):
+            return True
+        self._sequences[kind] = envelope.sequence
+        return False
+
+    def add(self, job: Job, epoch: int) -> Reason | None:
+        """Queue `job`, or say why not: a stop has overtaken it (`stopped`), or too many wait (`queue_full`)."""
+        if job.epoch != epoch or job.turn <= self._void_turns.get(job.lease, 0):
+            return Reason("stopped")
+        if len(self.jobs) >= QUEUE_LIMIT:
+            return Reason("queue_full", {"limit": QUEUE_LIMIT})
+        self.jobs.append(job)
+        return None
+
+    def take_void(self, epoch: int) -> list[Job]:
+        """Remove and return what was received before the stop that began `epoch`; what came after it stays."""
+        void = [job for job in self.jobs if job.epoch != epoch]
+        for job in void:
+            self.jobs.remove(job)
+        return void
+
+    def take_all(self) -> list[Job]:
+        """Remove and return everything."""
+        jobs = list(self.jobs)
+        self.jobs.clear()
+        return jobs

@@ -1,0 +1,46 @@
+"""One turn's plan on its way through Motion: received, rehearsed, approved, run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from chatrobot.core.events import Finished, Outcome
+from chatrobot.core.geometry import ORIGIN, Pose
+from chatrobot.core.reason import Reason
+from chatrobot.session.approval import Approval
+from chatrobot.session.envelope import Envelope
+from chatrobot.session.planner import Planned
+
+
+@dataclass
+class Job:
+    """`epoch` is the stop epoch it was received in: a later stop makes it void. `start` is where it begins."""
+
+    turn: int
+    lease: str
+    plan_text: str
+    approve: bool
+    rehearse_only: bool
+    epoch: int
+    received_s: float
+    start: Pose = ORIGIN
+    planned: Planned | None = None
+    approval: Approval | None = None
+
+    @classmethod
+    def of(cls, envelope: Envelope, epoch: int, now_s: float) -> Job:
+        """The job that a `plan` envelope asks for."""
+        payload = envelope.payload
+        return cls(
+            turn=envelope.turn,
+            lease=envelope.lease,
+            plan_text=str(payload.get("plan_text", "")),
+            approve=bool(payload.get("approve")),
+            rehearse_only=bool(payload.get("rehearse_only")),
+            epoch=epoch,
+            received_s=now_s,
+        )
+
+    def unmoved(self, outcome: Outcome, reason: Reason | None, pose: Pose) -> Finished:
+        """Its end where nothing moved."""
+        return Finished(self.turn, outcome, reason, pose, pose, 0.0, 0.0, 0.0, 0.0)

@@ -1,0 +1,306 @@
+"""The console's parts, without a terminal."""
+
+import re
+import string
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from prompt_toolkit.completion import CompleteEvent
+from prompt_toolkit.document import Document
+from rich.console import Console
+
+from chatrobot.cli.console import commands
+from chatrobot.cli.console.clean import clean
+from chatrobot.cli.console.completion import ChatCompleter
+from chatrobot.cli.console.narrator import PLAN_LINES, Narrator
+from chatrobot.cli.console.ride import Ride
+from chatrobot.cli.console.strip import MAP_ROWS, Strip
+from chatrobot.cli.console.tables import example_place, place_in
+from chatrobot.cli.console.words import Words, language_of_environment
+from chatrobot.core.events import (
+    FindingSeen,
+    Finished,
+    Interpreted,
+    Limited,
+    Progress,
+    Rehearsed,
+    Result,
+    Started,
+    Telemetry,
+)
+from chatrobot.core.geometry import Pose, Twist
+from chatrobot.core.reason import Reason
+from chatrobot.language.context import Context
+from chatrobot.language.data_files import load_table
+from chatrobot.language.interpretation import OfflineInterpreter
+from chatrobot.robots.load import load_profile
+from chatrobot.sim.load import load_world
+from chatrobot.sim.world import EMPTY_WORLD
+
+HOME = load_world("home")
+WAY = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
+REHEARSED = Rehearsed(1, True, 3.6, 1.0, Pose(1.0), (), WAY)
+
+
+def printed(*renderables, width=80):
+    console = Console(width=width, no_color=True, force_terminal=False)
+    with console.capture() as capture:
+        console.print(*renderables, sep="\n")
+    return capture.get()
+
+
+def told(narrator, *events):
+    return printed(*(line for event in events for line in narrator.tell(event)))
+
+
+# --- words ---
+
+
+def fields(table):
+    return {
+        key: {name for _, name, _, _ in string.Formatter().parse(text) if name} for key, text in table.items()
+    }
+
+
+def test_both_languages_have_the_same_words_with_the_same_values():
+    assert fields(load_table("en", "console")) == fields(load_table("zh", "console"))
+
+
+def test_the_words_follow_the_language_of_the_last_question():
+    words = Words()
+    words.follow("前进一米")
+    assert words.language == "zh"
+    words.follow("42")
+    assert words.language == "zh"
+    words.follow("forward")
+    assert words.language == "en"
+
+
+@pytest.mark.parametrize(
+    ("environment", "language"),
+    [
+        ({"LANG": "zh_CN.UTF-8"}, "zh"),
+        ({"LANG": "zh_CN", "LC_ALL": "C"}, "en"),
+        ({"LC_ALL": "", "LANG": "zh"}, "zh"),
+        ({}, "en"),
+    ],
+)
+def test_the_first_words_are_in_the_language_of_the_system(environment, language):
+    assert language_of_environment(environment) == language
+
+
+def test_a_pose_is_never_minus_zero_nor_minus_180():
+    assert Words().pose(Pose(-0.001, -0.004, -3.14159)) == "(0.00, 0.00) 180°"
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_everything_the_console_offers_to_say_is_understood(language):
+    words = Words(language)
+    place = place_in(language, HOME, example_place(HOME))
+    examples = [
+        words.say("example_first"),
+        words.say("example_turn"),
+        words.say("example_third"),
+        words.say("undo_words"),
+    ]
+    examples += [words.say("example_place", place=place)]
+    examples += [part.strip() for part in words.say("help_examples", place=place).split("|")]
+    interpreter = OfflineInterpreter(load_profile("wheeltec_mini_mec"))
+    context = Context(world_places={alias: HOME.places[main] for alias, main in HOME.aliases.items()})
+    for example in examples:
+        if example != words.say("undo_words"):
+            assert interpreter.interpret(example, context).outcome in ("plan", "answered"), example
+
+
+# --- text that comes in ---
+
+
+@given(st.text())
+def test_clean_text_can_be_printed_and_stored(text):
+    tidy = clean(text)
+    tidy.encode("utf-8")
+    assert all(char.isprintable() or char in "\n\t\u3000\u00a0" for char in tidy)
+    assert clean(tidy) == tidy
+
+
+def test_surrogates_and_escapes_become_marks_and_chinese_stays():
+    assert clean("前进\udcff\x1b[2J\r\n1 m") == "前进��[2J\n1 m"
+
+
+# --- commands ---
+
+
+def test_every_command_has_a_help_text_in_both_languages():
+    for language in ("en", "zh"):
+        for command in commands.COMMANDS:
+            assert Words(language).say(command.help_code)
+
+
+@pytest.mark.parametrize(
+    ("typed", "meant"),
+    [("hepl", "help"), ("halp", "help"), ("relase", "release"), ("STOPP", "stop"), ("zzz", "")],
+)
+def test_the_nearest_command_is_the_one_that_was_meant(typed, meant):
+    assert commands.nearest(typed) == meant
+
+
+def test_what_must_not_wait_is_done_where_it_is_typed():
+    assert {command.name for command in commands.COMMANDS if command.at_once} == {
+        "stop",
+        "estop",
+        "release",
+        "quit",
+    }
+
+
+# --- completion ---
+
+
+def completions(text, by_tab=True):
+    completer = ChatCompleter(Words(), lambda: ["kitchen", "living room", "厨房"])
+    event = CompleteEvent(completion_requested=by_tab, text_inserted=not by_tab)
+    return [(c.text, c.start_position) for c in completer.get_completions(Document(text), event)]
+
+
+def test_a_slash_completes_to_commands_while_typing():
+    assert completions("/re", by_tab=False) == [("/release", -3)]
+
+
+def test_words_complete_on_tab_alone():
+    assert completions("go to the kit") == [("kitchen", -3)]
+    assert completions("go to the kit", by_tab=False) == []
+    assert ("forward", -3) in completions("for")
+    assert completions("去厨") == [("厨房", -1)]
+
+
+# --- ride and strip ---
+
+
+def moving_ride():
+    ride = Ride()
+    for event in (
+        REHEARSED,
+        Started(1, Pose()),
+        Progress(1, 2, 4, 0.5, Pose(0.5), Twist(0.3)),
+        Telemetry(1, Pose(0.5, 0.0, 0.0), Twist(0.3), 0.5, 80.0, 0.8, True),
+    ):
+        ride.hear(event)
+    return ride
+
+
+def finished(turn=1):
+    return Finished(turn, "completed", None, Pose(), Pose(1.0), 0.0, 1.0, 3.6, 0.0)
+
+
+def test_a_ride_has_its_way_its_trail_and_its_progress():
+    ride = moving_ride()
+    assert ride.is_moving
+    assert ride.path == ((0.0, 0.0), (1.0, 0.0))
+    assert ride.trail == ((0.0, 0.0), (0.5, 0.0))
+    assert (ride.step, ride.of, ride.fraction) == (2, 4, 0.5)
+
+
+def test_the_end_of_another_turn_does_not_end_the_ride():
+    ride = moving_ride()
+    ride.hear(finished(turn=7))
+    assert ride.is_moving
+    ride.hear(finished())
+    assert not ride.is_moving
+    assert ride.pose == Pose(1.0)
+
+
+def strip_text(ride, width=100, world=HOME, latched=False, language="en"):
+    return "".join(text for _, text in Strip(ride, Words(language), world).fragments(width, latched))
+
+
+def test_the_strip_of_a_moving_robot_says_where_how_fast_and_how_far():
+    text = strip_text(moving_ride())
+    for part in (
+        "moving",
+        "50 %",
+        "step 2 of 4",
+        "(0.50, 0.00) 0°",
+        "0.30 m/s",
+        "0.80 m",
+        "battery 80 %",
+        "→",
+    ):
+        assert part in text
+    assert "行驶中" in strip_text(moving_ride(), language="zh")
+    assert text.count("\n") == MAP_ROWS - 1
+
+
+def test_a_narrow_strip_has_no_map_and_no_line_is_too_long():
+    assert "→" not in strip_text(moving_ride(), width=45)
+    for width in range(1, 120):
+        assert max(len(line) for line in strip_text(moving_ride(), width=width).split("\n")) <= width
+
+
+def test_a_standing_robot_has_a_line_and_a_latched_one_an_alarm():
+    assert "\n" not in strip_text(Ride())
+    assert "EMERGENCY STOP" in strip_text(moving_ride(), latched=True)
+
+
+def test_a_strip_without_its_map_is_words_alone():
+    strip = Strip(moving_ride(), Words(), EMPTY_WORLD)
+    strip.shows_map = False
+    assert "→" not in "".join(text for _, text in strip.fragments(100))
+
+
+# --- what is told ---
+
+
+def test_a_plan_is_numbered_with_its_length_duration_and_findings():
+    finding = FindingSeen(1, "warn", Reason("tight_place"), (1,), 1.0)
+    text = told(
+        Narrator(Words()),
+        Interpreted(1, "offline", "repeat 4\n  drive 1 m\nend", "drive"),
+        Rehearsed(1, True, 3.6, 1.0, Pose(1.0), (finding,), WAY),
+    )
+    assert re.search(r"plan  1\.00 m, 3\.6 s\n +1  repeat 4\n +2    drive 1 m\n +3  end\n +! ", text)
+
+
+def test_a_long_plan_is_shown_in_part_and_whole_on_demand():
+    narrator, plan_text = Narrator(Words()), "\n".join(["drive 1 m"] * 40)
+    text = told(narrator, Interpreted(1, "offline", plan_text, ""), REHEARSED)
+    assert text.count("drive 1 m") == PLAN_LINES - 1
+    assert "… 25 more lines" in text
+    assert printed(*narrator.plan(plan_text, REHEARSED)).count("drive 1 m") == 40
+
+
+def test_the_refusal_that_is_the_result_is_not_told_twice():
+    hit = FindingSeen(1, "refuse", Reason("unknown_code_a"), (1,), 1.0)
+    plan = (Interpreted(1, "offline", "drive 1 m", ""), Rehearsed(1, False, 1.0, 1.0, Pose(), (hit,), WAY))
+    assert "unknown_code_a" not in told(Narrator(Words()), *plan)
+
+
+@pytest.mark.parametrize(
+    ("outcome", "mark"),
+    [
+        ("completed", "✓"),
+        ("answered", "•"),
+        ("unclear", "?"),
+        ("refused", "✗"),
+        ("stopped", "■"),
+        ("failed", "✗"),
+    ],
+)
+def test_every_outcome_has_its_mark(outcome, mark):
+    assert told(Narrator(Words()), Result(1, outcome, "so it was")).strip() == f"{mark} so it was"
+
+
+def test_what_the_governor_took_away_is_told():
+    text = told(Narrator(Words()), Limited(1, "speed", Twist(2.0), Twist(1.0)))
+    assert "2.00 m/s asked, 1.00 m/s allowed" in text
+
+
+def test_wrapped_lines_hang_under_their_first_and_end_without_blanks():
+    lines = told(Narrator(Words()), Result(1, "completed", "word " * 40)).splitlines()
+    assert len(lines) > 1
+    assert all(line.startswith("    ") for line in lines[1:])
+    assert all(line == line.rstrip() for line in lines)
+
+
+def test_markup_in_what_a_person_says_is_just_text():
+    assert "[red]x[/red]" in told(Narrator(Words()), Result(1, "unclear", "[red]x[/red]"))

@@ -1,0 +1,44 @@
+"""Every reason that any stage can give is a sentence in every language."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import chatrobot
+from chatrobot.language.data_files import load_table
+
+SOURCE = Path(chatrobot.__file__).parent
+TABLES = ("phrases", "outcomes", "console")
+
+
+def reason_codes() -> Iterator[str]:
+    """Every literal code of a `Reason("…")` in the source."""
+    for path in SOURCE.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Reason" and node.args:
+                code = node.args[0]
+                if isinstance(code, ast.Constant):
+                    yield str(code.value)
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+@pytest.mark.parametrize("code", sorted(set(reason_codes())))
+def test_every_reason_is_a_sentence(code: str, language: str) -> None:
+    assert any(code in load_table(language, table) for table in TABLES)
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_a_code_means_one_thing(language: str) -> None:
+    tables = [set(load_table(language, table)) for table in TABLES]
+    for first in range(len(tables)):
+        for second in range(first + 1, len(tables)):
+            assert not tables[first] & tables[second]
+
+
+@pytest.mark.parametrize("table", TABLES)
+def test_languages_have_the_same_phrases(table: str) -> None:
+    assert set(load_table("en", table)) == set(load_table("zh", table))
