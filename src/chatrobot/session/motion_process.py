@@ -29,16 +29,10 @@ from chatrobot.session.envelope import READY, Envelope
 from chatrobot.session.guard_link import GuardProcess
 from chatrobot.session.motion import Motion
 from chatrobot.session.planner import Planner
-<<<<<<< HEAD
 from chatrobot.sim.load import load_world
 from chatrobot.wire.connect import advertise, connect_wire
 from chatrobot.wire.local import PACKET_BYTES
 from chatrobot.wire.messages import Text, TwistMessage
-=======
-from chatrobot.sim.load import load_world
-from chatrobot.wire.local import PACKET_BYTES, LocalWire
-from chatrobot.wire.messages import Text
->>>>>>> main
 from chatrobot.wire.runtime_dir import stop_socket_path
 from chatrobot.wire.wire import Wire
 
