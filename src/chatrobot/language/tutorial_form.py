@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from functools import lru_cache
 
@@ -13,12 +12,10 @@ from chatrobot.language.quantities import read_quantities
 from chatrobot.language.tokens import Atom, tokenise
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import RawTwist
+from chatrobot.plan.tutorial_form import NUMBER, ImpossibleTwistError, read_tutorial_line, twist_from
 
-_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?"
-_ASSIGNMENT = rf"(linear|angular)\s*\.\s*([xyz])\s*=\s*({_NUMBER}|[-+]?(?:inf|nan)\w*)"
-_LINE = re.compile(rf"\s*[\"'“]?\s*{_ASSIGNMENT}(?:\s*[,，;]\s*{_ASSIGNMENT})*\s*[.,;，]?\s*[\"'”]?\s*")
 _BLOCK = re.compile(r"['\"]?(linear|angular)['\"]?\s*:\s*\{([^{}]*)\}")
-_ENTRY = re.compile(rf"['\"]?([xyz])['\"]?\s*:\s*({_NUMBER})")
+_ENTRY = re.compile(rf"['\"]?([xyz])['\"]?\s*:\s*({NUMBER})")
 _ROS_CLI = re.compile(
     r"ros2 topic pub|rostopic pub|--once|--rate \d+|-r \d+|-1\b|/?cmd_vel\b|geometry_msgs(?:/msg)?(?:/twist)?"
 )
@@ -31,9 +28,12 @@ def read_twist(text: str) -> RawTwist | None:
     Raises:
         Unclear: for a raw velocity that cannot be: not finite, out of the plane, or without a duration.
     """
-    if "\n" not in text.strip() and _LINE.fullmatch(text):
-        found = [(f"{g}.{axis}", value) for g, axis, value in re.findall(_ASSIGNMENT, text)]
-        return _twist({name: float(value) for name, value in found}, 1.0)
+    try:
+        twist = read_tutorial_line(text)
+    except ImpossibleTwistError as error:
+        raise _unclear(error) from error
+    if twist is not None:
+        return twist
     text = _ROS_CLI.sub(" ", text)
     blocks = _BLOCK.findall(text)
     if blocks:
@@ -44,13 +44,14 @@ def read_twist(text: str) -> RawTwist | None:
 
 
 def _twist(values: dict[str, float], seconds: float) -> RawTwist:
-    if not all(math.isfinite(v) for v in values.values()):
-        raise Unclear("bad_number")
-    if any(values.get(name) for name in ("linear.z", "angular.x", "angular.y")):
-        raise Unclear("not_planar", refused=True)
-    return RawTwist(
-        values.get("linear.x", 0.0), values.get("linear.y", 0.0), values.get("angular.z", 0.0), seconds
-    )
+    try:
+        return twist_from(values, seconds)
+    except ImpossibleTwistError as error:
+        raise _unclear(error) from error
+
+
+def _unclear(error: ImpossibleTwistError) -> Unclear:
+    return Unclear(error.code, refused=error.code == "not_planar")
 
 
 def _blocks(text: str, blocks: list[tuple[str, str]]) -> RawTwist:
