@@ -11,7 +11,7 @@ from dataclasses import asdict, dataclass
 from typing import Literal
 
 from chatrobot import __version__
-from chatrobot.cli.choices import config_folder
+from chatrobot.cli.folders import config_folder
 from chatrobot.core.errors import ChatRobotError
 from chatrobot.core.events import Event
 

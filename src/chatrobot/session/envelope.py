@@ -8,8 +8,8 @@ from typing import Any, Literal
 
 Word = Literal[
     "hello",  # opens the lease: {"term_s": …}
-    "beat",  # keeps it
-    "plan",  # {"plan_text", "mode": queue|replace|append, "approve": bool, "rehearse_only": bool}
+    "beat",  # keeps it; one that names its term opens it for a Motion that came later than the hello
+    "plan",  # {"plan_text", "mode": queue|replace|append, "approve": bool, "rehearse_only": bool, "longest_s": …}
     "approve",  # {"yes": bool} answers a Rehearsed event that needs approval
     "stop",  # {"why": …}; makes void what belongs to this turn and those before
     "emergency_stop",
@@ -39,7 +39,7 @@ class Envelope:
         try:
             data = json.loads(packet)
             envelope = cls(**data)
-        except (ValueError, TypeError):
+        except (ValueError, TypeError, RecursionError):
             return None
         well_formed = (
             envelope.word in WORDS
@@ -50,6 +50,15 @@ class Envelope:
             and isinstance(envelope.payload, dict)
         )
         return envelope if well_formed else None
+
+
+_LONGEST_S = 1e6
+
+
+def seconds(value: object, otherwise: float) -> float:
+    """A payload's duration; `otherwise` where it is none."""
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    return float(value) if is_number and 0.0 <= value <= _LONGEST_S else otherwise  # type: ignore[arg-type,operator]
 
 
 READY = b"ready"

@@ -85,6 +85,34 @@ def comes_back(wire: Wire) -> bool:
     return isinstance(wire, Returning)
 
 
+def wire_address(on: str) -> str:
+    """The address of the wire that `--on` names.
+
+    Raises:
+        UsageError: no robot is to be had there.
+    """
+    if on == "rosbridge":
+        return "rosbridge:ws://localhost:9090"
+    if on == "dds" or on.startswith(("dds:", "rosbridge:", "local:")):
+        return on if ":" in on else f"{on}:"
+    raise UsageError(
+        f"this version cannot drive a robot over {on!r}",
+        where="--on",
+        allowed="sim, dds, dds://DOMAIN/NAMESPACE, rosbridge:ws://HOST:9090 or local:PATH",
+    )
+
+
+def is_on_this_machine(address: str) -> bool:
+    """Whether all who meet on that wire are on this machine: beats are cheap there, and hardly ever late."""
+    scheme, separator, _ = address.partition(":")
+    if scheme == "dds" and separator:
+        from chatrobot.wire.dds.discovery import discovery_from
+
+        discovery = discovery_from(os.environ)
+        return discovery.range in ("LOCALHOST", "OFF") and not discovery.peers and not discovery.uri
+    return scheme != "rosbridge"
+
+
 def _connect_dds(address: str, wiring: Wiring, node_name: str) -> Wire:
     from chatrobot.wire.dds.discovery import MAX_DOMAIN_ID, discovery_from
 
