@@ -130,7 +130,9 @@ class NodeRig:
 
     def __init__(self, folder: Path, *nodes: str) -> None:
         self.domain = next(_domains)
-        kept = {k: v for k, v in os.environ.items() if not k.startswith(("ROS_", "CYCLONE", "CHATROBOT_", "XDG_"))}
+        kept = {
+            k: v for k, v in os.environ.items() if not k.startswith(("ROS_", "CYCLONE", "CHATROBOT_", "XDG_"))
+        }
         self.environment = {
             **kept,
             "ROS_DOMAIN_ID": str(self.domain),
@@ -146,7 +148,9 @@ class NodeRig:
         self.ear.subscribe("chatrobot/reply", Text, self.replies)
         self.ear.subscribe("chatrobot/events", Text, lambda message: self.events(json.loads(message.data)))
         self.robot = self.start("sim", "--on", "dds", "--world", "empty")
-        self.nodes = {name: self.start("node", name, "--on", "dds") for name in nodes or ("control", "base", "input")}
+        self.nodes = {
+            name: self.start("node", name, "--on", "dds") for name in nodes or ("control", "base", "input")
+        }
         self.robot.wait_for_line("it ends with Ctrl-C")
         for name, node in self.nodes.items():
             node.wait_for_line(name)
@@ -180,8 +184,12 @@ class NodeRig:
         said_s = self.nodes["input"].say(text)
         return self.result(said_s)
 
-    def result(self, since_s: float) -> dict[str, Any]:
-        return self.event("result", since_s)
+    def result(self, since_s: float, reply: str = "") -> dict[str, Any]:
+        """The first result since then whose reply begins like this."""
+        _, event = self.events.wait_for(
+            lambda event: event["event"] == "result" and event["reply"].startswith(reply), since_s
+        )
+        return dict(event)
 
     def event(self, name: str, since_s: float = 0.0) -> dict[str, Any]:
         _, event = self.events.wait_for(lambda event: event["event"] == name, since_s)

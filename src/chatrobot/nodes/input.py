@@ -12,6 +12,8 @@ from chatrobot.wire.messages import Flag, Text
 
 NODE = "chatrobot_input"
 LISTENER_S = 3.0
+BOTH_S = 1.0
+"""Base and control both listen; before the first line it waits so long for the second of them."""
 
 
 class InputNode:
@@ -27,7 +29,7 @@ class InputNode:
 
     def __init__(self, address: str, wiring: Wiring, show: Callable[[str], None]) -> None:
         self._wire = connect_wire(address, wiring, NODE)
-        self._show = show
+        self._has_met = False
         advertise(self._wire, USER_INPUT, Text)
         advertise(self._wire, STOP, Flag)
         self._wire.subscribe(REPLY, Text, lambda message: show(message.data))
@@ -41,7 +43,10 @@ class InputNode:
         if is_stop(text):
             self._wire.publish(USER_INPUT, Text(text))
             return True
+        if not self._has_met:
+            self._has_met = wait_for_listener(self._wire, USER_INPUT, Text, BOTH_S, count=2)
         heard = wait_for_listener(self._wire, USER_INPUT, Text, LISTENER_S)
+        self._has_met = self._has_met or heard
         self._wire.publish(USER_INPUT, Text(text))
         return heard
 

@@ -76,6 +76,7 @@ class MotionRunner:
         self.wire = _connect(address, self.profile.wiring, node)
         self._emit = emit
         self._accept_others = accept_others
+        self._seen: list[str] = []
         self._named: list[str] = []
         self._wake = threading.Event()
         self._plans: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
@@ -193,7 +194,8 @@ class MotionRunner:
     def _look_around(self) -> None:
         motions = self._rivals.motions()
         others = sorted({*motions, *self._rivals.others()})
-        if others != self._named:
+        is_settled, self._seen = others == self._seen, others  # a name from discovery alone soon gets better
+        if is_settled and others != self._named:
             self._named = others
             if others:
                 self.notice(Reason("not_alone", {"who": ", ".join(others)}))

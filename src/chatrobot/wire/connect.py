@@ -26,7 +26,9 @@ class Discovering(Protocol):
 
     def advertise(self, topic: str, kind: type[Message]) -> None: ...
 
-    def wait_for_listener(self, topic: str, kind: type[Message], timeout_s: float) -> bool: ...
+    def wait_for_listener(
+        self, topic: str, kind: type[Message], timeout_s: float, count: int = 1
+    ) -> bool: ...
 
     def publishers_of(self, topic: str) -> list[str]: ...
 
@@ -70,9 +72,9 @@ def advertise(wire: Wire, topic: str, kind: type[Message]) -> None:
         wire.advertise(topic, kind)
 
 
-def wait_for_listener(wire: Wire, topic: str, kind: type[Message], timeout_s: float) -> bool:
-    """Block until somebody listens on `topic`, where the wire can know; False where nobody does in time."""
-    return wire.wait_for_listener(topic, kind, timeout_s) if isinstance(wire, Discovering) else True
+def wait_for_listener(wire: Wire, topic: str, kind: type[Message], timeout_s: float, count: int = 1) -> bool:
+    """Block until `count` listen on `topic`, where the wire can know; False where they don't in time."""
+    return wire.wait_for_listener(topic, kind, timeout_s, count) if isinstance(wire, Discovering) else True
 
 
 def publishers_of(wire: Wire, topic: str) -> list[str]:
