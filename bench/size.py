@@ -19,8 +19,8 @@ ROOT = Path(__file__).parent.parent
 def installed(folder: Path) -> tuple[int, float]:
     """Distributions and megabytes, bytecode included, of a core install (pip and setuptools aside)."""
     subprocess.run([sys.executable, "-m", "venv", str(folder)], check=True)
-    pip = [str(folder / "bin" / "python"), "-m", "pip", "--disable-pip-version-check", "-q"]
-    subprocess.run([*pip, "install", str(ROOT)], check=True, stderr=subprocess.DEVNULL)
+    pip = [str(folder / "bin" / "python"), "-m", "pip", "--disable-pip-version-check"]
+    subprocess.run([*pip, "install", "-q", str(ROOT)], check=True, stderr=subprocess.DEVNULL)
     listed = subprocess.run(
         [*pip, "list", "--format=freeze"], check=True, capture_output=True, text=True
     ).stdout

@@ -245,7 +245,7 @@ def wait_until_full(descriptor: int) -> None:
     capacity = fcntl.fcntl(descriptor, fcntl.F_GETPIPE_SZ)
     waiting = array.array("i", [0])
     deadline_s = time.monotonic() + PATIENCE_S
-    while waiting[0] < capacity - 4096:
+    while waiting[0] < capacity - 2 * 4096:  # a write that does not fit its page begins another
         assert time.monotonic() < deadline_s
         time.sleep(0.01)
         fcntl.ioctl(descriptor, termios.FIONREAD, waiting)

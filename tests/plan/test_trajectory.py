@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from chatrobot.core.geometry import Pose, Twist
-from chatrobot.plan.core_motion import RampedTwist
+from chatrobot.plan.core_motion import RAMP_SHARE, RampedTwist
 from chatrobot.plan.trajectory import Ramp, Segment
 from tests.plan.robots import MECANUM
 
@@ -111,7 +111,7 @@ def test_a_timed_metre_takes_its_time_and_one_ramp() -> None:
 
 def test_braking_decides_where_it_is_weaker_than_accelerating() -> None:
     weak = LIMITS.__class__(**{**LIMITS.__dict__, "deceleration_mps2": 0.5})
-    assert RampedTwist.within(weak, Twist(1.0), 3.0).ramp_per_s == pytest.approx(0.5)
+    assert RampedTwist.within(weak, Twist(1.0), 3.0).ramp_per_s == pytest.approx(RAMP_SHARE * 0.5)
 
 
 def test_a_zero_twist_is_a_pause_not_a_motion() -> None:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import queue
+import socket
 import threading
+import time
 from collections.abc import Callable, Iterator
 
 import pytest
@@ -17,6 +20,7 @@ from chatrobot.wire.messages import Flag, Imu, LaserScan, Message, Number, Odome
 pytest.importorskip("websockets", reason="pip install 'chatrobot[rosbridge]'")
 
 from fake_rosbridge import FakeRosbridge
+from websockets.utils import accept_key
 
 from chatrobot.wire.rosbridge import RosbridgeWire
 
@@ -97,6 +101,42 @@ def test_what_could_not_be_sent_is_not_sent_later(robot: FakeRosbridge, connect:
     wire.publish("cmd_vel", ZERO)
     assert robot.wait_for("publish", 2, PATIENCE_S)
     assert [request["msg"]["linear"]["x"] for request in robot.of("publish")] == [0.1, 0.0]
+
+
+@pytest.mark.realtime
+def test_a_server_that_does_not_read_does_not_block_the_publisher() -> None:
+    """It shakes hands, then freezes: its kernel takes what fits, and acknowledges."""
+    listener = socket.create_server(("127.0.0.1", 0))
+    port = listener.getsockname()[1]
+    hands: list[socket.socket] = []
+
+    def shake_hands() -> None:
+        connection, _ = listener.accept()
+        request = connection.recv(4096).decode()
+        key = next(
+            line.split(": ")[1] for line in request.split("\r\n") if line.startswith("Sec-WebSocket-Key")
+        )
+        connection.sendall(
+            "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+            f"Sec-WebSocket-Accept: {accept_key(key)}\r\n\r\n".encode()
+        )
+        hands.append(connection)
+
+    thread = threading.Thread(target=shake_hands)
+    thread.start()
+    wire = RosbridgeWire(f"ws://127.0.0.1:{port}", Wiring())
+    thread.join()
+    longest_s = 0.0
+    for _ in range(8_000):
+        began_s = time.monotonic()
+        with contextlib.suppress(WireError):
+            wire.publish("chatter", Text("x" * 1000))
+        longest_s = max(longest_s, time.monotonic() - began_s)
+    assert longest_s < 0.1
+    for connection in hands:
+        connection.close()
+    listener.close()
+    wire.close()
 
 
 def test_where_no_rosbridge_answers_it_says_where(robot: FakeRosbridge) -> None:

@@ -57,6 +57,7 @@ class PoseEstimator:
         self._bias = 0.0
         self._bias_samples = 0
         self._standing_since_s = math.inf
+        self._doubtful: list[tuple[float, float]] = []
         self.estimate: Estimate | None = None
         self._history: deque[Estimate] = deque(maxlen=HISTORY)
         self.wheel_yaw_rad = 0.0
@@ -86,18 +87,32 @@ class PoseEstimator:
         rate = message.wz_radps - self._bias
         resting = self._is_resting(message.stamp_s)
         if resting and (self._bias_samples < 20 or abs(rate) < PUSHED_RATE_RADPS):
-            self._bias_samples = min(self._bias_samples + 1, BIAS_WINDOW)
-            self._bias += rate / self._bias_samples
             self._gyro_rate = 0.0
-        elif 0.0 < dt < IMU_SILENT_S:
-            self._gyro_rate = rate
-            self._gyro_yaw += rate * dt
+            self._doubtful.append((message.wz_radps, dt))
+        else:
+            self._integrate(message.wz_radps, dt)
+
+    def _integrate(self, rate_radps: float, dt_s: float) -> None:
+        if 0.0 < dt_s < IMU_SILENT_S:
+            self._gyro_rate = rate_radps - self._bias
+            self._gyro_yaw += self._gyro_rate * dt_s
+
+    def _settle_doubtful(self, still: bool) -> None:
+        """Gyro samples of a robot at rest: bias if the wheels were still after them too, else the first of a turn."""
+        for rate_radps, dt_s in self._doubtful:
+            if still:
+                self._bias_samples = min(self._bias_samples + 1, BIAS_WINDOW)
+                self._bias += (rate_radps - self._bias) / self._bias_samples
+            else:
+                self._integrate(rate_radps, dt_s)
+        self._doubtful.clear()
 
     def on_odometry(self, message: Odometry) -> None:
         """A wheel odometry sample."""
         if not all(map(math.isfinite, message)):
             self.fault = Reason("odometry_not_finite")
             return
+        self._settle_doubtful(_is_still(message))
         last, self._last = self._last, message
         if last is None or self.estimate is None:
             self._begin(message)
@@ -127,9 +142,13 @@ class PoseEstimator:
         turn = wheel_turn
         rate = message.wz_radps
         if self.has_gyro and message.stamp_s - self._imu_at_s < IMU_SILENT_S:
-            turn = self._gyro_yaw - self._gyro_yaw_at_odometry
+            # Odometry may come a sample before the gyro of the same moment: carry the heading on to its stamp.
+            gyro_yaw = self._gyro_yaw + self._gyro_rate * (message.stamp_s - self._imu_at_s)
+            turn = gyro_yaw - self._gyro_yaw_at_odometry
             rate = self._gyro_rate
-        self._gyro_yaw_at_odometry = self._gyro_yaw
+            self._gyro_yaw_at_odometry = gyro_yaw
+        else:
+            self._gyro_yaw_at_odometry = self._gyro_yaw
         # The wheels' chord is seen at half their own turn; put it at half of the turn that really happened.
         swing = (turn - wheel_turn) / 2.0
         cos, sin = math.cos(swing), math.sin(swing)
@@ -145,11 +164,7 @@ class PoseEstimator:
         self._note_standing(message)
 
     def _note_standing(self, message: Odometry) -> None:
-        still = (
-            math.hypot(message.vx_mps, message.vy_mps) < STANDING_SPEED_MPS
-            and abs(message.wz_radps) < STANDING_RATE_RADPS
-        )
-        if not still:
+        if not _is_still(message):
             self._standing_since_s = math.inf
         elif self._standing_since_s == math.inf:
             self._standing_since_s = message.stamp_s
@@ -157,3 +172,9 @@ class PoseEstimator:
     def _is_resting(self, stamp_s: float) -> bool:
         """Standing for a moment already: what the gyro shows now is bias."""
         return stamp_s - self._standing_since_s > 0.06
+
+
+def _is_still(message: Odometry) -> bool:
+    """The wheels do not turn."""
+    speed_mps = math.hypot(message.vx_mps, message.vy_mps)
+    return speed_mps < STANDING_SPEED_MPS and abs(message.wz_radps) < STANDING_RATE_RADPS

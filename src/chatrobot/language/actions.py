@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from chatrobot.core.geometry import Pose
 from chatrobot.language.frames import DIAGONALS, GO, SIDES, STILL, TURN, Frame
 from chatrobot.language.manner import Pace
+from chatrobot.language.numbers import is_chinese
 from chatrobot.language.quantities import quantity
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
@@ -33,6 +34,7 @@ class State:
     left: bool | None = None
     last: str = ""
     home: Pose | None = None
+    unsaid: list[Frame] = field(default_factory=list)
 
 
 def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
@@ -46,6 +48,7 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if (
         "there" in frame.flags
         and frame.verb not in STILL
+        and "clock" not in frame.q
         and not (frame.direction or frame.rot or "length" in frame.q)
     ):
         raise Unclear("which_place", frame.text)
@@ -59,14 +62,18 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
         steps = _clock(frame, pace)
     elif frame.verb in STILL:
         steps = _still(frame)
-    elif frame.verb == "return" or ("to_start" in frame.flags and frame.verb in (*GO, "", "uturn")):
+    elif frame.verb == "return" and {"length", "angle", "turns"} & set(frame.q) and not frame.direction:
+        steps = _partly_back(frame, state, pace)
+    elif frame.verb == "return" or (
+        "to_start" in frame.flags
+        and frame.verb in (*GO, "", "uturn")
+        and not (frame.direction and "length" in frame.q)
+    ):
         steps = _return(frame, state, pace)
     elif frame.verb == "face" or ("original_heading" in frame.flags):
         steps = _face(frame, state, pace)
     elif frame.verb == "uturn":
-        steps = [Turn(math.pi, left=_left(frame) is not False, rate_radps=pace.rate(frame))]
-        if frame.is_arc or "length" in frame.q:
-            raise Unclear("unclear_motion", frame.text)
+        steps = _about(frame, pace)
     elif frame.is_arc:
         steps = _arc(frame, pace)
     elif _is_turn(frame, state):
@@ -74,6 +81,20 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     else:
         steps = _drive(frame, state, pace)
     return steps
+
+
+def _about(frame: Frame, pace: Pace) -> list[Step]:
+    """Turn around on the spot; as a half circle where a radius is said."""
+    left = _left(frame)
+    if "radius" in frame.q and left is not None:
+        return [Arc(frame.q["radius"].number, math.pi, left=left, speed_mps=pace.speed(frame))]
+    said = frame.q.get("angle") or frame.q.get("turns")
+    if frame.is_arc or "length" in frame.q or (said and abs(said.number - math.pi) > 1e-6):
+        raise Unclear("unclear_motion", frame.text)
+    rate = pace.rate(frame)
+    if "time" in frame.q:
+        rate = math.pi / frame.q["time"].number
+    return [Turn(math.pi, left=left is not False, rate_radps=rate)]
 
 
 def _with_units(frame: Frame, state: State) -> Frame:
@@ -98,11 +119,24 @@ def _with_units(frame: Frame, state: State) -> Frame:
     number = frame.q.get("number")
     if number is None:
         return frame
+    before = state.angle if frame.turning else state.length
+    if number.text == "一半" and before is not None and not frame.has_extent:
+        frame = frame.copy()
+        del frame.q["number"]
+        frame.q[before.value] = quantity(before.value, before.number / 2, number.text)
+        return frame
     dimension = ""
     if "units_said" in frame.flags:
         dimension = "angle" if frame.turning else "length"
         factor = math.pi / 180 if frame.turning else 1.0
-    elif _means_degrees(frame, number.number):
+    elif _means_degrees(frame, number.number) or (
+        state.last == "turn"
+        and state.angle is not None
+        and not frame.has_extent
+        and (frame.turning or frame.direction in SIDES)
+        and 1 <= number.number <= 1080
+        and frame.verb not in GO
+    ):
         dimension, factor = "angle", math.pi / 180
     elif (
         "more" in frame.flags
@@ -144,11 +178,12 @@ def _check_extents(frame: Frame) -> None:
 
 _SLOTS = {
     "still": {"time"},
-    "turn": {"angle", "turns", "time", "rate", "percent", "fold", "times"},
-    "drive": {"length", "time", "speed", "percent", "fold", "times"},
-    "heading": {"length", "time", "speed", "percent", "fold", "times", "angle"},
+    "turn": {"angle", "turns", "time", "rate", "percent", "fold", "faster", "times"},
+    "drive": {"length", "time", "speed", "percent", "fold", "faster", "times"},
+    "heading": {"length", "time", "speed", "percent", "fold", "faster", "times", "angle"},
 }
 _REFERRING = {
+    "halfway",
     "other_way",
     "short_of",
     "from_now_on",
@@ -167,7 +202,7 @@ def _all_used(frame: Frame, kind: str) -> None:
         raise Unclear("unclear_motion", f"{frame.text}")
     if "each" in frame.flags and "time" in frame.q and kind != "still" and len(frame.q) > 1:
         raise Unclear("unclear_motion", frame.text)
-    if _REFERRING & frame.flags:
+    if _REFERRING & frame.flags or (kind in ("drive", "heading") and (frame.rot or frame.direction2)):
         raise Unclear("unclear_motion", frame.text)
 
 
@@ -192,6 +227,10 @@ def _left(frame: Frame) -> bool | None:
 def _is_turn(frame: Frame, state: State) -> bool:
     if frame.verb in TURN or (frame.rot and frame.verb not in GO):
         return True
+    if frame.rot and {"in_place", "around"} & frame.flags and "length" not in frame.q:
+        return True
+    if "bearing" in frame.flags and {"length", "time"} & set(frame.q) and "angle" in frame.q:
+        return False
     if "angle" in frame.q or "turns" in frame.q:
         return frame.direction not in DIAGONALS.values() and "diagonal" not in frame.flags
     if "rate" in frame.q:
@@ -209,7 +248,7 @@ def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
     _all_used(frame, "turn")
     rate = pace.rate(frame)
     seconds = frame.q.get("time")
-    angle = frame.q.get("angle") or frame.q.get("turns")
+    angle = _whole_angle(frame)
     left = _left(frame)
     if left is None and not frame.moves:
         left = state.left
@@ -218,12 +257,15 @@ def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
     state.last = "turn"
     around = "around" in frame.flags and seconds is None
     left = True if left is None and around else left
-    if frame.verb == "spin" and angle is None and ("times" in frame.q or around):
+    whole = frame.verb == "spin" or (frame.verb == "turn" and ("in_place" in frame.flags or bool(frame.rot)))
+    if whole and angle is None and ("times" in frame.q or (around and frame.verb == "spin")):
         angle_rad: float | None = 2 * math.pi
     elif angle is not None:
         angle_rad = angle.number
     else:
         angle_rad = None
+    if left is None and rate is not None and rate > pace.profile.limits.max_rate_radps:
+        left = True  # too fast to either side: the rehearsal says so
     if left is None:
         if angle_rad is None or not _same_either_way(angle_rad):
             raise Unclear("which_side", frame.text)
@@ -241,17 +283,37 @@ def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
     return [Turn(angle_rad, left=left, rate_radps=rate)]
 
 
+def _whole_angle(frame: Frame) -> Atom | None:
+    """`One turn and 90 degrees` is their sum; `one turn, 360 degrees` says it twice."""
+    angle, turns = frame.q.get("angle"), frame.q.get("turns")
+    if (
+        angle is None
+        or turns is None
+        or abs(angle.number - turns.number) < 1e-6
+        or not is_chinese(turns.text)
+    ):
+        return angle or turns
+    if angle.number >= 2 * math.pi or turns.number < 2 * math.pi:
+        raise Unclear("contradiction", f"{turns.text} {angle.text}")
+    return quantity("angle", turns.number + angle.number, f"{turns.text} {angle.text}")
+
+
 def _same_either_way(angle_rad: float) -> bool:
     half_turns = angle_rad / math.pi
     return half_turns >= 1 and abs(half_turns - round(half_turns)) < 1e-6
 
 
 def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
-    _all_used(frame, "heading" if frame.direction in DIAGONALS.values() else "drive")
+    bearing = "bearing" in frame.flags and "angle" in frame.q
+    _all_used(frame, "heading" if bearing or frame.direction in DIAGONALS.values() else "drive")
+    if bearing and frame.direction not in SIDES:
+        raise Unclear("which_side", frame.text)
     direction = frame.direction
     diagonal = "diagonal" in frame.flags
     if diagonal and direction not in DIAGONALS.values():
         raise Unclear("which_diagonal", frame.text)
+    if not direction and not frame.has_extent and any(text.endswith("到") for text in frame.texts):
+        raise Unclear("which_place", frame.text)
     if not direction:
         if frame.verb == "slide" or "sideways" in frame.flags:
             raise Unclear("which_side", frame.text)
@@ -265,6 +327,8 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
         raise Unclear("contradiction", frame.text)
     if not frame.has_extent and not frame.direction and frame.joined == "none":
         raise Unclear("which_way", frame.text)
+    if not frame.moves and set(frame.q) == {"time"} and state.last != "drive":
+        raise Unclear("unclear_motion", frame.text)
     ellipsis = "again" in frame.flags or ("more" in frame.flags and state.last == "drive")
     if not frame.moves and not frame.has_extent and not ellipsis:
         raise Unclear("unclear_motion", frame.text)
@@ -273,6 +337,8 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
     angle = DIRECTIONS[direction]
     if "angle" in frame.q and direction in DIAGONALS.values():
         angle = _heading_angle(direction, frame.q["angle"].number)
+    if bearing:
+        angle = math.copysign(frame.q["angle"].number, angle)
     speed = pace.speed(frame)
     length, seconds = frame.q.get("length"), frame.q.get("time")
     if length is None and "speed" in frame.q and frame.q["speed"].role and seconds is None:
@@ -289,6 +355,7 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if seconds is not None:
         return [Drive(duration_s=seconds.number, direction_rad=angle, speed_mps=speed)]
     distance = pace.profile.defaults.distance_m * (0.5 if "bit" in frame.flags else 1.0)
+    state.unsaid.append(frame)
     return [Drive(distance, direction_rad=angle, speed_mps=speed)]
 
 
@@ -355,8 +422,14 @@ def _arc(frame: Frame, pace: Pace) -> list[Step]:
         signed = rate.number if left else -rate.number
         forward = speed.number if speed else pace.speed(frame) or pace.profile.defaults.speed_mps
         return [RawTwist(-forward if backward else forward, 0.0, signed, seconds.number)]
-    radius = None
-    if length is not None and ("radius" in frame.roles or "diameter" in frame.roles):
+    radius = frame.q["radius"].number if "radius" in frame.q else None
+    if radius is not None and length is not None:
+        if angle is not None and abs(angle.number * radius - length.number) > 0.1 * length.number:
+            raise Unclear("contradiction", frame.text)
+        angle = quantity("angle", length.number / radius, length.text)
+    elif radius is not None:
+        pass
+    elif length is not None and ("radius" in frame.roles or "diameter" in frame.roles):
         radius = length.number / (2 if "diameter" in frame.roles and "radius" not in frame.roles else 1)
     elif length is not None and angle is not None:
         radius = length.number / angle.number
@@ -376,7 +449,9 @@ def _arc(frame: Frame, pace: Pace) -> list[Step]:
 
 
 def _return(frame: Frame, state: State, pace: Pace) -> list[Step]:
-    if set(frame.q) - {"speed", "percent", "fold"}:
+    if set(frame.q) & {"length", "time"} and state.last == "drive" and not frame.direction:
+        return _some_way_back(frame, state, pace)
+    if set(frame.q) - {"speed", "percent", "fold", "faster"}:
         raise Unclear("unclear_motion", frame.text)
     if frame.direction or (frame.has_extent and frame.verb != "return"):
         raise Unclear("unclear_motion", frame.text)
@@ -389,6 +464,28 @@ def _return(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if state.home is not None and not drives:
         return [Go(state.home.x_m, state.home.y_m, frame="odom", speed_mps=speed)]
     return [Go(0.0, 0.0, frame="start", speed_mps=speed)]
+
+
+def _some_way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    """`…, then come back 50 cm`: so much of the last drive, undone."""
+    opposite = math.remainder(DIRECTIONS[state.direction] + math.pi, 2 * math.pi)
+    names = [n for n, a in DIRECTIONS.items() if abs(math.remainder(a - opposite, 2 * math.pi)) < 1e-6]
+    back = frame.copy()
+    back.verb, back.direction = "go", names[0]
+    back.flags -= {"to_start", "again"}
+    return _drive(back, state, pace)
+
+
+def _partly_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    """退回来二十厘米: against the last motion, by so much."""
+    if "length" in frame.q:
+        angle = DIRECTIONS[state.direction] if state.last == "drive" else 0.0
+        opposite = math.remainder(angle + math.pi, 2 * math.pi)
+        return [Drive(frame.q["length"].number, direction_rad=opposite, speed_mps=pace.speed(frame))]
+    if state.left is None or state.last != "turn":
+        raise Unclear("which_side", frame.text)
+    amount = frame.q.get("angle") or frame.q["turns"]
+    return [Turn(amount.number, left=not state.left, rate_radps=pace.rate(frame))]
 
 
 def inverse(steps: list[Step], speed_mps: float | None = None) -> list[Step]:

@@ -13,7 +13,7 @@ from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 
 _STRENGTH = {"start": 0, "and": 1, "weak": 2, "colon": 3, "strong": 4, "then": 5}
-MANNER = frozenset({"speed", "rate", "percent", "fold"})
+MANNER = frozenset({"speed", "rate", "percent", "fold", "faster"})
 
 
 @dataclass
@@ -66,6 +66,8 @@ def _separator(atom: Atom) -> str | None:
 
 def _split(atoms: list[Atom]) -> list[Frame]:
     """The frames of a stretch without separators."""
+    bearing = [a for a in atoms if a.kind == "flag" and a.value == "bearing"]
+    atoms = [*bearing, *[a for a in atoms if a not in bearing]]
     curve = next((a for a in atoms if a.kind == "verb" and a.value == "curve"), None)
     if curve is not None and not any(a.kind == "shape" for a in atoms):
         atoms = [curve, *[a for a in atoms if a is not curve and a.value != "go"]]
@@ -76,6 +78,9 @@ def _split(atoms: list[Atom]) -> list[Frame]:
             continue
         if atom.kind not in SLOTTED:
             raise Unclear("unknown_part", _around(atoms, i))
+        if _repeats_all(atom, atoms[i + 1 :], current):
+            frames.append(current)
+            current = Frame(joined="weak")
         if not current.add(atom):
             if _is_bare_direction(current):
                 raise Unclear("contradiction", f"{current.text} {atom.text}".strip())
@@ -86,7 +91,8 @@ def _split(atoms: list[Atom]) -> list[Frame]:
                 and not current.has_extent
             ):
                 raise Unclear("length_for_turn", f"{current.text} {atom.text}")
-            if atom.kind == "q" and atom.value in current.q and atom.value in EXTENTS and not current.shape:
+            repeated = atom.kind == "q" and atom.value in current.q and atom.value in EXTENTS
+            if repeated and not (current.shape or current.roles):
                 raise Unclear("contradiction", f"{current.text} {atom.text}")
             frames.append(current)
             current = Frame(joined="none")
@@ -95,6 +101,13 @@ def _split(atoms: list[Atom]) -> list[Frame]:
     if not current.is_empty:
         frames.append(current)
     return frames
+
+
+def _repeats_all(atom: Atom, rest: list[Atom], current: Frame) -> bool:
+    """…左转九十度重复四遍: all that was said before, not the last part alone."""
+    again = atom.kind == "flag" and atom.value == "again" and atom.text.startswith(("重复", "反复"))
+    counted = bool(rest) and rest[0].kind == "q" and rest[0].value == "times"
+    return again and counted and len(rest) == 1 and current.moves and current.has_extent
 
 
 def _is_bare_direction(frame: Frame) -> bool:
@@ -129,9 +142,20 @@ def _join(frames: list[Frame], segment: Segment) -> None:
 
 
 def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
-    if joined == "then" or "between" in first.flags or "after_each" in first.flags or "all" in first.flags:
+    if "trip" in last.flags and "each" in first.flags and not first.verb:
         return None
-    if "again" in first.flags or is_times_only(first) or is_times_only(last) or last.flags & {"again", "all"}:
+    if (
+        joined == "then"
+        or {"between", "halfway"} & first.flags
+        or "after_each" in first.flags
+        or "all" in first.flags
+    ):
+        return None
+    if "trip" in first.roles and last.verb == "return":
+        return None
+    if "again" in first.flags or is_times_only(first) or is_times_only(last):
+        return None
+    if "all" in last.flags or ("again" in last.flags and not last.has_extent):
         return None
     if (
         {"between", "after_each"} & last.flags
@@ -140,6 +164,8 @@ def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
         and last.moves
         and last.has_extent
     ):
+        return None
+    if "number" in first.q and (last.has_extent or "number" in last.q) and not (last.shape or first.shape):
         return None
     if "while" in first.flags and last.verb in GO and first.verb in TURN and not last.has_extent:
         last = last.copy()
@@ -158,9 +184,10 @@ def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
 
 def is_times_only(frame: Frame) -> bool:
     """`four times`, and nothing that moves."""
-    bare = frame.verb in ("", "make", "go", "turn", "shift", "slide")
+    bare = frame.verb in ("", "make", "go", "turn", "shift", "slide") and "trip" not in frame.flags
     way = frame.direction or frame.rot or frame.shape or frame.place
-    return "times" in frame.q and bare and not way and not frame.has_extent
+    counted = "times" in frame.q or ("count" in frame.q and frame.q["count"].role == "move")
+    return counted and bare and not way and not frame.has_extent
 
 
 def _is_fragment(frame: Frame) -> bool:

@@ -8,11 +8,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from chatrobot.language.frames import EXTENTS, Frame
+from chatrobot.language.numbers import is_chinese
+from chatrobot.language.quantities import quantity
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 
 _NO = frozenset({"no", "nope", "不", "wait", "sorry", "oops", "whoops", "等等", "no no", "rather"})
 _DENIALS = frozenset({"不是", "not that"})
+_AFTERTHOUGHTS = frozenset({"i mean", "i meant", "i mean to say", "rather"})
 _PIECE = ("dir", "rot", "q", "pace", "verb", "shape")
 
 
@@ -24,6 +27,9 @@ def corrected(atoms: Sequence[Atom]) -> list[Atom]:
         if at is None:
             return out
         before, after = out[:at], out[at + 1 :]
+        if _is_afterthought(before, out[at], after):
+            out = [*before, *after]
+            continue
         if out[at].kind == "correction" and out[at].value == "cancel":
             if not any(a.kind in _PIECE for a in after):
                 raise Unclear("taken_back", out[at].text)
@@ -40,6 +46,8 @@ def _is_correction(atoms: list[Atom], i: int) -> bool:
         if atom.text in ("rather", "wrong", "make it", "还是", "算了", "不是", "应该是"):
             return i > 0 and any(a.kind in _PIECE for a in atoms[:i])
         return True
+    if atom.kind == "flag" and atom.value == "instead" and is_chinese(atom.text):
+        return any(a.kind == "q" for a in atoms[:i]) and any(a.kind in _PIECE for a in atoms[i + 1 :])
     if atom.text not in _NO or atom.kind not in ("filler", "negation", "verb", "glue"):
         return False
     if not any(a.kind in _PIECE for a in atoms[:i]) or atoms[i - 1].kind not in ("sep", "filler"):
@@ -50,6 +58,12 @@ def _is_correction(atoms: list[Atom], i: int) -> bool:
     # `sorry, right`: only where a lone piece follows.
     real = [a for a in following if a.kind not in ("sep", "filler", "glue")]
     return atom.text in ("sorry", "oops", "whoops") and bool(real) and real[0].kind in ("dir", "rot", "q")
+
+
+def _is_afterthought(before: list[Atom], word: Atom, after: list[Atom]) -> bool:
+    """`…, sideways I mean`: what was meant stands before it already."""
+    ends = not any(a.kind in _PIECE for a in after)
+    return ends and word.text in _AFTERTHOUGHTS and bool(before) and before[-1].kind not in ("sep", "conn")
 
 
 def _trimmed(atoms: list[Atom]) -> list[Atom]:
@@ -70,6 +84,14 @@ def _replaced(before: list[Atom], after: list[Atom]) -> list[Atom]:
         end += 1
     said, rest = after[start:end], after[end:]
     pieces = [a for a in said if a.kind in _PIECE]
+    unit = next((a for a in said if a.kind in ("unit_length", "unit_angle", "unit_time")), None)
+    last = next((i for i in range(len(before) - 1, -1, -1) if before[i].kind == "q"), None)
+    if not pieces and unit is not None and last is not None and before[last].value == "number":
+        name, factor = unit.kind[5:], float(unit.value)
+        amount = quantity(
+            name, before[last].number * factor, f"{before[last].text} {unit.text}", repr(factor)
+        )
+        return [*before[:last], amount, *before[last + 1 :], *rest]
     if not pieces:
         raise Unclear("unknown_part", " ".join(a.text for a in after[:end]))
     if _is_clause(pieces):

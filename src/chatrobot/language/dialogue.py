@@ -26,6 +26,8 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     Raises:
         Unclear: where there is nothing to refer to.
     """
+    if len(frames) == 2 and frames[0].verb == "undo" and frames[1].verb == "return" and not frames[1].q:
+        frames = frames[:1]
     whole = _whole(frames)
     if whole is None:
         return None
@@ -41,6 +43,8 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     if "original_heading" in whole.flags and ("to_start" in whole.flags or whole.verb == "return"):
         start = context.dialogue.start_pose
         return [Go(start.x_m, start.y_m, start.yaw_rad, frame="odom", speed_mps=pace.speed(whole))]
+    if whole.has_extent and {"original_heading", "to_start"} & whole.flags:
+        return None  # a motion of its own comes before
     if "original_heading" in whole.flags and whole.verb in ("face", "turn", "", "return", "go"):
         return [Face(context.dialogue.start_pose.yaw_rad, frame="odom", rate_radps=pace.rate(whole))]
     if (whole.verb == "return" or "to_start" in whole.flags) and not whole.q and not whole.place:
@@ -74,11 +78,13 @@ def _whole(frames: Sequence[Frame]) -> Frame | None:
             frame.verb not in ("", "make", "turn", "go", "face")
             or frame.place
             or frame.shape
-            or frame.joined == "then"
+            or (frame.joined == "then" and not _is_only_again(whole))
         ):
             return None
         if any(name in whole.q for name in frame.q):
             return None
+        if "again" in frame.flags and whole.has_extent and whole.moves:
+            return None  # a motion of its own, then more of it
         if whole.direction and frame.direction and whole.direction != frame.direction:
             return None
         whole.direction = whole.direction or frame.direction
@@ -90,14 +96,20 @@ def _whole(frames: Sequence[Frame]) -> Frame | None:
     return whole
 
 
+def _is_only_again(frame: Frame) -> bool:
+    return "again" in frame.flags and not frame.moves and not frame.q
+
+
 def _is_change(whole: Frame) -> bool:
     if "same_amount" in whole.flags:
         return False
+    if "again" in whole.flags and "count" in whole.q:
+        raise Unclear("nothing_before", whole.text)
     if whole.shape or whole.place or whole.verb not in ("", "make", "again"):
         repeats = (
             "again" in whole.flags
             and whole.verb in (*GO, "turn")
-            and not whole.direction
+            and (not whole.direction or whole.verb == "go")
             and not whole.has_extent
         )
         bare = not whole.has_extent and not whole.direction
@@ -114,13 +126,19 @@ def _is_change(whole: Frame) -> bool:
         return True
     if "other_way" in whole.flags or "again" in whole.flags:
         return True
-    return bool({"fold", "scale"} & set(whole.q)) and not whole.has_extent
+    return bool({"fold", "scale", "faster"} & set(whole.q)) and not whole.has_extent
 
 
 def _changed(last: _Last, whole: Frame, pace: Pace) -> list[Step]:
+    whole = _speed_said(whole, last)
+    if "fold" in whole.q and "速" in whole.q["fold"].text:
+        whole = whole.copy()
+        whole.q["speed"] = quantity("speed", pace.speed(whole) or 0.0, whole.q.pop("fold").text)
     factor = next((whole.q[name].number for name in ("scale", "fold") if name in whole.q), 1.0)
-    if "percent" in whole.q:
+    if "percent" in whole.q and not whole.pace:
         factor = whole.q["percent"].number
+    if "number" in whole.q or "count" in whole.q or "clock" in whole.q:
+        raise Unclear("no_unit", next(whole.q[n].text for n in ("number", "count", "clock") if n in whole.q))
     steps = [_step(step, whole, factor, pace) for step in last.plan_steps]
     count = whole.q.get("times")
     if count is not None:
@@ -130,6 +148,18 @@ def _changed(last: _Last, whole: Frame, pace: Pace) -> list[Step]:
     if any(name in whole.q for name in ("length", "angle", "turns", "time")):
         steps = _resized(steps, whole)
     return steps
+
+
+def _speed_said(whole: Frame, last: _Last) -> Frame:
+    """`once more but at 0.5`, after a motion whose speed was said: a speed."""
+    number = whole.q.get("number")
+    paced = any(isinstance(s, (Drive, Arc)) and s.speed_mps for s in last.plan_steps)
+    if number is None or not paced or not 0 < number.number < 1 or whole.q.keys() != {"number"}:
+        return whole
+    whole = whole.copy()
+    del whole.q["number"]
+    whole.q["speed"] = quantity("speed", number.number, number.text)
+    return whole
 
 
 def _step(step: Step, whole: Frame, factor: float, pace: Pace) -> Step:
@@ -178,9 +208,11 @@ def _step(step: Step, whole: Frame, factor: float, pace: Pace) -> Step:
 
 
 def _speed(old: float | None, whole: Frame, pace: Pace) -> float | None:
-    if not whole.pace and "speed" not in whole.q:
+    if not whole.pace and not {"speed", "fold", "faster"} & set(whole.q):
         return old
     usual = old or pace.speed_mps or pace.profile.defaults.speed_mps
+    if "faster" in whole.q:
+        return whole.q["faster"].number * usual
     if whole.pace == "slow":
         return usual * 0.5
     if whole.pace == "fast":

@@ -68,6 +68,7 @@ class Frame:
             self.verb == "curve"
             or {"speed", "rate"} <= set(self.q)
             or "radius" in self.roles
+            or "radius" in self.q
             or "diameter" in self.roles
             or "while" in self.flags
         )
@@ -160,7 +161,7 @@ class Frame:
             return self._set_verb(verb)
         if verb == "make":
             return not self.has_extent
-        if old in TURN and verb in ("curve", *TURN) and not self.has_extent:
+        if old in TURN and verb in ("curve", *TURN) and (not self.has_extent or set(self.q) == {"angle"}):
             return self._set_verb("curve" if verb == "curve" else old)
         if (
             old == "curve"
@@ -187,7 +188,7 @@ class Frame:
         return True
 
     def _heading(self) -> bool:
-        return self.direction in DIAGONALS.values() or "diagonal" in self.flags
+        return self.direction in DIAGONALS.values() or bool({"diagonal", "bearing"} & self.flags)
 
     def _put_direction(self, new: str) -> bool:
         old = self.direction

@@ -10,12 +10,15 @@ from typing import Literal
 from chatrobot import reflex
 from chatrobot.language import forms, questions
 from chatrobot.language.arithmetic import settle_condition
+from chatrobot.language.asides import check_finished, is_choice, without_asides
+from chatrobot.language.chatter import without_chatter
 from chatrobot.language.clauses import read_frames
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.corrections import corrected, without_negated
 from chatrobot.language.dialogue import refer, state_after
 from chatrobot.language.facts import with_defined_units, with_known_counts
-from chatrobot.language.frames import Frame
+from chatrobot.language.frames import STILL, Frame
+from chatrobot.language.idioms import put_plainly
 from chatrobot.language.lexicon import Key, Meaning, cut, lexicon
 from chatrobot.language.manner import Pace
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
@@ -23,11 +26,14 @@ from chatrobot.language.order import in_order
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.program_request import read_program_request
 from chatrobot.language.quantities import read_quantities
+from chatrobot.language.rephrase import rephrased
 from chatrobot.language.script import Memory, write
+from chatrobot.language.sounds import mended
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import Atom, tokenise
 from chatrobot.language.tutorial_form import read_twist
 from chatrobot.language.unclear import Unclear
+from chatrobot.language.unfinished import breaks_off
 from chatrobot.plan.steps import Go, Plan, Remember, Step
 from chatrobot.robots.profile import RobotProfile
 
@@ -95,7 +101,8 @@ class _Reading:
 
     def __init__(self, text: str, language: LanguageCode, context: Context, profile: RobotProfile) -> None:
         self.text, self.language, self.context, self.profile = text, language, context, profile
-        self.plain = with_known_counts(normalise(text))
+        self.by_ear = False
+        self.plain = put_plainly(with_known_counts(rephrased(normalise(text), language)), language)
         dialogue = context.dialogue
         self.pace = Pace(profile, dialogue.default_speed_mps, dialogue.default_rate_radps)
 
@@ -174,9 +181,11 @@ class _Reading:
         if not pending or len(pending) + len(self.plain) > MAX_CHARACTERS:
             return None
         atoms = tidy(self._atoms(self.plain))
-        if any(a.kind in ("verb", "shape", "place") for a in atoms if a.text not in ("say",)):
+        ways = [k for k, a in enumerate(atoms) if k and a.kind == "dir" and atoms[k - 1].text == a.text]
+        verbs = [a for k, a in enumerate(atoms) if k + 1 not in ways and a.text not in ("say",)]
+        if any(a.kind in ("verb", "shape", "place") for a in verbs):
             return None
-        before = normalise(pending)
+        before = put_plainly(rephrased(normalise(pending), self.language), self.language)
         for joined in (f"{before} {self.plain}", f"{before}, {self.plain}"):
             try:
                 found = self._command(joined)
@@ -187,7 +196,32 @@ class _Reading:
         return None
 
     def _command(self, plain: str) -> Interpretation:
+        """What a command means as it stands; else, what it sounds like."""
+        try:
+            return self._understood(plain)
+        except Unclear as problem:
+            heard = None if problem.refused or self.by_ear else self._heard(plain)
+            if heard is None:
+                raise
+            return heard
+
+    def _heard(self, plain: str) -> Interpretation | None:
+        if self.language == "en":
+            return None
+        self.by_ear = True
+        try:
+            found = self._understood(mended(plain, self.language))
+        except Unclear:
+            return None
+        finally:
+            self.by_ear = False
+        return found if found.outcome == "plan" else None
+
+    def _understood(self, plain: str) -> Interpretation:
         atoms = self._atoms(plain)
+        command = questions.without_quiz(plain, self.language)
+        if command and not questions.is_question(command, self.language):
+            return self._understood(command)
         asks = questions.is_question(plain, self.language)
         ability = questions.asks_ability(plain, self.language)
         refusal = next((a for a in atoms if a.kind == "refuse"), None)
@@ -199,6 +233,14 @@ class _Reading:
             if ability and plain.endswith("?"):
                 return Interpretation("answered", say(self.language, "answer_cannot"), self.language)
             raise Unclear(f"refuse_{refusal.value}", refusal.text, refused=True)
+        if self._is_stop(plain):
+            return Interpretation("stop", say(self.language, "stop"), self.language)
+        loose = "" if asks else breaks_off(plain, self.language)
+        if loose and not self._known_name(loose):
+            raise Unclear("unknown_part", f"{loose} …")
+        if is_choice(plain, self.language):
+            raise Unclear("contradiction", plain[:60])
+        check_finished(atoms)
         frames = _frames(atoms)
         default = self._default(frames)
         if default is not None:
@@ -206,16 +248,35 @@ class _Reading:
         steps = refer(frames, self.context, self.pace) or write(frames, self.pace, self._memory())
         return self._plan(steps, append=_appends(atoms))
 
+    def _known_name(self, words: str) -> bool:
+        return any(words.split()[-1] in key for key in self._names())
+
+    def _is_stop(self, plain: str) -> bool:
+        """Whether one clause is a stop and none of the others could move anything."""
+        clauses = [part for part in re.split(r"[,.;!?…—\n]| - ", plain) if part.strip()]
+        stops = [reflex.is_stop(clause) for clause in clauses]
+        if len(clauses) < 2 or not any(stops):
+            return False
+        others = [a for clause, stop in zip(clauses, stops) if not stop for a in self._atoms(clause)]
+        moving = ("q", "dir", "rot", "shape", "place", "defined", "number", "pace", "condition")
+        return not any(
+            a.kind in moving or (a.kind == "verb" and a.value not in (*STILL, "make")) for a in others
+        )
+
     def _question(self, plain: str, atoms: list[Atom], ability: bool) -> Interpretation | None:
         """The answer, unless it is a command put as a question."""
         try:
             frames = _frames(atoms)
+            check_finished(atoms)
             steps = refer(frames, self.context, self.pace) or write(frames, self.pace, self._memory())
+            steps = [] if is_choice(plain, self.language) else steps
             plain_question = questions.is_plain_question(plain, self.language)
             if steps and any(f.has_extent or (f.moves and not plain_question) for f in frames):
                 return None
         except Unclear:
             pass
+        if questions.orders(plain, self.language):
+            return None
         topic = questions.topic_of(plain, self.language)
         if not topic and ability:
             topic = "ability"
@@ -252,7 +313,8 @@ class _Reading:
         return Interpretation("plan", describe_plan(plan, self.language), self.language, plan, append)
 
     def _atoms(self, plain: str) -> list[Atom]:
-        return read_quantities(tokenise(plain, lexicon(), self._names()))
+        atoms = tokenise(plain, lexicon(), self._names(), by_ear=self.by_ear)
+        return read_quantities(without_asides(atoms, self.language))
 
     def _names(self) -> dict[Key, Meaning]:
         dialogue = self.context.dialogue
@@ -295,7 +357,9 @@ class _Reading:
 
 def _frames(atoms: list[Atom]) -> list[Frame]:
     return read_frames(
-        tidy(without_negated(in_order(corrected(settle_condition(with_defined_units(atoms))))))
+        tidy(
+            without_negated(in_order(corrected(settle_condition(with_defined_units(without_chatter(atoms))))))
+        )
     )
 
 

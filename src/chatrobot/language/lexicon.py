@@ -14,15 +14,30 @@ from typing import Any
 from chatrobot.language.data_files import LANGUAGES, expand, load_table
 
 FILES = (
-    "numbers", "units", "motion", "shapes", "dialogue", "refusals", "corrections", "filler",
+    "numbers", "units", "motion", "shapes", "dialogue", "refusals", "corrections", "asides", "filler",
 )  # fmt: skip
 UNIT = re.compile(
     r"\d+(?:,\d{3})+(?:\.\d+)?(?![\d,])|\d*\.?\d+(?:e[+-]?\d+)?(?![\d])|[a-zà-ÿ]+(?:'[a-z]+)*|\S|\n"
 )
 """What text is cut into before words are looked up: a number, a Latin word, or a single character."""
 
+_NO_WORDS = frozenset({"speaker", "clues"})
+"""Tables beside the word classes: patterns, and words that are listed elsewhere."""
 _NEVER_MEANT = frozenset(
-    {"refuse", "filler", "glue", "reason", "condition", "negation", "correction", "conn", "operator", "sep"}
+    {
+        "refuse",
+        "filler",
+        "glue",
+        "reason",
+        "remark",
+        "doubt",
+        "condition",
+        "negation",
+        "correction",
+        "conn",
+        "operator",
+        "sep",
+    }
 )
 _POLITE = frozenset({"please", "then", "after", "robot", "thanks", "could", "would", "until"})
 Meaning = tuple[tuple[str, str], ...]
@@ -48,7 +63,12 @@ class Lexicon:
 
 
 _SIGN = re.compile(r"(?<![\w)])[-](?=\.?\d)")
-_LISTED = re.compile(r"(?:^|(?<=[\s;,.]))\(?[1-9]\)\s*|(?:^|(?<=\n)|(?<=[;,.] ))[1-9]\. ?(?=[^\d\s])")
+_LISTED = re.compile(
+    r"(?:^|(?<=[\s;,.]))\(?[1-9]\)\s*|(?:^|(?<=\n)|(?<=[;,.] )|(?<=[\u4e00-\u9fff°] ))[1-9][.)] ?(?=[^\d\s])"
+)
+_FOLD = re.compile(
+    r"((?:\d|[一二两三四五六七八九十百半]) ?(?:厘米|公分|米|度|秒|圈|cm|mm|m|s|°|deg)) ?[x*] ?(\d{1,2})(?= ?(?:$|[;,!。]))"
+)
 _INCHES, _FEET = re.compile(r"(\d)\s?\""), re.compile(r"(\d)\s?'(?![a-z])")
 _COMMA = re.compile(r"(?<![\d.,])(\d),(\d{1,2})(?![\d,])")
 _ORDINAL = re.compile(r"(\d+)(?:st|nd|rd|th)\b")
@@ -59,7 +79,7 @@ def cut(text: str) -> Key:
     text = _LISTED.sub(" ; ", text)
     if text.count('"') == 1 or (text.count("'") == 1 and _FEET.search(text)):
         text = _FEET.sub(r"\1 feet ", _INCHES.sub(r"\1 inches ", text))
-    text = _COMMA.sub(r"\1.\2", text)
+    text = _FOLD.sub(r"\1, \2 times", _COMMA.sub(r"\1.\2", text))
     return tuple(UNIT.findall(_ORDINAL.sub(r"\1", _SIGN.sub(" minus ", text)).replace("-", " ")))
 
 
@@ -70,6 +90,8 @@ def lexicon() -> Lexicon:
     for name in FILES:
         for language in LANGUAGES:
             for kind, table in load_table(language, name).items():
+                if kind in _NO_WORDS:
+                    continue
                 for value, patterns in table.items():
                     for key in _keys(patterns):
                         words.setdefault(key, _meaning(kind, value))
@@ -85,7 +107,9 @@ def lexicon() -> Lexicon:
         for unit in key
         if unit[0].isalpha() and unit.isascii()
     )
-    ordinary = frozenset(str(load_table("en", "words")["words"]).split())
+    ordinary = frozenset(
+        word for name in ("words", "real_words") for word in str(load_table("en", name)["words"]).split()
+    )
     before = {
         word: float(value)
         for value, listed in load_table("en", "homophones")["before_unit"].items()
@@ -112,7 +136,7 @@ def _guesses(words: dict[Key, Meaning]) -> dict[Key, Meaning]:
                 guesses[cut(written)] = words[cut(word)]
     sounds: dict[str, Any] = load_table("zh", "homophones")["characters"]
     for key, meaning in list(words.items()):
-        if not 2 <= len(key) <= 4 or meaning[0][0] in ("filler", "glue", "reason", "conn"):
+        if not 2 <= len(key) <= 4 or meaning[0][0] in ("filler", "glue", "reason", "remark", "doubt", "conn"):
             continue
         for i, character in enumerate(key):
             for other in sounds.get(character, ""):

@@ -48,8 +48,9 @@ def _positive(frame: Frame, name: str) -> float:
 def _relative(frame: Frame, default: float, maximum: float) -> float | None:
     if "percent" in frame.q:
         return _positive(frame, "percent") * maximum
-    if "fold" in frame.q:
-        return _positive(frame, "fold") * default
+    for name in ("fold", "faster"):
+        if name in frame.q:
+            return _positive(frame, name) * default
     factors = {
         "slow": SLOW * default,
         "fast": min(FAST * default, maximum),

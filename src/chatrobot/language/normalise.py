@@ -12,8 +12,23 @@ MAX_CHARACTERS = 2000
 """More than anybody says in one breath. Longer text is answered at once."""
 
 _QUOTES = str.maketrans(
-    {"’": "'", "‘": "'", "`": "`", "´": "'", "−": "-", "‐": "-", "‑": "-", "×": "x", "·": " "}
+    {
+        "’": "'",
+        "‘": "'",
+        "`": "`",
+        "´": "'",
+        "−": "-",
+        "‐": "-",
+        "‑": "-",
+        "×": " x ",
+        "·": " ",
+        "，": ", ",
+        "→": ";",
+        "➡": ";",
+        "⇒": ";",
+    }
 )
+_CIRCLED = re.compile(r"[①-⑳❶-❿⑴-⒇]")
 _ELLIPSIS = re.compile(r"\.{2,}|…+")
 _HAN = re.compile(r"[\u3400-\u9fff]")
 _REDOUBLED = re.compile(r"([^\W\d一二两三四五六七八九十百千半a-z])一\1")  # 挪一挪
@@ -29,7 +44,8 @@ def _simplified() -> dict[int, str]:
 def normalise(text: str) -> str:
     """Lower case, compatibility forms folded, simplified characters, no control characters, no emoji."""
     # An ellipsis must not fold into full stops, and "1½" must not fold into "11/2".
-    text = re.sub(r"(?<=\d)(?=[½¼¾⅓⅔])", " ", text.translate(_QUOTES))
+    # An item's number in a circle must not run into what stands beside it.
+    text = re.sub(r"(?<=\d)(?=[½¼¾⅓⅔])", " ", _CIRCLED.sub(" ; ", text.translate(_QUOTES)))
     text = unicodedata.normalize("NFKC", _ELLIPSIS.sub("…", text).replace("…", "\ue000"))
     text = text.replace("\ue000", "…").replace("⁄", "/").translate(_simplified()).lower()
     text = _REDOUBLED.sub(r"\1", text)

@@ -160,6 +160,7 @@ def _is_joining_and(atoms: Atoms, i: int) -> bool:
         and is_kind(atoms, i - 1, "scale")
         and is_kind(atoms, i + 1, "number")
         and atoms[i + 1].text.isalpha()
+        and not is_chinese(atoms[i + 1].text)
     )
 
 

@@ -17,8 +17,12 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
         return list(atoms)
     word, head, tail = atoms[at], list(atoms[:at]), list(atoms[at + 1 :])
     leads = not any(a.kind in _CONTENT for a in head)
+    if word.value == "after" and not leads and any(a.kind == "flag" and a.value == "first" for a in head):
+        return in_order([*head, _THEN, *tail])  # `first …, after you …`: as said
     if word.value == "reverse":
         return _swapped(head, tail)
+    if word.value == "preceding" and not leads and _is_told_again(head, tail):
+        return tail
     if word.value == "preceding":  # A 之前 B
         return [*tail, _THEN, *head] if not leads else list(atoms)
     if leads:
@@ -28,6 +32,13 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
         first, second = tail[:comma], tail[comma + 1 :]
         return [*first, _THEN, *second] if word.value == "after" else [*second, _THEN, *first]
     return [*tail, _THEN, *head] if word.value == "after" else [*head, _THEN, *tail]
+
+
+def _is_told_again(head: list[Atom], tail: list[Atom]) -> bool:
+    """前进之前先左转，前进一米: what comes after is told in full later on."""
+    ways = [a.value for a in head if a.kind == "dir"]
+    later = [a.value for a in tail if a.kind == "dir"]
+    return not any(a.kind == "q" for a in head) and bool(ways) and ways[-1] in later
 
 
 def _swapped(head: list[Atom], tail: list[Atom]) -> list[Atom]:

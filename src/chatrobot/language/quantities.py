@@ -14,7 +14,7 @@ from chatrobot.language.tokens import Atom
 DIMENSIONS = {
     "unit_length": "length", "unit_angle": "angle", "unit_time": "time", "unit_speed": "speed",
     "unit_rate": "rate", "unit_turn": "turns", "unit_percent": "percent", "unit_times": "times",
-    "unit_clock": "clock", "unit_fold": "fold", "unit_scale": "scale", "counter": "count",
+    "unit_clock": "clock", "unit_fold": "fold", "unit_faster": "faster", "unit_scale": "scale", "counter": "count",
 }  # fmt: skip
 _SKIPPED = frozenset({
     "full", "complete", "whole", "single", "个", "整", "of", "more", "further", "tiny", "small", "big",
@@ -79,7 +79,7 @@ def _quantity_at(atoms: Sequence[Atom], i: int) -> tuple[list[Atom], int] | None
         return heard
     if atoms[i].kind == "fullturn":
         return [quantity("turns", float(atoms[i].value) * 2.0 * math.pi, atoms[i].text)], i + 1
-    if atoms[i].kind in ("times", "fold", "multiple"):
+    if atoms[i].kind in ("times", "fold", "multiple", "faster"):
         return [
             quantity(
                 "scale" if atoms[i].kind == "multiple" else atoms[i].kind,
@@ -88,6 +88,8 @@ def _quantity_at(atoms: Sequence[Atom], i: int) -> tuple[list[Atom], int] | None
             )
         ], i + 1
     number = read_number(atoms, i) or _determined(atoms, i)
+    if number is None and atoms[i].text in ("一个", "个") and is_kind(atoms, i + 1, "unit_turn"):
+        number = Number(1.0, i + 1)  # 转一个圈圈
     if number is None and is_kind(atoms, i, "num", "article"):
         number = _article(atoms, i)
     if number is None:
@@ -97,6 +99,9 @@ def _quantity_at(atoms: Sequence[Atom], i: int) -> tuple[list[Atom], int] | None
         return [quantity("percent", number.value, text)], number.end
     at, between = _skip(atoms, number.end)
     unit = _unit(atoms, at)
+    if unit is None and is_kind(atoms, i, "num", "article") and number.value in _ABOUT:
+        turn = Atom("verb", "turn", text)
+        return [turn, quantity("angle", math.radians(number.value), text)], number.end
     if unit is None:
         return [quantity(_bare_dimension(atoms, i, number), number.value, text)], number.end
     dimension, factor, noun = unit
@@ -114,6 +119,8 @@ def _bare_dimension(atoms: Sequence[Atom], i: int, number: Number) -> str:
         before = atoms[i - 2].text
     after = "".join(a.text for a in atoms[number.end : number.end + 2])
     said = before in _SPEED_WORDS or after.startswith(("的速度",))
+    if any(a.text in ("π", "pi") for a in atoms[i : number.end]):
+        return "angle"
     return "speed" if said and 0 < number.value <= 2 else "number"
 
 
@@ -142,6 +149,11 @@ def _article(atoms: Sequence[Atom], i: int) -> Number | None:
     return None if unit[0] in ("count", "times") and unit[2] != "tile" else Number(1.0, i + 1)
 
 
+_ABOUT = (90.0, 180.0, 270.0, 360.0, 540.0, 720.0)
+"""What `a 180` can only mean in degrees."""
+_COUNTED = ("turns", "count", "length", "angle", "time", "times")
+
+
 def _skip(atoms: Sequence[Atom], i: int) -> tuple[int, list[Atom]]:
     """Past the words that may stand between a number and its unit; rotations and more are kept."""
     kept: list[Atom] = []
@@ -158,9 +170,9 @@ def _skip(atoms: Sequence[Atom], i: int) -> tuple[int, list[Atom]]:
             break
         i += 1
     unit = _unit(atoms, i)
-    if unit is None or (kept and unit[0] not in ("turns", "count", "length", "angle", "time")):
+    if unit is None or (kept and unit[0] not in _COUNTED):
         return start, []
-    if any(a.kind != "flag" for a in kept) and unit[0] not in ("turns", "count"):
+    if any(a.kind in ("rot", "dir") for a in kept) and unit[0] not in ("turns", "count"):
         return start, []
     return i, kept
 
@@ -201,8 +213,13 @@ def _unit_suffix(
     if more is None or more.percent or _unit(atoms, _skip(atoms, more.end)[0]) or not 0 < more.value < 100:
         return value, i
     if is_chinese(atoms[i].text) and all(a.kind == "number" for a in atoms[i : more.end]):
-        digits = "".join(f"{float(a.value):g}" for a in atoms[i : more.end])
-        return value + float(f"0.{digits}") * factor, more.end
+        end = more.end
+        while is_kind(atoms, end, "number") and is_chinese(atoms[end].text) and _unit(atoms, end + 1) is None:
+            end += 1
+        digits = "".join(f"{float(a.value):g}" for a in atoms[i:end])
+        return value + float(f"0.{digits}") * factor, end
+    if is_chinese(atoms[i - 1].text) and atoms[i].text.isdigit() and more.end == i + 1:
+        return value + float(f"0.{atoms[i].text}") * factor, more.end  # 1米2, 1米75
     if factor == 0.3048 and more.value < 12:
         return value + more.value * 0.0254, more.end
     if factor == 1.0 and 10 <= more.value < 100:
@@ -249,7 +266,7 @@ def _speeds(atoms: list[Atom]) -> list[Atom]:
         if time_s and is_kind(atoms, end, "q") and atoms[end].value in ("length", "angle", "turns"):
             kind = "speed" if atoms[end].value == "length" else "rate"
             text = "".join(a.text for a in atoms[i : end + 1])
-            verbs = [a for a in atoms[i:end] if a.kind == "verb"]
+            verbs = [a for a in atoms[i:end] if a.kind in ("verb", "dir", "rot")]
             role = "" if atom.kind in ("per", "flag") else atoms[end].value
             out.extend([*verbs, quantity(kind, atoms[end].number / time_s, text, role)])
             i = end + 1
@@ -268,7 +285,7 @@ def _per_time(atoms: list[Atom], i: int) -> tuple[int, float]:
         is_kind(atoms, i, "per")
         or is_kind(atoms, i, "num", "article")
         or is_kind(atoms, i, "flag", "each")
-        or (is_kind(atoms, i, "q", "time") and atoms[i].text.startswith(("a ", "an ")))
+        or (is_kind(atoms, i, "q", "time") and atoms[i].text.startswith(("a ", "an ", "every ", "each ")))
     ):
         return i, 0.0
     if atoms[i].kind == "q":
@@ -290,7 +307,7 @@ def _each_time(atoms: list[Atom], i: int) -> tuple[int, float]:
             end, time_s = i + 2, atoms[i + 1].number
     elif is_kind(atoms, i, "q", "time") and is_chinese(atoms[i].text) and atoms[i].number == 1.0:
         end, time_s = i + 1, atoms[i].number
-    while time_s and (is_kind(atoms, end, "glue") or is_kind(atoms, end, "verb")):
+    while time_s and end < len(atoms) and atoms[end].kind in ("glue", "verb", "dir", "rot"):
         end += 1
     return end, time_s
 
@@ -306,7 +323,8 @@ def _summed(atoms: list[Atom]) -> list[Atom]:
             before = out[-2] if joined and len(out) > 1 else out[-1]
             if before.kind == "q" and before.value == atom.value and _is_part(before, atom):
                 follows = next((a for a in atoms[i + 1 :] if a.kind not in ("glue", "num")), None)
-                if not (joined and follows and follows.kind in ("dir", "verb", "rot", "flag")):
+                apart = follows is not None and follows.kind in ("dir", "verb", "rot", "flag")
+                if not (joined and apart and _has_way(out)):
                     del out[-2 if joined else -1 :]
                     out.append(
                         quantity(atom.value, before.number + atom.number, f"{before.text} {atom.text}")
@@ -316,6 +334,16 @@ def _summed(atoms: list[Atom]) -> list[Atom]:
         out.append(atom)
         i += 1
     return out
+
+
+def _has_way(atoms: Sequence[Atom]) -> bool:
+    """Whether the clause has its direction before the amount: `forward 1 m and 20 cm left` are two."""
+    for atom in reversed(atoms):
+        if atom.kind == "sep" or (atom.kind == "conn" and atom.value == "then"):
+            return False
+        if atom.kind in ("dir", "rot"):
+            return True
+    return False
 
 
 def _is_part(whole: Atom, part: Atom) -> bool:

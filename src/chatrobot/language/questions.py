@@ -32,6 +32,22 @@ def is_plain_question(text: str, language: str) -> bool:
     return _pattern(language, "strong").search(text) is not None
 
 
+def without_quiz(text: str, language: str) -> str:
+    """A command without the question about it that ends it: `…, how far was that?`; else an empty string."""
+    if "quiz" not in load_table(language, "questions"):
+        return ""
+    found = _pattern(language, "quiz").search(text)
+    return text[: found.start()] if found else ""
+
+
+def orders(text: str, language: str) -> bool:
+    """Whether what is asked is to be acted on: `as far as …, that far you go`."""
+    return (
+        "orders" in load_table(language, "questions")
+        and _pattern(language, "orders").search(text) is not None
+    )
+
+
 def asks_ability(text: str, language: str) -> bool:
     """`Can you …?`: a question, unless a full command follows."""
     found = _pattern(language, "ability_ask")

@@ -7,12 +7,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from chatrobot.language.actions import State, act, inverse
+from chatrobot.language.arrange import arranged
 from chatrobot.language.clauses import is_times_only
 from chatrobot.language.frames import STILL, TURN, Frame, merged
 from chatrobot.language.manner import Pace
+from chatrobot.language.quantities import quantity
 from chatrobot.language.shapes import draw
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import MAX_REPEAT, Go, Repeat, Say, Step, Turn, Wait
+from chatrobot.plan.steps import MAX_REPEAT, Arc, Drive, Go, Repeat, Say, Step, Turn, Wait
 
 
 @dataclass
@@ -46,7 +48,7 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
     Raises:
         Unclear: where a clause cannot be acted on.
     """
-    frames = _shared(frames)
+    frames = arranged(_shared(frames))
     if any("units_said" in frame.flags for frame in frames):
         frames = [f for f in frames if f.moves or f.has_extent]
         for frame in frames:
@@ -65,7 +67,16 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
     steps = script.steps()
     if not steps:
         raise Unclear("nothing_to_do")
+    _check_unsaid(script.state.unsaid, frames)
     return steps
+
+
+def _check_unsaid(unsaid: list[Frame], frames: list[Frame]) -> None:
+    """A drive without an amount beside clauses that have one is most likely a clause that was misread: ask."""
+    if any(frame.has_extent for frame in frames):
+        for frame in unsaid:
+            if frame.joined not in ("then", "and"):
+                raise Unclear("how_far", frame.text)
 
 
 def _shared(frames: list[Frame]) -> list[Frame]:
@@ -95,10 +106,13 @@ def _paced(frames: list[Frame], pace: Pace) -> list[Step] | None:
     """`Every 50 cm stop for a second, two metres in total`: as many legs as fit, pauses between them."""
     whole = next((f for f in frames if "total" in f.flags and {"length", "angle", "turns"} & set(f.q)), None)
     name = next((n for n in ("length", "angle", "turns") if whole and n in whole.q), "")
-    leg = next((f for f in frames if f is not whole and name in f.q), None)
+    leg = next((f for f in frames if whole and f is not whole and name in f.q), None)
+    if whole is None:
+        whole, leg = _covered(frames)
     if whole is None or len(frames) == 1 or "count" in whole.q or any(f.shape for f in frames):
         return None
     pause = next((f for f in frames if f.verb in STILL and "time" in f.q), None)
+    name = name or next(n for n in ("length", "angle", "turns") if n in whole.q)
     if leg is None or pause is None or len(frames) > 3:
         raise Unclear("unclear_motion", whole.text)
     count = whole.q[name].number / leg.q[name].number
@@ -114,6 +128,16 @@ def _paced(frames: list[Frame], pace: Pace) -> list[Step] | None:
     return [*(steps + rest) * (round(count) - 1), *steps]
 
 
+def _covered(frames: list[Frame]) -> tuple[Frame | None, Frame | None]:
+    """前进一米，每走半米停一秒: the way, and the piece of it after which there is a pause."""
+    if len(frames) != 3 or frames[2].verb not in STILL or "each" not in frames[1].flags:
+        return None, None
+    for name in ("length", "angle", "turns"):
+        if name in frames[0].q and name in frames[1].q and "each" not in frames[0].flags:
+            return frames[0], frames[1]
+    return None, None
+
+
 def _shape_first(frames: list[Frame]) -> list[Frame]:
     """`2 m by 1 m rectangle`: measures said before the name of the shape belong to it."""
     out: list[Frame] = []
@@ -127,9 +151,10 @@ def _shape_first(frames: list[Frame]) -> list[Frame]:
 
 def _is_measure(frame: Frame) -> bool:
     bare = not frame.moves or (
-        frame.verb == "go" and not (frame.direction or frame.rot or frame.shape or frame.place)
+        frame.verb in ("go", "") and not (frame.direction or frame.rot or frame.shape or frame.place)
     )
-    return bare and "length" in frame.q and "time" not in frame.q
+    lone_rotation = bool(frame.rot) and not (frame.verb or frame.q or frame.direction or frame.shape)
+    return (bare and "length" in frame.q and "time" not in frame.q) or lone_rotation
 
 
 def _leading_count(frames: list[Frame]) -> tuple[int | None, list[Frame]]:
@@ -164,42 +189,123 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
             if both is not None:
                 _act(script, both)
                 return i + 2
-    if "trip" in frame.flags or "trip" in [a.role for a in frame.q.values()]:
-        both = merged(frame, frames[i + 1]) if i + 1 < len(frames) and not frames[i + 1].moves else None
-        _round_trips(script, both or frame)
-        return i + 1 + (both is not None)
+    if "trip" in (*frame.flags, *frame.roles, *[a.role for a in frame.q.values()]):
+        after = frames[i + 1] if i + 1 < len(frames) else None
+        trip = _with_measure(frame, after) if after is not None else None
+        if trip is None and after is not None and not after.moves:
+            trip = merged(frame, after)
+        _round_trips(script, trip or frame)
+        return i + 1 + (trip is not None)
     if frame.shape:
         end, steps = draw(frames, i, script.pace)
         _finish(script, [steps])
         return end
-    if is_times_only(frame) or (
+    if _is_moves_only(script, frame):
+        script.units = _repeated(script.units, _count(frame))
+    elif is_times_only(frame) or (
         "again" in frame.flags and not frame.moves and {"times", "count"} & set(frame.q)
     ):
-        script.units = _repeated(script.units, _count(frame))
+        script.units = _repeated(script.units, _count(frame) + ("extra" in frame.flags))
+    elif "total" in frame.flags and "times" in frame.q and not frame.has_extent and script.units:
+        script.units = _repeated(_period(script.units), _count(frame))
+    elif "until" in frame.flags and frame.has_extent and len(script.units) > 1:
+        _fill_up(script, frame)
+    elif "halfway" in frame.flags:
+        _insert_halfway(script, frame)
+        goes_on = i + 1 < len(frames) and frames[i + 1].verb == "go" and not frames[i + 1].has_extent
+        return i + 1 + (goes_on and not frames[i + 1].direction)
+    elif frame.flags & {"short_of", "overshot"} and not frame.moves and not frame.q and i + 1 < len(frames):
+        pass
+    elif "overshot" in frame.flags and not (frame.direction or frame.verb == "return"):
+        return _take_back(script, frames, i)
     elif "again" in frame.flags and not frame.moves and not frame.has_extent:
         if not script.units:
             raise Unclear("nothing_before", frame.text)
         script.units += [list(unit) for unit in script.units]
-    elif frame.flags & {"between", "after_each"}:
+    elif frame.verb in STILL and {"each", "all"} & frame.flags and script.units:
+        frame.flags.add("after_each")
+        _insert(script, frame)
+    elif frame.flags & {"between", "after_each"} or _is_each_pause(script, frame):
         _insert(script, frame)
     else:
         _act(script, frame)
     return i + 1
 
 
+def _is_moves_only(script: Script, frame: Frame) -> bool:
+    """这样来四下: so often, what was said before."""
+    count = frame.q.get("count")
+    bare = not (frame.direction or frame.rot or frame.has_extent or frame.shape) and frame.verb in (
+        "",
+        "make",
+    )
+    return count is not None and count.role == "move" and bare and bool(script.units)
+
+
+def _is_each_pause(script: Script, frame: Frame) -> bool:
+    """分五段走，每段停一秒."""
+    return "each" in frame.flags and frame.verb in STILL and "time" in frame.q and len(script.units) > 1
+
+
 def _act(script: Script, frame: Frame) -> None:
     count, each = 1, frame
+    split = "split" in frame.flags and "each" not in frame.flags
     if "count" in frame.q and "length" in frame.q:
         count = _count(Frame(q={"times": frame.q["count"]}))
         each = frame.copy()
         del each.q["count"]
+        if split:
+            each.q["length"] = quantity("length", frame.q["length"].number / count, frame.q["length"].text)
+    elif "count" in frame.q and frame.q["count"].role == "move":
+        each = frame.copy()
+        del each.q["count"]
+        each.flags.add("bit")
     elif "count" in frame.q:
         raise Unclear("how_long_a_step", frame.q["count"].text)
     if "times" in frame.q:
         count *= _count(Frame(q={"times": frame.q["times"]}))
+        if split:
+            each = _part(each, count)
+    each = _relative_to_last(each, script)
     steps = _known(each, script) or act(each, script.state, script.pace)
     script.state.steps.extend(steps * count)
     script.units.extend([steps] * count if steps else [])
+
+
+def _with_measure(trip: Frame, following: Frame) -> Frame | None:
+    """`to and fro five times, half a metre each way`: the measure said after the trips."""
+    bare = not following.verb and not following.shape and not following.place and not following.rot
+    if not bare or trip.has_extent or following.joined == "then":
+        return None
+    both = trip.copy()
+    both.flags |= following.flags
+    both.q = {**following.q, **both.q}
+    both.direction = both.direction or following.direction
+    both.roles += following.roles
+    return both
+
+
+def _relative_to_last(frame: Frame, script: Script) -> Frame:
+    """`…, then a metre more twice as fast`: relative to the speed said before, if there was one."""
+    if "faster" not in frame.q:
+        return frame
+    before = next(
+        (s for s in reversed(script.state.steps) if isinstance(s, (Drive, Arc)) and s.speed_mps), None
+    )
+    if before is None or before.speed_mps is None:
+        return frame
+    frame = frame.copy()
+    factor = frame.q.pop("faster")
+    frame.q["speed"] = quantity("speed", factor.number * before.speed_mps, factor.text)
+    return frame
+
+
+def _part(frame: Frame, count: int) -> Frame:
+    part = frame.copy()
+    for name in ("length", "angle", "turns", "time"):
+        if name in part.q:
+            part.q[name] = quantity(name, part.q[name].number / count, part.q[name].text)
+    return part
 
 
 def _lists_lengths(frames: list[Frame], i: int) -> bool:
@@ -223,6 +329,9 @@ def _round_trips(script: Script, frame: Frame) -> None:
     if not each.has_extent:
         if not script.units:
             raise Unclear("how_long_a_step", frame.text)
+        if len(script.units) > 1 and _is_there_and_back(script.steps()):
+            script.units = _repeated(script.units, trips)
+            return
         out = script.units.pop()
     elif each.verb in TURN or each.rot:
         raise Unclear("unclear_motion", frame.text)
@@ -231,6 +340,16 @@ def _round_trips(script: Script, frame: Frame) -> None:
         out = act(each, script.state, script.pace)
     for _ in range(trips):
         script.units += [out, inverse(out)]
+
+
+def _is_there_and_back(steps: list[Step]) -> bool:
+    """Whether drives, seen without turning, end where they began."""
+    drives = [s for s in steps if isinstance(s, Drive) and s.distance_m]
+    if len(drives) < len([s for s in steps if not isinstance(s, Wait)]):
+        return False
+    x = sum((s.distance_m or 0.0) * math.cos(s.direction_rad) for s in drives)
+    y = sum((s.distance_m or 0.0) * math.sin(s.direction_rad) for s in drives)
+    return math.hypot(x, y) < 1e-6
 
 
 def _is_heading_back(script: Script, frame: Frame) -> bool:
@@ -262,7 +381,9 @@ def _known(frame: Frame, script: Script) -> list[Step]:
         return []
     if frame.verb not in ("", "go", "return", "make", "shift", "halt") or frame.has_extent or frame.rot:
         raise Unclear("unclear_motion", frame.text)
-    go = script.memory.places[frame.place]
+    go = script.memory.places.get(frame.place)
+    if go is None:
+        raise Unclear("place_unusable", frame.place)
     script.state.last = "go"
     return [replace(go, speed_mps=script.pace.speed(frame))]
 
@@ -289,6 +410,59 @@ def _insert(script: Script, frame: Frame) -> None:
         if k + 1 < len(moving) or ("after_each" in frame.flags and not pause):
             units.append(steps)
     script.units = units
+
+
+def _fill_up(script: Script, frame: Frame) -> None:
+    """转一圈歇两秒，转满三圈为止: the units again until the whole amount is done."""
+    period = _period(script.units)
+    steps = [step for unit in period for step in unit]
+    wanted = frame.q.get("angle") or frame.q.get("turns") or frame.q.get("length")
+    if wanted is None:
+        raise Unclear("condition", frame.text)
+    if wanted.value == "length":
+        done = sum(s.distance_m or 0.0 for s in steps if isinstance(s, Drive))
+    else:
+        done = abs(total_turn(steps))
+    rounds = wanted.number / done if done else 0.0
+    if abs(rounds - round(rounds)) > 1e-6 or not 1 <= round(rounds) <= MAX_REPEAT:
+        raise Unclear("condition", frame.text)
+    script.units = _repeated(period, round(rounds))
+
+
+def _insert_halfway(script: Script, frame: Frame) -> None:
+    """往前两米，到一半的时候停两秒: the last motion in two halves."""
+    halves = _halves(script.units[-1][0]) if script.units and len(script.units[-1]) == 1 else None
+    if halves is None:
+        raise Unclear("between_what", frame.text)
+    inner = frame.copy()
+    inner.flags.discard("halfway")
+    if not inner.moves and set(inner.q) == {"time"}:
+        inner.verb = "wait"
+    steps = act(inner, State(), script.pace)
+    script.units[-1:] = [[halves[0]], steps, [halves[1]]]
+
+
+def _halves(step: Step) -> tuple[Step, Step] | None:
+    if isinstance(step, Drive) and step.until is None:
+        metres = step.distance_m / 2 if step.distance_m else None
+        seconds = step.duration_s / 2 if step.duration_s else None
+        return replace(step, distance_m=metres, duration_s=seconds), replace(
+            step, distance_m=metres, duration_s=seconds
+        )
+    if isinstance(step, Turn) and step.angle_rad:
+        return replace(step, angle_rad=step.angle_rad / 2), replace(step, angle_rad=step.angle_rad / 2)
+    return None
+
+
+def _take_back(script: Script, frames: list[Frame], i: int) -> int:
+    """多走了二十厘米，退回来: so much of it undone."""
+    following = frames[i + 1] if i + 1 < len(frames) else None
+    if following is None or not frames[i].has_extent or following.has_extent:
+        raise Unclear("unclear_motion", frames[i].text)
+    if following.verb not in ("return", "go", "turn", ""):
+        raise Unclear("unclear_motion", frames[i].text)
+    _act(script, Frame(verb="return", q=frames[i].q, texts=frames[i].texts))
+    return i + 2
 
 
 def _full_turns(unit: list[Step]) -> list[list[Step]]:

@@ -24,6 +24,7 @@ class Measures:
     lengths: list[tuple[float, list[str]]] = field(default_factory=list)
     counts: dict[str, int] = field(default_factory=dict)
     times: int = 1
+    rounds: float = 1.0
     left: bool = True
     side_said: bool = False
     back: bool = False
@@ -55,6 +56,8 @@ def draw(frames: list[Frame], i: int, pace: Pace) -> tuple[int, list[Step]]:
     if spelt is not None:
         return end, spelt
     measures = _measure(parts, pace)
+    if parts[0].shape != "circle":
+        measures.times *= _whole(measures.rounds)
     steps = _drawn(parts[0].shape, measures, pace, parts[0].text)
     return end, steps * measures.times
 
@@ -77,8 +80,11 @@ def _is_part(head: Frame, frame: Frame) -> bool:
     lone_side = frame.direction in SIDES and not frame.q and frame.verb in ("", "curve", "turn")
     if head.shape == "sbend" and (frame.shape == "quarter_circle" or lone_side):
         return True
-    if frame.joined == "then" or frame.verb in TURN:
+    if frame.joined == "then":
         return False
+    if frame.verb in TURN:
+        by_the_way = frame.text.split()[0].endswith("ing") or {"all", "each"} & frame.flags or frame.roles
+        return bool((lone_side or frame.rot) and not frame.has_extent and by_the_way)
     return not (
         frame.verb in GO
         and frame.has_extent
@@ -132,15 +138,19 @@ def _measure(parts: list[Frame], pace: Pace) -> Measures:
                 found.counts[quantity.role] = _whole(value)
                 if quantity.role in ("lap", "loop"):
                     found.times *= _whole(value)
+            elif name in ("times", "number") and _is_its_parts(parts[0], part, quantity.number):
+                continue
             elif name in ("times", "number"):
                 _multiply(found, part, name, value)
             elif name == "angle":
                 found.angle_rad = value
             elif name == "time":
                 found.seconds = value
+        if parts[0].shape == "sbend" and part.shape == "half_circle":
+            found.angle_rad = math.pi
         if {"left_right", "right_left"} & part.flags:
             found.left, found.side_said = "left_right" in part.flags, True
-        side = part.rot or (part.direction if part.direction in SIDES else "")
+        side = part.rot or part.direction2 or (part.direction if part.direction in SIDES else "")
         if not side and part.direction in DIAGONALS.values():
             side = part.direction.split("_")[1]
         if side and not (parts[0].shape == "sbend" and found.side_said):
@@ -151,11 +161,21 @@ def _measure(parts: list[Frame], pace: Pace) -> Measures:
     return found
 
 
+def _is_its_parts(head: Frame, part: Frame, value: float) -> bool:
+    """8字，两个圈的半径…: the two circles that an eight has anyway."""
+    both = abs(value - 2) < 1e-9 or abs(value - 4 * math.pi) < 1e-6
+    return head.shape in ("eight", "sbend") and both and bool({"radius", "diameter"} & set(part.roles))
+
+
 def _multiply(found: Measures, part: Frame, name: str, value: float) -> None:
     if part.shape == "polygon" and name == "number":
         found.counts["side"] = _whole(value)
-    elif name == "times" and part.q["times"].value == "turns":
-        found.times *= _whole(value / (2 * math.pi))
+    elif part.shape == "circle" or (name == "times" and part.q["times"].value == "turns"):
+        rounds = value / (2 * math.pi) if part.q[name].value == "turns" else value
+        if 0 < rounds < 1 or (rounds < 10 and rounds * 4 == int(rounds * 4)):
+            found.rounds *= rounds
+        else:
+            found.times *= _whole(rounds)
     else:
         found.times *= _whole(value)
 
@@ -200,7 +220,10 @@ def _drawn(shape: str, found: Measures, pace: Pace, text: str) -> list[Step]:
             raise Unclear("which_size", text)
         if len(set(found.plain())) > 1 and sides == 4:
             return _rectangle(found, text)
-        side = _side(found, pace, sides)
+        diagonal = found.with_role("diagonal")
+        side = diagonal / math.sqrt(2) if diagonal and sides == 4 else _side(found, pace, sides)
+        if diagonal and sides != 4:
+            raise Unclear("which_size", text)
         if found.seconds and speed is None:
             speed = None
         if sides == 4 and found.sliding:
@@ -256,7 +279,9 @@ def _round(shape: str, found: Measures, pace: Pace) -> list[Step]:
     if shape == "sbend":
         found.times = 1
         return outlines.s_bend(radius, found.angle_rad or math.pi / 2, left, speed)
-    sweep = {"circle": 2 * math.pi, "half_circle": math.pi, "quarter_circle": math.pi / 2}[shape]
+    sweep = {"circle": 2 * math.pi * found.rounds, "half_circle": math.pi, "quarter_circle": math.pi / 2}[
+        shape
+    ]
     if shape != "circle" and not found.side_said:
         raise Unclear("which_side", shape.replace("_", " "))
     if found.seconds and speed is None:
@@ -280,6 +305,8 @@ def _triangle(shape: str, found: Measures, pace: Pace, text: str) -> list[Step]:
     around = found.with_role("circumference")
     if around is not None:
         values = [around / 3] * 3
+    if shape == "right_triangle" and len(values) == 1:
+        values = [values[0], values[0]]  # 等腰
     if shape == "right_triangle" and len(values) == 2:
         values = [values[0], values[1], math.hypot(values[0], values[1])]
     elif shape == "triangle" and len(values) < 2:

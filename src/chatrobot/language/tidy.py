@@ -7,10 +7,12 @@ from collections.abc import Sequence
 from chatrobot.language.numbers import is_chinese, is_kind
 from chatrobot.language.quantities import quantity
 from chatrobot.language.tokens import Atom
-from chatrobot.language.unclear import Unclear
 
 _HARMLESS = ("filler", "glue", "unknown", "num", "reason", "unit_times", "flag", "question")
 _MOTION = ("q", "verb", "dir", "rot", "shape", "pace", "role", "number")
+
+
+_HALVES = ("一半", "half")
 
 
 def tidy(atoms: Sequence[Atom]) -> list[Atom]:
@@ -18,8 +20,35 @@ def tidy(atoms: Sequence[Atom]) -> list[Atom]:
     settled = [_settled(atoms, i) for i in range(len(atoms))]
     if any(atom.kind == "shape" for atom in settled):
         settled = [_times_sign(settled, i) for i in range(len(settled))]
+    else:
+        settled = _radii(settled)
     settled = _pauses(settled)
-    return _headings(_without_reasons(_fractions_of(_relative_speeds(settled))))
+    return _headings(_fractions_of(_relative_speeds(settled)))
+
+
+def _radii(atoms: Sequence[Atom]) -> list[Atom]:
+    """`a 1.5 m radius`, `radius of 1.5 m`, `3 m in diameter`: a quantity of its own beside the length of an arc."""
+    out = list(atoms)
+    for i, atom in enumerate(atoms):
+        if atom.kind != "role" or atom.value not in ("radius", "diameter"):
+            continue
+        after, before = _next_real(out, i + 1), i - 1
+        while before > 0 and out[before].kind == "glue":
+            before -= 1
+        at = next((j for j in _binding(atoms, i, before, after) if is_kind(out, j, "q", "length")), None)
+        if at is None:
+            continue
+        size = out[at].number / (2.0 if atom.value == "diameter" else 1.0)
+        out[at] = quantity("radius", size, f"{out[at].text} {atom.text}")
+        out[i] = Atom("glue", "x", atom.text)
+    return out
+
+
+def _binding(atoms: Sequence[Atom], i: int, before: int, after: int) -> tuple[int, ...]:
+    """Where the amount of the role at `i` stands: before it, unless `of`, `is` or `with` say it follows."""
+    of = after > i + 1 or (i > 0 and atoms[i - 1].text in ("with", "the", "a", "its", "of"))
+    apart = before >= 0 and atoms[before].kind != "q"
+    return (after, before) if of or apart else (before, after)
 
 
 def _times_sign(atoms: Sequence[Atom], i: int) -> Atom:
@@ -84,8 +113,15 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
         and is_kind(atoms, _next_real(atoms, i + 1), "q", "time")
     ):
         return Atom("verb", "wait", atom.text)
+    if atom.kind == "unit_length" and atom.text == "inch" and is_kind(atoms, i + 1, "dir"):
+        return Atom("verb", "shift", atom.text)
     if atom.kind == "second":
         return Atom("conn", "then", atom.text)
+    if atom.kind == "letter":
+        beside = is_kind(atoms, i + 1, "q") or (
+            is_kind(atoms, i - 1, "q") and not is_kind(atoms, i + 1, "unknown")
+        )
+        return Atom("dir" if beside else "unknown", atom.value if beside else atom.text, atom.text)
     if atom.kind == "counter":
         if atom.text in ("step", "pace", "steps"):
             return (
@@ -99,7 +135,13 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
     if atom.kind == "per" or (atom.kind == "unit_times" and atom.text in ("time", "次", "下来")):
         return Atom("glue", "x", atom.text)
     if atom.kind == "unit_turn":
+        if is_kind(atoms, i + 1, "role"):
+            return Atom("glue", "x", atom.text)  # 每个圈半径三十厘米
         return Atom("verb", "turn", atom.text)
+    if atom.kind == "unit_angle" and atom.text == "弧":
+        return Atom("verb", "curve", atom.text)
+    if atom.kind == "unit_angle" and atom.text in ("直角", "直角弯", "平角"):
+        return quantity("angle", float(atom.value), atom.text)
     return atom
 
 
@@ -130,6 +172,20 @@ def _relative_speeds(atoms: Sequence[Atom]) -> list[Atom]:
         elif is_kind(atoms, i, "q", "times") and is_kind(atoms, j, "pace", "default"):
             out.append(quantity("fold", atom.number, atom.text))
             i = j + 1
+        elif is_kind(atoms, i, "pace", "default") and is_kind(atoms, j, "pace", "half_max"):
+            out.append(quantity("fold", 0.5, f"{atom.text} {atoms[j].text}"))
+            i = j + 1
+        elif fraction and atom.number < 1 and is_kind(atoms, j, "pace", "default"):
+            out.append(quantity("fold", atom.number, f"{atom.text} {atoms[j].text}"))
+            i = j + 1
+        elif (
+            is_kind(atoms, i, "pace", "default")
+            and is_kind(atoms, j, "q")
+            and atoms[j].value in ("number", "percent", "speed")
+            and atoms[j].text in _HALVES
+        ):
+            out.append(quantity("fold", 0.5, f"{atom.text} {atoms[j].text}"))
+            i = j + 1
         else:
             out.append(atom)
             i += 1
@@ -157,23 +213,4 @@ def _fractions_of(atoms: Sequence[Atom]) -> list[Atom]:
         else:
             out.append(atom)
             i += 1
-    return out
-
-
-def _without_reasons(atoms: Sequence[Atom]) -> list[Atom]:
-    """A reason (`because …`, `so that I can …`, `I'm …`) changes no command: left out up to the next break,
-    unless there is a command in it."""
-    out: list[Atom] = []
-    i = 0
-    while i < len(atoms):
-        if atoms[i].kind != "reason":
-            out.append(atoms[i])
-            i += 1
-            continue
-        end = i + 1
-        while end < len(atoms) and not (atoms[end].kind in ("sep", "conn") and atoms[end].value != "paren"):
-            end += 1
-        if any(a.kind == "q" or a.kind in ("refuse", "negation", "condition") for a in atoms[i:end]):
-            raise Unclear("unknown_part", " ".join(a.text for a in atoms[i:end]))
-        i = end
     return out

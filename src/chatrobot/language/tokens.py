@@ -11,7 +11,9 @@ from chatrobot.language.lexicon import Key, Lexicon, Meaning, cut
 from chatrobot.language.typos import correct
 
 _DIGITS = frozenset("零一二两三四五六七八九十半")
+_MEASURED = frozenset("长宽高")
 _WORD, _GUESS, _UNKNOWN = 1.0, 2.2, 6.0
+_HEARD, _NAMED = 0.8, -0.1
 
 
 class Atom(NamedTuple):
@@ -27,10 +29,13 @@ class Atom(NamedTuple):
     role: str = ""
 
 
-def tokenise(text: str, words: Lexicon, names: dict[Key, Meaning]) -> list[Atom]:
-    """The atoms of a normalised text. `names` are words of this dialogue: places, words a person defined."""
+def tokenise(text: str, words: Lexicon, names: dict[Key, Meaning], *, by_ear: bool = False) -> list[Atom]:
+    """The atoms of a normalised text. `names` are words of this dialogue: places, words a person defined.
+
+    `by_ear`: what sounds like a longer word is that word rather than the shorter ones it is written with.
+    """
     units = _corrected(cut(text), words, names)
-    covered = _cover(units, words, names)
+    covered = _cover(units, words, names, _HEARD if by_ear else _GUESS)
     atoms: list[Atom] = []
     for start, end, meaning in covered:
         written = _join(units[start:end])
@@ -59,7 +64,9 @@ def _bare(unit: str) -> Atom:
     return Atom("unknown", unit, unit)
 
 
-def _cover(units: Key, words: Lexicon, names: dict[Key, Meaning]) -> list[tuple[int, int, Meaning | None]]:
+def _cover(
+    units: Key, words: Lexicon, names: dict[Key, Meaning], guess: float
+) -> list[tuple[int, int, Meaning | None]]:
     """Dynamic programming from the end: the fewest words, unknown units only where nothing else fits."""
     count = len(units)
     name_length = max((len(key) for key in names), default=0)
@@ -75,9 +82,9 @@ def _cover(units: Key, words: Lexicon, names: dict[Key, Meaning]) -> list[tuple[
                 break
             key = units[start:end]
             meaning = names.get(key) or words.words.get(key)
-            price = _WORD
+            price = _NAMED if key in names else _WORD
             if meaning is None:
-                meaning, price = words.guesses.get(key), _GUESS
+                meaning, price = words.guesses.get(key), guess
             if (
                 key[-1] == "点"
                 and end < count
@@ -86,6 +93,8 @@ def _cover(units: Key, words: Lexicon, names: dict[Key, Meaning]) -> list[tuple[
                 and units[start] == "一"
             ):
                 continue  # 一点二米 is a number, not 一点
+            if key[-1] in _MEASURED and end < count and _is_digit(units[end]) and _is_length(meaning):
+                continue  # 长一米宽半米: the width is that of what follows
             if meaning is not None and best[end] + price <= best[start]:
                 best[start], choice[start] = best[end] + price, (end, meaning)
     covered = []
@@ -95,6 +104,14 @@ def _cover(units: Key, words: Lexicon, names: dict[Key, Meaning]) -> list[tuple[
         covered.append((at, end, meaning))
         at = end
     return covered
+
+
+def _is_length(meaning: Meaning | None) -> bool:
+    return meaning is not None and meaning[0][0] == "unit_length"
+
+
+def _is_digit(unit: str) -> bool:
+    return unit in _DIGITS or unit[0].isdigit()
 
 
 def _join(units: Key) -> str:

@@ -97,7 +97,7 @@ def _marks() -> frozenset[str]:
     return frozenset({
         "linear", "angular", "vx", "vy", "wz", "cmd_vel", "twist", " in x", " in y", "yaw rate", "yawrate",
         "x velocity", "y velocity", "omega", "x方向", "线速度", "角速度", "x 方向", "转速", "y方向",
-        "y 方向", "x=", "vth",
+        "y 方向", "x=", "vth", "w=", "w =", "ω",
     })  # fmt: skip
 
 

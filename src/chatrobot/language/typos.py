@@ -1,15 +1,25 @@
-"""Mends a mistyped Latin word.
+"""Mends a mistyped Latin word: one slip of the finger, or written as it sounds, away from exactly one meaning.
 
-One slip (two in long words) away from exactly one meaning, never across it.
+A slip is a swapped pair, a letter too many or too few, a neighbouring key, or one vowel for another. Ordinary
+words are no typos (`real_words.toml`), and nothing is ever mended across opposites.
 """
 
 from __future__ import annotations
 
+import re
+from collections.abc import Mapping
 from functools import lru_cache
 
 from chatrobot.language.lexicon import lexicon
 
 _ANTONYMS = frozenset({"left", "right", "forward", "back", "backward", "clockwise", "anticlockwise"})
+_ROWS = ("qwertyuiop", "asdfghjkl", "zxcvbnm")
+_VOWELS = frozenset("aeiouy")
+_SOUNDS = (
+    (re.compile(r"tion|sion"), "xn"), (re.compile(r"ph"), "f"), (re.compile(r"ght|gt"), "t"),
+    (re.compile(r"c(?=[eiy])"), "s"), (re.compile(r"[ckq]+u?"), "k"), (re.compile(r"wr"), "r"),
+    (re.compile(r"z"), "s"), (re.compile(r"(?<=.)[aeiouyhw]"), ""), (re.compile(r"(.)\1+"), r"\1"),
+)  # fmt: skip
 
 
 def correct(word: str) -> str:
@@ -29,20 +39,75 @@ def _correct(word: str) -> str:
         return transposed[0]
     if len(word) < 4:
         return word
-    allowed = 1 if len(word) < 8 else 2
-    near: dict[str, int] = {}
-    for known in words.core:
-        if known[0] == word[0] and abs(len(known) - len(word)) <= allowed and len(known) >= 4:
-            distance = edit_distance(word, known, allowed)
-            if distance <= allowed:
-                near[known] = distance
-    if not near:
+    slips = [known for known in _near_in_length(word) if is_slip(word, known)]
+    if not slips and len(word) >= 5:
+        slips = [known for known in _by_sound().get(sound(word), ()) if edit_distance(word, known, 2) <= 2]
+    if not slips:
         return word
-    least = min(near.values())
-    closest = sorted(known for known, distance in near.items() if distance == least)
+    least = min(edit_distance(word, known, 3) for known in slips)
+    closest = sorted(known for known in slips if edit_distance(word, known, 3) == least)
     if len(set(closest) & _ANTONYMS) > 1 or len({words.words.get((w,), w) for w in closest}) > 1:
         return word
     return closest[0]
+
+
+@lru_cache(maxsize=1)
+def _by_start() -> Mapping[tuple[str, int], list[str]]:
+    index: dict[tuple[str, int], list[str]] = {}
+    for known in lexicon().core:
+        if len(known) >= 4:
+            index.setdefault((known[0], len(known)), []).append(known)
+    return index
+
+
+@lru_cache(maxsize=1)
+def _by_sound() -> Mapping[str, list[str]]:
+    index: dict[str, list[str]] = {}
+    for known in lexicon().core:
+        if len(known) >= 5:
+            index.setdefault(sound(known), []).append(known)
+    return index
+
+
+def _near_in_length(word: str) -> list[str]:
+    return [
+        known
+        for length in (len(word) - 1, len(word), len(word) + 1)
+        for known in _by_start().get((word[0], length), ())
+    ]
+
+
+def sound(word: str) -> str:
+    """The consonants one hears: `strafe` and `straif` are both `strf`."""
+    for pattern, heard in _SOUNDS:
+        word = pattern.sub(heard, word)
+    return word
+
+
+@lru_cache(maxsize=1)
+def _neighbours() -> frozenset[tuple[str, str]]:
+    pairs = set()
+    for r, row in enumerate(_ROWS):
+        for k, key in enumerate(row):
+            near = row[max(k - 1, 0) : k + 2] + (_ROWS[r + 1][max(k - 1, 0) : k + 1] if r < 2 else "")
+            pairs |= {pair for other in near for pair in ((key, other), (other, key))}
+    return frozenset(pairs)
+
+
+def is_slip(typed: str, meant: str) -> bool:
+    """Whether one slip of the finger makes `meant` into `typed`."""
+    if len(typed) != len(meant):
+        short, long = sorted((typed, meant), key=len)
+        return len(long) - len(short) == 1 and any(
+            long[:i] + long[i + 1 :] == short for i in range(len(long))
+        )
+    off = [i for i in range(len(typed)) if typed[i] != meant[i]]
+    if len(off) == 2 and off[1] == off[0] + 1:
+        return typed[off[0]] == meant[off[1]] and typed[off[1]] == meant[off[0]]
+    if len(off) != 1:
+        return not off
+    pair = (typed[off[0]], meant[off[0]])
+    return pair in _neighbours() or set(pair) <= _VOWELS
 
 
 def _transpositions(word: str) -> list[str]:

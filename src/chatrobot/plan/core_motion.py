@@ -9,6 +9,11 @@ from chatrobot.core.geometry import Pose, Twist
 from chatrobot.plan.base import Condition
 from chatrobot.robots.profile import Limits
 
+NEAR_LIMIT = 0.7
+RAMP_SHARE = 0.9
+"""Beyond `NEAR_LIMIT` of the top speed feedback has little room above the reference; ramps then use only this share of
+the accelerations, so that it can still brake more than the reference does. The governor holds the sum to all of it."""
+
 
 @dataclass(frozen=True)
 class RampedTwist:
@@ -82,4 +87,7 @@ def ramp_rate(limits: Limits, twist: Twist) -> float:
         rates.append(limits.angular_acceleration_radps2 / abs(twist.wz_radps))
     if not rates:
         raise ValueError("a zero twist has no ramp: use Pause")
-    return min(*rates, _STEEPEST_PER_S)
+    fast = twist.speed_mps > NEAR_LIMIT * limits.max_speed_mps
+    turns_fast = abs(twist.wz_radps) > NEAR_LIMIT * limits.max_rate_radps
+    share = RAMP_SHARE if fast or turns_fast else 1.0
+    return min(share * min(rates), _STEEPEST_PER_S)

@@ -42,6 +42,11 @@ class Discovery:
     peers: tuple[str, ...] = ()
     uri: str = ""
 
+    @property
+    def this_machine_only(self) -> bool:
+        """Whether other machines are not to be heard at all."""
+        return self.range == "LOCALHOST" and not self.peers and not self.uri
+
 
 def discovery_from(environ: Mapping[str, str], domain_id: int | None = None) -> Discovery:
     """What the environment asks for; `domain_id` where the address names one.

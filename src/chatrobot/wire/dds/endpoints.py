@@ -103,20 +103,15 @@ class Writer:
 
 
 class Reader:
-    """Listens on one topic for all callbacks of this end.
-
-    Args:
-        accepts: whether samples of that publication (its handle) are for us; asked once for each.
-    """
+    """Listens on one topic for all callbacks of this end."""
 
     def __init__(
         self,
         participant: DomainParticipant,
         types: RosTypes,
         port: Port,
-        accepts: Callable[[int], bool],
     ) -> None:
-        self._types, self._form, self._accepts = types, port.form, accepts
+        self._types, self._form = types, port.form
         name = port.form.type_name
         topic: Any = Topic(participant, port.dds_topic, types.topic_type(name))
         reliability = Policy.Reliability.BestEffort if port.best_effort else Policy.Reliability.Reliable(0)
@@ -132,7 +127,7 @@ class Reader:
         self.condition = ReadCondition(self._reader, _ANY)
         self.guid = self._reader.get_guid()
         self.callbacks: tuple[Callable[[Any], None], ...] = ()
-        self._senders: dict[int, StampTranslator | None] = {}
+        self._clocks: dict[int, StampTranslator] = {}
 
     def deliver(self) -> None:
         """Hand what has come to the callbacks."""
@@ -146,18 +141,15 @@ class Reader:
 
     def _message(self, sample: CdrSample) -> Message | None:
         received_s = time.monotonic()
-        handle = sample.sample_info.publication_handle
-        if handle not in self._senders:
-            self._senders[handle] = StampTranslator() if self._accepts(handle) else None
-        clock = self._senders[handle]
-        if clock is None:
-            return None
         try:
             message = self._form.from_ros(self._types.read(self._form.type_name, sample.cdr))
         except MALFORMED:
             return None  # a wire never dies of a bad packet
         timed = None if message is None else stamped(message)
-        return message if timed is None else timed._replace(stamp_s=clock.local_s(timed.stamp_s, received_s))
+        if timed is None:
+            return message
+        clock = self._clocks.setdefault(sample.sample_info.publication_handle, StampTranslator())
+        return timed._replace(stamp_s=clock.local_s(timed.stamp_s, received_s))
 
 
 def _typehash(types: RosTypes, name: str) -> Any:

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-import ipaddress
 import os
-import re
-import socket
 import uuid
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import Any
 
 from cyclonedds.builtin import (
@@ -23,7 +19,6 @@ from cyclonedds.pub import DataWriter
 from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
 
-from chatrobot.wire.dds.discovery import machine_addresses
 from chatrobot.wire.dds.ros_types import MALFORMED, RosTypes
 
 _INFO_TOPIC = "ros_discovery_info"
@@ -31,7 +26,6 @@ _INFO_TYPE = "rmw_dds_common/msg/ParticipantEntitiesInfo"
 _INFO_QOS = (Policy.Reliability.Reliable(0), Policy.Durability.TransientLocal)
 _MANY = 1000
 _OWN_ID = "CHATROBOT_ID"
-_ADDRESS = re.compile(r"udp/([0-9.]+):")
 
 
 def own_id() -> str:
@@ -42,22 +36,6 @@ def own_id() -> str:
 def participant_qos() -> Qos:
     """How a participant of ours introduces itself."""
     return Qos(Policy.Userdata(f"enclave=/;chatrobot={own_id()};".encode()))
-
-
-@dataclass(frozen=True)
-class Stranger:
-    """A participant that is not ours, as far as it tells. `addresses`: IPv4, those that are one machine's alone."""
-
-    host: str
-    addresses: frozenset[str]
-    process: str
-    chatrobot_id: str
-
-    def is_elsewhere(self) -> bool:
-        """Known to be on another machine."""
-        if self.addresses:
-            return self.addresses.isdisjoint(machine_addresses())
-        return self.host not in ("", socket.gethostname())
 
 
 class Graph:
@@ -95,33 +73,23 @@ class Graph:
 
         Processes of the same session as this one (`own_id`) are left out.
         """
-        strangers = self.strangers()
+        strangers = self._strangers()
         nodes = self._hear_nodes()
         return sorted(
             {
-                nodes.get(publication.key) or strangers[publication.participant_key].process
+                nodes.get(publication.key) or strangers[publication.participant_key]
                 for publication in _alive(self._publications)
                 if publication.topic_name == dds_topic and publication.participant_key in strangers
             }
         )
 
-    def strangers(self) -> dict[uuid.UUID, Stranger]:
-        """The participants that are not of our session, by GUID."""
-        seen = {participant.key: _introduced(participant.qos) for participant in _alive(self._participants)}
-        return {key: stranger for key, stranger in seen.items() if stranger.chatrobot_id != own_id()}
-
-    def is_elsewhere(self, publication_handle: int) -> bool:
-        """Whether that publication (by the handle in a sample's info) is known to be on another machine."""
-        key = next(
-            (
-                publication.participant_key
-                for publication in _alive(self._publications)
-                if publication.sample_info.instance_handle == publication_handle
-            ),
-            None,
-        )
-        stranger = None if key is None else self.strangers().get(key)
-        return stranger is not None and stranger.is_elsewhere()
+    def _strangers(self) -> dict[uuid.UUID, str]:
+        """The participants that are not of our session: GUID and process."""
+        return {
+            participant.key: _process(participant.qos)
+            for participant in _alive(self._participants)
+            if _userdata(participant.qos).get("chatrobot") != own_id()
+        }
 
     def _hear_nodes(self) -> dict[uuid.UUID, str]:
         """Node names by the GUID of their writers, as far as they have told."""
@@ -147,22 +115,16 @@ def _alive(reader: Any) -> list[Any]:
     return [sample for sample in reader.read(_MANY) if sample.sample_info.valid_data]
 
 
-def _introduced(qos: Qos) -> Stranger:
-    properties = {policy.key: policy.value for policy in qos if isinstance(policy, Policy.Property)}
-    userdata = Policy.Userdata
-    text = next((bytes(p.data).decode(errors="replace") for p in qos if isinstance(p, userdata)), "")
-    pairs = dict(pair.split("=", 1) for pair in text.split(";") if "=" in pair)
-    host = properties.get("__Hostname") or properties.get("fastdds.physical_data.host", "")
-    process = properties.get("__ProcessName") or properties.get("fastdds.physical_data.process", "")
-    pid = properties.get("__Pid", "")
-    addresses = _ADDRESS.findall(properties.get("__NetworkAddresses", ""))
-    named = f"{process or 'a process'} {pid}".strip() + (f" on {host}" if host else "")
-    return Stranger(host, frozenset(filter(_is_of_one_machine, addresses)), named, pairs.get("chatrobot", ""))
+def _userdata(qos: Qos) -> dict[str, str]:
+    """The pairs of `key=value;` that ROS and we put there."""
+    userdata = next((policy.data for policy in qos if isinstance(policy, Policy.Userdata)), b"")
+    text = bytes(userdata).decode(errors="replace")
+    return dict(pair.split("=", 1) for pair in text.split(";") if "=" in pair)
 
 
-def _is_of_one_machine(address: str) -> bool:
-    try:
-        parsed = ipaddress.ip_address(address)
-    except ValueError:
-        return False
-    return not (parsed.is_loopback or parsed.is_multicast)
+def _process(qos: Qos) -> str:
+    """What a participant tells of its process; Cyclone and Fast DDS have keys of their own."""
+    told = {policy.key: policy.value for policy in qos if isinstance(policy, Policy.Property)}
+    name = told.get("__ProcessName") or told.get("fastdds.physical_data.process") or "a process"
+    host = told.get("__Hostname") or told.get("fastdds.physical_data.host", "")
+    return f"{name} {told.get('__Pid', '')}".strip() + (f" on {host}" if host else "")

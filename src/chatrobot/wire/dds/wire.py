@@ -16,6 +16,7 @@ from chatrobot.core.errors import WireError
 from chatrobot.core.wiring import Wiring
 from chatrobot.wire.dds.discovery import Discovery, configuration, discovery_from, machine_addresses
 from chatrobot.wire.dds.endpoints import Port, Reader, Writer
+from chatrobot.wire.dds.fence import fence_in
 from chatrobot.wire.dds.graph import Graph, participant_qos
 from chatrobot.wire.dds.names import dds_topic_name
 from chatrobot.wire.dds.ros_types import RosTypes
@@ -54,7 +55,6 @@ class DdsWire:
         self._types = RosTypes(24 if distribution in _GID_24_DISTRIBUTIONS else 16)
         self._wiring = wiring
         self._namespace = namespace.strip("/")
-        self._this_machine_only = discovery.range == "LOCALHOST" and not discovery.peers and not discovery.uri
         self._lock = threading.Lock()
         self._writers: dict[tuple[str, object], Writer] = {}
         self._readers: dict[tuple[str, type], Reader] = {}
@@ -82,7 +82,7 @@ class DdsWire:
             participant, waitset, graph = self._open()
             reader = self._readers.get((topic, kind))
             if reader is None:
-                reader = Reader(participant, self._types, self._port(topic, kind), self._accepts)
+                reader = Reader(participant, self._types, self._port(topic, kind))
                 reader.callbacks = (callback,)
                 self._readers = {**self._readers, (topic, kind): reader}
                 waitset.attach(reader.condition)
@@ -136,11 +136,6 @@ class DdsWire:
                 if not self._closed:
                     reader.deliver()
 
-    def _accepts(self, publication_handle: int) -> bool:
-        """In LOCALHOST range, what another machine sends is not for us, however we came to hear it."""
-        graph = self._graph
-        return not (self._this_machine_only and graph is not None and graph.is_elsewhere(publication_handle))
-
     def _open_writer(self, topic: str, kind: Any, port: Port | None = None) -> Writer:
         with self._lock, _as_wire_error(f"cannot publish on {topic}"):
             participant, _, graph = self._open()
@@ -174,8 +169,17 @@ def _open_domain(discovery: Discovery) -> None:
     """Cyclone configures a domain once a process; the reference must live as long as its participants."""
     with _domains_lock:
         if discovery.domain_id not in _domains:
-            config = configuration(discovery, machine_addresses())
+            addresses = machine_addresses()
+            config = configuration(discovery, addresses)
             _domains[discovery.domain_id] = Domain(discovery.domain_id, config)
+            if discovery.this_machine_only:
+                try:
+                    fence_in(discovery.domain_id, addresses)
+                except OSError as error:
+                    raise WireError(
+                        f"this system cannot keep DDS to this machine ({error}); to speak to the whole network"
+                        " set ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET"
+                    ) from error
 
 
 @contextlib.contextmanager

@@ -1,0 +1,103 @@
+"""Frames put as they are meant: manners handed on to their motion, titles and announcements left out."""
+
+from __future__ import annotations
+
+from chatrobot.language.frames import EXTENTS, GO, TURN, Frame
+
+_MANNER = frozenset({"speed", "rate", "percent", "fold"})
+_LETTERS = frozenset({"letter_l", "letter_u", "letter_z"})
+
+
+def arranged(frames: list[Frame]) -> list[Frame]:
+    """The frames that are motions of their own, in order."""
+    return _without_announcements(_without_titles(_with_manners(_without_calls(frames))))
+
+
+def _without_calls(frames: list[Frame]) -> list[Frame]:
+    """让一让，往右平移…: a call to make way whose way follows; 往前，就一点点: a little, said after."""
+    out: list[Frame] = []
+    for k, frame in enumerate(frames):
+        bare = not (frame.direction or frame.rot or frame.q or frame.shape or frame.place or frame.words)
+        if bare and frame.verb == "shift" and any(f.direction for f in frames[k + 1 :]):
+            continue
+        if bare and not frame.verb and frame.flags == {"bit"} and out and not out[-1].has_extent:
+            out[-1].flags.add("bit")
+            continue
+        out.append(frame)
+    return out
+
+
+def _is_manner(frame: Frame) -> bool:
+    """走快点, 速度调到每秒两米: how to go, not where."""
+    bare = not (frame.direction or frame.rot or frame.shape or frame.place or frame.roles or frame.words)
+    said = bool(frame.pace) or (bool(frame.q) and "speed_set" in frame.flags)
+    return (
+        bare and said and set(frame.q) <= _MANNER and frame.verb in ("", *GO, *TURN)
+        and frame.flags <= {"bit", "speed_set"}
+    )  # fmt: skip
+
+
+def _with_manners(frames: list[Frame]) -> list[Frame]:
+    out: list[Frame] = []
+    pending: Frame | None = None
+    for k, frame in enumerate(frames):
+        manner = _is_manner(frame) and len(frames) > 1
+        if manner and k + 1 < len(frames) and (frames[k + 1].joined != "then" or "speed_set" in frame.flags):
+            pending = frame
+        elif manner and out and frame.verb in ("", out[-1].verb, "go") and frame.joined != "then":
+            _hand_on(frame, out[-1])
+        else:
+            if pending is not None and frame.moves:
+                _hand_on(pending, frame)
+                pending = pending if "speed_set" in pending.flags else None
+            out.append(frame)
+    return out or frames
+
+
+def _hand_on(manner: Frame, frame: Frame) -> None:
+    if frame.pace or _MANNER & set(frame.q):
+        return
+    turning = frame.turning or "angle" in frame.q or "turns" in frame.q
+    if ("rate" in manner.q and not turning) or ("speed" in manner.q and turning):
+        return
+    frame.pace = manner.pace
+    frame.q.update(manner.q)
+
+
+def _without_titles(frames: list[Frame]) -> list[Frame]:
+    """先转后走：…, 走L形：…: what stands before a colon and is spelt out after it."""
+    out: list[Frame] = []
+    for k, frame in enumerate(frames):
+        rest = frames[k + 1 :]
+        spelt = sum(1 for f in rest if f.has_extent) >= 2
+        title = rest and rest[0].joined == "colon" and not frame.q and not frame.roles and frame.verb in ("", "go", "turn", "make")  # fmt: skip
+        if title and spelt and not (frame.direction or frame.rot or frame.shape or frame.place):
+            continue
+        letter = frame.shape in _LETTERS and not frame.q and sum("length" in f.q for f in rest) >= 2
+        if letter and any(f.turning or f.verb in TURN for f in rest):
+            continue
+        out.append(frame)
+    return out
+
+
+def _without_announcements(frames: list[Frame]) -> list[Frame]:
+    """三圈，两圈顺时针，一圈逆时针: a sum whose parts follow is no motion of its own."""
+    out: list[Frame] = []
+    for k, frame in enumerate(frames):
+        named = next((n for n in EXTENTS if n in frame.q), "")
+        if named and not frame.rot and frame.direction not in ("left", "right") and not frame.shape:
+            if _is_sum(frame, frames[k + 1 :], named):
+                for part in frames[k + 1 :]:
+                    part.verb = part.verb or frame.verb
+                    part.direction = part.direction or frame.direction
+                continue
+        out.append(frame)
+    return out
+
+
+def _is_sum(frame: Frame, rest: list[Frame], name: str) -> bool:
+    parts = [f for f in rest if name in f.q]
+    if len(parts) < 2 or len(parts) != len(rest) or any(f.joined == "then" for f in parts[:1]):
+        return False
+    manners = all(f.rot or f.direction or f.pace or _MANNER & set(f.q) for f in parts)
+    return manners and abs(sum(f.q[name].number for f in parts) - frame.q[name].number) < 1e-9

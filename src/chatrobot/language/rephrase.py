@@ -1,0 +1,32 @@
+"""Ways of saying that are clearer said otherwise: contractions without apostrophe, Logo, polite conditions.
+
+Plain rewriting of normalised text, by the patterns of `rephrase.toml`, before any word is looked up.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+
+from chatrobot.language.data_files import load_table
+
+
+@cache
+def _rules(language: str) -> tuple[tuple[re.Pattern[str], str], ...]:
+    table = load_table(language, "rephrase")
+    return tuple((re.compile(pattern), said) for pattern, said in table.get("rules", ()))
+
+
+@cache
+def _contractions(language: str) -> tuple[dict[str, str], re.Pattern[str]]:
+    written = dict(load_table(language, "rephrase").get("contractions", {}))
+    return written, re.compile(rf"\b(?:{'|'.join(map(re.escape, written)) or '$^'})\b")
+
+
+def rephrased(text: str, language: str) -> str:
+    """`text` (normalised) in the words that the rest of the package reads."""
+    written, pattern = _contractions(language)
+    text = pattern.sub(lambda found: written[found[0]], text)
+    for rule, said in _rules(language):
+        text = rule.sub(said, text)
+    return text
