@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 
 from chatrobot.core.wiring import Wiring
@@ -14,6 +15,9 @@ NODE = "chatrobot_input"
 LISTENER_S = 3.0
 BOTH_S = 1.0
 """Base and control both listen; before the first line it waits so long for the second of them."""
+
+MEETING_S = 0.1
+"""A listener that we have found may need a moment more to find us."""
 
 
 class InputNode:
@@ -44,9 +48,11 @@ class InputNode:
             self._wire.publish(USER_INPUT, Text(text))
             return True
         if not self._has_met:
-            self._has_met = wait_for_listener(self._wire, USER_INPUT, Text, BOTH_S, count=2)
+            wait_for_listener(self._wire, USER_INPUT, Text, BOTH_S, count=2)
         heard = wait_for_listener(self._wire, USER_INPUT, Text, LISTENER_S)
-        self._has_met = self._has_met or heard
+        if heard and not self._has_met:
+            time.sleep(MEETING_S)
+            self._has_met = True
         self._wire.publish(USER_INPUT, Text(text))
         return heard
 

@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 Word = Literal[
     "hello",  # opens the lease: {"term_s": …}
-    "beat",  # keeps it; one that names its term opens it for a Motion that came later than the hello
+    "beat",  # keeps it; any word that names its term opens it for a Motion that came after the hello
     "plan",  # {"plan_text", "mode": queue|replace|append, "approve": bool, "rehearse_only": bool, "longest_s": …}
     "approve",  # {"yes": bool} answers a Rehearsed event that needs approval
     "stop",  # {"why": …}; makes void what belongs to this turn and those before

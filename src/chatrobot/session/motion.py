@@ -158,7 +158,7 @@ class Motion:
             return
         now_s = self._clock.now_s()
         self._governor.leases.beat(envelope.lease, now_s)
-        if envelope.word == "hello" or (envelope.word == "beat" and self._opens_lease(envelope)):
+        if envelope.word == "hello" or self._opens_lease(envelope):
             term_s = min(seconds(envelope.payload.get("term_s"), LOCAL_TERM_S), LONGEST_TERM_S)
             self._governor.leases.open(envelope.lease, envelope.source, term_s, now_s)
         elif envelope.word == "plan":
@@ -171,8 +171,9 @@ class Motion:
             self._governor.leases.entrust(envelope.lease)
             self._leaving.add(envelope.lease)
 
-    def _opens_lease(self, beat: Envelope) -> bool:
-        return "term_s" in beat.payload and not self._governor.leases.is_known(beat.lease)
+    def _opens_lease(self, envelope: Envelope) -> bool:
+        """A source that was there before us, and names its term with what it says."""
+        return "term_s" in envelope.payload and not self._governor.leases.is_known(envelope.lease)
 
     def tick(self) -> None:
         """One period of the control loop."""

@@ -122,6 +122,7 @@ class MotionRunner:
     def receive(self, envelope: Envelope) -> None:
         """Take in an envelope; a stop is out before this returns."""
         self.motion.receive(envelope)
+        self._rivals.note_source(envelope.lease)
         if envelope.word != "beat":
             self._wake.set()
 
@@ -196,9 +197,9 @@ class MotionRunner:
         others = sorted({*motions, *self._rivals.others()})
         is_settled, self._seen = others == self._seen, others  # a name from discovery alone soon gets better
         if is_settled and others != self._named:
+            reason = Reason("not_alone", {"who": ", ".join(others)}) if others else Reason("alone_again")
             self._named = others
-            if others:
-                self.notice(Reason("not_alone", {"who": ", ".join(others)}))
+            self.notice(reason)
         self.motion.obstruction = self._obstruction(motions)
 
     def _obstruction(self, motions: list[str]) -> Reason | None:

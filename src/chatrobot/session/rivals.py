@@ -7,6 +7,7 @@ import os
 import socket
 import time
 import uuid
+from typing import NamedTuple
 
 from chatrobot.session.topics import CONTROL
 from chatrobot.wire.connect import advertise, publishers_of
@@ -14,6 +15,7 @@ from chatrobot.wire.messages import Text
 from chatrobot.wire.wire import Wire
 
 BEAT_S = 0.1
+MANY_SOURCES = 20
 SILENT_S = 1.0
 """A Motion that has not been heard for so long has left, or was killed; discovery may take longer to see it."""
 NODES = ("chatrobot_motion", "chatrobot_control")
@@ -33,15 +35,21 @@ class Rivals:
         self._wire = wire
         self._topic = topic
         self._id = uuid.uuid4().hex
-        about = {"id": self._id, "node": node, "host": socket.gethostname(), "pid": os.getpid()}
-        self._beat = Text(json.dumps(about, separators=(",", ":")))
+        self._about = {"id": self._id, "node": node, "host": socket.gethostname(), "pid": os.getpid()}
+        self._hears: dict[str, None] = {}
         self._heard: dict[str, tuple[float, str]] = {}
         advertise(wire, CONTROL, Text)
         wire.subscribe(CONTROL, Text, self._hear)
 
+    def note_source(self, lease: str) -> None:
+        """A source has been heard; it may wait for that before it says anything that matters. From any thread."""
+        if lease not in self._hears:
+            self._hears = dict.fromkeys([*self._hears, lease][-MANY_SOURCES:])
+
     def beat(self) -> None:
-        """Say that we are there; every `BEAT_S`."""
-        self._wire.publish(CONTROL, self._beat)
+        """Say that we are there, and whom we hear; every `BEAT_S`."""
+        about = {**self._about, "hears": list(self._hears)}
+        self._wire.publish(CONTROL, Text(json.dumps(about, separators=(",", ":"))))
 
     def motions(self) -> list[str]:
         """The other Motions on this robot, by name."""
@@ -58,20 +66,30 @@ class Rivals:
 
     def _hear(self, message: Text) -> None:
         about = read_beat(message.data)
-        if about is not None and about["id"] != self._id:
-            name = f"{about['node']} (process {about['pid']} on {about['host']})"
-            self._heard[about["id"]] = (time.monotonic(), name[:120])
+        if about is not None and about.id != self._id:
+            self._heard[about.id] = (time.monotonic(), about.name)
 
 
-def read_beat(text: str) -> dict[str, str] | None:
-    """What a Motion says of itself; None where it is something else."""
+class MotionBeat(NamedTuple):
+    """What a Motion says of itself. `hears`: the leases of the sources it has heard."""
+
+    id: str
+    name: str
+    hears: frozenset[str]
+
+
+def read_beat(text: str) -> MotionBeat | None:
+    """None where it is something else."""
     try:
         data = json.loads(text)
     except (ValueError, RecursionError):
         return None
     if not isinstance(data, dict) or not {"id", "node", "host", "pid"} <= data.keys():
         return None
-    return {key: str(data[key]) for key in ("id", "node", "host", "pid")}
+    name = f"{data['node']} (process {data['pid']} on {data['host']})"
+    hears = data.get("hears")
+    leases = frozenset(map(str, hears)) if isinstance(hears, list) else frozenset[str]()
+    return MotionBeat(str(data["id"]), name[:120], leases)
 
 
 def _node(name: str) -> str:

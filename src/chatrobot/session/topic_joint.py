@@ -18,7 +18,7 @@ from chatrobot.session.envelope import Envelope, Word
 from chatrobot.session.joint import Sender
 from chatrobot.session.rivals import read_beat
 from chatrobot.session.topics import CHATGPT_NODE, CONTROL, EVENTS
-from chatrobot.wire.connect import advertise, comes_back, wait_for_listener
+from chatrobot.wire.connect import advertise, comes_back
 from chatrobot.wire.messages import Text
 from chatrobot.wire.wire import Wire
 
@@ -103,24 +103,20 @@ class TopicJoint:
         about = read_beat(message.data)
         if about is not None:
             with self._control_came:
-                self._controls[about["id"]] = time.monotonic()
-                self._control_came.notify_all()
+                if self._sender.lease in about.hears:
+                    self._controls[about.id] = time.monotonic()
+                    self._control_came.notify_all()
 
     def _present(self) -> str | None:
-        """A control node that beats."""
+        """A control node that beats, and hears us."""
         since_s = time.monotonic() - SILENT_S
         return next((known for known, at_s in tuple(self._controls.items()) if at_s > since_s), None)
 
     def _find_control(self) -> str | None:
-        """A control node that beats and hears us, waited for."""
-        ends_s = time.monotonic() + FIRST_ANSWER_S
+        """A control node, waited for. That a wire knows it as a listener is not enough: it must have heard us."""
         with self._control_came:
             self._control_came.wait_for(lambda: self._present() is not None, FIRST_ANSWER_S)
-        control = self._present()
-        left_s = max(0.0, ends_s - time.monotonic())
-        if control is None or not wait_for_listener(self._wire, CHATGPT_NODE, Text, left_s):
-            return None
-        return control
+        return self._present()
 
     def _hear_event(self, message: Text) -> None:
         try:

@@ -18,4 +18,4 @@ STOP = "chatrobot/stop"
 """std_msgs/Bool: true stops."""
 
 CONTROL = "chatrobot/control"
-"""Every Motion says ten times a second that it is there: {"id", "node", "host", "pid"}."""
+"""Every Motion says ten times a second that it is there: {"id", "node", "host", "pid", "hears": [leases]}."""
