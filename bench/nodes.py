@@ -11,9 +11,9 @@ import time
 from pathlib import Path
 
 import psutil
-from bench.latency import percentile
 from tests.nodes.node_rig import NodeRig, running
 
+from bench.latency import percentile
 from chatrobot.wire.messages import Text
 
 REPETITIONS = 60

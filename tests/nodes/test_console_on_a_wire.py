@@ -8,10 +8,10 @@ import sys
 from pathlib import Path
 
 import pytest
-from tests.nodes.node_rig import PATIENCE_S, NodeRig, running
 
 from chatrobot.core.errors import UsageError
 from chatrobot.wire.connect import is_on_this_machine, wire_address
+from tests.nodes.node_rig import PATIENCE_S, NodeRig, running
 
 pytestmark = pytest.mark.realtime
 

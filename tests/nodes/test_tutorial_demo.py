@@ -148,3 +148,12 @@ def test_an_emergency_stop_is_not_released_over_the_wire_unless_that_is_switched
     assert rig.do("forward")["outcome"] == "refused"
     rig.publish("chatgpt_node", Text('{"word":"release","source":"me","lease":"me","sequence":1}'))
     assert rig.do("forward")["outcome"] == "refused"
+
+
+def test_a_second_base_is_noticed(rig: NodeRig) -> None:
+    second = rig.start("node", "base", "--on", "dds", "-p", "generate_code:=True", "-p", "revChatGPT:=True")
+    second.wait_for_line("no programs yet")
+    second.wait_for_line("no longer exists")
+    second.wait_for_line("Another base")
+    rig.nodes["base"].wait_for_line("Another base")
+    second.end()

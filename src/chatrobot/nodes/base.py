@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,14 +15,15 @@ from chatrobot.language.phrases import render_reason, say
 from chatrobot.robots.load import load_profile
 from chatrobot.session.session import Options, Session
 from chatrobot.session.topic_joint import TopicJoint
-from chatrobot.session.topics import EVENTS, REPLY, STOP, USER_INPUT
+from chatrobot.session.topics import CHATGPT_NODE, EVENTS, REPLY, STOP, USER_INPUT
 from chatrobot.session.understanding import Understanding
 from chatrobot.sim.load import load_world
-from chatrobot.wire.connect import advertise, connect_wire, is_on_this_machine
+from chatrobot.wire.connect import advertise, connect_wire, is_on_this_machine, publishers_of
 from chatrobot.wire.messages import Flag, Text
 
 NODE = "chatrobot_base"
 PUMP_S = 0.1
+LOOK_S = 1.0
 
 
 @dataclass(frozen=True)
@@ -55,6 +57,8 @@ class BaseNode:
         understanding.interpret("forward 1 m")  # reads the tables now, not with the first instruction
         self._wire = connect_wire(options.wire, profile.wiring, NODE)
         self._joint = TopicJoint(self._wire, "base", is_on_this_machine=is_on_this_machine(options.wire))
+        self._next_look_s = 0.0
+        self._has_twin = False
         self._session = Session(self._joint, understanding, self._hear_event, Options())
 
     def run(self, is_leaving: Callable[[], bool]) -> None:
@@ -71,6 +75,7 @@ class BaseNode:
         self._explain_parameters()
         while not is_leaving():
             self._session.pump(PUMP_S)
+            self._look_for_twins()
         self._session.close()
         self._wire.close()
 
@@ -98,6 +103,17 @@ class BaseNode:
             self._say(say(language, "generate_code_later"))
         if self._options.rev_chatgpt:
             self._say(say(language, "revchatgpt_gone"))
+
+    def _look_for_twins(self) -> None:
+        """Two bases would do everything twice: say so, where the wire knows names."""
+        now_s = time.monotonic()
+        if now_s < self._next_look_s:
+            return
+        self._next_look_s = now_s + LOOK_S
+        has_twin = any(name.endswith(f"/{NODE}") for name in publishers_of(self._wire, CHATGPT_NODE))
+        if has_twin and not self._has_twin:
+            self._say(say(self._session.understanding.language, "another_base"))
+        self._has_twin = has_twin
 
     def _hear_event(self, event: Event) -> None:
         language = self._session.understanding.language
