@@ -18,7 +18,13 @@ from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.corrections import corrected, without_negated
 from chatrobot.language.dialogue import refer, state_after
 from chatrobot.language.facing import without_compass
-from chatrobot.language.facts import defined_unit, with_defined_units, with_known_counts
+from chatrobot.language.facts import (
+    defined_unit,
+    unit_length_m,
+    with_defined_units,
+    with_known_counts,
+    with_words_counted,
+)
 from chatrobot.language.frames import STILL, Frame
 from chatrobot.language.lexicon import Key, Meaning, cut, lexicon
 from chatrobot.language.manner import Pace
@@ -354,6 +360,7 @@ class _Reading:
     def _atoms(self, plain: str) -> list[Atom]:
         atoms = tokenise(plain, lexicon(), self._names(), by_ear=self.by_ear)
         atoms = with_headings(read_quantities(without_asides(atoms, self.language)), self.facing_rad)
+        atoms = with_words_counted(atoms, self.context.dialogue.words)
         if any(a.kind == "role" and a.value == "apart" for a in atoms):  # rows side by side, no garden work
             atoms = [Atom("shape", "lawn", a.text) if a.text == "mow the lawn" else a for a in atoms]
         return atoms
@@ -363,7 +370,10 @@ class _Reading:
         names: dict[Key, Meaning] = {}
         for name in (*self.context.world_places, *dialogue.places):
             names[cut(normalise(name))] = (("place", name),)
-        for word in dialogue.words:
+        for word, plan in dialogue.words.items():
+            counter = ("counter", word) in lexicon().words.get(cut(word), ())
+            if counter and unit_length_m(plan) is not None:
+                continue  # a unit: it is counted
             names[cut(normalise(word))] = (("defined", word),)
         if forms.UNNAMED in dialogue.places:
             for written in (

@@ -223,7 +223,7 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
     elif is_times_only(frame) or (
         "again" in frame.flags and not frame.moves and {"times", "count"} & set(frame.q)
     ):
-        script.units = _repeated(script.units, _count(frame) + ("extra" in frame.flags))
+        script.units = _repeated(script.units, _count(frame) + bool({"extra", "more"} & frame.flags))
     elif "total" in frame.flags and "times" in frame.q and not frame.has_extent and script.units:
         script.units = _repeated(_period(script.units), _count(frame))
     elif "until" in frame.flags and frame.has_extent and len(script.units) > 1:
@@ -241,10 +241,11 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
         pass
     elif "overshot" in frame.flags and not (frame.direction or frame.verb == "return"):
         return _take_back(script, frames, i)
-    elif "again" in frame.flags and not frame.moves and not frame.has_extent:
+    elif _is_plain_again(frame):
         if not script.units:
             raise Unclear("nothing_before", frame.text)
-        script.units += [list(unit) for unit in script.units]
+        agains = sum(1 for _ in itertools.takewhile(_is_plain_again, reversed(frames[:i])))
+        script.units += [list(unit) for unit in script.units[: len(script.units) // (agains + 1)]]
     elif frame.verb in STILL and {"each", "all"} & frame.flags and script.units:
         frame.flags.add("after_each")
         _insert(script, frame)
@@ -253,6 +254,11 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
     else:
         _act(script, frame)
     return i + 1
+
+
+def _is_plain_again(frame: Frame) -> bool:
+    """`again`: each one adds what was said before it once."""
+    return "again" in frame.flags and not frame.moves and not frame.has_extent
 
 
 def _is_moves_only(script: Script, frame: Frame) -> bool:

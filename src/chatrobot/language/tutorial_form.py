@@ -30,6 +30,11 @@ _TUPLE = re.compile(
 )
 _CALL = re.compile(rf"\b(linear|angular) ?[=:] ?(?:vector3)? ?[(\[] ?({_LIST}) ?[)\]]")
 _DOT = re.compile(r"\b(x|y|theta|yaw|phi|psi)[ -]?dot\b ?(?:is|=|of|equals)? ?")
+_DOTTED = re.compile(rf"\b(linear|angular) ?\. ?([xyz]) ?[=:]? ?(?={NUMBER})")
+_TOPIC = re.compile(rf"\bcmd[ _]?vel\b[ :,]*(?=(?:v?x|v?y|w?z|w|theta|yaw) ?[=:]? ?{NUMBER})")
+_SINGLE = re.compile(rf"\b(x|y|z|theta|yaw) ?[=:] ?(?={NUMBER})")
+_VALUE_FIRST = re.compile(rf"({NUMBER}) ?m/s (?:in |along )?([xy])\b")
+_NAME_FIRST = re.compile(rf"(?:yaw rate|yaw|angular|wz|omega) ?[=:]? ?(?={NUMBER})")
 _LETTERS = re.compile(rf"\bv ?= ?{NUMBER}.*\bw ?= ?{NUMBER}|\bw ?= ?{NUMBER}.*\bv ?= ?{NUMBER}")
 
 
@@ -46,13 +51,22 @@ def read_twist(text: str) -> RawTwist | None:
     if twist is not None:
         return twist
     marked = any(mark in text for mark in _marks())
-    text = _ROS_CLI.sub(" ", _plainer(text))
+    text = _ROS_CLI.sub(" ", _plainer(_with_axes(text)))
     blocks = _BLOCK.findall(text)
     if blocks:
         return _blocks(text, blocks)
     if not marked and not any(mark in text for mark in _marks()):
         return None
     return _spoken(text)
+
+
+def _with_axes(text: str) -> str:
+    """Axes written apart from their velocity: `cmd_vel x=0.5 z=0`, `linear.x 0.2`, `0.1 m/s x`."""
+    if _TOPIC.search(text):
+        text = _SINGLE.sub(lambda m: f" {_NAMES[m[1]]} ", _TOPIC.sub("twist ", text))
+    if _NAME_FIRST.search(text):  # all of them name first
+        text = _VALUE_FIRST.sub(r" v\2 \1 ", text)
+    return _DOTTED.sub(lambda m: f"{m[1]} {m[2]} ", text)
 
 
 def _plainer(text: str) -> str:
