@@ -288,6 +288,8 @@ def _remainder(whole: Frame, context: Context, pace: Pace) -> list[Step]:
         done = math.hypot(moved.x_m, moved.y_m)
         if "to_start" in whole.flags or "total" in whole.flags:
             done = max(done, last.end_pose.distance_to(_run_start(context, step)))
+        if "again" in whole.flags:
+            raise Unclear("contradiction", whole.text)  # more, or a total?
         missing = whole.q["length"].number - (0.0 if "more" in whole.flags else done)
         if missing > 0.005:
             return [

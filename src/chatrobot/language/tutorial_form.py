@@ -178,6 +178,8 @@ def _paired(atoms: list[Atom]) -> tuple[dict[str, float] | None, float | None]:
         if atom.kind == "axis":
             hold = atom.value == "duration" or (hold and atom.value == "send")
             if atom.value in (*_AXES, "none"):
+                if name_first and axis and axis != atom.value:
+                    return None, None  # 线速度z: neither the one nor the other
                 if name_first:
                     axis = atom.value
                 elif value is not None:
