@@ -2,7 +2,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: help setup run test lint bench pictures lock clean faults
+.PHONY: help setup run test lint bench pictures lock clean faults fuzz coverage mutants
 
 help:
 	@echo "make setup   .venv with everything in it        make run    talk to the simulated robot"
@@ -10,6 +10,9 @@ help:
 	@echo "make bench   how fast it is, measured           make lock   write requirements.lock anew"
 	@echo "make pictures   draw docs/images anew, from the real program"
 	@echo "make faults  kill and freeze each process 20 times; worst time to zero"
+	@echo "make fuzz    a million sequences of 50 nasty commands at the governor: FUZZ='--sequences 1000 --seed 2'"
+	@echo "make coverage   every branch of governor, reflex and the guard's rule, or it fails"
+	@echo "make mutants    change the safety code in every way a tool can think of; the tests must notice"
 	@echo "make clean   remove .venv and what tools left"
 
 setup:
@@ -36,6 +39,22 @@ bench: setup
 faults: setup
 	$(BIN)/python -m scripts.faults
 
+# A million sequences take about ten minutes on two cores.
+fuzz: setup
+	$(BIN)/python -m scripts.fuzz $(FUZZ)
+
+coverage: setup
+	$(BIN)/coverage run -m pytest -q -m "not realtime and not slow" \
+		tests/governor tests/guard tests/reflex tests/safety
+	$(BIN)/coverage report
+
+# About half an hour on two cores; docs/safety.md argues what survives.
+mutants: setup
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[mutants]'
+	rm -rf mutants
+	$(BIN)/mutmut run --max-children 2
+	$(BIN)/mutmut results
+
 # Needs DejaVu Sans Mono and a font with Chinese on the system.
 pictures: setup
 	$(BIN)/python scripts/make_pictures.py
@@ -44,4 +63,4 @@ lock: setup
 	$(BIN)/python scripts/lock.py
 
 clean:
-	rm -rf .venv .mypy_cache .ruff_cache .pytest_cache .hypothesis build dist
+	rm -rf mutants .coverage .venv .mypy_cache .ruff_cache .pytest_cache .hypothesis build dist

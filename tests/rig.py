@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.events import Event
@@ -11,10 +11,12 @@ from chatrobot.core.governed import StopEpoch
 from chatrobot.execution.executor import Executor
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import TICK_S, Governor
+from chatrobot.governor.rule import Sensed
 from chatrobot.plan.context import LoweringContext
 from chatrobot.plan.lowering import iterate_core
 from chatrobot.plan.steps import Plan
 from chatrobot.robots.load import load_profile
+from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.sim.lies import SimLies
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import SimRobot
@@ -25,8 +27,14 @@ from chatrobot.wire.memory import MemoryHub
 class Rig:
     """Runs plans on the executor as Motion would, without Motion."""
 
-    def __init__(self, profile: str = "wheeltec_mini_mec", lies: str = "", world: str = "empty") -> None:
-        self.profile = load_profile(profile)
+    def __init__(
+        self,
+        profile: str | RobotProfile = "wheeltec_mini_mec",
+        lies: str = "",
+        world: str = "empty",
+        area: Sequence[Point] | None = None,
+    ) -> None:
+        self.profile = load_profile(profile) if isinstance(profile, str) else profile
         self.clock = VirtualClock()
         hub = MemoryHub()
         self.robot = SimRobot(
@@ -36,13 +44,16 @@ class Rig:
         wire = hub.connect()
         self.sensors.attach(wire)
         epoch = StopEpoch()
-        self.governor = Governor(self.profile, epoch)
+        self.governor = Governor(self.profile, epoch, area)
         self.governor.leases.open("rig", "rig", float("inf"), 0.0)
         self._transport = WireTransport(wire, self.profile.wiring, epoch)
         self._looked_at: object = None
         self.events: list[Event] = []
         self.sent: list[Twist] = []
         self.live(0.5)
+
+    def sensed(self) -> Sensed:
+        return Sensed(self.sensors.ages_s(), self.sensors.battery_percent)
 
     def live(self, duration_s: float) -> None:
         """Let time pass."""
@@ -59,6 +70,7 @@ class Rig:
         context = LoweringContext(self.profile, start, start)
         executor = Executor(self.profile, self.sensors, self.events.append)
         began_s = self.clock.now_s()
+        assert self.governor.begin("rig", self.clock.now_s(), self.sensed()).refusal is None
         executor.start(1, iterate_core(plan, context), 10.0, began_s)
         while self.clock.now_s() - began_s < limit_s:
             if each_tick is not None:
@@ -69,7 +81,7 @@ class Rig:
             self._look()
             estimate = self.sensors.estimate
             verdict = self.governor.govern(
-                asked, "rig", self.clock.now_s(), estimate.pose if estimate else None
+                asked, "rig", self.clock.now_s(), estimate.pose if estimate else None, self.sensed()
             )
             self._transport.send(verdict.sent)
             executor.note(verdict.rule, verdict.reason, verdict.sent.twist, self.clock.now_s())

@@ -149,6 +149,7 @@ def _connect_real_time(
     joint: SocketJoint | None = None
     try:
         joint = SocketJoint(str(wire_path), argument, setup.world)
+        understanding.warm()
         joint.wait_until_ready()
     except JointError:
         robot.terminate()

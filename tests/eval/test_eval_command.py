@@ -78,9 +78,9 @@ def test_the_truth_is_judged_and_not_what_the_robot_believes() -> None:
 
 
 def test_nothing_is_remembered_from_one_item_to_the_next() -> None:
-    turns = (Turn("remember this place as base"), Turn("forward 1 m"))
+    turns = (Turn("remember this place as larder"), Turn("forward 1 m"))
     first = Item("a-1", "dialogue", turns, Expect(numbers={"x": 1.0}))
-    second = Item("a-2", "dialogue", (Turn("go back to base"),), Expect(no_motion=True))
+    second = Item("a-2", "dialogue", (Turn("go back to larder"),), Expect(no_motion=True))
     judged = list(run_items([first, second], Setup(world="empty")))
     assert judged[0].verdict.kind == "correct"
     assert judged[1].records[0].outcome in ("unclear", "refused")

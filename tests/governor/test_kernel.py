@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pytest
 from hypothesis import given
@@ -96,3 +97,11 @@ def test_the_ramp_of_an_ackermann_base_from_forward_to_backward_leads_through_st
         seen.append(sent)
     assert seen[-1] == pytest.approx(Twist(-0.2, 0.0, 0.2))
     assert min(twist.speed_mps for twist in seen) < 0.02
+
+
+def test_a_base_that_is_slower_sideways_keeps_its_direction_too() -> None:
+    mecanum = next(profile for profile in PROFILES if profile.name == "wheeltec_mini_mec")
+    slow = replace(mecanum, limits=replace(mecanum.limits, max_sideways_mps=0.2))
+    assert bounded(slow, Twist(0.4, 0.4, 0.2)) == pytest.approx(Twist(0.2, 0.2, 0.1))
+    assert bounded(slow, Twist(0.4, -0.2, 0.2)) == Twist(0.4, -0.2, 0.2)
+    assert bounded(slow, Twist(9.0, 0.1, 0.0)).speed_mps == pytest.approx(1.0)

@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pytest
 from tests.rig import Rig
 
+from chatrobot.core.geometry import ORIGIN, Pose
+from chatrobot.governor.seen import Seen
 from chatrobot.plan.steps import Arc, Drive, Plan, Step, Turn
+from chatrobot.robots.load import list_profiles, load_profile
+from chatrobot.robots.profile import Lidar, RobotProfile, Safety
 from chatrobot.sim.shapes import Circle, Shape, rectangle
+from chatrobot.wire.messages import LaserScan
 
 FAR_M = 2.0
 
@@ -101,3 +107,148 @@ def test_a_curve_stops_before_what_stands_on_it_and_passes_what_does_not() -> No
     rig.live(0.3)
     assert rig.run(Plan((Arc(1.0, math.pi / 2),))).outcome == "stopped"
     assert not rig.robot.in_contact
+
+
+# --- a cheap lidar ---
+
+CHEAP = "noise=on,seed=3,lidar_zeros=on"
+WITH_LIDAR = [robot for robot in (entry.load() for entry in list_profiles()) if robot.lidar is not None]
+WAYS = [
+    pytest.param(robot, direction, id=f"{robot.name}-{direction}")
+    for robot in WITH_LIDAR
+    for direction in ((0, 180, 90, -90, 135) if robot.can_go_sideways else (0, 180))
+]
+
+
+@pytest.mark.parametrize("share", [0.25, 0.5, 1.0])
+@pytest.mark.parametrize(("robot", "direction_deg"), WAYS)
+def test_zeros_do_not_hide_a_wall(robot: RobotProfile, direction_deg: int, share: float) -> None:
+    direction, rig = math.radians(direction_deg), Rig(robot, CHEAP)
+    speed = share * robot.limits.max_speed_mps
+    drive_at_wall(rig, Drive(distance_m=5.0, direction_rad=direction, speed_mps=speed), direction)
+
+
+@pytest.mark.parametrize("yaw_deg", [-120, 90, 180])
+def test_a_lidar_that_is_mounted_turned_sees_the_wall_where_it_is(yaw_deg: int) -> None:
+    robot = load_profile("wheeltec_mini_mec")
+    assert robot.lidar is not None
+    turned = replace(robot, lidar=replace(robot.lidar, yaw_rad=math.radians(yaw_deg)))
+    drive_at_wall(Rig(turned, CHEAP), Drive(distance_m=5.0, speed_mps=1.0), 0.0)
+
+
+@pytest.mark.parametrize("rate", [0.5, 1.0, 2.0])
+def test_turning_stops_before_a_post_that_vanishes_inside_the_minimum_range(rate: float) -> None:
+    rig = Rig("wheeltec_mini_mec", CHEAP)
+    side = max(y for _, y in rig.profile.footprint)
+    rig.robot.add_obstacle("post", Circle(0.0, side + 0.06, 0.03))
+    rig.live(0.3)
+    executor = rig.run(Plan((Turn(angle_rad=math.pi, rate_radps=rate),)))
+    assert not rig.robot.in_contact
+    assert executor.outcome == "stopped"
+
+
+def test_what_was_near_and_now_returns_zero_is_remembered_until_it_is_seen_through() -> None:
+    lidar = Lidar(0.0, 0.0, 0.0, 4, 0.12, 8.0, 10.0)
+    seen = Seen(lidar)
+
+    def scan(ahead_m: float) -> LaserScan:
+        return LaserScan(0.0, -math.pi, math.pi / 2.0, 0.12, 8.0, [math.inf, math.inf, ahead_m, math.inf])
+
+    seen.take(scan(0.2), ORIGIN)
+    for step in range(1, 8):
+        seen.take(scan(0.0), Pose(0.012 * step, 0.0, 0.0))
+    assert len(seen.points) > 0
+    assert seen.points[:, 0] == pytest.approx(0.2)
+    for _ in range(4):
+        seen.take(scan(3.0), Pose(0.1, 0.0, 0.0))
+    assert min(seen.points[:, 0]) == pytest.approx(3.1)
+
+
+@pytest.mark.parametrize("direction", [1.0, -1.0])
+def test_a_lidar_that_turns_clockwise_is_read_the_same_way(direction: float) -> None:
+    robot = load_profile("wheeltec_mini_mec")
+    assert robot.lidar is not None
+    seen = Seen(robot.lidar)
+    ranges = [math.inf] * 360
+    ranges[90 if direction > 0.0 else 270] = 0.2  # to the right in both
+    scan = LaserScan(0.0, -math.pi * direction, math.radians(direction), 0.12, 8.0, ranges)
+    seen.take(scan, ORIGIN)
+    seen.take(scan._replace(ranges_m=[0.0] * 360), ORIGIN)
+    assert seen.points == pytest.approx(seen.points[0].reshape(1, 2).repeat(len(seen.points), axis=0))
+    assert tuple(seen.points[0]) == pytest.approx((robot.lidar.x_m, -0.2), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    "broken",
+    [
+        LaserScan(0.0, -math.pi, 0.0, 0.1, 8.0, [1.0] * 360),
+        LaserScan(0.0, -math.pi, math.nan, 0.1, 8.0, [1.0] * 360),
+        LaserScan(0.0, math.inf, 0.1, 0.1, 8.0, [1.0] * 360),
+        LaserScan(0.0, -math.pi, 0.1, 0.1, 8.0, []),
+    ],
+)
+def test_a_scan_that_makes_no_sense_has_seen_nothing(broken: LaserScan) -> None:
+    robot = load_profile("wheeltec_mini_mec")
+    assert robot.lidar is not None
+    seen = Seen(robot.lidar)
+    seen.take(LaserScan(0.0, -math.pi, math.radians(1.0), 0.1, 8.0, [1.0] * 360), ORIGIN)
+    assert seen.covers_all
+    seen.take(broken, ORIGIN)
+    assert not seen.covers_all
+    assert not seen.covers(0.0)
+
+
+# --- where the lidar does not look ---
+
+
+def half_blind(blind_speed_mps: float, fov_deg: float = 180.0) -> Rig:
+    robot = replace(load_profile("wheeltec_mini_mec"), safety=Safety(blind_speed_mps=blind_speed_mps))
+    return Rig(robot, f"{CHEAP},lidar_fov_deg={fov_deg}")
+
+
+@pytest.mark.parametrize("speed", [0.3, 0.6, 1.0])
+def test_a_way_that_the_lidar_does_not_see_is_refused_where_the_profile_says_so(speed: float) -> None:
+    rig = half_blind(0.0)
+    rig.robot.add_obstacle("wall", wall_ahead(math.pi, 0.5))
+    rig.live(0.3)
+    executor = rig.run(Plan((Drive(distance_m=3.0, direction_rad=math.pi, speed_mps=speed),)))
+    assert not rig.robot.in_contact
+    assert rig.robot.true_pose == pytest.approx(ORIGIN, abs=1e-3)
+    assert executor.reason is not None
+    assert executor.reason.code == "not_seen"
+
+
+@pytest.mark.parametrize("direction_deg", [180, 150, -120])
+def test_a_way_that_the_lidar_does_not_see_is_driven_slowly(direction_deg: int) -> None:
+    rig = half_blind(0.1)
+    executor = rig.run(
+        Plan((Drive(distance_m=0.5, direction_rad=math.radians(direction_deg), speed_mps=1.0),))
+    )
+    assert executor.outcome == "completed"
+    assert max(twist.speed_mps for twist in rig.sent) <= 0.1 + 1e-9
+
+
+def test_a_way_that_the_lidar_sees_is_driven_as_asked() -> None:
+    rig = half_blind(0.0)
+    assert rig.run(Plan((Drive(distance_m=1.0, speed_mps=0.6),))).outcome == "completed"
+    assert max(twist.speed_mps for twist in rig.sent) > 0.55
+
+
+def test_a_turn_whose_rear_corners_swing_through_the_unseen_is_slow() -> None:
+    rig = half_blind(0.1)
+    assert rig.run(Plan((Turn(angle_rad=0.5, rate_radps=1.5),))).outcome == "completed"
+    fastest = max(abs(twist.wz_radps) for twist in rig.sent)
+    assert fastest * rig.profile.footprint_radius_m <= 0.1 + 1e-9
+
+
+@pytest.mark.parametrize("direction_deg", [0, 45, 90])
+def test_what_was_seen_before_it_left_the_field_of_view_still_counts(direction_deg: int) -> None:
+    """It turns its back on a wall that it has seen, then drives backwards: within a metre it remembers."""
+    rig = half_blind(0.1, fov_deg=270.0)
+    rig.robot.add_obstacle("wall", wall_ahead(math.radians(direction_deg), 0.6))
+    rig.live(0.4)
+    turn = Turn(angle_rad=math.pi - math.radians(direction_deg), left=False, rate_radps=0.5)
+    executor = rig.run(Plan((turn, Drive(distance_m=1.0, direction_rad=math.pi, speed_mps=0.5))))
+    assert not rig.robot.in_contact
+    assert executor.reason is not None
+    assert executor.reason.code in ("obstacle_ahead", "not_seen")

@@ -46,3 +46,20 @@ def test_the_guard_looks_again_no_later_than_the_next_overdue_beat() -> None:
     watch.hear(HANDSHAKE, 5.0)
     assert watch.seconds_left(5.1) <= MISSED_S
     assert watch.seconds_left(5.0 + MISSED_S + 1.0) == 0.0
+
+
+def test_it_begins_idle_and_a_loss_before_any_handshake_is_none() -> None:
+    watch = Watch()
+    assert watch.state == "idle"
+    watch.lose()
+    watch.hear(BEAT, 1.0)
+    assert watch.state == "idle"
+
+
+def test_how_long_it_may_sleep_depends_on_its_state() -> None:
+    watch = Watch()
+    assert watch.seconds_left(0.0) == MISSED_S
+    watch.hear(HANDSHAKE, 5.0)
+    assert watch.seconds_left(5.1) == 5.0 + MISSED_S - 5.1
+    watch.lose()
+    assert watch.seconds_left(5.1) == BEAT_S

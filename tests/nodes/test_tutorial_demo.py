@@ -145,7 +145,9 @@ def test_ten_texts_wait_and_the_eleventh_is_refused(rig: NodeRig) -> None:
 def test_an_emergency_stop_is_not_released_over_the_wire_unless_that_is_switched_on(rig: NodeRig) -> None:
     said_s = rig.nodes["input"].say("emergency stop")
     rig.result(said_s, "Emergency stop")
-    rig.do("forward")  # control hears the stop twice, from base and by itself: the second may still be on its way
+    rig.do(
+        "forward"
+    )  # control hears the stop twice, from base and by itself: the second may still be on its way
     assert rig.do("forward")["outcome"] == "refused"
     rig.publish("chatgpt_node", Text('{"word":"release","source":"me","lease":"me","sequence":1}'))
     assert rig.do("forward")["outcome"] == "refused"

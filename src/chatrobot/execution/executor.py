@@ -30,6 +30,9 @@ SETTLE_S = 0.8
 BARRED_S = 3.0
 """Somebody may walk past; after this long the way is barred and the plan ends."""
 
+RAMP_RULES = frozenset({"", "speed", "acceleration"})
+"""What the governor does to any motion: no reason to wait."""
+
 MEND_TRIES = 2
 MEND_SPEED_MPS = 0.08
 MEND_RATE_RADPS = 0.3
@@ -93,9 +96,9 @@ class Executor:
     def note(self, rule: str, reason: Reason | None, sent: Twist, now_s: float) -> None:
         """What the governor made of the last request.
 
-        Where something is in the way the reference waits for the robot; a way that stays barred ends the plan.
+        Where a rule slows the robot the reference waits for it; a way that stays barred ends the plan.
         """
-        if rule != "obstacle" or self._segment is None:
+        if rule in RAMP_RULES or self._segment is None:
             self._barred_since_s = None
             return
         full = self._segment.at(now_s - self._segment_at_s + TICK_S / 2.0)[1]
@@ -200,6 +203,8 @@ class Executor:
         begin, wheel_yaw_rad = self._begin
         if self._is_mending or estimate.stamp_s < self._segment_at_s:
             return None
+        if self._barred_since_s is not None:
+            return None  # it was halted at once, and rolls on as far as it takes to brake
         # Measured from where the robot really began: an error it brought along is not this motion's.
         moved = reference.relative_to(segment.start)
         return tracking_fault(

@@ -22,6 +22,8 @@ class Sensors:
         self.bumped = False
         self.battery_percent: float | None = None
         self._odometry_at_s = -math.inf
+        self._imu_at_s = -math.inf
+        self._scan_at_s = -math.inf
 
     def attach(self, wire: Wire) -> None:
         """Subscribe to what the profile says the robot has."""
@@ -29,7 +31,7 @@ class Sensors:
         if wiring.odom_topic:
             wire.subscribe(wiring.odom_topic, Odometry, self._on_odometry)
         if wiring.imu_topic:
-            wire.subscribe(wiring.imu_topic, Imu, self.estimator.on_imu)
+            wire.subscribe(wiring.imu_topic, Imu, self._on_imu)
         if wiring.scan_topic:
             wire.subscribe(wiring.scan_topic, LaserScan, self._on_scan)
         if wiring.bumper_topic:
@@ -50,11 +52,25 @@ class Sensors:
         """Seconds since odometry last came; infinite before the first."""
         return self._clock.now_s() - self._odometry_at_s
 
+    def ages_s(self) -> dict[str, float]:
+        """Seconds since each sensor last spoke, by name; infinite before the first word."""
+        now_s = self._clock.now_s()
+        return {
+            "odom": now_s - self._odometry_at_s,
+            "imu": now_s - self._imu_at_s,
+            "scan": now_s - self._scan_at_s,
+        }
+
+    def _on_imu(self, message: Imu) -> None:
+        self._imu_at_s = self._clock.now_s()
+        self.estimator.on_imu(message)
+
     def _on_odometry(self, message: Odometry) -> None:
         self._odometry_at_s = self._clock.now_s()
         self.estimator.on_odometry(message)
 
     def _on_scan(self, message: LaserScan) -> None:
+        self._scan_at_s = self._clock.now_s()
         self.scan = message
 
     def _on_bumper(self, message: Flag) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -11,8 +12,13 @@ from chatrobot.core.governed import GovernedTwist, Mint, StopEpoch
 from chatrobot.core.reason import Reason
 from chatrobot.governor.kernel import bounded, make_kernel
 from chatrobot.governor.lease import Leases
-from chatrobot.governor.obstacles import FREE, ObstacleRule
-from chatrobot.robots.profile import RobotProfile
+from chatrobot.governor.narrowed import NarrowedRule
+from chatrobot.governor.priority import RELEASERS
+from chatrobot.governor.rule import NOTHING_SENSED, Sensed, Situation
+from chatrobot.governor.rules import Composed, Setting, compose, make_rules
+from chatrobot.governor.seen import Seen
+from chatrobot.governor.wheel import Taken, Wheel
+from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.wire.messages import LaserScan
 
 TICK_S = 0.02
@@ -25,12 +31,16 @@ LATE_MPS = 0.05
 LATE_RADPS = 0.1
 """A ramp that is still this much above what the way allows is too late."""
 
+VOID_EPOCH = -1
+"""No stop epoch has this number: what carries it is never sent."""
+
 
 @dataclass(frozen=True)
 class Verdict:
     """What the governor made of a request. `asked` and `sent` differ where `action` is not `passed`.
 
-    `allowed` is what the rules leave of `asked`; `sent` is on its way there as fast as the ramps allow.
+    `allowed` is what the rules leave of `asked`; `sent` is on its way there as fast as the ramps allow. A refusal
+    carries a zero to send, but for `outranked`: another drives, and nothing is to be sent.
     """
 
     action: Literal["passed", "limited", "refused"]
@@ -44,22 +54,39 @@ class Verdict:
 class Governor:
     """Holds every velocity to the profile. Not thread-safe but for `latch`, which only ever stops.
 
+    A source opens a lease, begins its motion, asks for velocities, and ends its motion. After a stop it has to
+    begin again.
+
     Args:
         profile: the limits; they come from a file a person wrote and are never widened here.
         epoch: the stop epoch shared with the transport.
+        area: corners, in `odom`, of the area that the world allows; None where it says nothing.
+        releasers: the sources that may release an emergency stop.
     """
 
-    def __init__(self, profile: RobotProfile, epoch: StopEpoch) -> None:
+    def __init__(
+        self,
+        profile: RobotProfile,
+        epoch: StopEpoch,
+        area: Sequence[Point] | None = None,
+        releasers: Collection[str] = RELEASERS,
+    ) -> None:
         self.leases = Leases()
         self._profile = profile
         self._kernel = make_kernel(profile)
         self._epoch = epoch
         self._mint = Mint()
+        self._wheel = Wheel(self.leases, epoch)
+        self._releasers = frozenset(releasers)
         self._sent = ZERO_TWIST
         self._sent_at_s = -math.inf
         self._sent_epoch = epoch.value
         self._latch: Reason | None = None
-        self._obstacles = ObstacleRule(profile)
+        self._seen = Seen(profile.lidar) if profile.lidar is not None else None
+        self._narrowed = NarrowedRule()
+        self._rules = [self._narrowed, *make_rules(Setting(profile, self._seen, area))]
+
+    # --- emergency stop ---
 
     @property
     def latched(self) -> Reason | None:
@@ -67,59 +94,112 @@ class Governor:
         return self._latch
 
     def latch(self, source: str, why: str) -> None:
-        """Emergency stop: nothing moves until `release`."""
-        self._latch = Reason("emergency_stop", {"source": source, "why": why})
+        """Emergency stop: nothing moves until `release`. The first of several keeps its name on it."""
+        if self._latch is None:
+            self._latch = Reason("emergency_stop", {"source": source, "why": why})
 
-    def release(self) -> None:
+    def release(self, source: str) -> bool:
+        """Lift the emergency stop; False, and it stays, where `source` is not one of those who may."""
+        if source not in self._releasers:
+            return False
         self._latch = None
+        return True
+
+    # --- who drives ---
+
+    def begin(self, lease_id: str, now_s: float, sensed: Sensed = NOTHING_SENSED) -> Taken:
+        """Take the wheel for a new motion: from nobody, or from a source of lower priority."""
+        if self._latch is not None:
+            return Taken(self._latch)
+        if not self.leases.is_valid(lease_id, now_s):
+            return Taken(Reason("lease_lapsed", {"source": self.leases.source_of(lease_id)}))
+        barred = compose(self._rules, ZERO_TWIST, Situation(None, sensed, begins=True))
+        if barred.ruling.factor < 1.0:
+            return Taken(barred.ruling.reason)
+        return self._wheel.take(lease_id, now_s)
+
+    def end(self, lease_id: str) -> None:
+        """That source's motion is over; the wheel is free."""
+        self._wheel.leave(lease_id)
+
+    def narrow(self, speed_mps: float = math.inf, rate_radps: float = math.inf) -> None:
+        """From now on at most these. There is no way back: a limit can only shrink. Raises ValueError."""
+        self._narrowed.narrow(speed_mps, rate_radps)
+
+    # --- every tick ---
 
     def take_scan(self, scan: LaserScan, pose: Pose) -> None:
         """What the lidar saw when the robot stood at `pose` (of `odom`)."""
-        self._obstacles.take(scan, pose)
+        if self._seen is not None:
+            self._seen.take(scan, pose)
 
-    def govern(self, asked: Twist, lease_id: str, now_s: float, pose: Pose | None = None) -> Verdict:
+    def govern(
+        self,
+        asked: Twist,
+        lease_id: str,
+        now_s: float,
+        pose: Pose | None = None,
+        sensed: Sensed = NOTHING_SENSED,
+    ) -> Verdict:
         """What may be sent at `now_s` for `asked` under that lease, by a robot at `pose` (of `odom`, if known).
 
         After a stop, or after a pause, ramps begin at zero again.
         """
         epoch = self._epoch.value
         refusal = self._refusal(asked, lease_id, now_s)
+        if refusal == "outranked":
+            void = self._mint.twist(ZERO_TWIST, VOID_EPOCH)
+            return Verdict("refused", refusal, asked, void, ZERO_TWIST)
         if refusal:
             return self._verdict("refused", refusal, asked, ZERO_TWIST, ZERO_TWIST, epoch, now_s)
+        if pose is not None and not all(map(math.isfinite, pose)):
+            pose = None
         previous = self._sent if epoch == self._sent_epoch else ZERO_TWIST
         target = bounded(self._profile, asked)
-        ruling = self._obstacles.judge(target, pose) if pose is not None else FREE
-        if ruling.factor < 1.0:
-            allowed = target.scaled(ruling.factor)
-            slowed = self._brake(previous, allowed, now_s)
-            return self._verdict("limited", "obstacle", asked, slowed, allowed, epoch, now_s, ruling.reason)
+        ruled = compose(self._rules, target, Situation(pose, sensed))
+        if ruled.rule:
+            allowed = target.scaled(ruled.ruling.factor)
+            slowed = self._brake(previous, target, ruled, now_s)
+            return self._verdict(
+                "limited", ruled.rule, asked, slowed, allowed, epoch, now_s, ruled.ruling.reason
+            )
         sent = self._kernel(previous, asked, self._step_s(now_s))
         if sent == asked:
             return self._verdict("passed", "", asked, sent, target, epoch, now_s)
         rule = "speed" if not _close(target, asked) else "acceleration"
         return self._verdict("limited", rule, asked, sent, target, epoch, now_s)
 
-    def _brake(self, previous: Twist, target: Twist, now_s: float) -> Twist:
-        """Ramp to `target`; where the ramp would come too late, zero at once (zero is exempt from the ramp)."""
-        sent = self._kernel(previous, target, self._step_s(now_s))
-        too_fast = sent.speed_mps > target.speed_mps + LATE_MPS
-        turns_too_fast = abs(sent.wz_radps) > abs(target.wz_radps) + LATE_RADPS
+    def _brake(self, previous: Twist, target: Twist, ruled: Composed, now_s: float) -> Twist:
+        """Ramp to what is allowed; where that is urgent and comes too late, zero at once (exempt from the ramp)."""
+        sent = self._kernel(previous, target.scaled(ruled.ruling.factor), self._step_s(now_s))
+        if ruled.urgent_factor >= 1.0:
+            return sent
+        urgent = target.scaled(ruled.urgent_factor)
+        too_fast = sent.speed_mps > urgent.speed_mps + LATE_MPS
+        turns_too_fast = abs(sent.wz_radps) > abs(urgent.wz_radps) + LATE_RADPS
         return ZERO_TWIST if too_fast or turns_too_fast else sent
 
     def _refusal(self, asked: Twist, lease_id: str, now_s: float) -> str:
         if self._latch is not None:
             return "emergency_stop"
-        if not asked.is_finite:
-            return "not_finite"
+        holder = self._wheel.holder(now_s)
+        if holder not in ("", lease_id):
+            return "outranked"
         if not self.leases.is_valid(lease_id, now_s):
             return "lease_lapsed"
+        if not asked.is_finite:
+            return "not_finite"
+        if holder != lease_id:
+            return "not_begun"
+        if not (math.isfinite(now_s) and self._sent_at_s <= now_s):
+            return "clock_went_back"
         return ""
 
     def _step_s(self, now_s: float) -> float:
         """Seconds to ramp over. The first tick after standing counts as a whole period: it is driven by an event."""
         if self._sent.is_zero:
             return TICK_S
-        return max(0.0, min(now_s - self._sent_at_s, LONGEST_STEP_S))
+        return min(now_s - self._sent_at_s, LONGEST_STEP_S)
 
     def _verdict(
         self,

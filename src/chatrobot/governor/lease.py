@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from chatrobot.governor.priority import Priority, priority_of
+
 BEAT_HZ = 10.0
 TERM_S = 0.3
 """A source beats at `BEAT_HZ`; `TERM_S` without a beat ends its motion."""
@@ -24,7 +26,8 @@ class Lease:
     ended: bool = False
 
     def is_valid(self, now_s: float) -> bool:
-        return not self.ended and now_s - self.last_beat_s <= self.term_s
+        """A beat far in the future is as good as none: the clock went back."""
+        return not self.ended and abs(now_s - self.last_beat_s) <= self.term_s
 
 
 class Leases:
@@ -43,7 +46,7 @@ class Leases:
     def beat(self, lease_id: str, now_s: float) -> None:
         """A heartbeat. It revives a lease that lapsed (what moved under it has been stopped), not one that ended."""
         lease = self._leases.get(lease_id)
-        if lease is not None and now_s > lease.last_beat_s:
+        if lease is not None:
             lease.last_beat_s = now_s
 
     def entrust(self, lease_id: str) -> None:
@@ -61,6 +64,10 @@ class Leases:
     def is_valid(self, lease_id: str, now_s: float) -> bool:
         lease = self._leases.get(lease_id)
         return lease is not None and lease.is_valid(now_s)
+
+    def priority_of(self, lease_id: str) -> Priority:
+        """By its source; the lowest for a lease that nobody opened."""
+        return priority_of(self.source_of(lease_id))
 
     def source_of(self, lease_id: str) -> str:
         lease = self._leases.get(lease_id)

@@ -32,25 +32,27 @@ class Seen:
     """
 
     def __init__(self, lidar: Lidar) -> None:
-        self._lidar = lidar
+        self.lidar = lidar
         self._scans: deque[Floats] = deque(maxlen=SCANS_KEPT)
         self._remembered: Floats = _NOTHING
-        self.scan_stamp_s = -math.inf
         self._first_rad, self._step_rad, self._beams = 0.0, 0.0, 0
 
     @property
     def points(self) -> Floats:
         return np.concatenate([*self._scans, self._remembered])
 
+    @property
+    def covers_all(self) -> bool:
+        """True where beams look all around."""
+        span = abs(self._step_rad) * self._beams
+        return span >= 2.0 * math.pi - 2.0 * abs(self._step_rad) and self._beams > 0
+
     def covers(self, direction_rad: float) -> bool:
         """True where a beam looks along that direction of the robot's frame."""
-        if self._beams == 0:
-            return False
-        span = abs(self._step_rad) * self._beams
-        if span >= 2.0 * math.pi - 2.0 * abs(self._step_rad):
-            return True
-        offset = (direction_rad - self._lidar.yaw_rad - self._first_rad) * math.copysign(1.0, self._step_rad)
-        return offset % (2.0 * math.pi) <= span
+        if self._beams == 0 or self.covers_all:
+            return self._beams > 0
+        offset = (direction_rad - self.lidar.yaw_rad - self._first_rad) * math.copysign(1.0, self._step_rad)
+        return offset % (2.0 * math.pi) <= abs(self._step_rad) * (self._beams - 1)
 
     def take(self, scan: LaserScan, pose: Pose) -> None:
         """A scan made where the robot stood at `pose` (of `odom`)."""
@@ -60,8 +62,10 @@ class Seen:
             scan.angle_increment_rad,
             len(ranges),
         )
-        self.scan_stamp_s = scan.stamp_s
-        lidar = pose.compose(Pose(self._lidar.x_m, self._lidar.y_m, self._lidar.yaw_rad))
+        if not (_makes_sense(scan) and all(map(math.isfinite, pose))):
+            self._beams = 0  # then it has seen nothing
+            return
+        lidar = pose.compose(Pose(self.lidar.x_m, self.lidar.y_m, self.lidar.yaw_rad))
         with np.errstate(invalid="ignore"):
             valid = (ranges >= scan.range_min_m) & (ranges <= scan.range_max_m)
             sees = valid | (ranges == math.inf)
@@ -75,12 +79,14 @@ class Seen:
     def _still_there(self, scan: LaserScan, ranges: Floats, sees: NDArray[np.bool_], lidar: Pose) -> Floats:
         """Of all points known so far, those that the lidar cannot see now because they are too near."""
         known = self.points
-        if len(known) == 0 or len(ranges) == 0:
+        if len(known) == 0:
             return _NOTHING
         dx, dy = known[:, 0] - lidar.x_m, known[:, 1] - lidar.y_m
         distance = np.hypot(dx, dy)
         bearing = np.arctan2(dy, dx) - lidar.yaw_rad - scan.angle_min_rad
-        beam = np.rint((bearing % (2.0 * math.pi)) / scan.angle_increment_rad).astype(int)
+        onwards = bearing * math.copysign(1.0, scan.angle_increment_rad)  # many lidars turn clockwise
+        whole = max(len(ranges), round(2.0 * math.pi / abs(scan.angle_increment_rad)))
+        beam = np.rint((onwards % (2.0 * math.pi)) / abs(scan.angle_increment_rad)).astype(int) % whole
         inside = beam < len(ranges)
         beam = np.where(inside, beam, 0)
         looked_past = inside & sees[beam] & (ranges[beam] > distance + SEEN_THROUGH_M)
@@ -88,3 +94,13 @@ class Seen:
         too_near = distance < scan.range_min_m + NEAR_M
         out_of_view = ~inside & (distance < FORGET_AFTER_M)
         return np.asarray(known[(too_near | out_of_view) & ~looked_past & ~replaced])
+
+
+def _makes_sense(scan: LaserScan) -> bool:
+    """Whether its beams have directions at all."""
+    return (
+        len(scan.ranges_m) > 0
+        and math.isfinite(scan.angle_min_rad)
+        and math.isfinite(scan.angle_increment_rad)
+        and scan.angle_increment_rad != 0.0
+    )

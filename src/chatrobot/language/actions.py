@@ -6,13 +6,15 @@ import math
 from dataclasses import dataclass, field
 
 from chatrobot.core.geometry import Pose
+from chatrobot.language.arcs import about, arc, is_left
 from chatrobot.language.frames import DIAGONALS, GO, SIDES, STILL, TURN, Frame
 from chatrobot.language.manner import Pace
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.quantities import quantity
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Step, Turn, Wait
+from chatrobot.language.undoing import inverse
+from chatrobot.plan.steps import Drive, Face, Go, Step, Turn, Wait
 
 DIRECTIONS = {
     "forward": 0.0, "left": math.pi / 2, "back": math.pi, "right": -math.pi / 2,
@@ -45,20 +47,27 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     """
     frame = _with_units(frame, state)
     _check_extents(frame)
+    if _OUTLINES & set(frame.roles):
+        raise Unclear("unknown_part", frame.text)
     if (
         "there" in frame.flags
         and frame.verb not in STILL
         and "clock" not in frame.q
-        and not (frame.direction or frame.rot or "length" in frame.q)
+        and not (frame.direction or frame.rot)
     ):
         raise Unclear("which_place", frame.text)
     if "until" in frame.flags and not frame.has_extent and frame.verb != "face":
         raise Unclear("condition", frame.text)
     if _goes_back(frame, state):
         return _return(Frame(verb="return", pace=frame.pace), state, pace)
+    if "to_start" in frame.flags and frame.direction and "length" in frame.q:
+        frame = frame.copy()
+        frame.flags.discard("to_start")  # the way to it is told in full
     if "asked_distance" in frame.flags:
         return []  # only worked out; what is done with it comes after
-    if "clock" in frame.q:
+    if "heading" in frame.q:
+        steps = _by_compass(frame, state, pace)
+    elif "clock" in frame.q:
         steps = _clock(frame, pace)
     elif frame.verb in STILL:
         steps = _still(frame)
@@ -73,28 +82,14 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     elif frame.verb == "face" or ("original_heading" in frame.flags):
         steps = _face(frame, state, pace)
     elif frame.verb == "uturn":
-        steps = _about(frame, pace)
+        steps = about(frame, pace)
     elif frame.is_arc:
-        steps = _arc(frame, pace)
+        steps = arc(frame, pace)
     elif _is_turn(frame, state):
         steps = _turn(frame, state, pace)
     else:
         steps = _drive(frame, state, pace)
     return steps
-
-
-def _about(frame: Frame, pace: Pace) -> list[Step]:
-    """Turn around on the spot; as a half circle where a radius is said."""
-    left = _left(frame)
-    if "radius" in frame.q and left is not None:
-        return [Arc(frame.q["radius"].number, math.pi, left=left, speed_mps=pace.speed(frame))]
-    said = frame.q.get("angle") or frame.q.get("turns")
-    if frame.is_arc or "length" in frame.q or (said and abs(said.number - math.pi) > 1e-6):
-        raise Unclear("unclear_motion", frame.text)
-    rate = pace.rate(frame)
-    if "time" in frame.q:
-        rate = math.pi / frame.q["time"].number
-    return [Turn(math.pi, left=left is not False, rate_radps=rate)]
 
 
 def _with_units(frame: Frame, state: State) -> Frame:
@@ -116,10 +111,24 @@ def _with_units(frame: Frame, state: State) -> Frame:
         covered = frame.q.pop("speed").number * frame.q.pop("time").number
         frame.q["length"] = quantity("length", covered, f"{covered:g} m")
         state.length = frame.q["length"]
+    before = state.angle if frame.turning else state.length
+    scale = frame.q.get("scale")
+    if scale is not None and before is not None and frame.moves and not frame.has_extent:
+        frame = frame.copy()
+        del frame.q["scale"]
+        frame.q[before.value] = quantity(before.value, before.number * scale.number, scale.text)
+        return frame
     number = frame.q.get("number")
     if number is None:
         return frame
-    before = state.angle if frame.turning else state.length
+    if (
+        frame.verb == "return"
+        and state.last == "turn"
+        and not any(isinstance(step, Drive) for step in state.steps)
+    ):
+        before = state.angle
+    if "转返" in frame.texts and state.last != "turn":
+        raise Unclear("which_side", frame.text)
     if number.text == "一半" and before is not None and not frame.has_extent:
         frame = frame.copy()
         del frame.q["number"]
@@ -133,7 +142,7 @@ def _with_units(frame: Frame, state: State) -> Frame:
         state.last == "turn"
         and state.angle is not None
         and not frame.has_extent
-        and (frame.turning or frame.direction in SIDES)
+        and (frame.turning or frame.direction in SIDES or ("more" in frame.flags and not frame.moves))
         and 1 <= number.number <= 1080
         and frame.verb not in GO
     ):
@@ -192,7 +201,13 @@ _REFERRING = {
     "original_heading",
     "left_right",
     "right_left",
+    "at_point",
+    "from_heading",
 }
+
+
+_OUTLINES = {"short", "apart", "circumference", "ends", "straights", "diagonal"}
+"""Measures that only a drawn shape has."""
 
 
 def _all_used(frame: Frame, kind: str) -> None:
@@ -217,13 +232,6 @@ def _still(frame: Frame) -> list[Step]:
     raise Unclear("how_long", frame.text)
 
 
-def _left(frame: Frame) -> bool | None:
-    side = frame.rot or frame.direction2 or (frame.direction if frame.direction in SIDES else "")
-    if not side and frame.is_arc and frame.direction in DIAGONALS.values():
-        side = frame.direction.split("_")[1]
-    return None if not side else side == "left"
-
-
 def _is_turn(frame: Frame, state: State) -> bool:
     if frame.verb in TURN or (frame.rot and frame.verb not in GO):
         return True
@@ -245,11 +253,13 @@ def _is_turn(frame: Frame, state: State) -> bool:
 def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if "length" in frame.q or "speed" in frame.q:
         raise Unclear("length_for_turn", frame.text)
+    if "from_heading" in frame.flags:
+        return [_from_heading(frame, state, pace)]
     _all_used(frame, "turn")
     rate = pace.rate(frame)
     seconds = frame.q.get("time")
     angle = _whole_angle(frame)
-    left = _left(frame)
+    left = is_left(frame)
     if left is None and not frame.moves:
         left = state.left
     if left is None and state.last == "turn" and "more" in frame.flags:
@@ -281,6 +291,22 @@ def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if seconds is not None:
         rate = angle_rad / seconds.number
     return [Turn(angle_rad, left=left, rate_radps=rate)]
+
+
+def _from_heading(frame: Frame, state: State, pace: Pace) -> Face:
+    """从最开始的方向算，左转四十度: the heading to have, not how far to turn."""
+    plain = frame.copy()
+    plain.flags.discard("from_heading")
+    _all_used(plain, "turn")
+    angle, left = _whole_angle(plain), is_left(plain)
+    if angle is None or left is None or set(plain.q) - {"angle", "turns", "rate"}:
+        raise Unclear("unclear_motion", frame.text)
+    yaw = angle.number if left else -angle.number
+    state.last = "turn"
+    if state.home is None:
+        return Face(math.remainder(yaw, 2 * math.pi), frame="start", rate_radps=pace.rate(plain))
+    yaw += state.home.yaw_rad
+    return Face(math.remainder(yaw, 2 * math.pi), frame="odom", rate_radps=pace.rate(plain))
 
 
 def _whole_angle(frame: Frame) -> Atom | None:
@@ -389,6 +415,26 @@ def _clock(frame: Frame, pace: Pace) -> list[Step]:
     return [Turn(abs(angle), left=angle > 0, rate_radps=pace.rate(frame))]
 
 
+def _by_compass(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    """To a point of the compass, facing it; going backward, away from what it faces."""
+    heading = frame.q["heading"].number
+    plain = frame.copy()
+    del plain.q["heading"]
+    going = plain.has_extent or plain.verb in GO or plain.direction == "back"
+    backward = going and plain.direction == "back"
+    yaw = math.remainder(heading + (math.pi if backward else 0.0), 2 * math.pi)
+    face = Face(yaw, frame="start", rate_radps=pace.rate(plain) if not going else None)
+    if not going or {"angle", "turns"} & set(plain.q):
+        if {"angle", "turns", "length"} & set(plain.q):
+            raise Unclear("contradiction", frame.text)
+        return [face]
+    if plain.direction not in ("", "forward", "back") or "sideways" in plain.flags:
+        raise Unclear("contradiction", frame.text)
+    plain.verb = "go"
+    plain.direction = plain.direction or "forward"
+    return [face, *_drive(plain, state, pace)]
+
+
 def _face(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if ("original_heading" in frame.flags or "to_start" in frame.flags) and not frame.has_extent:
         if state.home is not None and not state.steps:
@@ -410,44 +456,6 @@ def _face(frame: Frame, state: State, pace: Pace) -> list[Step]:
     raise Unclear("which_side", frame.text)
 
 
-def _arc(frame: Frame, pace: Pace) -> list[Step]:
-    left = _left(frame)
-    if left is None:
-        raise Unclear("which_side", frame.text)
-    backward = frame.direction.startswith("back")
-    angle = frame.q.get("angle") or frame.q.get("turns")
-    length, seconds = frame.q.get("length"), frame.q.get("time")
-    speed, rate = frame.q.get("speed"), frame.q.get("rate")
-    if rate and (speed or "while" in frame.flags) and seconds:
-        signed = rate.number if left else -rate.number
-        forward = speed.number if speed else pace.speed(frame) or pace.profile.defaults.speed_mps
-        return [RawTwist(-forward if backward else forward, 0.0, signed, seconds.number)]
-    radius = frame.q["radius"].number if "radius" in frame.q else None
-    if radius is not None and length is not None:
-        if angle is not None and abs(angle.number * radius - length.number) > 0.1 * length.number:
-            raise Unclear("contradiction", frame.text)
-        angle = quantity("angle", length.number / radius, length.text)
-    elif radius is not None:
-        pass
-    elif length is not None and ("radius" in frame.roles or "diameter" in frame.roles):
-        radius = length.number / (2 if "diameter" in frame.roles and "radius" not in frame.roles else 1)
-    elif length is not None and angle is not None:
-        radius = length.number / angle.number
-    elif length is not None:
-        radius = length.number / (math.pi / 2)
-    if radius is None and seconds is not None:
-        forward = pace.speed(frame) or pace.profile.defaults.speed_mps
-        turned = angle.number / seconds.number if angle else pace.profile.defaults.rate_radps
-        return [RawTwist(-forward if backward else forward, 0.0, turned if left else -turned, seconds.number)]
-    if radius is None:
-        radius = pace.profile.defaults.distance_m
-    sweep = angle.number if angle else math.pi / 2
-    said = pace.speed(frame)
-    if seconds is not None and said is None:
-        said = radius * sweep / seconds.number
-    return [Arc(radius, sweep, left=left, backward=backward, speed_mps=said)]
-
-
 def _return(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if set(frame.q) & {"length", "time"} and state.last == "drive" and not frame.direction:
         return _some_way_back(frame, state, pace)
@@ -466,16 +474,6 @@ def _return(frame: Frame, state: State, pace: Pace) -> list[Step]:
     return [Go(0.0, 0.0, frame="start", speed_mps=speed)]
 
 
-def _some_way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
-    """`…, then come back 50 cm`: so much of the last drive, undone."""
-    opposite = math.remainder(DIRECTIONS[state.direction] + math.pi, 2 * math.pi)
-    names = [n for n, a in DIRECTIONS.items() if abs(math.remainder(a - opposite, 2 * math.pi)) < 1e-6]
-    back = frame.copy()
-    back.verb, back.direction = "go", names[0]
-    back.flags -= {"to_start", "again"}
-    return _drive(back, state, pace)
-
-
 def _partly_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
     """退回来二十厘米: against the last motion, by so much."""
     if "length" in frame.q:
@@ -488,32 +486,11 @@ def _partly_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
     return [Turn(amount.number, left=not state.left, rate_radps=pace.rate(frame))]
 
 
-def inverse(steps: list[Step], speed_mps: float | None = None) -> list[Step]:
-    """The same way back, backwards: the last step first, each undone.
-
-    Raises:
-        Unclear: for a step that cannot be undone step by step.
-    """
-    undone: list[Step] = []
-    for step in reversed(steps):
-        undone.extend(_undone(step, speed_mps))
-    return undone
-
-
-def _undone(step: Step, speed_mps: float | None) -> list[Step]:
-    from chatrobot.plan.steps import Remember, Repeat, Say
-
-    if isinstance(step, Drive) and step.until is None:
-        back = math.remainder(step.direction_rad + math.pi, 2 * math.pi)
-        return [Drive(step.distance_m, step.duration_s, back, speed_mps or step.speed_mps)]
-    if isinstance(step, Turn):
-        return [Turn(step.angle_rad, step.duration_s, not step.left, step.rate_radps)]
-    if isinstance(step, Arc):
-        return [Arc(step.radius_m, step.angle_rad, step.left, not step.backward, speed_mps or step.speed_mps)]
-    if isinstance(step, RawTwist):
-        return [RawTwist(-step.vx_mps, -step.vy_mps, -step.wz_radps, step.duration_s)]
-    if isinstance(step, Repeat):
-        return [Repeat(step.count, tuple(inverse(list(step.steps), speed_mps)))]
-    if isinstance(step, (Wait, Say, Remember)):
-        return []
-    raise Unclear("cannot_undo")
+def _some_way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    """`…, then come back 50 cm`: so much of the last drive, undone."""
+    opposite = math.remainder(DIRECTIONS[state.direction] + math.pi, 2 * math.pi)
+    names = [n for n, a in DIRECTIONS.items() if abs(math.remainder(a - opposite, 2 * math.pi)) < 1e-6]
+    back = frame.copy()
+    back.verb, back.direction = "go", names[0]
+    back.flags -= {"to_start", "again"}
+    return _drive(back, state, pace)

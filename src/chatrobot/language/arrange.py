@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from chatrobot.language.frames import EXTENTS, GO, TURN, Frame
+from chatrobot.language.frames import EXTENTS, GO, SIDES, STILL, TURN, Frame
+from chatrobot.language.unclear import Unclear
 
 _MANNER = frozenset({"speed", "rate", "percent", "fold"})
 _LETTERS = frozenset({"letter_l", "letter_u", "letter_z"})
@@ -10,7 +11,31 @@ _LETTERS = frozenset({"letter_l", "letter_u", "letter_z"})
 
 def arranged(frames: list[Frame]) -> list[Frame]:
     """The frames that are motions of their own, in order."""
-    return _without_announcements(_without_titles(_with_manners(_without_calls(frames))))
+    frames = _distributed(_without_calls(frames))
+    return _without_announcements(_without_titles(_with_manners(frames)))
+
+
+def _distributed(frames: list[Frame]) -> list[Frame]:
+    """先前进再后退，都是一米; 左移右移各二十厘米: an amount that all the motions before it share."""
+    out: list[Frame] = []
+    for frame in frames:
+        shared = bool({"all", "each"} & frame.flags) and frame.has_extent and "times" not in frame.q
+        if shared and out:
+            takers = [f for f in out if f.moves and not (f.q or f.shape) and f.verb not in STILL]
+            for name in ("length", "angle", "turns"):
+                for taker in takers:
+                    turning = taker.turning or taker.verb == "curve"
+                    if name in frame.q and name not in taker.q and turning == (name != "length"):
+                        taker.q[name] = frame.q[name]
+            radius = "radius" in frame.roles and "length" in frame.q and not frame.moves
+            bends = [f for f in out if f.turning and not {"length"} & set(f.q)] if radius else []
+            for bend in bends:
+                bend.q["length"] = frame.q["length"]
+                bend.roles.append("radius")
+            if bends or (takers and not frame.moves):
+                continue
+        out.append(frame)
+    return out
 
 
 def _without_calls(frames: list[Frame]) -> list[Frame]:
@@ -55,6 +80,8 @@ def _with_manners(frames: list[Frame]) -> list[Frame]:
 
 
 def _hand_on(manner: Frame, frame: Frame) -> None:
+    if "slow" in (manner.pace, frame.pace) and {"fast", "max"} & {manner.pace, frame.pace}:
+        raise Unclear("contradiction", f"{frame.text} {manner.text}")
     if frame.pace or _MANNER & set(frame.q):
         return
     turning = frame.turning or "angle" in frame.q or "turns" in frame.q
@@ -70,8 +97,9 @@ def _without_titles(frames: list[Frame]) -> list[Frame]:
     for k, frame in enumerate(frames):
         rest = frames[k + 1 :]
         spelt = sum(1 for f in rest if f.has_extent) >= 2
-        title = rest and rest[0].joined == "colon" and not frame.q and not frame.roles and frame.verb in ("", "go", "turn", "make")  # fmt: skip
-        if title and spelt and not (frame.direction or frame.rot or frame.shape or frame.place):
+        bare = not (frame.q or frame.roles or frame.direction or frame.rot or frame.shape or frame.place)
+        title = bool(rest) and rest[0].joined == "colon" and frame.verb in ("", "go", "turn", "make")
+        if title and bare and spelt:
             continue
         letter = frame.shape in _LETTERS and not frame.q and sum("length" in f.q for f in rest) >= 2
         if letter and any(f.turning or f.verb in TURN for f in rest):
@@ -85,12 +113,12 @@ def _without_announcements(frames: list[Frame]) -> list[Frame]:
     out: list[Frame] = []
     for k, frame in enumerate(frames):
         named = next((n for n in EXTENTS if n in frame.q), "")
-        if named and not frame.rot and frame.direction not in ("left", "right") and not frame.shape:
-            if _is_sum(frame, frames[k + 1 :], named):
-                for part in frames[k + 1 :]:
-                    part.verb = part.verb or frame.verb
-                    part.direction = part.direction or frame.direction
-                continue
+        unsided = named and not frame.rot and frame.direction not in SIDES and not frame.shape
+        if unsided and _is_sum(frame, frames[k + 1 :], named):
+            for part in frames[k + 1 :]:
+                part.verb = part.verb or frame.verb
+                part.direction = part.direction or frame.direction
+            continue
         out.append(frame)
     return out
 
@@ -99,5 +127,7 @@ def _is_sum(frame: Frame, rest: list[Frame], name: str) -> bool:
     parts = [f for f in rest if name in f.q]
     if len(parts) < 2 or len(parts) != len(rest) or any(f.joined == "then" for f in parts[:1]):
         return False
+    if frame.direction and any(f.direction not in ("", frame.direction) for f in parts):
+        return False  # `three feet forward, one back, two left`: a motion of its own
     manners = all(f.rot or f.direction or f.pace or _MANNER & set(f.q) for f in parts)
     return manners and abs(sum(f.q[name].number for f in parts) - frame.q[name].number) < 1e-9

@@ -78,7 +78,8 @@ def _is_aside(clause: Sequence[Atom], language: str) -> bool:
     if head.kind != "remark" and head.text not in _words("speaker"):
         return False
     rest = clause[start + (head.kind == "remark") :]
-    if not any(a.kind in ("unknown", "remark") for a in clause[start:]):
+    subject = head.text in _words("speaker")  # 我要 and 我想 are words of their own: they ask for something
+    if not subject and not any(a.kind in ("unknown", "remark") for a in clause[start:]):
         return False
     conditional = _clue(language, "conditional")
     if conditional is not None and conditional.search("".join(a.text for a in rest)):

@@ -18,6 +18,7 @@ from chatrobot.language.unclear import Unclear
 _CONTENT = frozenset(
     {"q", "number", "dir", "rot", "shape", "place", "defined", "condition", "refuse", "role", "scale"}
 )
+_BEFORE_MANNER = ("verb", "dir", "rot", "q", "sep", "conn", "filler", "pace", "shape")
 _WAYS = frozenset({"q", "number", "dir", "rot", "shape", "place", "defined", "again"})
 
 
@@ -79,7 +80,8 @@ def _of_clause(clause: list[Atom]) -> list[Atom]:
 def _is_remark(clause: list[Atom]) -> bool:
     """`the baby is asleep`, `my friends are watching`: somebody else, and a verb of their own."""
     words = _words()
-    if not any(a.kind == "unknown" for a in clause) or any(is_chinese(a.text) for a in clause):
+    others = any(a.kind == "verb" and a.text.endswith("ing") for a in clause)
+    if not (others or any(a.kind == "unknown" for a in clause)) or any(is_chinese(a.text) for a in clause):
         return False
     start = 0
     while start < len(clause) and clause[start].kind in ("filler", "sep"):
@@ -106,6 +108,7 @@ def _without_manner(atoms: Sequence[Atom], i: int) -> Atom:
     """An unknown adverb of manner (`majestically`) changes no geometry."""
     atom = atoms[i]
     manner = atom.kind == "unknown" and atom.text.endswith("ly") and len(atom.text) > 4
+    manner = manner and (i == 0 or atoms[i - 1].kind in _BEFORE_MANNER)
     return Atom("filler", "x", atom.text) if manner and atom.text not in _words()["not_manner"] else atom
 
 

@@ -31,12 +31,13 @@ def read_frames(atoms: Sequence[Atom]) -> list[Frame]:
         Unclear: for a word that nothing accounts for.
     """
     frames: list[Frame] = []
-    for segment in _segments(atoms):
+    drawing = any(atom.kind == "shape" for atom in atoms)
+    for segment in _segments(atoms, drawing):
         _join(frames, segment)
     return frames
 
 
-def _segments(atoms: Sequence[Atom]) -> list[Segment]:
+def _segments(atoms: Sequence[Atom], drawing: bool) -> list[Segment]:
     segments: list[Segment] = []
     joined = "start"
     pending: list[Atom] = []
@@ -45,7 +46,7 @@ def _segments(atoms: Sequence[Atom]) -> list[Segment]:
         if separator is None:
             pending.append(atom)
             continue
-        frames = _split(pending)
+        frames = _split(pending, drawing)
         if frames:
             frames[0].joined = joined
             segments.append(Segment(joined, frames))
@@ -64,7 +65,7 @@ def _separator(atom: Atom) -> str | None:
     return None
 
 
-def _split(atoms: list[Atom]) -> list[Frame]:
+def _split(atoms: list[Atom], drawing: bool = False) -> list[Frame]:
     """The frames of a stretch without separators."""
     bearing = [a for a in atoms if a.kind == "flag" and a.value == "bearing"]
     atoms = [*bearing, *[a for a in atoms if a not in bearing]]
@@ -92,7 +93,7 @@ def _split(atoms: list[Atom]) -> list[Frame]:
             ):
                 raise Unclear("length_for_turn", f"{current.text} {atom.text}")
             repeated = atom.kind == "q" and atom.value in current.q and atom.value in EXTENTS
-            if repeated and not (current.shape or current.roles):
+            if repeated and not (drawing or current.shape or current.roles):
                 raise Unclear("contradiction", f"{current.text} {atom.text}")
             frames.append(current)
             current = Frame(joined="none")
@@ -144,14 +145,10 @@ def _join(frames: list[Frame], segment: Segment) -> None:
 def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
     if "trip" in last.flags and "each" in first.flags and not first.verb:
         return None
-    if (
-        joined == "then"
-        or {"between", "halfway"} & first.flags
-        or "after_each" in first.flags
-        or "all" in first.flags
-    ):
+    trip = "trip" in (*first.flags, *first.roles) and not first.has_extent
+    if trip and (last.verb == "return" or (last.direction and last.has_extent)):
         return None
-    if "trip" in first.roles and last.verb == "return":
+    if joined == "then" or {"between", "halfway", "at_point", "after_each", "all"} & first.flags:
         return None
     if "again" in first.flags or is_times_only(first) or is_times_only(last):
         return None
@@ -171,9 +168,14 @@ def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
         last = last.copy()
         last.flags.add("while")
     together = "speed" in last.q and "rate" in first.q and not last.has_extent
-    if together and joined in ("and", "weak") and last.verb in GO and first.verb in TURN:
+    if together and joined in ("and", "weak") and last.verb in (*GO, "") and first.verb in (*TURN, ""):
         last = last.copy()
         last.flags.add("while")
+    if _says_how(last, first):
+        how = last.copy()
+        how.flags |= first.flags | {"sideways"}
+        how.texts += first.texts
+        return how
     both = merged(last, first)
     if both is None:
         return None
@@ -182,10 +184,17 @@ def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
     return both if _belongs(last, first) else None
 
 
+def _says_how(last: Frame, first: Frame) -> bool:
+    """`half a metre to the right, sliding`: the manner of what stands before it."""
+    bare = not (first.q or first.direction or first.rot or first.shape or first.place)
+    sideways = last.direction not in ("", "forward", "back") and "length" in last.q
+    return bare and first.verb == "slide" and first.text.endswith("ing") and sideways
+
+
 def is_times_only(frame: Frame) -> bool:
     """`four times`, and nothing that moves."""
-    bare = frame.verb in ("", "make", "go", "turn", "shift", "slide") and "trip" not in frame.flags
-    way = frame.direction or frame.rot or frame.shape or frame.place
+    bare = frame.verb in ("", "make", "go", "turn", "shift", "slide")
+    way = frame.direction or frame.rot or frame.shape or frame.place or "trip" in (*frame.flags, *frame.roles)
     counted = "times" in frame.q or ("count" in frame.q and frame.q["count"].role == "move")
     return counted and bare and not way and not frame.has_extent
 
@@ -210,6 +219,8 @@ def _belongs(last: Frame, first: Frame) -> bool:
     """Across a comma or an `and`."""
     if "count" in last.q and "length" in first.q and "each" not in first.flags and not last.shape:
         return False
+    if last.shape and _is_laps(first):
+        return True
     if last.shape or first.shape:
         return not (last.shape and first.verb in (*GO, *TURN, *STILL, "return") and first.has_extent)
     if first.joined == "and" and last.verb in STILL and first.moves:
@@ -241,6 +252,12 @@ def _belongs(last: Frame, first: Frame) -> bool:
     if first.direction and first.has_extent:
         return not last.has_extent and not last.direction
     return True
+
+
+def _is_laps(frame: Frame) -> bool:
+    """…的圆，走两圈: how often the shape is gone round."""
+    bare = not (frame.direction or frame.rot or frame.shape) and frame.verb in ("", "make", *GO)
+    return set(frame.q) == {"turns"} and bare
 
 
 def _adds_time(last: Frame, first: Frame) -> bool:

@@ -67,7 +67,9 @@ def _is_afterthought(before: list[Atom], word: Atom, after: list[Atom]) -> bool:
 
 
 def _trimmed(atoms: list[Atom]) -> list[Atom]:
-    while atoms and atoms[-1].kind in ("sep", "filler", "glue", "conn"):
+    while atoms and (
+        atoms[-1].kind in ("sep", "filler", "glue", "conn") or atoms[-1].text in ("等等", "等一下", "等下")
+    ):
         atoms = atoms[:-1]
     return atoms
 
@@ -92,6 +94,8 @@ def _replaced(before: list[Atom], after: list[Atom]) -> list[Atom]:
             name, before[last].number * factor, f"{before[last].text} {unit.text}", repr(factor)
         )
         return [*before[:last], amount, *before[last + 1 :], *rest]
+    if pieces and all(a.kind == "q" for a in pieces) and not any(a.kind in _PIECE for a in before):
+        return [Atom("flag", "short_of", "not"), *said, *rest]
     if not pieces:
         raise Unclear("unknown_part", " ".join(a.text for a in after[:end]))
     if _is_clause(pieces):

@@ -7,12 +7,14 @@ import math
 from collections.abc import Sequence
 
 from chatrobot.core.geometry import Pose
-from chatrobot.language.actions import DIRECTIONS, State, inverse
+from chatrobot.language.actions import DIRECTIONS, State
 from chatrobot.language.context import Context, TurnRecord
 from chatrobot.language.frames import GO, SIDES, Frame
 from chatrobot.language.manner import Pace
+from chatrobot.language.numbers import is_chinese
 from chatrobot.language.quantities import quantity
 from chatrobot.language.unclear import Unclear
+from chatrobot.language.undoing import inverse
 from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Repeat, Step, Turn, Wait
 
 _CHANGES = frozenset(
@@ -26,6 +28,8 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     Raises:
         Unclear: where there is nothing to refer to.
     """
+    if _goes_on_the_same_way(frames):
+        return None
     if len(frames) == 2 and frames[0].verb == "undo" and frames[1].verb == "return" and not frames[1].q:
         frames = frames[:1]
     whole = _whole(frames)
@@ -46,6 +50,8 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     if whole.has_extent and {"original_heading", "to_start"} & whole.flags:
         return None  # a motion of its own comes before
     if "original_heading" in whole.flags and whole.verb in ("face", "turn", "", "return", "go"):
+        if set(whole.q) - {"rate", "percent", "faster"}:
+            raise Unclear("unclear_motion", whole.text)  # 转回来一半: not all the way
         return [Face(context.dialogue.start_pose.yaw_rad, frame="odom", rate_radps=pace.rate(whole))]
     if (whole.verb == "return" or "to_start" in whole.flags) and not whole.q and not whole.place:
         if whole.direction and whole.direction != "back":
@@ -55,6 +61,17 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     if _is_change(whole):
         return _changed(_last(last), whole, pace)
     return None
+
+
+def _goes_on_the_same_way(frames: Sequence[Frame]) -> bool:
+    """`another 45 the same way`: on, not back; the flag has then done its work."""
+    found = False
+    for frame in frames:
+        amount = frame.has_extent or "number" in frame.q or {"more", "bit"} & frame.flags
+        if "same_way" in frame.flags and amount and frame.verb != "return" and not frame.direction:
+            frame.flags.discard("same_way")
+            found = True
+    return found
 
 
 @dataclasses.dataclass(frozen=True)
@@ -131,10 +148,14 @@ def _is_change(whole: Frame) -> bool:
 
 def _changed(last: _Last, whole: Frame, pace: Pace) -> list[Step]:
     whole = _speed_said(whole, last)
-    if "fold" in whole.q and "速" in whole.q["fold"].text:
+    fold = whole.q.get("fold")
+    if fold is not None and is_chinese(fold.text):
         whole = whole.copy()
-        whole.q["speed"] = quantity("speed", pace.speed(whole) or 0.0, whole.q.pop("fold").text)
-    factor = next((whole.q[name].number for name in ("scale", "fold") if name in whole.q), 1.0)
+        del whole.q["fold"]
+        name = "speed" if "速" in fold.text else "scale"
+        usual = pace.speed_mps or pace.profile.defaults.speed_mps
+        whole.q[name] = quantity(name, fold.number * (usual if name == "speed" else 1.0), fold.text)
+    factor = whole.q["scale"].number if "scale" in whole.q else 1.0
     if "percent" in whole.q and not whole.pace:
         factor = whole.q["percent"].number
     if "number" in whole.q or "count" in whole.q or "clock" in whole.q:
@@ -267,6 +288,8 @@ def _remainder(whole: Frame, context: Context, pace: Pace) -> list[Step]:
         done = math.hypot(moved.x_m, moved.y_m)
         if "to_start" in whole.flags or "total" in whole.flags:
             done = max(done, last.end_pose.distance_to(_run_start(context, step)))
+        if "again" in whole.flags:
+            raise Unclear("contradiction", whole.text)  # more, or a total?
         missing = whole.q["length"].number - (0.0 if "more" in whole.flags else done)
         if missing > 0.005:
             return [

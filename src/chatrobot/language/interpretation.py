@@ -13,12 +13,19 @@ from chatrobot.language.arithmetic import settle_condition
 from chatrobot.language.asides import check_finished, is_choice, without_asides
 from chatrobot.language.chatter import without_chatter
 from chatrobot.language.clauses import read_frames
+from chatrobot.language.compass import split_convention, with_headings
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.corrections import corrected, without_negated
 from chatrobot.language.dialogue import refer, state_after
-from chatrobot.language.facts import with_defined_units, with_known_counts
+from chatrobot.language.facing import without_compass
+from chatrobot.language.facts import (
+    defined_unit,
+    unit_length_m,
+    with_defined_units,
+    with_known_counts,
+    with_words_counted,
+)
 from chatrobot.language.frames import STILL, Frame
-from chatrobot.language.idioms import put_plainly
 from chatrobot.language.lexicon import Key, Meaning, cut, lexicon
 from chatrobot.language.manner import Pace
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
@@ -34,7 +41,8 @@ from chatrobot.language.tokens import Atom, tokenise
 from chatrobot.language.tutorial_form import read_twist
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.unfinished import breaks_off
-from chatrobot.plan.steps import Go, Plan, Remember, Step
+from chatrobot.language.until import UntilObstacle, read_until
+from chatrobot.plan.steps import Drive, Go, ObstacleWithin, Plan, Remember, Step
 from chatrobot.robots.profile import RobotProfile
 
 LanguageCode = Literal["en", "zh"]
@@ -102,7 +110,9 @@ class _Reading:
     def __init__(self, text: str, language: LanguageCode, context: Context, profile: RobotProfile) -> None:
         self.text, self.language, self.context, self.profile = text, language, context, profile
         self.by_ear = False
-        self.plain = put_plainly(with_known_counts(rephrased(normalise(text), language)), language)
+        plain = with_known_counts(without_compass(rephrased(normalise(text), language), language))
+        rest, self.facing_rad = split_convention(plain, language)
+        self.plain = rest or plain
         dialogue = context.dialogue
         self.pace = Pace(profile, dialogue.default_speed_mps, dialogue.default_rate_radps)
 
@@ -123,7 +133,21 @@ class _Reading:
         answered = self._remembering() or self._pending()
         if answered is not None:
             return answered
-        return self._command(self.plain)
+        unit = defined_unit(self.plain)
+        if unit is not None:
+            reply = say(self.language, "unit_set", unit=unit[0], measure=unit[1])
+            return Interpretation("answered", reply, self.language)
+        return self._command(self._with_earlier_unit(self.plain))
+
+    def _with_earlier_unit(self, plain: str) -> str:
+        """一步是三十厘米, said in a turn before: it holds for the steps that are counted now."""
+        for turn in reversed(self.context.dialogue.turns):
+            unit = defined_unit(rephrased(normalise(turn.text), self.language))
+            counted = unit and re.search(rf"(?:[零一二两三四五六七八九十百\d]|半) ?{unit[0]}", plain)
+            if unit and counted:
+                defined_here = re.search(rf"一 ?{unit[0]}[^,。;]*(?:是|算|等于|为|按)", plain)
+                return plain if defined_here else f"{plain}, 一{unit[0]}是{unit[1]}"
+        return plain
 
     def _defined(self, definition: forms.Definition) -> Interpretation:
         inner = self._command(definition.body)
@@ -185,7 +209,7 @@ class _Reading:
         verbs = [a for k, a in enumerate(atoms) if k + 1 not in ways and a.text not in ("say",)]
         if any(a.kind in ("verb", "shape", "place") for a in verbs):
             return None
-        before = put_plainly(rephrased(normalise(pending), self.language), self.language)
+        before = rephrased(normalise(pending), self.language)
         for joined in (f"{before} {self.plain}", f"{before}, {self.plain}"):
             try:
                 found = self._command(joined)
@@ -224,6 +248,9 @@ class _Reading:
             return self._understood(command)
         asks = questions.is_question(plain, self.language)
         ability = questions.asks_ability(plain, self.language)
+        doubt = next((a for a in atoms if a.kind == "doubt" and a.text != "来着"), None)
+        if doubt is not None and not plain.endswith("?") and not any(a.kind == "refuse" for a in atoms):
+            raise Unclear("unknown_part", doubt.text)
         refusal = next((a for a in atoms if a.kind == "refuse"), None)
         if (asks and refusal is None) or (refusal is None and ability):
             found = self._question(plain, atoms, ability)
@@ -241,12 +268,30 @@ class _Reading:
         if is_choice(plain, self.language):
             raise Unclear("contradiction", plain[:60])
         check_finished(atoms)
+        until = read_until(plain, self.language)
+        if until is not None:
+            return self._until(until)
         frames = _frames(atoms)
         default = self._default(frames)
         if default is not None:
             return default
         steps = refer(frames, self.context, self.pace) or write(frames, self.pace, self._memory())
         return self._plan(steps, append=_appends(atoms))
+
+    def _until(self, until: UntilObstacle) -> Interpretation:
+        frames = _frames(self._atoms(until.before))
+        steps = write(frames, self.pace, self._memory())
+        last = steps[-1]
+        if not isinstance(last, Drive):
+            raise Unclear("condition", until.before)
+        said = frames[-1].has_extent
+        steps[-1] = replace(
+            last,
+            distance_m=last.distance_m if said else None,
+            duration_s=last.duration_s if said else None,
+            until=ObstacleWithin(until.distance_m),
+        )
+        return self._plan([*steps, *self._steps(until.after)])
 
     def _known_name(self, words: str) -> bool:
         return any(words.split()[-1] in key for key in self._names())
@@ -314,14 +359,21 @@ class _Reading:
 
     def _atoms(self, plain: str) -> list[Atom]:
         atoms = tokenise(plain, lexicon(), self._names(), by_ear=self.by_ear)
-        return read_quantities(without_asides(atoms, self.language))
+        atoms = with_headings(read_quantities(without_asides(atoms, self.language)), self.facing_rad)
+        atoms = with_words_counted(atoms, self.context.dialogue.words)
+        if any(a.kind == "role" and a.value == "apart" for a in atoms):  # rows side by side, no garden work
+            atoms = [Atom("shape", "lawn", a.text) if a.text == "mow the lawn" else a for a in atoms]
+        return atoms
 
     def _names(self) -> dict[Key, Meaning]:
         dialogue = self.context.dialogue
         names: dict[Key, Meaning] = {}
         for name in (*self.context.world_places, *dialogue.places):
             names[cut(normalise(name))] = (("place", name),)
-        for word in dialogue.words:
+        for word, plan in dialogue.words.items():
+            counter = ("counter", word) in lexicon().words.get(cut(word), ())
+            if counter and unit_length_m(plan) is not None:
+                continue  # a unit: it is counted
             names[cut(normalise(word))] = (("defined", word),)
         if forms.UNNAMED in dialogue.places:
             for written in (

@@ -14,14 +14,15 @@ from typing import Any
 from chatrobot.language.data_files import LANGUAGES, expand, load_table
 
 FILES = (
-    "numbers", "units", "motion", "shapes", "dialogue", "refusals", "corrections", "asides", "filler",
+    "numbers", "units", "motion", "shapes", "dialogue", "refusals", "corrections", "asides", "compass",
+    "filler",
 )  # fmt: skip
 UNIT = re.compile(
     r"\d+(?:,\d{3})+(?:\.\d+)?(?![\d,])|\d*\.?\d+(?:e[+-]?\d+)?(?![\d])|[a-zà-ÿ]+(?:'[a-z]+)*|\S|\n"
 )
 """What text is cut into before words are looked up: a number, a Latin word, or a single character."""
 
-_NO_WORDS = frozenset({"speaker", "clues"})
+_NO_WORDS = frozenset({"speaker", "clues", "convention"})
 """Tables beside the word classes: patterns, and words that are listed elsewhere."""
 _NEVER_MEANT = frozenset(
     {
@@ -62,12 +63,13 @@ class Lexicon:
     before_unit: dict[str, float]
 
 
-_SIGN = re.compile(r"(?<![\w)])[-](?=\.?\d)")
+_SIGN = re.compile(r"(?<![0-9a-z_)])[-](?=\.?\d)")
 _LISTED = re.compile(
     r"(?:^|(?<=[\s;,.]))\(?[1-9]\)\s*|(?:^|(?<=\n)|(?<=[;,.] )|(?<=[\u4e00-\u9fff°] ))[1-9][.)] ?(?=[^\d\s])"
 )
 _FOLD = re.compile(
-    r"((?:\d|[一二两三四五六七八九十百半]) ?(?:厘米|公分|米|度|秒|圈|cm|mm|m|s|°|deg)) ?[x*] ?(\d{1,2})(?= ?(?:$|[;,!。]))"
+    r"((?:\d|[一二两三四五六七八九十百半]) ?(?:厘米|公分|米|度|秒|圈|cm|mm|m|s|°|deg)) ?"
+    r"[x*] ?(\d{1,2})(?= ?(?:$|[;,!。]))"
 )
 _INCHES, _FEET = re.compile(r"(\d)\s?\""), re.compile(r"(\d)\s?'(?![a-z])")
 _COMMA = re.compile(r"(?<![\d.,])(\d),(\d{1,2})(?![\d,])")
@@ -119,7 +121,13 @@ def lexicon() -> Lexicon:
 
 
 def _keys(patterns: list[str]) -> list[Key]:
-    return [key for pattern in patterns for written in expand(pattern) if (key := cut(written))]
+    return [key for pattern in patterns for written in expand(pattern) if (key := _cut_plain(written))]
+
+
+def _cut_plain(written: str) -> Key:
+    """`cut`, by the short way where there are only Latin letters: most of the data, read at every start."""
+    words = written.split()
+    return tuple(words) if written.isascii() and "".join(words).isalpha() else cut(written)
 
 
 def _meaning(kind: str, value: str) -> Meaning:

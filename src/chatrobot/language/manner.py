@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 
 from chatrobot.language.frames import Frame
+from chatrobot.language.numbers import is_chinese
 from chatrobot.language.unclear import Unclear
 from chatrobot.robots.profile import RobotProfile
 
@@ -48,6 +50,9 @@ def _positive(frame: Frame, name: str) -> float:
 def _relative(frame: Frame, default: float, maximum: float) -> float | None:
     if "percent" in frame.q:
         return _positive(frame, "percent") * maximum
+    fold = frame.q.get("fold")
+    if fold is not None and is_chinese(fold.text) and not re.search("速|快|平|默|正|车|原|半", fold.text):
+        raise Unclear("unclear_motion", frame.text)  # twice what?
     for name in ("fold", "faster"):
         if name in frame.q:
             return _positive(frame, name) * default

@@ -69,7 +69,10 @@ def _with_fraction(atoms: Atoms, number: Number) -> Number:
         whole = _with_fraction(atoms, over) if over else None
         if whole and 0 < whole.value < 1:
             return Number(value + whole.value, whole.end)
-    if is_kind(atoms, end, "num", "ge") and is_kind(atoms, end + 1, "num", "half"):
+    halves = is_kind(atoms, end, "num", "ge") and is_kind(atoms, end + 1, "num", "half")
+    if halves and is_kind(atoms, end + 2, "unit_length"):
+        return Number(value * 0.5, end + 2)  # 两个半米; two and a half would be 两米半
+    if halves:
         return Number(value + 0.5, end + 2)
     # "2 pi", "half pi": a number before pi multiplies it.
     if is_kind(atoms, end, "number") and atoms[end].value.startswith("3.14159") and value != math.pi:

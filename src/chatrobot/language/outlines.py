@@ -50,10 +50,18 @@ def triangle(sides_m: tuple[float, float, float], left: bool, speed: float | Non
     return steps
 
 
-def rhombus(side_m: float, left: bool, speed: float | None) -> list[Step]:
-    """Four equal sides with corners of 60 and 120 degrees."""
+def rhombus(side_m: float, acute_rad: float, left: bool, speed: float | None) -> list[Step]:
+    """Four equal sides; `acute_rad` is the smaller of its two angles."""
     edge = Drive(side_m, speed_mps=speed)
-    return [edge, Turn(math.pi / 3, left=left), edge, Turn(2 * math.pi / 3, left=left)] * 2
+    return [edge, Turn(acute_rad, left=left), edge, Turn(math.pi - acute_rad, left=left)] * 2
+
+
+def polyline(sides_m: list[float], turn_rad: float, left: bool, speed: float | None) -> list[Step]:
+    """Sides of these lengths with the same turn between one and the next."""
+    steps: list[Step] = [Drive(sides_m[0], speed_mps=speed)]
+    for side_m in sides_m[1:]:
+        steps += [Turn(turn_rad, left=left), Drive(side_m, speed_mps=speed)]
+    return steps
 
 
 def star(side_m: float, left: bool, speed: float | None) -> list[Step]:

@@ -44,7 +44,7 @@ _SPEED_WORDS = frozenset(
 _DETERMINERS = frozenset({
     "the first", "first", "the next", "next", "the last", "last", "the final", "another", "one more",
     "each", "every",
-    "the second", "the third", "a further",
+    "the second", "the third", "a further", "the remaining", "remaining", "the other",
 })  # fmt: skip
 
 
@@ -88,7 +88,12 @@ def _quantity_at(atoms: Sequence[Atom], i: int) -> tuple[list[Atom], int] | None
             )
         ], i + 1
     number = read_number(atoms, i) or _determined(atoms, i)
-    if number is None and atoms[i].text in ("一个", "个") and is_kind(atoms, i + 1, "unit_turn"):
+    if (
+        number is None
+        and atoms[i].text in ("一个", "个")
+        and is_kind(atoms, i + 1, "unit_turn")
+        and is_kind(atoms, i - 1, "verb")
+    ):
         number = Number(1.0, i + 1)  # 转一个圈圈
     if number is None and is_kind(atoms, i, "num", "article"):
         number = _article(atoms, i)

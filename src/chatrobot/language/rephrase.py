@@ -23,10 +23,20 @@ def _contractions(language: str) -> tuple[dict[str, str], re.Pattern[str]]:
     return written, re.compile(rf"\b(?:{'|'.join(map(re.escape, written)) or '$^'})\b")
 
 
+@cache
+def _dialect(language: str) -> tuple[dict[str, str], re.Pattern[str]]:
+    """Words of a language without spaces, the longest first."""
+    written = dict(load_table(language, "rephrase").get("dialect", {}))
+    longest_first = sorted(written, key=len, reverse=True)
+    return written, re.compile("|".join(map(re.escape, longest_first)) or "(?!)")
+
+
 def rephrased(text: str, language: str) -> str:
     """`text` (normalised) in the words that the rest of the package reads."""
     written, pattern = _contractions(language)
     text = pattern.sub(lambda found: written[found[0]], text)
+    spoken, dialect = _dialect(language)
+    text = dialect.sub(lambda found: spoken[found[0]], text)
     for rule, said in _rules(language):
         text = rule.sub(said, text)
     return text

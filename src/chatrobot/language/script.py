@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from chatrobot.language.actions import State, act, inverse
+from chatrobot.language.actions import State, act
 from chatrobot.language.arrange import arranged
 from chatrobot.language.clauses import is_times_only
-from chatrobot.language.frames import STILL, TURN, Frame, merged
+from chatrobot.language.frames import SIDES, STILL, TURN, Frame, merged
 from chatrobot.language.manner import Pace
 from chatrobot.language.quantities import quantity
 from chatrobot.language.shapes import draw
 from chatrobot.language.unclear import Unclear
+from chatrobot.language.undoing import inverse
 from chatrobot.plan.steps import MAX_REPEAT, Arc, Drive, Go, Repeat, Say, Step, Turn, Wait
+
+_MIDDLE = frozenset({"中间", "当中"})
 
 
 @dataclass
@@ -54,6 +58,7 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
         for frame in frames:
             frame.flags.add("units_said")
     frames = _shape_first(frames)
+    _check_amounts(frames)
     paced = _paced(frames, pace)
     if paced is not None:
         return paced
@@ -100,6 +105,19 @@ def _shared(frames: list[Frame]) -> list[Frame]:
                     other.verb = frame.verb
             other.pace = other.pace or frame.pace
     return kept
+
+
+def _check_amounts(frames: list[Frame]) -> None:
+    """走直线，八十厘米，倒着走: a way said right after an amount may be how, or what comes next.
+
+    Raises:
+        Unclear: for a drive without an amount that is only set off by a comma from one that has it.
+    """
+    for last, frame in itertools.pairwise(frames):
+        bare = not (frame.q or frame.shape or frame.place or frame.rot or frame.words or frame.flags)
+        plain = frame.verb in ("", "go") and bool(frame.direction) and frame.direction not in SIDES
+        if bare and plain and frame.joined == "weak" and "length" in last.q and last.verb in ("", "go"):
+            raise Unclear("unclear_motion", f"{last.text} {frame.text}")
 
 
 def _paced(frames: list[Frame], pace: Pace) -> list[Step] | None:
@@ -151,7 +169,7 @@ def _shape_first(frames: list[Frame]) -> list[Frame]:
 
 def _is_measure(frame: Frame) -> bool:
     bare = not frame.moves or (
-        frame.verb in ("go", "") and not (frame.direction or frame.rot or frame.shape or frame.place)
+        frame.verb in ("go", "") and not (frame.direction or frame.shape or frame.place)
     )
     lone_rotation = bool(frame.rot) and not (frame.verb or frame.q or frame.direction or frame.shape)
     return (bare and "length" in frame.q and "time" not in frame.q) or lone_rotation
@@ -205,7 +223,7 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
     elif is_times_only(frame) or (
         "again" in frame.flags and not frame.moves and {"times", "count"} & set(frame.q)
     ):
-        script.units = _repeated(script.units, _count(frame) + ("extra" in frame.flags))
+        script.units = _repeated(script.units, _count(frame) + bool({"extra", "more"} & frame.flags))
     elif "total" in frame.flags and "times" in frame.q and not frame.has_extent and script.units:
         script.units = _repeated(_period(script.units), _count(frame))
     elif "until" in frame.flags and frame.has_extent and len(script.units) > 1:
@@ -214,22 +232,33 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
         _insert_halfway(script, frame)
         goes_on = i + 1 < len(frames) and frames[i + 1].verb == "go" and not frames[i + 1].has_extent
         return i + 1 + (goes_on and not frames[i + 1].direction)
+    elif "at_point" in frame.flags:
+        if i + 1 >= len(frames) or frames[i + 1].verb not in STILL:
+            raise Unclear("unclear_motion", frame.text)
+        _insert_at(script, frame, frames[i + 1])
+        return i + 2
     elif frame.flags & {"short_of", "overshot"} and not frame.moves and not frame.q and i + 1 < len(frames):
         pass
     elif "overshot" in frame.flags and not (frame.direction or frame.verb == "return"):
         return _take_back(script, frames, i)
-    elif "again" in frame.flags and not frame.moves and not frame.has_extent:
+    elif _is_plain_again(frame):
         if not script.units:
             raise Unclear("nothing_before", frame.text)
-        script.units += [list(unit) for unit in script.units]
+        agains = sum(1 for _ in itertools.takewhile(_is_plain_again, reversed(frames[:i])))
+        script.units += [list(unit) for unit in script.units[: len(script.units) // (agains + 1)]]
     elif frame.verb in STILL and {"each", "all"} & frame.flags and script.units:
         frame.flags.add("after_each")
         _insert(script, frame)
-    elif frame.flags & {"between", "after_each"} or _is_each_pause(script, frame):
+    elif frame.flags & {"between", "after_each"}:
         _insert(script, frame)
     else:
         _act(script, frame)
     return i + 1
+
+
+def _is_plain_again(frame: Frame) -> bool:
+    """`again`: each one adds what was said before it once."""
+    return "again" in frame.flags and not frame.moves and not frame.has_extent
 
 
 def _is_moves_only(script: Script, frame: Frame) -> bool:
@@ -240,11 +269,6 @@ def _is_moves_only(script: Script, frame: Frame) -> bool:
         "make",
     )
     return count is not None and count.role == "move" and bare and bool(script.units)
-
-
-def _is_each_pause(script: Script, frame: Frame) -> bool:
-    """分五段走，每段停一秒."""
-    return "each" in frame.flags and frame.verb in STILL and "time" in frame.q and len(script.units) > 1
 
 
 def _act(script: Script, frame: Frame) -> None:
@@ -270,6 +294,14 @@ def _act(script: Script, frame: Frame) -> None:
     steps = _known(each, script) or act(each, script.state, script.pace)
     script.state.steps.extend(steps * count)
     script.units.extend([steps] * count if steps else [])
+
+
+def _part(frame: Frame, count: int) -> Frame:
+    part = frame.copy()
+    for name in ("length", "angle", "turns", "time"):
+        if name in part.q:
+            part.q[name] = quantity(name, part.q[name].number / count, part.q[name].text)
+    return part
 
 
 def _with_measure(trip: Frame, following: Frame) -> Frame | None:
@@ -298,14 +330,6 @@ def _relative_to_last(frame: Frame, script: Script) -> Frame:
     factor = frame.q.pop("faster")
     frame.q["speed"] = quantity("speed", factor.number * before.speed_mps, factor.text)
     return frame
-
-
-def _part(frame: Frame, count: int) -> Frame:
-    part = frame.copy()
-    for name in ("length", "angle", "turns", "time"):
-        if name in part.q:
-            part.q[name] = quantity(name, part.q[name].number / count, part.q[name].text)
-    return part
 
 
 def _lists_lengths(frames: list[Frame], i: int) -> bool:
@@ -401,6 +425,10 @@ def _insert(script: Script, frame: Frame) -> None:
     steps = act(frame, script.state, script.pace)
     script.units = [part for unit in script.units for part in _full_turns(unit)]
     moving = [u for u in script.units if not all(isinstance(s, Wait) for s in u)]
+    in_the_middle = "between" in frame.flags and _MIDDLE & {text[:2] for text in frame.texts}
+    if len(moving) == len(script.units) == 1 and in_the_middle and "after_each" not in frame.flags:
+        _insert_halfway(script, frame)  # 前进两米，中间停三秒
+        return
     if len(moving) < 2 and not ("after_each" in frame.flags and moving):
         raise Unclear("between_what", frame.text)
     pause = all(isinstance(s, (Wait, Say)) for s in steps)
@@ -435,11 +463,23 @@ def _insert_halfway(script: Script, frame: Frame) -> None:
     if halves is None:
         raise Unclear("between_what", frame.text)
     inner = frame.copy()
-    inner.flags.discard("halfway")
+    inner.flags -= {"halfway", "between"}
     if not inner.moves and set(inner.q) == {"time"}:
         inner.verb = "wait"
     steps = act(inner, State(), script.pace)
     script.units[-1:] = [[halves[0]], steps, [halves[1]]]
+
+
+def _insert_at(script: Script, place: Frame, stop: Frame) -> None:
+    """前进两米，走到一米的地方停三秒: a stop on the way, not another metre."""
+    last = script.units[-1][0] if script.units and len(script.units[-1]) == 1 else None
+    at_m = place.q["length"].number if "length" in place.q else 0.0
+    if not isinstance(last, Drive) or last.distance_m is None or not 0 < at_m < last.distance_m - 1e-6:
+        raise Unclear("unclear_motion", place.text)
+    if place.moves or set(place.q) != {"length"}:
+        raise Unclear("unclear_motion", place.text)
+    before, after = replace(last, distance_m=at_m), replace(last, distance_m=last.distance_m - at_m)
+    script.units[-1:] = [[before], act(stop, State(), script.pace), [after]]
 
 
 def _halves(step: Step) -> tuple[Step, Step] | None:
@@ -449,7 +489,7 @@ def _halves(step: Step) -> tuple[Step, Step] | None:
         return replace(step, distance_m=metres, duration_s=seconds), replace(
             step, distance_m=metres, duration_s=seconds
         )
-    if isinstance(step, Turn) and step.angle_rad:
+    if isinstance(step, (Turn, Arc)) and step.angle_rad:
         return replace(step, angle_rad=step.angle_rad / 2), replace(step, angle_rad=step.angle_rad / 2)
     return None
 

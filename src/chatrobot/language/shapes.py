@@ -65,6 +65,8 @@ def draw(frames: list[Frame], i: int, pace: Pace) -> tuple[int, list[Step]]:
 def _is_part(head: Frame, frame: Frame) -> bool:
     if head.shape == "plus" and ("way" in [q.role for q in frame.q.values()] or frame.verb == "return"):
         return True
+    if head.shape == "spiral" and "between" in frame.flags and "angle" in frame.q:
+        return True
     if frame.flags & {"between", "after_each", "to_start", "original_heading"} or frame.verb in (
         *STILL,
         "return",
@@ -235,6 +237,8 @@ def _drawn(shape: str, found: Measures, pace: Pace, text: str) -> list[Step]:
         return _triangle(shape, found, pace, text)
     if shape == "lawn":
         return _lawn(found, text)
+    if shape == "spiral" and len(found.lengths) > 1:
+        return outlines.polyline(found.plain(), found.angle_rad or math.pi / 2, left, speed)
     if shape == "stairs":
         return _stairs(found, pace, text)
     side = _side(found, pace)
@@ -249,7 +253,10 @@ def _drawn(shape: str, found: Measures, pace: Pace, text: str) -> list[Step]:
     if shape == "plus":
         return outlines.plus(side, speed)
     if shape == "rhombus":
-        return outlines.rhombus(side, left, speed)
+        acute = math.pi / 3 if found.angle_rad is None else min(found.angle_rad, math.pi - found.angle_rad)
+        if not 0 < acute <= math.pi / 2:
+            raise Unclear("contradiction", text)
+        return outlines.rhombus(side, acute, left, speed)
     if shape == "zigzag":
         return outlines.zigzag(legs or 4, side, left, speed, found.back)
     if shape == "letter_u" and len(found.lengths) == 2:
@@ -282,7 +289,7 @@ def _round(shape: str, found: Measures, pace: Pace) -> list[Step]:
     sweep = {"circle": 2 * math.pi * found.rounds, "half_circle": math.pi, "quarter_circle": math.pi / 2}[
         shape
     ]
-    if shape != "circle" and not found.side_said:
+    if (shape != "circle" or found.rounds < 1) and not found.side_said:
         raise Unclear("which_side", shape.replace("_", " "))
     if found.seconds and speed is None:
         speed = radius * sweep / found.seconds
@@ -309,6 +316,9 @@ def _triangle(shape: str, found: Measures, pace: Pace, text: str) -> list[Step]:
         values = [values[0], values[0]]  # 等腰
     if shape == "right_triangle" and len(values) == 2:
         values = [values[0], values[1], math.hypot(values[0], values[1])]
+    elif shape == "triangle" and len(values) == 2 and 2 in found.counts.values():
+        legs = next((v for v, roles in found.lengths if "side" in roles), values[1])
+        values = [next((v for v in values if v != legs), legs), legs, legs]
     elif shape == "triangle" and len(values) < 2:
         values = [values[0] if values else pace.profile.defaults.distance_m] * 3
     if len(values) != 3:

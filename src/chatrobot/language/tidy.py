@@ -117,6 +117,8 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
         return Atom("verb", "shift", atom.text)
     if atom.kind == "second":
         return Atom("conn", "then", atom.text)
+    if atom.kind == "letter" and atom.text == "r" and is_kind(atoms, _next_real(atoms, i + 1), "q", "length"):
+        return Atom("role", "radius", atom.text)  # r = 0.5 m
     if atom.kind == "letter":
         beside = is_kind(atoms, i + 1, "q") or (
             is_kind(atoms, i - 1, "q") and not is_kind(atoms, i + 1, "unknown")
@@ -138,9 +140,13 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
         if is_kind(atoms, i + 1, "role"):
             return Atom("glue", "x", atom.text)  # 每个圈半径三十厘米
         return Atom("verb", "turn", atom.text)
+    if atom.kind == "unit_percent" and atom.text == "成":
+        return Atom("glue", "x", atom.text)
+    if atom.kind == "glue" and atom.text == "左右" and not (i and atoms[i - 1].kind == "q"):
+        return Atom("unknown", atom.text, atom.text)
     if atom.kind == "unit_angle" and atom.text == "弧":
         return Atom("verb", "curve", atom.text)
-    if atom.kind == "unit_angle" and atom.text in ("直角", "直角弯", "平角"):
+    if atom.kind == "unit_angle" and atom.text.lstrip("个") in ("直角", "直角弯", "平角"):
         return quantity("angle", float(atom.value), atom.text)
     return atom
 

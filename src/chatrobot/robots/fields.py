@@ -150,6 +150,18 @@ class Table:
             self.source.fail(self.field(key), f"{_shown(value)} is no topic name", allowed)
         return value
 
+    def is_table(self, key: str) -> bool:
+        """Whether a table is under `key`."""
+        return isinstance(self._data.get(key), dict)
+
+    def choices(self, key: str, choices: Sequence[str]) -> tuple[str, ...]:
+        """A list of some of `choices`."""
+        allowed = f"a list of: {', '.join(choices)}"
+        value = self._get(key, allowed)
+        if not isinstance(value, list) or not all(item in choices for item in value):
+            self.source.fail(self.field(key), f"{_shown(value)} is not possible", allowed)
+        return tuple(value)
+
     def is_text(self, key: str, text: str) -> bool:
         """Whether `key` holds exactly this word."""
         return self._data.get(key) == text

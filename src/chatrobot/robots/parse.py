@@ -12,7 +12,7 @@ import sys
 from typing import Any
 
 from chatrobot.robots.fields import Range, Source, Table
-from chatrobot.robots.profile import Defaults, Lidar, Limits, RobotProfile, Wiring
+from chatrobot.robots.profile import Circle, Defaults, Lidar, Limits, Point, RobotProfile, Safety, Wiring
 from chatrobot.robots.rules import check
 
 if sys.version_info >= (3, 11):
@@ -45,6 +45,15 @@ LIDAR_RANGES = {
     "max_range_m": Range(0.0, 1000.0, "m"),
     "rate_hz": Range(0.0, 1000.0, "Hz"),
 }
+CIRCLE_RANGES = {
+    "x_m": Range(-1000.0, 1000.0, "m", with_low=True),
+    "y_m": Range(-1000.0, 1000.0, "m", with_low=True),
+    "radius_m": Range(0.0, 1000.0, "m"),
+}
+FENCE_RANGE = Range(-1000.0, 1000.0, "m", with_low=True)
+BLIND_RANGE = Range(0.0, 10.0, "m/s", with_low=True)
+PERCENT_RANGE = Range(0.0, 100.0, "%", with_low=True)
+SENSORS = ("odom", "scan", "imu")
 TIMEOUT_RANGE = Range(0.0, 60.0, 's, or "forever"')
 FOOTPRINT_RANGE = Range(-5.0, 5.0, "m", with_low=True)
 WIRING_CHOICES = {"cmd_vel_type": ("Twist", "TwistStamped"), "odom_type": ("Odometry", "turtlesim/Pose")}
@@ -52,7 +61,7 @@ FOREVER = "forever"
 
 SOURCE_MEANING = "where the number comes from: a document, a measurement, or that it is a cautious guess"
 _OPTIONAL_LIMIT = "min_turning_radius_m"
-_TOP = ("title", "kinematics", "approval", "footprint", "limits", "defaults", "lidar", "wiring")
+_TOP = ("title", "kinematics", "approval", "footprint", "limits", "defaults", "lidar", "safety", "wiring")
 _LINE = re.compile(r"at line (\d+)")
 
 
@@ -75,6 +84,7 @@ def parse_profile(text: str, name: str, file: str = "") -> RobotProfile:
         footprint=top.points("footprint", FOOTPRINT_RANGE),
         wiring=_wiring(top.table("wiring")) if "wiring" in top else Wiring(),
         lidar=_lidar(top.table("lidar")) if "lidar" in top else None,
+        safety=_safety(top.table("safety")) if "safety" in top else Safety(),
         approval=_literal(top.choice("approval", ("plan", "stream"))) if "approval" in top else "plan",
         sources=sources,
     )
@@ -119,6 +129,28 @@ def _lidar(table: Table) -> Lidar:
     table.only((*LIDAR_RANGES, "beams"))
     numbers = {key: table.number(key, allowed) for key, allowed in LIDAR_RANGES.items()}
     return Lidar(**numbers, beams=table.integer("beams", 1, 100_000))
+
+
+def _safety(table: Table) -> Safety:
+    known = tuple(field.name for field in dataclasses.fields(Safety))
+    table.only(known)
+    values: dict[str, Any] = {}
+    if "fence" in table:
+        values["fence"] = _fence(table)
+    if "requires" in table:
+        values["requires"] = table.choices("requires", SENSORS)
+    if "blind_speed_mps" in table:
+        values["blind_speed_mps"] = table.number("blind_speed_mps", BLIND_RANGE)
+    if "battery_low_percent" in table:
+        values["battery_low_percent"] = table.number("battery_low_percent", PERCENT_RANGE)
+    return Safety(**values)
+
+
+def _fence(table: Table) -> Circle | tuple[Point, ...]:
+    if table.is_table("fence"):
+        circle = table.table("fence")
+        return Circle(**_numbers(circle, CIRCLE_RANGES))
+    return table.points("fence", FENCE_RANGE)
 
 
 def _wiring(table: Table) -> Wiring:

@@ -55,6 +55,30 @@ class Lidar:
 
 
 @dataclass(frozen=True)
+class Circle:
+    """A circle in `odom`."""
+
+    x_m: float
+    y_m: float
+    radius_m: float
+
+
+@dataclass(frozen=True)
+class Safety:
+    """What the governor minds besides the limits.
+
+    `fence` is a circle, or the corners of a polygon, in `odom`: the footprint stays inside. Without the sensors in
+    `requires` nothing moves. `blind_speed_mps` is for ways that the lidar does not see; 0 refuses them. Below
+    `battery_low_percent` no motion begins.
+    """
+
+    fence: Circle | tuple[Point, ...] | None = None
+    requires: tuple[Literal["odom", "scan", "imu"], ...] = ()
+    blind_speed_mps: float = 0.1
+    battery_low_percent: float | None = None
+
+
+@dataclass(frozen=True)
 class RobotProfile:
     """One robot. `footprint` is a convex polygon around (0, 0), counter-clockwise, metres, robot frame.
 
@@ -71,6 +95,7 @@ class RobotProfile:
     footprint: tuple[Point, ...]
     wiring: Wiring = field(default_factory=Wiring)
     lidar: Lidar | None = None
+    safety: Safety = field(default_factory=Safety)
     approval: Literal["plan", "stream"] = "plan"
     sources: Mapping[str, str] = field(default_factory=dict)
 

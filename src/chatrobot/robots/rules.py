@@ -23,6 +23,7 @@ def check(profile: RobotProfile, fail: Fail) -> None:
     _check_footprint(profile.footprint, fail)
     if profile.lidar is not None:
         _check_lidar(profile.lidar, fail)
+    _check_safety(profile, fail)
 
 
 def _check_defaults(profile: RobotProfile, fail: Fail) -> None:
@@ -88,6 +89,22 @@ def _check_lidar(lidar: Lidar, fail: Fail) -> None:
             "lidar.max_range_m",
             f"{lidar.max_range_m:g} is not beyond lidar.min_range_m, {lidar.min_range_m:g}",
             "a number above lidar.min_range_m",
+        )
+
+
+def _check_safety(profile: RobotProfile, fail: Fail) -> None:
+    wiring, fence = profile.wiring, profile.safety.fence
+    topics = {"odom": wiring.odom_topic, "scan": wiring.scan_topic, "imu": wiring.imu_topic}
+    for sensor in profile.safety.requires:
+        if not topics[sensor]:
+            fail("safety.requires", f"the robot has no {sensor}", f"only what [wiring] names: {sensor}_topic")
+    if isinstance(fence, tuple) and len(fence) < 3:
+        fail("safety.fence", f"{len(fence)} corners", "at least 3 corners, or { x_m, y_m, radius_m }")
+    if profile.safety.battery_low_percent is not None and not wiring.battery_topic:
+        fail(
+            "safety.battery_low_percent",
+            "the robot tells no battery",
+            "wiring.battery_topic, or no such line",
         )
 
 

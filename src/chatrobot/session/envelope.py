@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass, field
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any, Literal
 
 Word = Literal[
@@ -16,7 +18,39 @@ Word = Literal[
     "release",
     "goodbye",  # an orderly end: what is queued is still done, then the lease ends
 ]
-WORDS = ("hello", "beat", "plan", "approve", "stop", "emergency_stop", "release", "goodbye")
+MODES = ("queue", "replace", "append")
+
+
+def _is_text(value: object) -> bool:
+    return isinstance(value, str)
+
+
+def _is_flag(value: object) -> bool:
+    return isinstance(value, bool)
+
+
+def _is_term(value: object) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and 0.0 < value < math.inf
+
+
+PAYLOADS: Mapping[str, Mapping[str, Callable[[object], bool]]] = {
+    "hello": {"term_s": _is_term},
+    "beat": {},
+    "plan": {
+        "plan_text": _is_text,
+        "mode": lambda value: value in MODES,
+        "approve": _is_flag,
+        "rehearse_only": _is_flag,
+    },
+    "approve": {"yes": _is_flag},
+    "stop": {"why": _is_text},
+    "emergency_stop": {"why": _is_text},
+    "release": {},
+    "goodbye": {},
+}
+"""All that an envelope may say, with a check for every field of its payload."""
+
+WORDS = tuple(PAYLOADS)
 
 
 @dataclass(frozen=True)
@@ -35,7 +69,11 @@ class Envelope:
 
     @classmethod
     def from_bytes(cls, packet: bytes) -> Envelope | None:
-        """The envelope in `packet`, None where it is not one: Motion never dies of what it is sent."""
+        """The envelope in `packet`, None where it is not one: Motion never dies of what it is sent.
+
+        What is not listed is refused: unknown words, unknown payload fields and values of the wrong kind. A stop
+        is obeyed whatever its payload, which is then left out.
+        """
         try:
             data = json.loads(packet)
             envelope = cls(**data)
@@ -45,11 +83,19 @@ class Envelope:
             envelope.word in WORDS
             and isinstance(envelope.source, str)
             and isinstance(envelope.lease, str)
-            and isinstance(envelope.sequence, int)
-            and isinstance(envelope.turn, int)
-            and isinstance(envelope.payload, dict)
+            and type(envelope.sequence) is int
+            and type(envelope.turn) is int
         )
-        return envelope if well_formed else None
+        if not well_formed:
+            return None
+        if _is_allowed(envelope.word, envelope.payload):
+            return envelope
+        return replace(envelope, payload={}) if envelope.word in ("stop", "emergency_stop") else None
+
+
+def _is_allowed(word: Word, payload: Any) -> bool:
+    fields = PAYLOADS[word]
+    return isinstance(payload, dict) and all(key in fields and fields[key](payload[key]) for key in payload)
 
 
 _LONGEST_S = 1e6

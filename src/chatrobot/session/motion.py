@@ -10,7 +10,7 @@ from collections import deque
 from collections.abc import Callable
 
 from chatrobot.core.clock import Clock
-from chatrobot.core.events import Event, Outcome, Started, Telemetry
+from chatrobot.core.events import Event, Notice, Outcome, Started, Telemetry
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose
 from chatrobot.core.governed import StopEpoch
 from chatrobot.core.reason import Reason
@@ -18,6 +18,7 @@ from chatrobot.execution.lookahead import nearest_m
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
 from chatrobot.governor.lease import LOCAL_TERM_S
+from chatrobot.governor.priority import Priority, priority_of
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.approval import Approval
 from chatrobot.session.envelope import Envelope, seconds
@@ -25,7 +26,7 @@ from chatrobot.session.guard_link import GuardLink
 from chatrobot.session.intake import Intake
 from chatrobot.session.job import Job
 from chatrobot.session.planner import Planned, Planner
-from chatrobot.session.run import Run
+from chatrobot.session.run import Run, sensed_by
 from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.messages import LaserScan
 from chatrobot.wire.wire import Wire
@@ -72,7 +73,7 @@ class Motion:
         self._seen_epoch = 0
         self._stop_reason = Reason("stopped")
         self._transport = WireTransport(wire, profile.wiring, self._epoch)
-        self._governor = Governor(profile, self._epoch)
+        self._governor = Governor(profile, self._epoch, planner.allowed_area)
         self._sensors = Sensors(profile, clock)
         self._looked_at: LaserScan | None = None
         self._inbox: deque[Callable[[], None]] = deque()
@@ -164,9 +165,11 @@ class Motion:
         elif envelope.word == "plan":
             self._accept(envelope, epoch)
         elif envelope.word == "approve":
-            self._approve(envelope.turn, bool(envelope.payload.get("yes")))
+            if priority_of(envelope.source) >= Priority.PLAN:  # a person's word, not an agent's
+                self._approve(envelope.turn, bool(envelope.payload.get("yes")))
         elif envelope.word == "release":
-            self._governor.release()
+            if not self._governor.release(envelope.source):
+                self._emit(Notice(envelope.turn, Reason("release_refused", {"source": envelope.source})))
         elif envelope.word == "goodbye":
             self._governor.leases.entrust(envelope.lease)
             self._leaving.add(envelope.lease)
@@ -205,23 +208,38 @@ class Motion:
 
     def _accept(self, envelope: Envelope, epoch: int) -> None:
         job = Job.of(envelope, epoch, self._clock.now_s())
-        if envelope.payload.get("mode") == "replace":
-            self._replace()
-        declined = self._intake.add(job, self._epoch.value)
+        declined = self._give_way(job)
+        if declined is None and envelope.payload.get("mode") == "replace":
+            self._replace(Reason("replaced"))
+        declined = declined or self._intake.add(job, self._epoch.value)
         if declined is not None:
             outcome: Outcome = "stopped" if declined.code == "stopped" else "refused"
             self._finish_unmoved(job, outcome, declined)
             return
         self._begin_next(self._clock.now_s())
 
-    def _replace(self) -> None:
+    def _give_way(self, job: Job) -> Reason | None:
+        """A source of higher priority takes over at once; one of lower priority is refused, with the reason."""
+        current, leases = self._current, self._governor.leases
+        if current is None or current.lease == job.lease:
+            return None
+        holder, comer = leases.source_of(current.lease), leases.source_of(job.lease)
+        if leases.priority_of(job.lease) < leases.priority_of(current.lease):
+            return Reason("outranked", {"source": holder})
+        if leases.priority_of(job.lease) > leases.priority_of(current.lease):
+            handed_over = Reason("handed_over", {"source": holder, "to": comer})
+            self._emit(Notice(job.turn, handed_over))
+            self._replace(handed_over)
+        return None
+
+    def _replace(self, why: Reason) -> None:
         """New motion takes the place of the old, after a controlled stop; what was queued is dropped."""
         for job in self._intake.take_all():
-            self._finish_unmoved(job, "stopped", Reason("replaced"))
+            self._finish_unmoved(job, "stopped", why)
         if self._run is not None:
-            self._run.executor.ramp_down(Reason("replaced"))
+            self._run.executor.ramp_down(why)
         elif self._current is not None:
-            self._finish_current("stopped", Reason("replaced"))
+            self._finish_current("stopped", why)
 
     def _begin_next(self, now_s: float) -> None:
         jobs = self._intake.jobs
@@ -280,6 +298,7 @@ class Motion:
     def _launch(self, job: Job) -> None:
         now_s = self._clock.now_s()
         blocker = self._blocker(job, now_s)
+        blocker = blocker or self._governor.begin(job.lease, now_s, sensed_by(self._sensors)).refusal
         if blocker is not None:
             self._finish_current("refused", blocker)
             return
@@ -321,6 +340,7 @@ class Motion:
         run = self._run
         assert run is not None
         self._current = self._run = None
+        self._governor.end(run.job.lease)
         if outcome != "completed":
             self.halt(reason or Reason("stopped"))
             self._seen_epoch = self._epoch.value

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from chatrobot.core.errors import PlanTextError
@@ -13,7 +14,7 @@ from chatrobot.plan.lowering import CoreWalk
 from chatrobot.plan.rehearsal import Rehearsal, rehearse
 from chatrobot.plan.route import GridRoutePlanner
 from chatrobot.plan.text import parse_plan
-from chatrobot.robots.profile import RobotProfile
+from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.sim.world import World
 
 DRAWN_POINTS = 400
@@ -79,6 +80,11 @@ class Planner:
         self._world = world
         self._kernel = make_kernel(profile)
         self._routes = None if world.is_empty else GridRoutePlanner(world, profile)
+
+    @property
+    def allowed_area(self) -> Sequence[Point] | None:
+        """Corners, in `odom`, of where the world lets a robot be; None where it says nothing."""
+        return self._world.allowed_area.points if self._world.allowed_area is not None else None
 
     def plan(self, turn: int, plan_text: str, start: Pose) -> Planned:
         """Read and rehearse `plan_text` from `start` (odom frame). Never raises for what a person or model wrote."""

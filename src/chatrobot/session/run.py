@@ -10,6 +10,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.execution.executor import Executor
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor, Verdict
+from chatrobot.governor.rule import Sensed
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.job import Job
 from chatrobot.transports.transport import Transport
@@ -34,6 +35,11 @@ class Stopwatch:
             self._pending_s = 0.0
         elif self._has_moved:
             self._pending_s += elapsed_s
+
+
+def sensed_by(sensors: Sensors) -> Sensed:
+    """What the governor's rules want to know of the sensors."""
+    return Sensed(sensors.ages_s(), sensors.battery_percent)
 
 
 class Run:
@@ -68,7 +74,7 @@ class Run:
             return
         estimate = self._sensors.estimate
         pose = estimate.pose if estimate is not None else None
-        verdict = self._governor.govern(asked, self.job.lease, now_s, pose)
+        verdict = self._governor.govern(asked, self.job.lease, now_s, pose, sensed_by(self._sensors))
         self._transport.send(verdict.sent)
         self.executor.note(verdict.rule, verdict.reason, verdict.sent.twist, now_s)
         self._stopwatch.count(verdict.sent.twist.is_zero, now_s)

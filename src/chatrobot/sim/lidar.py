@@ -17,13 +17,18 @@ if TYPE_CHECKING:
 
 
 class SimLidar:
-    """Scans all around from -pi on. No return is `inf`, nearer than the lidar can see is `-inf` (REP-117)."""
+    """Scans all around from -pi on. No return is `inf`, nearer than the lidar can see is `-inf` (REP-117).
+
+    Unless the lies say that it is a cheap one, or looks at a part of the circle only.
+    """
 
     def __init__(self, lidar: Lidar, lies: SimLies) -> None:
         self._lidar = lidar
         self._lies = lies
         self._mounting = Pose(lidar.x_m, lidar.y_m, lidar.yaw_rad)
         self._increment_rad = math.tau / lidar.beams
+        self._unseen = math.ceil(lidar.beams * (360.0 - lies.lidar_fov_deg) / 720.0)
+        """Beams that are missing at either end of the circle."""
         self._noise: np.random.Generator | None = None
         self.period_ticks = max(1, round(100.0 / lidar.rate_hz))
 
@@ -33,9 +38,16 @@ class SimLidar:
             ranges_m = [math.inf] * self._lidar.beams
         else:
             ranges_m = self._ranges(surroundings.raycast(robot.compose(self._mounting), self._lidar.beams))
-        lidar = self._lidar
+        if self._lies.lidar_zeros:
+            ranges_m = [range_m if math.isfinite(range_m) else 0.0 for range_m in ranges_m]
+        lidar, first = self._lidar, self._unseen
         return LaserScan(
-            stamp_s, -math.pi, self._increment_rad, lidar.min_range_m, lidar.max_range_m, ranges_m
+            stamp_s,
+            -math.pi + first * self._increment_rad,
+            self._increment_rad,
+            lidar.min_range_m,
+            lidar.max_range_m,
+            ranges_m[first : max(first + 1, lidar.beams - first + 1)] if first else ranges_m,
         )
 
     def _ranges(self, true_m: NDArray[np.float64]) -> list[float]:

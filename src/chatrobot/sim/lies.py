@@ -51,6 +51,8 @@ class SimLies:
         odom_jump_after_s: odometry jumps once, by `ODOM_JUMP_M`.
         odom_wrong: `reversed` (forward is reported as backward), `turn_reversed` (left as right),
             `frozen` (the first pose for ever, under fresh stamps), `nan`.
+        lidar_zeros: a cheap lidar: 0.0 for what is too far and for what is too near alike.
+        lidar_fov_deg: how much of the circle has beams, around the lidar's own x axis.
     """
 
     slip: float = 0.0
@@ -65,6 +67,8 @@ class SimLies:
     odom_silent_after_s: float = math.inf
     odom_jump_after_s: float = math.inf
     odom_wrong: OdomWrong = "right"
+    lidar_zeros: bool = False
+    lidar_fov_deg: float = 360.0
 
     @classmethod
     def parse(cls, text: str) -> SimLies:
@@ -147,4 +151,6 @@ _READERS: dict[str, tuple[Callable[[str], object], str]] = {
     "odom_silent_after_s": _TIME,
     "odom_jump_after_s": _TIME,
     "odom_wrong": (_one_of(*get_args(OdomWrong)), ", ".join(get_args(OdomWrong))),
+    "lidar_zeros": (_switch, "on or off"),
+    "lidar_fov_deg": (_number(1.0, 360.0), "degrees from 1 to 360"),
 }

@@ -1,0 +1,37 @@
+"""Steps undone: the same way back."""
+
+from __future__ import annotations
+
+import math
+
+from chatrobot.language.unclear import Unclear
+from chatrobot.plan.steps import Arc, Drive, RawTwist, Remember, Repeat, Say, Step, Turn, Wait
+
+
+def inverse(steps: list[Step], speed_mps: float | None = None) -> list[Step]:
+    """The same way back, backwards: the last step first, each undone.
+
+    Raises:
+        Unclear: for a step that cannot be undone step by step.
+    """
+    undone: list[Step] = []
+    for step in reversed(steps):
+        undone.extend(_undone(step, speed_mps))
+    return undone
+
+
+def _undone(step: Step, speed_mps: float | None) -> list[Step]:
+    if isinstance(step, Drive) and step.until is None:
+        back = math.remainder(step.direction_rad + math.pi, 2 * math.pi)
+        return [Drive(step.distance_m, step.duration_s, back, speed_mps or step.speed_mps)]
+    if isinstance(step, Turn):
+        return [Turn(step.angle_rad, step.duration_s, not step.left, step.rate_radps)]
+    if isinstance(step, Arc):
+        return [Arc(step.radius_m, step.angle_rad, step.left, not step.backward, speed_mps or step.speed_mps)]
+    if isinstance(step, RawTwist):
+        return [RawTwist(-step.vx_mps, -step.vy_mps, -step.wz_radps, step.duration_s)]
+    if isinstance(step, Repeat):
+        return [Repeat(step.count, tuple(inverse(list(step.steps), speed_mps)))]
+    if isinstance(step, (Wait, Say, Remember)):
+        return []
+    raise Unclear("cannot_undo")

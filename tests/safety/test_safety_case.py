@@ -1,0 +1,42 @@
+"""docs/safety.md names tests that exist, and numbers that are true."""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+from chatrobot.robots.load import ProfileEntry, list_profiles
+
+ROOT = Path(__file__).parents[2]
+CASE = (ROOT / "docs" / "safety.md").read_text(encoding="utf-8")
+BUILT_IN = [entry for entry in list_profiles() if entry.origin == "built-in"]
+NAMED = sorted(set(re.findall(r"`(tests/[\w/]+\.py)::(\w+)`", CASE)))
+
+
+@pytest.mark.parametrize(("file", "test"), NAMED, ids=[test for _, test in NAMED])
+def test_every_test_that_the_safety_case_names_exists(file: str, test: str) -> None:
+    tree = ast.parse((ROOT / file).read_text(encoding="utf-8"))
+    assert test in {node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)}
+
+
+def test_every_hazard_names_a_test() -> None:
+    table = CASE.split("## Hazards")[1].split("## ")[0]
+    rows = [row for row in table.splitlines() if row.startswith("| ")][1:]
+    assert len(rows) > 15
+    assert [row for row in rows if "::test_" not in row.split("|")[3]] == []
+
+
+def test_it_says_plainly_that_it_is_not_certified() -> None:
+    assert "**not certified**" in CASE
+
+
+@pytest.mark.parametrize(
+    "entry", [entry for entry in list_profiles() if entry.origin == "built-in"], ids=lambda e: e.name
+)
+def test_each_profiles_own_timeout_is_the_one_in_its_file(entry: ProfileEntry) -> None:
+    timeout_s = entry.load().wiring.base_timeout_s
+    holds = "for ever" if timeout_s is None else f"{timeout_s:g} s"
+    assert f"| `{entry.name}` | {holds} |" in CASE
