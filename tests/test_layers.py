@@ -18,8 +18,8 @@ LEVELS = {
     "plan": 3, "box": 3,
     "language": 4, "models": 4, "execution": 4, "governor": 4, "transports": 4, "programs": 4, "recording": 4,
     "session": 5,
-    "compose": 6,
-    "cli": 7, "web": 7, "mcp": 7, "nodes": 7, "api": 7,
+    "compose": 6, "nodes": 6,
+    "cli": 7, "web": 7, "mcp": 7, "api": 7,
     "__init__": 8, "__main__": 8,
 }  # fmt: skip
 BESIDE = {"guard": {"core", "wire"}}

@@ -85,3 +85,12 @@ def test_importing_chatrobot_loads_nothing_yet_offers_its_names() -> None:
         assert name in dir(chatrobot)
     with pytest.raises(AttributeError):
         _ = chatrobot.nonsense
+
+
+def test_the_control_node_knows_no_language_either() -> None:
+    loaded = loaded_by("import chatrobot.cli.node, chatrobot.nodes.control, chatrobot.robots.load")
+    assert "chatrobot.session.motion" in loaded
+    assert not among(
+        loaded, ("chatrobot.language", "chatrobot.models", "chatrobot.compose", "chatrobot.cli.con")
+    )
+    assert not among(loaded, ("prompt_toolkit", "rich", "chatrobot.session.understanding"))

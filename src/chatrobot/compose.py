@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.errors import JointError, UsageError
 from chatrobot.core.events import Event, TruePose
-from chatrobot.robots.load import DEFAULT_PROFILE, list_profiles, load_profile
+from chatrobot.robots.load import DEFAULT_PROFILE, load_profile, profile_argument
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.joint import SimulatedJoint
 from chatrobot.session.session import Options, Session
@@ -26,12 +26,15 @@ from chatrobot.sim.lies import SimLies
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import TRUTH_TOPIC, SimRobot
 from chatrobot.sim.world import World
+from chatrobot.wire.connect import wire_address
 from chatrobot.wire.messages import Odometry
 
 if TYPE_CHECKING:
     from chatrobot.session.socket_joint import SocketJoint
 
 OnEvent = Callable[[Event], None]
+SIMULATED = ("auto", "sim")
+"""`--on auto` never picks a real robot unasked."""
 SETTLE_S = 0.5
 """A robot that has just been switched on stands still this long: its gyro's bias is measured meanwhile."""
 
@@ -40,16 +43,19 @@ SETTLE_S = 0.5
 class Setup:
     """What a person chose on the command line or in `connect`.
 
-    `sim` holds the lies of the simulated robot (`slip=0.03,…`). `folder` is where places, programs and history
-    live; None keeps nothing.
+    `on` is auto, sim, or a robot's wire (`wire_address`). `world`: "" is what fits, the furnished home for the
+    simulated robot and nothing known for any other. `sim` holds the lies of the simulated robot (`slip=0.03,…`).
+    `yes`: plans of a real robot need no approval. `folder` is where places, programs and history live; None keeps
+    nothing.
     """
 
     on: str = "sim"
     robot: str = DEFAULT_PROFILE
-    world: str = "home"
+    world: str = ""
     sim: str = ""
     fast: bool = False
     trace: bool = False
+    yes: bool = False
     folder: Path | None = None
     options: Options = field(default_factory=Options)
 
@@ -71,31 +77,29 @@ def connect(setup: Setup, on_event: OnEvent) -> Connection:
         InputError: a profile, world or option is wrong; the message says where and what is allowed.
         JointError: Motion or the simulated robot does not start.
     """
-    if setup.on not in ("auto", "sim"):
-        raise UsageError(
-            f"this version cannot drive a robot over {setup.on!r} yet",
-            where="--on",
-            allowed="sim; ROS 2, DDS and rosbridge are being built",
-        )
-    profile = replace(load_profile(setup.robot, _profile_dirs(setup)), approval="stream")
+    on_wire = setup.on not in SIMULATED
+    profile = load_profile(setup.robot, profile_dirs(setup.folder))
+    if not on_wire:
+        profile = replace(profile, approval="stream")
+    setup = replace(setup, world=setup.world or default_world(setup.on))
     world = load_world(setup.world)
     SimLies.parse(setup.sim)
     understanding = Understanding(profile, world, setup.folder)
+    if on_wire:
+        return _connect_wire(setup, profile, world, understanding, on_event)
     if setup.fast:
         return _connect_simulated(setup, profile, world, understanding, on_event)
     return _connect_real_time(setup, profile, world, understanding, on_event)
 
 
-def _profile_argument(setup: Setup) -> str:
-    """What other processes find the profile by: a user's own by its file, for they know no config folder."""
-    for entry in list_profiles(_profile_dirs(setup)):
-        if entry.name == setup.robot and entry.origin == "user":
-            return str(entry.file)
-    return setup.robot
+def default_world(on: str) -> str:
+    """What is known of the surroundings where nobody says: of a robot that is not ours, nothing."""
+    return "home" if on in SIMULATED else "empty"
 
 
-def _profile_dirs(setup: Setup) -> tuple[Path, ...]:
-    return (setup.folder / "robots",) if setup.folder is not None else ()
+def profile_dirs(folder: Path | None) -> tuple[Path, ...]:
+    """Where a person's own robot profiles live."""
+    return (folder / "robots",) if folder is not None else ()
 
 
 # --- simulated time: one process, one thread ---
@@ -140,11 +144,11 @@ def _connect_real_time(
     from chatrobot.wire.runtime_dir import runtime_dir
 
     wire_path = runtime_dir() / f"sim-{uuid.uuid4().hex[:12]}.wire"
-    profile_argument = _profile_argument(setup)
-    robot = spawn_simulated_robot(setup, profile_argument, wire_path)
+    argument = profile_argument(setup.robot, profile_dirs(setup.folder))
+    robot = spawn_simulated_robot(setup, argument, wire_path)
     joint: SocketJoint | None = None
     try:
-        joint = SocketJoint(str(wire_path), profile_argument, setup.world)
+        joint = SocketJoint(str(wire_path), argument, setup.world)
         understanding.warm()
         joint.wait_until_ready()
     except JointError:
@@ -167,6 +171,25 @@ def _connect_real_time(
             trace.close()
 
     return Connection(session, profile, world, close)
+
+
+# --- a robot on a wire: Motion and the guard are processes ---
+
+
+def _connect_wire(
+    setup: Setup, profile: RobotProfile, world: World, understanding: Understanding, on_event: OnEvent
+) -> Connection:
+    from chatrobot.session.socket_joint import SocketJoint
+
+    address = wire_address(setup.on)
+    for chosen, option in ((setup.fast, "--fast"), (setup.trace, "--trace"), (setup.sim, "--sim")):
+        if chosen:
+            raise UsageError("only the simulated robot of --on sim can do that", where=option)
+    approve = setup.options.approve or (profile.approval == "plan" and not setup.yes)
+    joint = SocketJoint(address, profile_argument(setup.robot, profile_dirs(setup.folder)), setup.world)
+    joint.wait_until_ready()
+    session = Session(joint, understanding, on_event, replace(setup.options, approve=approve))
+    return Connection(session, profile, world, session.close)
 
 
 def spawn_simulated_robot(setup: Setup, profile: str, wire_path: Path) -> subprocess.Popen[bytes]:

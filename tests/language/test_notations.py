@@ -138,3 +138,45 @@ def test_compass_points_count_only_from_a_heading_that_was_said() -> None:
 def test_lengths_that_happen_to_add_up_are_all_driven() -> None:
     done = steps("three feet forward, one foot back, then two feet to the left")
     assert [round(s.distance_m or 0.0, 4) for s in done if isinstance(s, Drive)] == [0.9144, 0.3048, 0.6096]
+
+
+def test_each_again_adds_what_was_said_once() -> None:
+    assert len(steps("back 20 cm, again, again")) == 3
+    assert len(steps("slide left 20 cm, and then the same thing again three more times")) == 4
+
+
+def test_going_ahead_by_an_amount_is_forward_whatever_came_before() -> None:
+    last = steps("slide left 30 cm, then go ahead 2 m")[-1]
+    assert isinstance(last, Drive)
+    assert last.direction_rad == 0.0
+
+
+def test_repeats_until_it_has_come_all_the_way_round() -> None:
+    turns = [s for s in steps("turn right 60 degrees, wait 1 s, and repeat until you have turned all the way round")
+             if isinstance(s, Turn)]  # fmt: skip
+    assert len(turns) == 6
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "body velocity 0.2 m/s x, 0.1 m/s y, yaw rate 0.5 rad/s, hold for 2 s",
+        "cmd_vel x=0.2 y=0.1 z=0.5 for 2 s, then zero it",
+        "linear.x 0.2, linear.y 0.1, angular.z 0.5, duration 2",
+    ],
+)
+def test_raw_velocities_with_the_axes_written_apart(text: str) -> None:
+    assert steps(text) == (RawTwist(0.2, 0.1, 0.5, 2.0),)
+
+
+def test_a_step_is_as_long_as_this_dialogue_says() -> None:
+    talk = Conversation()
+    assert talk.say("a step is forty centimetres").plan is None
+    meant = talk.say("three steps forward")
+    assert meant.plan is not None
+    assert isinstance(meant.plan.steps[0], Drive)
+    assert meant.plan.steps[0].distance_m == pytest.approx(1.2)
+
+
+def test_what_is_taken_back_at_the_end_does_not_move() -> None:
+    assert OfflineInterpreter(MECANUM).interpret("go for... no, abort", Context()).outcome == "stop"

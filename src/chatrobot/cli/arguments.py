@@ -20,8 +20,9 @@ COMMANDS = {
     "doctor": "what works here, and how to get the rest",
     "schema": "the JSON schema of plans",
     "sim": "run the simulated robot alone, for other programs to drive",
+    "node": "one of the tutorial's three nodes: input, base or control",
 }
-LATER = ("node", "model", "program", "usage", "fake-model")
+LATER = ("model", "program", "usage", "fake-model")
 """Commands of versions to come: known, so that they are not mistaken for something else."""
 
 DEFAULTS: dict[str, Any] = {
@@ -115,7 +116,11 @@ def _options() -> _Parser:
     """Good before and after the command: hence no defaults here, the one would undo the other."""
     parser = _Parser(add_help=False, argument_default=argparse.SUPPRESS, allow_abbrev=False)
     add = parser.add_argument_group("options").add_argument
-    add("--on", metavar="WHERE", help="auto|sim: which robot to drive (default: the simulated one)")
+    add(
+        "--on",
+        metavar="WHERE",
+        help="which robot: sim (the default), dds[://DOMAIN[/NAMESPACE]] or rosbridge[:ws://HOST:9090]",
+    )
     add(
         "--robot",
         metavar="PROFILE",
@@ -161,8 +166,37 @@ def _sim(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def _node(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "which",
+        choices=("input", "base", "control"),
+        help="input: lines typed → user_input; base: user_input → chatgpt_node; control: chatgpt_node → cmd_vel",
+    )
+    parser.add_argument(
+        "--ros-args", action="store_true", help="accepted before -p, so that lines written for ros2 run work"
+    )
+    parser.add_argument(
+        "-p",
+        dest="parameters",
+        action="append",
+        default=[],
+        metavar="NAME:=VALUE",
+        help="base: generate_code:=True or revChatGPT:=True, the tutorial's parameters",
+    )
+    parser.add_argument(
+        "--allow-release",
+        action="store_true",
+        help="control: an emergency stop may be released over the wire",
+    )
+    parser.add_argument(
+        "--accept-others",
+        action="store_true",
+        help="control: drive though another ChatRobot is on the same robot",
+    )
+
+
 def _no_arguments(_: argparse.ArgumentParser) -> None:
     pass
 
 
-_ARGUMENTS = {"do": _do, "plan": _plan, "eval": _eval, "sim": _sim}
+_ARGUMENTS = {"do": _do, "plan": _plan, "eval": _eval, "sim": _sim, "node": _node}

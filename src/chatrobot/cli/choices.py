@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
+from chatrobot.cli.folders import config_folder
 from chatrobot.compose import Setup
 from chatrobot.core.errors import UsageError
 from chatrobot.session.session import Options
 
 
-def setup_from(args: argparse.Namespace, *, options: Options | None = None, world: str = "home") -> Setup:
-    """What a person chose. `world` is the one where nothing is said.
+def setup_from(args: argparse.Namespace, *, options: Options | None = None, world: str = "") -> Setup:
+    """What a person chose. `world` is the one where nothing is said; "" for the one that fits the robot.
 
     Raises:
         UsageError: this version cannot do what was chosen.
@@ -29,15 +29,7 @@ def setup_from(args: argparse.Namespace, *, options: Options | None = None, worl
         sim=args.sim,
         fast=args.fast,
         trace=args.trace,
+        yes=args.yes,
         folder=config_folder(args),
         options=options or Options(approve=args.approve and not args.yes),
     )
-
-
-def config_folder(args: argparse.Namespace) -> Path:
-    """Where places and robot profiles live: `--config-dir`, or the user's configuration folder."""
-    if args.config_dir is not None:
-        return Path(args.config_dir).expanduser()
-    from platformdirs import user_config_path
-
-    return user_config_path("chatrobot")

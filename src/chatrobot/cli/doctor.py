@@ -11,10 +11,11 @@ from dataclasses import asdict, dataclass
 from typing import Literal
 
 from chatrobot import __version__
-from chatrobot.cli.choices import config_folder
+from chatrobot.cli.folders import config_folder, profile_folders
 from chatrobot.core.errors import ChatRobotError
 from chatrobot.core.events import Event
 
+DISCOVERY_S = 0.6
 State = Literal["ok", "missing", "later"]
 _MARKS = {"ok": "✓", "missing": "✗", "later": "–"}
 
@@ -50,6 +51,7 @@ def _checks(args: argparse.Namespace) -> Iterator[Check]:
     yield _try("simulated robot", lambda: _simulated_robot(args))
     yield _try("in real time", lambda: _in_real_time(args))
     yield _ros()
+    yield _dds(args)
     yield _model()
     yield Check("written programs", "later", "this version runs none, so there is no sandbox to check")
 
@@ -106,7 +108,35 @@ def _ros() -> Check:
         if find_spec("rclpy") is not None
         else "no ROS 2 here, and none is needed"
     )
-    return Check("ROS 2", "later", f"{found}: this version drives the simulated robot only")
+    return Check("ROS 2", "later", f"{found}: this version drives robots over --on dds and --on rosbridge")
+
+
+def _dds(args: argparse.Namespace) -> Check:
+    """Who is there in a moment's listening."""
+    from chatrobot.robots.load import load_profile
+    from chatrobot.wire.connect import connect_wire, is_on_this_machine, publishers_of
+
+    wiring = load_profile(args.robot, profile_folders(args)).wiring
+    try:
+        wire = connect_wire("dds:", wiring, "chatrobot_doctor")
+    except (ChatRobotError, OSError) as error:
+        return Check("DDS", "later", str(error))
+    ends_s = time.monotonic() + DISCOVERY_S
+    robots: list[str] = []
+    while not robots and time.monotonic() < ends_s:
+        time.sleep(0.05)
+        robots = publishers_of(wire, wiring.odom_topic) if wiring.odom_topic else []
+    drivers = publishers_of(wire, wiring.cmd_vel_topic)
+    wire.close()
+    reach = "this machine" if is_on_this_machine("dds:") else "the whole network"
+    domain = os.environ.get("ROS_DOMAIN_ID", "").strip() or "0"
+    text = f"works; on domain {domain}, {reach}, "
+    text += (
+        f"{', '.join(robots)} tells {wiring.odom_topic}" if robots else f"nobody tells {wiring.odom_topic}"
+    )
+    return Check(
+        "DDS", "ok", text + (f"; {', '.join(drivers)} sends {wiring.cmd_vel_topic}" if drivers else "")
+    )
 
 
 def _model() -> Check:

@@ -13,13 +13,22 @@ MAX_LINE_BYTES = 65_536
 class LineReader:
     """Hands every line that is not blank to `on_line`, in a thread of its own.
 
-    `has_ended` is true once the last line has been handed on. Reads the descriptor itself: a buffered stream
+    Reads the descriptor itself: a buffered stream
     would be locked by this thread when the interpreter ends.
     """
 
     def __init__(self, on_line: Callable[[str], None]) -> None:
         self._on_line = on_line
-        self.has_ended = False
+        self._ended = threading.Event()
+
+    @property
+    def has_ended(self) -> bool:
+        """The last line has been handed on."""
+        return self._ended.is_set()
+
+    def wait(self, timeout_s: float) -> None:
+        """Until the last line has been handed on, or for so long."""
+        self._ended.wait(timeout_s)
 
     def start(self) -> None:
         threading.Thread(target=self._read, name="input", daemon=True).start()
@@ -34,7 +43,7 @@ class LineReader:
                 self._hand_on(rest)
                 rest = b""
         self._hand_on(rest)
-        self.has_ended = True
+        self._ended.set()
 
     def _hand_on(self, line: bytes) -> None:
         text = line.decode("utf-8", errors="replace").strip()

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from chatrobot.cli.choices import setup_from
 from chatrobot.cli.printer import printer_for
-from chatrobot.compose import connect
+from chatrobot.compose import SIMULATED, connect
 from chatrobot.core.errors import UsageError
 from chatrobot.core.events import EXIT_CODES, Event, Rehearsed
 from chatrobot.language.phrases import render_reason
@@ -33,7 +33,8 @@ def run(args: argparse.Namespace) -> int:
             rehearsed.append(event)
         printer.show(event, session.understanding.language)
 
-    setup = replace(setup_from(args, options=Options(rehearse_only=True)), fast=True, trace=False)
+    setup = setup_from(args, options=Options(rehearse_only=True))
+    setup = replace(setup, fast=setup.on in SIMULATED, trace=False)
     connection = connect(setup, lambda event: on_event(event))
     session = connection.session
     result = session.do(args.text)

@@ -11,17 +11,30 @@ from pathlib import Path
 from types import FrameType
 
 from chatrobot.cli.entry import USAGE
+from chatrobot.cli.folders import profile_folders
 from chatrobot.core.errors import JointError
+from chatrobot.robots.load import profile_argument
+from chatrobot.wire.connect import wire_address
 from chatrobot.wire.runtime_dir import runtime_dir
 
 
 def run(args: argparse.Namespace) -> int:
     """Until Ctrl-C, or until everybody who drove it has left; the exit code of its process."""
     path = args.socket if getattr(args, "socket", None) else str(runtime_dir() / f"sim-{os.getpid()}.wire")
+    address = "" if args.on in ("auto", "sim") else wire_address(args.on)
+    if address.startswith("local:"):
+        path, address = address.partition(":")[2], ""
     robot = subprocess.Popen(
         [
-            *(sys.executable, "-m", "chatrobot.sim", "--socket", path, "--profile", args.robot),
+            *(
+                sys.executable,
+                "-m",
+                "chatrobot.sim",
+                "--profile",
+                profile_argument(args.robot, profile_folders(args)),
+            ),
             *("--world", args.world or "home", "--sim", args.sim),
+            *(("--on", address) if address else ("--socket", path)),
         ],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
@@ -42,12 +55,17 @@ def run(args: argparse.Namespace) -> int:
         if robot.wait() == USAGE:
             return USAGE  # it has said what was wrong
         raise JointError("the simulated robot did not start")
-    print(f"the simulated {args.robot} answers on {path}", flush=True)
-    print(
-        "it ends with Ctrl-C, 15 s after now if nobody comes, or 2 s after the last one has left", flush=True
-    )
+    if address:
+        print(f"the simulated {args.robot} is on {address}; it ends with Ctrl-C", flush=True)
+    else:
+        print(f"the simulated {args.robot} answers on {path}", flush=True)
+        print(
+            "it ends with Ctrl-C, 15 s after now if nobody comes, or 2 s after the last one has left",
+            flush=True,
+        )
     code = robot.wait()
     if not asked_to_end:
         return code
-    Path(path).unlink(missing_ok=True)  # asked in its first moments it leaves without tidying up
+    if not address:
+        Path(path).unlink(missing_ok=True)  # asked in its first moments it leaves without tidying up
     return 0

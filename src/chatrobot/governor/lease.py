@@ -39,6 +39,10 @@ class Leases:
     def open(self, lease_id: str, source: str, term_s: float, now_s: float) -> None:
         self._leases[lease_id] = Lease(source, term_s, now_s)
 
+    def is_known(self, lease_id: str) -> bool:
+        """It has been opened before, whatever became of it."""
+        return lease_id in self._leases
+
     def beat(self, lease_id: str, now_s: float) -> None:
         """A heartbeat. It revives a lease that lapsed (what moved under it has been stopped), not one that ended."""
         lease = self._leases.get(lease_id)

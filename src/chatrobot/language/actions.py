@@ -121,6 +121,14 @@ def _with_units(frame: Frame, state: State) -> Frame:
     number = frame.q.get("number")
     if number is None:
         return frame
+    if (
+        frame.verb == "return"
+        and state.last == "turn"
+        and not any(isinstance(step, Drive) for step in state.steps)
+    ):
+        before = state.angle
+    if "转返" in frame.texts and state.last != "turn":
+        raise Unclear("which_side", frame.text)
     if number.text == "一半" and before is not None and not frame.has_extent:
         frame = frame.copy()
         del frame.q["number"]
@@ -193,6 +201,8 @@ _REFERRING = {
     "original_heading",
     "left_right",
     "right_left",
+    "at_point",
+    "from_heading",
 }
 
 
@@ -243,6 +253,8 @@ def _is_turn(frame: Frame, state: State) -> bool:
 def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if "length" in frame.q or "speed" in frame.q:
         raise Unclear("length_for_turn", frame.text)
+    if "from_heading" in frame.flags:
+        return [_from_heading(frame, state, pace)]
     _all_used(frame, "turn")
     rate = pace.rate(frame)
     seconds = frame.q.get("time")
@@ -279,6 +291,22 @@ def _turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if seconds is not None:
         rate = angle_rad / seconds.number
     return [Turn(angle_rad, left=left, rate_radps=rate)]
+
+
+def _from_heading(frame: Frame, state: State, pace: Pace) -> Face:
+    """从最开始的方向算，左转四十度: the heading to have, not how far to turn."""
+    plain = frame.copy()
+    plain.flags.discard("from_heading")
+    _all_used(plain, "turn")
+    angle, left = _whole_angle(plain), is_left(plain)
+    if angle is None or left is None or set(plain.q) - {"angle", "turns", "rate"}:
+        raise Unclear("unclear_motion", frame.text)
+    yaw = angle.number if left else -angle.number
+    state.last = "turn"
+    if state.home is None:
+        return Face(math.remainder(yaw, 2 * math.pi), frame="start", rate_radps=pace.rate(plain))
+    yaw += state.home.yaw_rad
+    return Face(math.remainder(yaw, 2 * math.pi), frame="odom", rate_radps=pace.rate(plain))
 
 
 def _whole_angle(frame: Frame) -> Atom | None:

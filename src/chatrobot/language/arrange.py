@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from chatrobot.language.frames import EXTENTS, GO, SIDES, STILL, TURN, Frame
+from chatrobot.language.unclear import Unclear
 
 _MANNER = frozenset({"speed", "rate", "percent", "fold"})
 _LETTERS = frozenset({"letter_l", "letter_u", "letter_z"})
@@ -79,6 +80,8 @@ def _with_manners(frames: list[Frame]) -> list[Frame]:
 
 
 def _hand_on(manner: Frame, frame: Frame) -> None:
+    if "slow" in (manner.pace, frame.pace) and {"fast", "max"} & {manner.pace, frame.pace}:
+        raise Unclear("contradiction", f"{frame.text} {manner.text}")
     if frame.pace or _MANNER & set(frame.q):
         return
     turning = frame.turning or "angle" in frame.q or "turns" in frame.q

@@ -148,7 +148,7 @@ def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
     trip = "trip" in (*first.flags, *first.roles) and not first.has_extent
     if trip and (last.verb == "return" or (last.direction and last.has_extent)):
         return None
-    if joined == "then" or {"between", "halfway", "after_each", "all"} & first.flags:
+    if joined == "then" or {"between", "halfway", "at_point", "after_each", "all"} & first.flags:
         return None
     if "again" in first.flags or is_times_only(first) or is_times_only(last):
         return None

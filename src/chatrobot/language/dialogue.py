@@ -50,6 +50,8 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     if whole.has_extent and {"original_heading", "to_start"} & whole.flags:
         return None  # a motion of its own comes before
     if "original_heading" in whole.flags and whole.verb in ("face", "turn", "", "return", "go"):
+        if set(whole.q) - {"rate", "percent", "faster"}:
+            raise Unclear("unclear_motion", whole.text)  # 转回来一半: not all the way
         return [Face(context.dialogue.start_pose.yaw_rad, frame="odom", rate_radps=pace.rate(whole))]
     if (whole.verb == "return" or "to_start" in whole.flags) and not whole.q and not whole.place:
         if whole.direction and whole.direction != "back":
@@ -286,6 +288,8 @@ def _remainder(whole: Frame, context: Context, pace: Pace) -> list[Step]:
         done = math.hypot(moved.x_m, moved.y_m)
         if "to_start" in whole.flags or "total" in whole.flags:
             done = max(done, last.end_pose.distance_to(_run_start(context, step)))
+        if "again" in whole.flags:
+            raise Unclear("contradiction", whole.text)  # more, or a total?
         missing = whole.q["length"].number - (0.0 if "more" in whole.flags else done)
         if missing > 0.005:
             return [

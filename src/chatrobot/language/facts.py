@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.quantities import quantity
 from chatrobot.language.tokens import Atom
+from chatrobot.plan.steps import Drive, Plan
 
 _IS = frozenset(
     {"being", "is", "=", "equals", "means", "are", "按", "算", "是", "为", "长", "等于", "counts as"}
@@ -23,6 +24,21 @@ def _counts() -> tuple[tuple[re.Pattern[str], dict[str, int]], ...]:
         for table in tables
         for pattern in table["patterns"]
     )
+
+
+@lru_cache(maxsize=1)
+def _unit_patterns() -> tuple[re.Pattern[str], ...]:
+    tables = [load_table(language, "facts") for language in LANGUAGES]
+    return tuple(re.compile(pattern) for table in tables for pattern in table.get("units", ()))
+
+
+def defined_unit(text: str) -> tuple[str, str] | None:
+    """The counted word and its measure, where all that `text` (normalised) says is what one of them is."""
+    for pattern in _unit_patterns():
+        found = pattern.fullmatch(text.strip(" ,.!;。"))
+        if found:
+            return found["unit"], found["measure"]
+    return None
 
 
 def with_known_counts(text: str) -> str:
@@ -58,6 +74,28 @@ def with_defined_units(atoms: Sequence[Atom]) -> list[Atom]:
                 return [*rest[: at + 1], unit, *rest[at + 1 :]]
             return [_measured(a, role, atoms[end].number) for a in rest]
     return list(atoms)
+
+
+def with_words_counted(atoms: Sequence[Atom], words: Mapping[str, Plan]) -> list[Atom]:
+    """`three steps`, `two laps`, where this dialogue has said what a step or a lap is."""
+    out: list[Atom] = []
+    for atom in atoms:
+        plan = words.get(atom.role) if atom.kind == "q" and atom.value == "count" else None
+        length_m = unit_length_m(plan) if plan is not None else None
+        if plan is None:
+            out.append(atom)
+        elif length_m is not None:
+            out.append(_measured(atom, atom.role, length_m))
+        else:
+            out += [Atom("defined", atom.role, atom.text), quantity("times", atom.number, atom.text)]
+    return out
+
+
+def unit_length_m(plan: Plan) -> float | None:
+    """The length a word stands for where it was said as nothing but a length forward, metres."""
+    only = plan.steps[0] if len(plan.steps) == 1 else None
+    straight = isinstance(only, Drive) and not only.direction_rad and only.until is None
+    return only.distance_m if isinstance(only, Drive) and straight else None
 
 
 def _is_one(atom: Atom) -> bool:

@@ -277,6 +277,8 @@ def merged(first: Frame, second: Frame) -> Frame | None:
         return None
     if second.shape and both.shape and both.shape != second.shape:
         return None
+    if {both.pace, second.pace} == {"fast", "max"}:
+        both.pace = second.pace = "max"  # 快跑一米，用全速
     if second.pace and both.pace and second.pace != both.pace:
         return None
     both.shape = both.shape or second.shape

@@ -18,7 +18,13 @@ from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.corrections import corrected, without_negated
 from chatrobot.language.dialogue import refer, state_after
 from chatrobot.language.facing import without_compass
-from chatrobot.language.facts import with_defined_units, with_known_counts
+from chatrobot.language.facts import (
+    defined_unit,
+    unit_length_m,
+    with_defined_units,
+    with_known_counts,
+    with_words_counted,
+)
 from chatrobot.language.frames import STILL, Frame
 from chatrobot.language.lexicon import Key, Meaning, cut, lexicon
 from chatrobot.language.manner import Pace
@@ -127,7 +133,21 @@ class _Reading:
         answered = self._remembering() or self._pending()
         if answered is not None:
             return answered
-        return self._command(self.plain)
+        unit = defined_unit(self.plain)
+        if unit is not None:
+            reply = say(self.language, "unit_set", unit=unit[0], measure=unit[1])
+            return Interpretation("answered", reply, self.language)
+        return self._command(self._with_earlier_unit(self.plain))
+
+    def _with_earlier_unit(self, plain: str) -> str:
+        """一步是三十厘米, said in a turn before: it holds for the steps that are counted now."""
+        for turn in reversed(self.context.dialogue.turns):
+            unit = defined_unit(rephrased(normalise(turn.text), self.language))
+            counted = unit and re.search(rf"(?:[零一二两三四五六七八九十百\d]|半) ?{unit[0]}", plain)
+            if unit and counted:
+                defined_here = re.search(rf"一 ?{unit[0]}[^,。;]*(?:是|算|等于|为|按)", plain)
+                return plain if defined_here else f"{plain}, 一{unit[0]}是{unit[1]}"
+        return plain
 
     def _defined(self, definition: forms.Definition) -> Interpretation:
         inner = self._command(definition.body)
@@ -340,6 +360,7 @@ class _Reading:
     def _atoms(self, plain: str) -> list[Atom]:
         atoms = tokenise(plain, lexicon(), self._names(), by_ear=self.by_ear)
         atoms = with_headings(read_quantities(without_asides(atoms, self.language)), self.facing_rad)
+        atoms = with_words_counted(atoms, self.context.dialogue.words)
         if any(a.kind == "role" and a.value == "apart" for a in atoms):  # rows side by side, no garden work
             atoms = [Atom("shape", "lawn", a.text) if a.text == "mow the lawn" else a for a in atoms]
         return atoms
@@ -349,7 +370,10 @@ class _Reading:
         names: dict[Key, Meaning] = {}
         for name in (*self.context.world_places, *dialogue.places):
             names[cut(normalise(name))] = (("place", name),)
-        for word in dialogue.words:
+        for word, plan in dialogue.words.items():
+            counter = ("counter", word) in lexicon().words.get(cut(word), ())
+            if counter and unit_length_m(plan) is not None:
+                continue  # a unit: it is counted
             names[cut(normalise(word))] = (("defined", word),)
         if forms.UNNAMED in dialogue.places:
             for written in (

@@ -38,7 +38,14 @@ def _is_told_again(head: list[Atom], tail: list[Atom]) -> bool:
     """前进之前先左转，前进一米: what comes after is told in full later on."""
     ways = [a.value for a in head if a.kind == "dir"]
     later = [a.value for a in tail if a.kind == "dir"]
-    return not any(a.kind == "q" for a in head) and bool(ways) and ways[-1] in later
+    if any(a.kind == "q" for a in head):
+        return False
+    if not ways:  # 走之前先左转，然后走一米半
+        goes = [k for k, a in enumerate(tail) if a.kind == "verb" and a.value == "go"]
+        return any(a.kind == "verb" and a.value == "go" for a in head) and any(
+            a.kind == "q" for k in goes[:1] for a in tail[k:]
+        )
+    return ways[-1] in later
 
 
 def _swapped(head: list[Atom], tail: list[Atom]) -> list[Atom]:

@@ -18,6 +18,8 @@ from chatrobot.language.unclear import Unclear
 from chatrobot.language.undoing import inverse
 from chatrobot.plan.steps import MAX_REPEAT, Arc, Drive, Go, Repeat, Say, Step, Turn, Wait
 
+_MIDDLE = frozenset({"中间", "当中"})
+
 
 @dataclass
 class Memory:
@@ -221,7 +223,7 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
     elif is_times_only(frame) or (
         "again" in frame.flags and not frame.moves and {"times", "count"} & set(frame.q)
     ):
-        script.units = _repeated(script.units, _count(frame) + ("extra" in frame.flags))
+        script.units = _repeated(script.units, _count(frame) + bool({"extra", "more"} & frame.flags))
     elif "total" in frame.flags and "times" in frame.q and not frame.has_extent and script.units:
         script.units = _repeated(_period(script.units), _count(frame))
     elif "until" in frame.flags and frame.has_extent and len(script.units) > 1:
@@ -230,14 +232,20 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
         _insert_halfway(script, frame)
         goes_on = i + 1 < len(frames) and frames[i + 1].verb == "go" and not frames[i + 1].has_extent
         return i + 1 + (goes_on and not frames[i + 1].direction)
+    elif "at_point" in frame.flags:
+        if i + 1 >= len(frames) or frames[i + 1].verb not in STILL:
+            raise Unclear("unclear_motion", frame.text)
+        _insert_at(script, frame, frames[i + 1])
+        return i + 2
     elif frame.flags & {"short_of", "overshot"} and not frame.moves and not frame.q and i + 1 < len(frames):
         pass
     elif "overshot" in frame.flags and not (frame.direction or frame.verb == "return"):
         return _take_back(script, frames, i)
-    elif "again" in frame.flags and not frame.moves and not frame.has_extent:
+    elif _is_plain_again(frame):
         if not script.units:
             raise Unclear("nothing_before", frame.text)
-        script.units += [list(unit) for unit in script.units]
+        agains = sum(1 for _ in itertools.takewhile(_is_plain_again, reversed(frames[:i])))
+        script.units += [list(unit) for unit in script.units[: len(script.units) // (agains + 1)]]
     elif frame.verb in STILL and {"each", "all"} & frame.flags and script.units:
         frame.flags.add("after_each")
         _insert(script, frame)
@@ -246,6 +254,11 @@ def _take(script: Script, frames: list[Frame], i: int) -> int:
     else:
         _act(script, frame)
     return i + 1
+
+
+def _is_plain_again(frame: Frame) -> bool:
+    """`again`: each one adds what was said before it once."""
+    return "again" in frame.flags and not frame.moves and not frame.has_extent
 
 
 def _is_moves_only(script: Script, frame: Frame) -> bool:
@@ -412,6 +425,10 @@ def _insert(script: Script, frame: Frame) -> None:
     steps = act(frame, script.state, script.pace)
     script.units = [part for unit in script.units for part in _full_turns(unit)]
     moving = [u for u in script.units if not all(isinstance(s, Wait) for s in u)]
+    in_the_middle = "between" in frame.flags and _MIDDLE & {text[:2] for text in frame.texts}
+    if len(moving) == len(script.units) == 1 and in_the_middle and "after_each" not in frame.flags:
+        _insert_halfway(script, frame)  # 前进两米，中间停三秒
+        return
     if len(moving) < 2 and not ("after_each" in frame.flags and moving):
         raise Unclear("between_what", frame.text)
     pause = all(isinstance(s, (Wait, Say)) for s in steps)
@@ -446,11 +463,23 @@ def _insert_halfway(script: Script, frame: Frame) -> None:
     if halves is None:
         raise Unclear("between_what", frame.text)
     inner = frame.copy()
-    inner.flags.discard("halfway")
+    inner.flags -= {"halfway", "between"}
     if not inner.moves and set(inner.q) == {"time"}:
         inner.verb = "wait"
     steps = act(inner, State(), script.pace)
     script.units[-1:] = [[halves[0]], steps, [halves[1]]]
+
+
+def _insert_at(script: Script, place: Frame, stop: Frame) -> None:
+    """前进两米，走到一米的地方停三秒: a stop on the way, not another metre."""
+    last = script.units[-1][0] if script.units and len(script.units[-1]) == 1 else None
+    at_m = place.q["length"].number if "length" in place.q else 0.0
+    if not isinstance(last, Drive) or last.distance_m is None or not 0 < at_m < last.distance_m - 1e-6:
+        raise Unclear("unclear_motion", place.text)
+    if place.moves or set(place.q) != {"length"}:
+        raise Unclear("unclear_motion", place.text)
+    before, after = replace(last, distance_m=at_m), replace(last, distance_m=last.distance_m - at_m)
+    script.units[-1:] = [[before], act(stop, State(), script.pace), [after]]
 
 
 def _halves(step: Step) -> tuple[Step, Step] | None:

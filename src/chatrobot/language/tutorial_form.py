@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from functools import lru_cache
 
@@ -13,12 +12,10 @@ from chatrobot.language.quantities import read_quantities
 from chatrobot.language.tokens import Atom, tokenise
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import RawTwist
+from chatrobot.plan.tutorial_form import NUMBER, ImpossibleTwistError, read_tutorial_line, twist_from
 
-_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?"
-_ASSIGNMENT = rf"(linear|angular)\s*\.\s*([xyz])\s*=\s*({_NUMBER}|[-+]?(?:inf|nan)\w*)"
-_LINE = re.compile(rf"\s*[\"'“]?\s*{_ASSIGNMENT}(?:\s*[,，;]\s*{_ASSIGNMENT})*\s*[.,;，]?\s*[\"'”]?\s*")
 _BLOCK = re.compile(r"['\"]?(linear|angular)['\"]?\s*:\s*\{([^{}]*)\}")
-_ENTRY = re.compile(rf"['\"]?([xyz])['\"]?\s*:\s*({_NUMBER})")
+_ENTRY = re.compile(rf"['\"]?([xyz])['\"]?\s*:\s*({NUMBER})")
 _ROS_CLI = re.compile(
     r"ros2 topic pub|rostopic pub|--once|--rate \d+|-r \d+|-1\b|/?cmd_vel\b|geometry_msgs(?:/msg)?(?:/twist)?"
 )
@@ -27,13 +24,18 @@ _NAMES = {
     "vx": "vx", "vy": "vy", "wz": "wz", "x": "vx", "y": "vy", "theta": "wz", "yaw": "wz", "v": "vx", "w": "wz",
     "omega": "wz", "phi": "wz", "psi": "wz", "z": "wz",
 }  # fmt: skip
-_LIST = rf"{_NUMBER}(?: ?, ?{_NUMBER})*"
+_LIST = rf"{NUMBER}(?: ?, ?{NUMBER})*"
 _TUPLE = re.compile(
     rf"[(\[]((?:vx|vy|wz|v|w|omega)(?: ?, ?(?:vx|vy|wz|v|w|omega))+)[)\]] ?(?:=|:|to|is) ?[(\[] ?({_LIST}) ?[)\]]"
 )
 _CALL = re.compile(rf"\b(linear|angular) ?[=:] ?(?:vector3)? ?[(\[] ?({_LIST}) ?[)\]]")
 _DOT = re.compile(r"\b(x|y|theta|yaw|phi|psi)[ -]?dot\b ?(?:is|=|of|equals)? ?")
-_LETTERS = re.compile(rf"\bv ?= ?{_NUMBER}.*\bw ?= ?{_NUMBER}|\bw ?= ?{_NUMBER}.*\bv ?= ?{_NUMBER}")
+_DOTTED = re.compile(rf"\b(linear|angular) ?\. ?([xyz]) ?[=:]? ?(?={NUMBER})")
+_TOPIC = re.compile(rf"\bcmd[ _]?vel\b[ :,]*(?=(?:v?x|v?y|w?z|w|theta|yaw) ?[=:]? ?{NUMBER})")
+_SINGLE = re.compile(rf"\b(x|y|z|theta|yaw) ?[=:] ?(?={NUMBER})")
+_VALUE_FIRST = re.compile(rf"({NUMBER}) ?m/s (?:in |along )?([xy])\b")
+_NAME_FIRST = re.compile(rf"(?:yaw rate|yaw|angular|wz|omega) ?[=:]? ?(?={NUMBER})")
+_LETTERS = re.compile(rf"\bv ?= ?{NUMBER}.*\bw ?= ?{NUMBER}|\bw ?= ?{NUMBER}.*\bv ?= ?{NUMBER}")
 
 
 def read_twist(text: str) -> RawTwist | None:
@@ -42,16 +44,29 @@ def read_twist(text: str) -> RawTwist | None:
     Raises:
         Unclear: for a raw velocity that cannot be: not finite, out of the plane, or without a duration.
     """
-    if "\n" not in text.strip() and _LINE.fullmatch(text):
-        found = [(f"{g}.{axis}", value) for g, axis, value in re.findall(_ASSIGNMENT, text)]
-        return _twist({name: float(value) for name, value in found}, 1.0)
-    text = _ROS_CLI.sub(" ", _plainer(text))
+    try:
+        twist = read_tutorial_line(text)
+    except ImpossibleTwistError as error:
+        raise _unclear(error) from error
+    if twist is not None:
+        return twist
+    marked = any(mark in text for mark in _marks())
+    text = _ROS_CLI.sub(" ", _plainer(_with_axes(text)))
     blocks = _BLOCK.findall(text)
     if blocks:
         return _blocks(text, blocks)
-    if not any(mark in text for mark in _marks()):
+    if not marked and not any(mark in text for mark in _marks()):
         return None
     return _spoken(text)
+
+
+def _with_axes(text: str) -> str:
+    """Axes written apart from their velocity: `cmd_vel x=0.5 z=0`, `linear.x 0.2`, `0.1 m/s x`."""
+    if _TOPIC.search(text):
+        text = _SINGLE.sub(lambda m: f" {_NAMES[m[1]]} ", _TOPIC.sub("twist ", text))
+    if _NAME_FIRST.search(text):  # all of them name first
+        text = _VALUE_FIRST.sub(r" v\2 \1 ", text)
+    return _DOTTED.sub(lambda m: f"{m[1]} {m[2]} ", text)
 
 
 def _plainer(text: str) -> str:
@@ -59,12 +74,12 @@ def _plainer(text: str) -> str:
     tuple_form = _TUPLE.search(text)
     if tuple_form:
         names = [_NAMES[name] for name in re.findall(r"[a-z]+", tuple_form[1])]
-        values = re.findall(_NUMBER, tuple_form[2])
+        values = re.findall(NUMBER, tuple_form[2])
         if len(names) == len(values):
             said = " ".join(f"{name} {value}" for name, value in zip(names, values))
             return f"{text[: tuple_form.start()]} {said} {text[tuple_form.end() :]}"
     text = _CALL.sub(
-        lambda m: f"{m[1]}: {{{', '.join(f'{a}: {v}' for a, v in zip('xyz', re.findall(_NUMBER, m[2])))}}}",
+        lambda m: f"{m[1]}: {{{', '.join(f'{a}: {v}' for a, v in zip('xyz', re.findall(NUMBER, m[2])))}}}",
         text,
     )
     text = re.sub(r"\btwist ?\((.*)\)", r"\1", text)
@@ -75,13 +90,14 @@ def _plainer(text: str) -> str:
 
 
 def _twist(values: dict[str, float], seconds: float) -> RawTwist:
-    if not all(math.isfinite(v) for v in values.values()):
-        raise Unclear("bad_number")
-    if any(values.get(name) for name in ("linear.z", "angular.x", "angular.y")):
-        raise Unclear("not_planar", refused=True)
-    return RawTwist(
-        values.get("linear.x", 0.0), values.get("linear.y", 0.0), values.get("angular.z", 0.0), seconds
-    )
+    try:
+        return twist_from(values, seconds)
+    except ImpossibleTwistError as error:
+        raise _unclear(error) from error
+
+
+def _unclear(error: ImpossibleTwistError) -> Unclear:
+    return Unclear(error.code, refused=error.code == "not_planar")
 
 
 def _blocks(text: str, blocks: list[tuple[str, str]]) -> RawTwist:
@@ -162,6 +178,8 @@ def _paired(atoms: list[Atom]) -> tuple[dict[str, float] | None, float | None]:
         if atom.kind == "axis":
             hold = atom.value == "duration" or (hold and atom.value == "send")
             if atom.value in (*_AXES, "none"):
+                if name_first and axis and axis != atom.value:
+                    return None, None  # 线速度z: neither the one nor the other
                 if name_first:
                     axis = atom.value
                 elif value is not None:

@@ -67,6 +67,14 @@ def list_profiles(extra_dirs: Iterable[Path | str] = ()) -> list[ProfileEntry]:
     return [found[name] for name in sorted(found)]
 
 
+def profile_argument(name: str, directories: Sequence[Path] = ()) -> str:
+    """What other processes find the profile by: a user's own by its file, for they know no config folder."""
+    for entry in list_profiles(directories):
+        if entry.name == name and entry.origin == "user":
+            return str(entry.file)
+    return name
+
+
 def _entries(extra_dirs: Sequence[Path | str]) -> Iterator[ProfileEntry]:
     """In order of precedence, and lazily: the metadata of installed packages is slow to read."""
     for folder in extra_dirs:

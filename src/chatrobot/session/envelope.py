@@ -10,8 +10,8 @@ from typing import Any, Literal
 
 Word = Literal[
     "hello",  # opens the lease: {"term_s": …}
-    "beat",  # keeps it
-    "plan",  # {"plan_text", "mode": queue|replace|append, "approve": bool, "rehearse_only": bool}
+    "beat",  # keeps it; any word that names its term opens it for a Motion that came after the hello
+    "plan",  # {"plan_text", "mode": queue|replace|append, "approve": bool, "rehearse_only": bool, "longest_s": …}
     "approve",  # {"yes": bool} answers a Rehearsed event that needs approval
     "stop",  # {"why": …}; makes void what belongs to this turn and those before
     "emergency_stop",
@@ -96,6 +96,15 @@ class Envelope:
 def _is_allowed(word: Word, payload: Any) -> bool:
     fields = PAYLOADS[word]
     return isinstance(payload, dict) and all(key in fields and fields[key](payload[key]) for key in payload)
+
+
+_LONGEST_S = 1e6
+
+
+def seconds(value: object, otherwise: float) -> float:
+    """A payload's duration; `otherwise` where it is none."""
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    return float(value) if is_number and 0.0 <= value <= _LONGEST_S else otherwise  # type: ignore[arg-type,operator]
 
 
 READY = b"ready"

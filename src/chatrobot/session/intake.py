@@ -33,7 +33,7 @@ class Intake:
 
     def add(self, job: Job, epoch: int) -> Reason | None:
         """Queue `job`, or say why not: a stop has overtaken it (`stopped`), or too many wait (`queue_full`)."""
-        if job.epoch != epoch or job.turn <= self._void_turns.get(job.lease, 0):
+        if job.epoch != epoch or job.turn <= self._void_turns.get(job.lease, -1):
             return Reason("stopped")
         if len(self.jobs) >= QUEUE_LIMIT:
             return Reason("queue_full", {"limit": QUEUE_LIMIT})

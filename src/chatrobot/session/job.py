@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from chatrobot.core.events import Finished, Outcome
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.core.reason import Reason
 from chatrobot.session.approval import Approval
-from chatrobot.session.envelope import Envelope
+from chatrobot.session.envelope import Envelope, seconds
 from chatrobot.session.planner import Planned
 
 
 @dataclass
 class Job:
-    """`epoch` is the stop epoch it was received in: a later stop makes it void. `start` is where it begins."""
+    """`epoch` is the stop epoch it was received in: a later stop makes it void. `start` is where it begins.
+
+    `longest_s` is what the source may take: a plan that rehearsal expects to last longer is refused.
+    """
 
     turn: int
     lease: str
@@ -23,6 +27,7 @@ class Job:
     rehearse_only: bool
     epoch: int
     received_s: float
+    longest_s: float = math.inf
     start: Pose = ORIGIN
     planned: Planned | None = None
     approval: Approval | None = None
@@ -39,7 +44,17 @@ class Job:
             rehearse_only=bool(payload.get("rehearse_only")),
             epoch=epoch,
             received_s=now_s,
+            longest_s=seconds(payload.get("longest_s"), math.inf),
         )
+
+    @property
+    def refusal(self) -> Reason | None:
+        """Why what was planned may not run."""
+        if self.planned is None:
+            return None
+        if self.planned.ok and self.planned.duration_s > self.longest_s:
+            return Reason("lasts_too_long", {"duration_s": self.planned.duration_s, "max_s": self.longest_s})
+        return self.planned.refusal
 
     def unmoved(self, outcome: Outcome, reason: Reason | None, pose: Pose) -> Finished:
         """Its end where nothing moved."""

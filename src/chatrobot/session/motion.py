@@ -21,7 +21,7 @@ from chatrobot.governor.lease import LOCAL_TERM_S
 from chatrobot.governor.priority import Priority, priority_of
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.approval import Approval
-from chatrobot.session.envelope import Envelope
+from chatrobot.session.envelope import Envelope, seconds
 from chatrobot.session.guard_link import GuardLink
 from chatrobot.session.intake import Intake
 from chatrobot.session.job import Job
@@ -37,6 +37,7 @@ FROZEN_S = 0.12
 ZEROING_S = 2.0
 """Zeros are repeated until the robot is seen standing, or this long where nobody can see it."""
 
+LONGEST_TERM_S = 1.0
 TELEMETRY_S = 0.1
 ODOMETRY_WAIT_S = 2.0
 ODOMETRY_FRESH_S = 0.3
@@ -83,6 +84,8 @@ class Motion:
         self._last_tick_s: float | None = None
         self._next_telemetry_s = 0.0
         self._leaving: set[str] = set()
+        self.obstruction: Reason | None = None
+        """Why nothing may move for now, by those who look after the wire; any thread may set it."""
 
     # --- from any thread -------------------------------------------------------------------------------------
 
@@ -133,6 +136,11 @@ class Motion:
         )
 
     @property
+    def stops(self) -> int:
+        """Changes with every stop: what was asked before it does not count any more."""
+        return self._epoch.value
+
+    @property
     def has_left(self) -> bool:
         """Every source has gone, and all is done."""
         return bool(self._leaving) and not self.is_busy
@@ -151,8 +159,8 @@ class Motion:
             return
         now_s = self._clock.now_s()
         self._governor.leases.beat(envelope.lease, now_s)
-        if envelope.word == "hello":
-            term_s = min(float(envelope.payload.get("term_s", LOCAL_TERM_S)), 1.0)
+        if envelope.word == "hello" or self._opens_lease(envelope):
+            term_s = min(seconds(envelope.payload.get("term_s"), LOCAL_TERM_S), LONGEST_TERM_S)
             self._governor.leases.open(envelope.lease, envelope.source, term_s, now_s)
         elif envelope.word == "plan":
             self._accept(envelope, epoch)
@@ -165,6 +173,10 @@ class Motion:
         elif envelope.word == "goodbye":
             self._governor.leases.entrust(envelope.lease)
             self._leaving.add(envelope.lease)
+
+    def _opens_lease(self, envelope: Envelope) -> bool:
+        """A source that was there before us, and names its term with what it says."""
+        return "term_s" in envelope.payload and not self._governor.leases.is_known(envelope.lease)
 
     def tick(self) -> None:
         """One period of the control loop."""
@@ -260,10 +272,11 @@ class Motion:
         if self._current is not job:
             return  # stopped or replaced meanwhile; its end has been told
         job.planned = planned
-        needs_approval = job.approve and planned.ok and not job.rehearse_only
+        refusal = job.refusal
+        needs_approval = job.approve and refusal is None and not job.rehearse_only
         self._emit(planned.event(needs_approval))
-        if not planned.ok:
-            self._finish_current("refused", planned.refusal)
+        if refusal is not None:
+            self._finish_current("refused", refusal)
         elif job.rehearse_only:
             self._finish_current("completed", None)
         elif needs_approval:
@@ -297,6 +310,8 @@ class Motion:
         """Why nothing may move just now."""
         if self._governor.latched is not None:
             return self._governor.latched
+        if self.obstruction is not None:
+            return self.obstruction
         if not self._guard.is_alive():
             return Reason("guard_lost")
         if not self._governor.leases.is_valid(job.lease, now_s):

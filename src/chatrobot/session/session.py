@@ -166,7 +166,17 @@ class Session:
         """A stop came after it was said."""
         return said.turn <= self._void_turn and said.kind in _WAITING
 
+    def _refuse_overflow(self) -> None:
+        """Who said one too many hears so now, not when the ten before it are done."""
+        with self._lock:
+            refused = [said for said in self._texts if said.kind == "too_many"]
+            for said in refused:
+                self._texts.remove(said)
+        for said in refused:
+            self._conclude(said.turn, "refused", self.understanding.say("queue_full", said.text))
+
     def _take_texts(self) -> None:
+        self._refuse_overflow()
         while self._can_take_text():
             with self._lock:
                 said = self._texts.popleft()
@@ -176,12 +186,10 @@ class Session:
                 self._understand(said)
             elif said.kind == "plan":
                 self._read_plan(said)
-            elif said.kind in ("stop", "emergency_stop"):
+            else:
                 code = "stopped_now" if said.kind == "stop" else "emergency_stopped"
                 self._emit(Interpreted(said.turn, "reflex", "", ""))
                 self._conclude(said.turn, "stopped", self.understanding.say(code, said.text))
-            else:
-                self._conclude(said.turn, "refused", self.understanding.say("queue_full", said.text))
 
     def _understand(self, said: _Said) -> None:
         meant = self.understanding.interpret(said.text)

@@ -26,7 +26,9 @@ class Discovering(Protocol):
 
     def advertise(self, topic: str, kind: type[Message]) -> None: ...
 
-    def wait_for_listener(self, topic: str, kind: type[Message], timeout_s: float) -> bool: ...
+    def wait_for_listener(
+        self, topic: str, kind: type[Message], timeout_s: float, count: int = 1
+    ) -> bool: ...
 
     def publishers_of(self, topic: str) -> list[str]: ...
 
@@ -70,9 +72,9 @@ def advertise(wire: Wire, topic: str, kind: type[Message]) -> None:
         wire.advertise(topic, kind)
 
 
-def wait_for_listener(wire: Wire, topic: str, kind: type[Message], timeout_s: float) -> bool:
-    """Block until somebody listens on `topic`, where the wire can know; False where nobody does in time."""
-    return wire.wait_for_listener(topic, kind, timeout_s) if isinstance(wire, Discovering) else True
+def wait_for_listener(wire: Wire, topic: str, kind: type[Message], timeout_s: float, count: int = 1) -> bool:
+    """Block until `count` listen on `topic`, where the wire can know; False where they don't in time."""
+    return wire.wait_for_listener(topic, kind, timeout_s, count) if isinstance(wire, Discovering) else True
 
 
 def publishers_of(wire: Wire, topic: str) -> list[str]:
@@ -83,6 +85,34 @@ def publishers_of(wire: Wire, topic: str) -> list[str]:
 def comes_back(wire: Wire) -> bool:
     """Whether an error of this wire may pass: what could not be sent is worth another try."""
     return isinstance(wire, Returning)
+
+
+def wire_address(on: str) -> str:
+    """The address of the wire that `--on` names.
+
+    Raises:
+        UsageError: no robot is to be had there.
+    """
+    if on == "rosbridge":
+        return "rosbridge:ws://localhost:9090"
+    if on == "dds" or on.startswith(("dds:", "rosbridge:", "local:")):
+        return on if ":" in on else f"{on}:"
+    raise UsageError(
+        f"this version cannot drive a robot over {on!r}",
+        where="--on",
+        allowed="sim, dds, dds://DOMAIN/NAMESPACE, rosbridge:ws://HOST:9090 or local:PATH",
+    )
+
+
+def is_on_this_machine(address: str) -> bool:
+    """Whether all who meet on that wire are on this machine: beats are cheap there, and hardly ever late."""
+    scheme, separator, _ = address.partition(":")
+    if scheme == "dds" and separator:
+        from chatrobot.wire.dds.discovery import discovery_from
+
+        discovery = discovery_from(os.environ)
+        return discovery.range in ("LOCALHOST", "OFF") and not discovery.peers and not discovery.uri
+    return scheme != "rosbridge"
 
 
 def _connect_dds(address: str, wiring: Wiring, node_name: str) -> Wire:

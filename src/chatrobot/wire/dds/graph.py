@@ -12,7 +12,7 @@ from cyclonedds.builtin import (
     BuiltinTopicDcpsParticipant,
     BuiltinTopicDcpsPublication,
 )
-from cyclonedds.core import Policy, Qos
+from cyclonedds.core import InstanceState, Policy, Qos
 from cyclonedds.domain import DomainParticipant
 from cyclonedds.internal import InvalidSample
 from cyclonedds.pub import DataWriter
@@ -112,7 +112,12 @@ class Graph:
 
 
 def _alive(reader: Any) -> list[Any]:
-    return [sample for sample in reader.read(_MANY) if sample.sample_info.valid_data]
+    """Those that are still there: who has left stays readable, with another state."""
+    return [
+        sample
+        for sample in reader.read(_MANY)
+        if sample.sample_info.valid_data and sample.sample_info.instance_state == InstanceState.Alive
+    ]
 
 
 def _userdata(qos: Qos) -> dict[str, str]:

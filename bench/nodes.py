@@ -1,0 +1,80 @@
+"""The three nodes on DDS, measured at a subscriber that is none of them. Run: python -m bench.nodes
+
+Text on `user_input` → first velocity, stop → zero, and what all processes together take while the robot moves.
+"""
+
+from __future__ import annotations
+
+import statistics
+import tempfile
+import time
+from pathlib import Path
+
+import psutil
+from tests.nodes.node_rig import NodeRig, running
+
+from bench.latency import percentile
+from chatrobot.wire.messages import Text
+
+REPETITIONS = 60
+LOAD_S = 10.0
+
+
+def line(name: str, values_s: list[float]) -> None:
+    median_ms, p99_ms = statistics.median(values_s) * 1e3, percentile(values_s, 0.99) * 1e3
+    print(f"{name:58s} {median_ms:7.2f} ms {p99_ms:7.2f} ms", flush=True)
+
+
+def latencies(rig: NodeRig) -> tuple[list[float], list[float]]:
+    """Seconds from a one-step command to the first velocity, and from stop to the first zero."""
+    starts, stops = [], []
+    for _ in range(REPETITIONS):
+        said_s = rig.publish("user_input", Text("forward 1 m"))
+        starts.append(rig.wait_for_motion(said_s) - said_s)
+        said_s = rig.publish("user_input", Text("stop"))
+        stops.append(rig.velocities.wait_for(lambda twist: not any(twist), said_s)[0] - said_s)
+        rig.result(said_s, "Stopped.")
+        rig.truth.wait_for(lambda odometry: abs(odometry.vx_mps) < 0.005, said_s)
+        time.sleep(0.4)  # new motion waits until the robot has been seen standing
+    return starts, stops
+
+
+def ours(rig: NodeRig) -> dict[str, list[psutil.Process]]:
+    """The nodes with the processes that they started."""
+    found = {}
+    for name, node in rig.nodes.items():
+        process = psutil.Process(node.process.pid)
+        found[name] = [process, *process.children(recursive=True)]
+    return found
+
+
+def load(rig: NodeRig) -> None:
+    """CPU and memory of the nodes while the robot moves."""
+    said_s = rig.publish("user_input", Text("forward 100 m at 0.3 m/s"))
+    rig.wait_for_motion(said_s)
+    groups = ours(rig)
+    before = {process.pid: sum(process.cpu_times()[:2]) for group in groups.values() for process in group}
+    time.sleep(LOAD_S)
+    cpu_sum = pss_sum = 0.0
+    for name, group in groups.items():
+        cpu = sum(sum(process.cpu_times()[:2]) - before[process.pid] for process in group) / LOAD_S * 100.0
+        pss_mb = sum(process.memory_full_info().pss for process in group) / 1e6
+        cpu_sum, pss_sum = cpu_sum + cpu, pss_sum + pss_mb
+        processes = f"{name} ({len(group)} process{'es' if len(group) > 1 else ''})"
+        print(f"{processes:58s} {cpu:7.1f} %  {pss_mb:7.1f} MB", flush=True)
+    print(f"{'all nodes while the robot moves':58s} {cpu_sum:7.1f} %  {pss_sum:7.1f} MB", flush=True)
+    rig.publish("user_input", Text("stop"))
+
+
+def main() -> None:
+    with tempfile.TemporaryDirectory() as folder, running(Path(folder)) as rig:
+        rig.do("turn left 5 degrees")
+        print(f"{'':58s} {'median':>10s} {'p99':>10s}")
+        starts, stops = latencies(rig)
+        line("text on user_input -> first velocity", starts)
+        line("stop on user_input -> zero", stops)
+        load(rig)
+
+
+if __name__ == "__main__":
+    main()

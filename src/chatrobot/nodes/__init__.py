@@ -1,0 +1,1 @@
+"""The tutorial's three nodes: `input`, `base` and `control`, on any wire."""

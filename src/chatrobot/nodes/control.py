@@ -1,0 +1,126 @@
+"""`control`: from `chatgpt_node` to `cmd_vel`. It is Motion's process; only what carries the joint is a topic.
+
+Knows no language: what it tells people are codes with numbers.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from chatrobot.core.errors import WireError
+from chatrobot.core.events import Event, Finished, Notice, Started
+from chatrobot.core.reason import Reason
+from chatrobot.nodes.foreign import Foreign
+from chatrobot.session.envelope import Envelope
+from chatrobot.session.motion_runner import MotionRunner
+from chatrobot.session.topics import CHATGPT_NODE, EVENTS
+from chatrobot.wire.connect import advertise
+from chatrobot.wire.messages import Text
+
+NODE = "chatrobot_control"
+
+
+@dataclass(frozen=True)
+class ControlOptions:
+    """`release`: an emergency stop may be released over ROS. `accept_others`: see `MotionRunner`."""
+
+    wire: str
+    profile: str
+    world: str = "empty"
+    release: bool = False
+    accept_others: bool = False
+
+
+class ControlNode:
+    """Motion behind topics. Any number of sources may come and go; it ends when it is told to.
+
+    Raises:
+        WireError: there is no robot, or the guard does not start.
+        InputError: the profile or the world cannot be used.
+    """
+
+    def __init__(self, options: ControlOptions) -> None:
+        self._options = options
+        self._ours: set[int] = set()
+        self._is_leaving = False
+        self._runner = MotionRunner(
+            options.wire,
+            options.profile,
+            options.world,
+            self._tell,
+            node=NODE,
+            accept_others=options.accept_others,
+        )
+        self._foreign = Foreign(self._runner, lambda: bool(self._ours))
+        advertise(self._runner.wire, EVENTS, Text)
+        self._runner.wire.subscribe(CHATGPT_NODE, Text, self._hear)
+
+    def run(self, is_leaving: Callable[[], bool]) -> None:
+        """Until `is_leaving`, and then until the robot stands."""
+        self._runner.run(lambda: is_leaving() and not self._runner.motion.is_busy, self._foreign.beat)
+
+    def stop(self, why: str) -> None:
+        """Zero, now, from any thread."""
+        self._runner.halt("control", why)
+
+    def leave(self) -> None:
+        """Take no more plans. From any thread."""
+        self._is_leaving = True
+
+    # --- the wire's thread ---
+
+    def _hear(self, message: Text) -> None:
+        envelope = Envelope.from_bytes(message.data.encode(errors="replace"))
+        if envelope is None:
+            self._foreign.hear(message.data)
+        elif envelope.word == "plan":
+            self._hear_plan(envelope)
+        elif envelope.word != "release" or self._options.release:
+            self._runner.receive(envelope)
+
+    def _hear_plan(self, envelope: Envelope) -> None:
+        if self._is_leaving:
+            return
+        self._ours.add(envelope.turn)
+        if self._foreign.has_work:  # the lowest priority: it gives way
+            envelope = replace(envelope, payload={**envelope.payload, "mode": "replace"})
+        self._runner.receive(envelope)
+
+    # --- the control thread ---
+
+    def _tell(self, event: Event) -> None:
+        if isinstance(event, Finished):
+            if event.turn == 0:
+                self._foreign.note_finished()
+            self._ours.discard(event.turn)
+        _log(event)
+        text = Text(json.dumps(event.to_json(), separators=(",", ":"), ensure_ascii=False))
+        with contextlib.suppress(
+            WireError
+        ):  # a robot that cannot be told is Motion's affair, not the teller's
+            self._runner.wire.publish(EVENTS, text)
+
+
+def _log(event: Event) -> None:
+    """One line for who looks at this terminal."""
+    if isinstance(event, Started):
+        line = f"turn {event.turn}: started"
+    elif isinstance(event, Finished):
+        line = f"turn {event.turn}: {event.outcome}{_why(event.reason)}, {event.path_m:.2f} m"
+    elif isinstance(event, Notice):
+        line = f"notice{_why(event.reason)}"
+    else:
+        return
+    with contextlib.suppress(OSError):
+        print(line, file=sys.stderr, flush=True)
+
+
+def _why(reason: Reason | None) -> str:
+    if reason is None:
+        return ""
+    values = ", ".join(f"{name}={value}" for name, value in reason.values.items())
+    return f" ({reason.code}{': ' if values else ''}{values})"

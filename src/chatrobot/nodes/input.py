@@ -1,0 +1,64 @@
+"""`input`: lines typed, to `user_input`. What comes back on `chatrobot/reply` is shown."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+from chatrobot.core.wiring import Wiring
+from chatrobot.reflex import is_stop
+from chatrobot.session.topics import REPLY, STOP, USER_INPUT
+from chatrobot.wire.connect import advertise, connect_wire, wait_for_listener
+from chatrobot.wire.messages import Flag, Text
+
+NODE = "chatrobot_input"
+LISTENER_S = 3.0
+BOTH_S = 1.0
+"""Base and control both listen; before the first line it waits so long for the second of them."""
+
+MEETING_S = 0.1
+"""A listener that we have found may need a moment more to find us."""
+
+
+class InputNode:
+    """Puts what a person says on the wire. `say` may be called from any thread.
+
+    Args:
+        address: of the wire.
+        show: hears every reply.
+
+    Raises:
+        WireError: nobody answers on that wire.
+    """
+
+    def __init__(self, address: str, wiring: Wiring, show: Callable[[str], None]) -> None:
+        self._wire = connect_wire(address, wiring, NODE)
+        self._has_met = False
+        advertise(self._wire, USER_INPUT, Text)
+        advertise(self._wire, STOP, Flag)
+        self._wire.subscribe(REPLY, Text, lambda message: show(message.data))
+
+    def say(self, text: str) -> bool:
+        """Publish a line. A stop is out at once; anything else waits a moment for somebody to listen.
+
+        Returns:
+            False where nobody listens.
+        """
+        if is_stop(text):
+            self._wire.publish(USER_INPUT, Text(text))
+            return True
+        if not self._has_met:
+            wait_for_listener(self._wire, USER_INPUT, Text, BOTH_S, count=2)
+        heard = wait_for_listener(self._wire, USER_INPUT, Text, LISTENER_S)
+        if heard and not self._has_met:
+            time.sleep(MEETING_S)
+            self._has_met = True
+        self._wire.publish(USER_INPUT, Text(text))
+        return heard
+
+    def stop(self) -> None:
+        """Stop the robot."""
+        self._wire.publish(STOP, Flag(True))
+
+    def close(self) -> None:
+        self._wire.close()

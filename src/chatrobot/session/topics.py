@@ -1,0 +1,21 @@
+"""The topics of the nodes (std_msgs/String and std_msgs/Bool alone, so that nothing has to be built to listen)."""
+
+from __future__ import annotations
+
+USER_INPUT = "user_input"
+"""What a person says: text. Motion listens, too, for stop words."""
+
+CHATGPT_NODE = "chatgpt_node"
+"""Envelopes (JSON) from `base` to `control`; text of others as the tutorial has it."""
+
+EVENTS = "chatrobot/events"
+"""What happens, one JSON event a message."""
+
+REPLY = "chatrobot/reply"
+"""Sentences for people."""
+
+STOP = "chatrobot/stop"
+"""std_msgs/Bool: true stops."""
+
+CONTROL = "chatrobot/control"
+"""Every Motion says ten times a second that it is there: {"id", "node", "host", "pid", "hears": [leases]}."""

@@ -1,0 +1,229 @@
+"""The simulated robot and the three nodes, each a process as a person would start it, on a DDS domain of their own.
+
+Stamps are of the machine's monotonic clock, taken in this process, which is none of the four.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+import json
+import os
+import queue
+import random
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytest.importorskip(
+    "cyclonedds", reason="cyclonedds has no wheel for this machine or Python: DDS stays untested here"
+)
+
+from chatrobot.core.wiring import Wiring
+from chatrobot.wire.dds.discovery import Discovery
+from chatrobot.wire.dds.wire import DdsWire
+from chatrobot.wire.messages import Flag, Odometry, Text, TwistMessage
+
+PATIENCE_S = 30.0
+WORDS: dict[str, tuple[str, ...]] = {"base": (), "control": (), "input": ()}
+_STRANGER = Path(__file__).with_name("stranger.py")
+_domains = itertools.count(random.Random(os.getpid()).randrange(1, 90))
+
+
+class Heard:
+    """Messages of one topic with the time they came."""
+
+    def __init__(self) -> None:
+        self._changed = threading.Condition()
+        self.all: list[tuple[float, Any]] = []
+
+    def __call__(self, message: Any) -> None:
+        now_s = time.monotonic()
+        with self._changed:
+            self.all.append((now_s, message))
+            self._changed.notify_all()
+
+    def wait_for(
+        self, wanted: Callable[[Any], bool], since_s: float = 0.0, timeout_s: float = PATIENCE_S
+    ) -> tuple[float, Any]:
+        """The first wanted message since then."""
+        ends_s = time.monotonic() + timeout_s
+        with self._changed:
+            seen = 0
+            while True:
+                for at_s, message in self.all[seen:]:
+                    if at_s >= since_s and wanted(message):
+                        return at_s, message
+                seen = len(self.all)
+                if not self._changed.wait(max(0.0, ends_s - time.monotonic())):
+                    raise AssertionError(f"it did not come; last heard: {self.all[-3:]}")
+
+
+class Node:
+    """A process of ours; its standard input is a pipe, its output is read."""
+
+    def __init__(self, arguments: list[str], environment: dict[str, str]) -> None:
+        self.process = subprocess.Popen(
+            [sys.executable, *arguments],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            env=environment,
+            start_new_session=True,
+            text=True,
+        )
+        self.lines: list[str] = []
+        self._queue: queue.SimpleQueue[str | None] = queue.SimpleQueue()
+        threading.Thread(target=self._read, daemon=True).start()
+
+    def wait_for_line(self, part: str, timeout_s: float = PATIENCE_S) -> str:
+        ends_s = time.monotonic() + timeout_s
+        while True:
+            try:
+                line = self._queue.get(timeout=max(0.0, ends_s - time.monotonic()))
+            except queue.Empty:
+                line = None
+            assert line is not None, f"{part!r} was not said: {self.lines}"
+            if part in line:
+                return line
+
+    def say(self, line: str) -> float:
+        assert self.process.stdin is not None
+        now_s = time.monotonic()
+        self.process.stdin.write(f"{line}\n")
+        self.process.stdin.flush()
+        return now_s
+
+    def strike(self, name: str) -> float:
+        now_s = time.monotonic()
+        os.kill(self.process.pid, getattr(signal, name))
+        return now_s
+
+    def end(self) -> None:
+        """Thaw it, ask it to end, and see that it has."""
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(self.process.pid, signal.SIGCONT)
+            self.process.terminate()
+        try:
+            self.process.wait(10.0)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait(10.0)
+
+    def _read(self) -> None:
+        assert self.process.stdout is not None
+        for line in self.process.stdout:
+            self.lines.append(line.rstrip())
+            self._queue.put(line)
+        self._queue.put(None)
+
+
+class NodeRig:
+    """Everything running, and an ear for what goes over the wire."""
+
+    def __init__(self, folder: Path, *nodes: str) -> None:
+        self.domain = next(_domains)
+        kept = {
+            k: v for k, v in os.environ.items() if not k.startswith(("ROS_", "CYCLONE", "CHATROBOT_", "XDG_"))
+        }
+        self.environment = {
+            **kept,
+            "ROS_DOMAIN_ID": str(self.domain),
+            "XDG_RUNTIME_DIR": str(folder),
+            "XDG_CONFIG_HOME": str(folder / "config"),
+            "PYTHONUNBUFFERED": "1",
+        }
+        self._all: list[Node] = []
+        self.ear = DdsWire(Wiring(), "ear", discovery=Discovery(domain_id=self.domain))
+        self.velocities, self.truth, self.replies, self.events = Heard(), Heard(), Heard(), Heard()
+        self.ear.subscribe("cmd_vel", TwistMessage, self.velocities)
+        self.ear.subscribe("chatrobot/sim/truth", Odometry, self.truth)
+        self.ear.subscribe("chatrobot/reply", Text, self.replies)
+        self.ear.subscribe("chatrobot/events", Text, lambda message: self.events(json.loads(message.data)))
+        self.robot = self.start("sim", "--on", "dds", "--world", "empty")
+        self.nodes = {
+            name: self.start("node", name, "--on", "dds") for name in nodes or ("control", "base", "input")
+        }
+        self.robot.wait_for_line("it ends with Ctrl-C")
+        for name, node in self.nodes.items():
+            node.wait_for_line(name)
+        self.truth.wait_for(lambda _: True)
+
+    def start(self, *arguments: str) -> Node:
+        node = Node(["-m", "chatrobot", *arguments], self.environment)
+        self._all.append(node)
+        return node
+
+    def publish(self, topic: str, message: Text | Flag) -> float:
+        """Put it on the wire once somebody listens; when that was."""
+        assert self.ear.wait_for_listener(topic, type(message), PATIENCE_S)
+        now_s = time.monotonic()
+        self.ear.publish(topic, message)
+        return now_s
+
+    def stranger_says(self, topic: str, text: str) -> float:
+        """A process that is none of ours says it once and leaves."""
+        began_s = time.monotonic()
+        subprocess.run(
+            [sys.executable, str(_STRANGER), str(self.domain), topic, text],
+            check=True,
+            timeout=PATIENCE_S,
+            env=self.environment,
+        )
+        return began_s
+
+    def do(self, text: str) -> dict[str, Any]:
+        """Type it; the result of its turn."""
+        said_s = self.nodes["input"].say(text)
+        return self.result(said_s)
+
+    def result(self, since_s: float, reply: str = "") -> dict[str, Any]:
+        """The first result since then whose reply begins like this."""
+        _, event = self.events.wait_for(
+            lambda event: event["event"] == "result" and event["reply"].startswith(reply), since_s
+        )
+        return dict(event)
+
+    def event(self, name: str, since_s: float = 0.0) -> dict[str, Any]:
+        _, event = self.events.wait_for(lambda event: event["event"] == name, since_s)
+        return dict(event)
+
+    def wait_for_motion(self, since_s: float) -> float:
+        return self.velocities.wait_for(lambda twist: any(twist), since_s)[0]
+
+    def pose(self) -> tuple[float, float, float]:
+        """Where the robot really is now."""
+        now_s = time.monotonic()
+        _, odometry = self.truth.wait_for(lambda _: True, now_s)
+        return odometry.x_m, odometry.y_m, odometry.yaw_rad
+
+    def seconds_to_zero(self, since_s: float, watch_s: float = 0.5) -> float:
+        """Seconds from `since_s` to the zero after which nothing moves any more for `watch_s`."""
+        first_s, _ = self.velocities.wait_for(lambda twist: not any(twist), since_s)
+        while True:
+            try:
+                moved_s, _ = self.velocities.wait_for(lambda twist: any(twist), first_s, watch_s)
+            except AssertionError:
+                return first_s - since_s
+            first_s, _ = self.velocities.wait_for(lambda twist: not any(twist), moved_s)
+
+    def close(self) -> None:
+        for node in reversed(self._all):
+            node.end()
+        self.ear.close()
+
+
+@contextlib.contextmanager
+def running(folder: Path, *nodes: str) -> Iterator[NodeRig]:
+    rig = NodeRig(folder, *nodes)
+    try:
+        yield rig
+    finally:
+        rig.close()
