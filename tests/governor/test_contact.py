@@ -32,6 +32,7 @@ def test_clearance_is_the_distance_to_the_sides_positive_outside() -> None:
 
 
 def test_a_footprint_need_not_have_sides_of_one_length_or_right_angles() -> None:
+    assert Footprint(((1.0, -0.1), (1.0, 0.1), (-0.2, 0.0))).radius_m == pytest.approx(math.hypot(1.0, 0.1))
     slanted = Footprint(((0.4, 0.0), (0.0, 0.3), (-0.2, -0.3)))
     # the side from (0.4, 0) to (0, 0.3) has the normal (0.6, 0.8) and the offset 0.24
     assert slanted.clearance_m(np.array([[0.6, 0.8]])) == pytest.approx([1.0 - 0.24])

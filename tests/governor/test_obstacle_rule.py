@@ -45,6 +45,13 @@ def test_it_brakes_for_the_way_that_is_left() -> None:
         "obstacle_ahead",
         pytest.approx(way_m, abs=0.01),
     )
+    half = rule_that_saw((0.3, 0.0)).judge(Twist(0.5, 0.0, 0.0), at())
+    assert half.reason is not None
+    assert half.reason.values["distance_m"] == pytest.approx(0.135, abs=0.011)
+    assert half.reason.values["distance_m"] == round(float(half.reason.values["distance_m"]), 2)
+    slanting = rule_that_saw((0.4, 0.3)).judge(AHEAD, at(Pose(0.0, 0.0, math.atan2(0.3, 0.4))))
+    assert slanting.factor == pytest.approx(rule_that_saw((0.5, 0.0)).judge(AHEAD, at()).factor, abs=0.02)
+    assert rule_that_saw((0.4, 0.3)).judge(AHEAD, at(Pose(0.0, 0.0, -0.64))).factor == 1.0
 
 
 def test_the_pose_is_minded_place_and_heading() -> None:

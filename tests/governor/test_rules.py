@@ -49,7 +49,11 @@ def test_rules_that_say_nothing_change_nothing() -> None:
 @pytest.mark.parametrize("nonsense", [math.nan, -0.5, -math.inf])
 def test_a_rule_that_talks_nonsense_stops_the_robot(nonsense: float) -> None:
     composed = compose([Says("fine", 0.5), Says("broken", nonsense)], ASKED, at())
-    assert (composed.rule, composed.ruling.factor, composed.urgent_factor) == ("broken", 0.0, 0.0)
+    assert (composed.rule, composed.ruling, composed.urgent_factor) == (
+        "broken",
+        Ruling(0.0, Reason("broken")),
+        0.0,
+    )
 
 
 def test_the_most_urgent_is_kept_apart_from_the_smallest() -> None:

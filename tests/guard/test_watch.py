@@ -54,6 +54,7 @@ def test_it_begins_idle_and_a_loss_before_any_handshake_is_none() -> None:
     watch.lose()
     watch.hear(BEAT, 1.0)
     assert watch.state == "idle"
+    assert watch.seconds_left(50.0) == MISSED_S
 
 
 def test_how_long_it_may_sleep_depends_on_its_state() -> None:
