@@ -240,6 +240,9 @@ def test_a_second_ctrl_c_quits_at_once_whatever_hangs(tmp_path: Path) -> None:
         assert process.wait(PATIENCE_S) == 130
 
 
+MOST_OF_A_PIPE = 32768
+
+
 def wait_until_full(descriptor: int) -> None:
     """Until nothing more goes into a pipe that holds something: its writer waits for a reader."""
     waiting, before, unchanged = array.array("i", [0]), 0, 0
@@ -248,7 +251,7 @@ def wait_until_full(descriptor: int) -> None:
         assert time.monotonic() < deadline_s
         time.sleep(0.02)
         fcntl.ioctl(descriptor, termios.FIONREAD, waiting)
-        unchanged = unchanged + 1 if waiting[0] == before > 0 else 0
+        unchanged = unchanged + 1 if waiting[0] == before > MOST_OF_A_PIPE else 0
         before = waiting[0]
 
 
