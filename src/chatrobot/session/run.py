@@ -15,6 +15,10 @@ from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.job import Job
 from chatrobot.transports.transport import Transport
 
+WORTH_TELLING_MPS = 0.02
+WORTH_TELLING_RADPS = 0.05
+"""What feedback asks a little too much is trimmed without a word."""
+
 
 @dataclass
 class Stopwatch:
@@ -106,6 +110,10 @@ class Run:
 
     def _tell(self, verdict: Verdict) -> None:
         """Say once a step and rule that something was limited; ramps are no news."""
+        lost = abs(verdict.asked.speed_mps - verdict.allowed.speed_mps)
+        lost_turn = abs(verdict.asked.wz_radps - verdict.allowed.wz_radps)
+        if lost < WORTH_TELLING_MPS and lost_turn < WORTH_TELLING_RADPS:
+            return
         key = (self.executor.step, verdict.rule)
         if verdict.action == "limited" and verdict.rule != "acceleration" and key not in self._told:
             self._told.add(key)
