@@ -26,10 +26,11 @@ lint: setup
 	$(BIN)/ruff format --check src tests examples scripts bench
 	$(BIN)/mypy
 
-# Real processes in real time come after the rest, one by one: beside other work their figures mean nothing.
+# Real processes in real time come after the rest, one by one: beside other work their figures mean nothing. What fails
+# is tried once more: a busy machine may hold a process up once, but a promise that is broken twice is broken.
 test: lint
 	$(BIN)/pytest -m "not realtime" -n 2
-	$(BIN)/pytest -m realtime
+	$(BIN)/pytest -m realtime || $(BIN)/pytest -m realtime --last-failed --last-failed-no-failures none
 
 bench: setup
 	@for file in bench/[a-z]*.py; do \
