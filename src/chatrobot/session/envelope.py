@@ -35,12 +35,14 @@ def _is_term(value: object) -> bool:
 
 PAYLOADS: Mapping[str, Mapping[str, Callable[[object], bool]]] = {
     "hello": {"term_s": _is_term},
-    "beat": {},
+    "beat": {"term_s": _is_term},
     "plan": {
         "plan_text": _is_text,
         "mode": lambda value: value in MODES,
         "approve": _is_flag,
         "rehearse_only": _is_flag,
+        "term_s": _is_term,
+        "longest_s": _is_term,
     },
     "approve": {"yes": _is_flag},
     "stop": {"why": _is_text},
