@@ -21,8 +21,15 @@ from tests.session.joint_rigs import SimulatedRig, finished, send_plan
 
 GOOD: dict[str, dict[str, Any]] = {
     "hello": {"term_s": 0.3},
-    "beat": {},
-    "plan": {"plan_text": "drive 1 m", "mode": "queue", "approve": False, "rehearse_only": False},
+    "beat": {"term_s": 0.3},
+    "plan": {
+        "plan_text": "drive 1 m",
+        "mode": "queue",
+        "approve": False,
+        "rehearse_only": False,
+        "term_s": 0.3,
+        "longest_s": 10,
+    },
     "approve": {"yes": True},
     "stop": {"why": "x"},
     "emergency_stop": {"why": "x"},
@@ -36,6 +43,7 @@ VALUES: list[Any] = [
 ]  # fmt: skip
 ALLOWED: dict[str, list[Any]] = {
     "term_s": [1, 10**400, 0.5],
+    "longest_s": [1, 10**400, 0.5],
     "plan_text": ["", "x", "queue", "now"],
     "why": ["", "x", "queue", "now"],
     "mode": ["queue"],
