@@ -26,7 +26,6 @@ from chatrobot.box import attempts, child, wire_format
 from chatrobot.box.layers import Layers, build_walls
 from chatrobot.box.libc import pidfd_open
 from chatrobot.box.limits import BoxLimits
-from chatrobot.box.stdlib import PRELOADED
 
 THREAD_STACK_BYTES = 1 << 20
 REPORT_BYTES = 4096
@@ -111,7 +110,9 @@ class Server:
         os.close(log)
 
     def _forget_all(self, report: socket.socket) -> None:
-        """In the child: no object may close, later, a number that then means something else."""
+        """In the child: let go of its neighbours, and of objects that would later close a number of its own."""
+        for running in self._running.values():
+            running.page.close()
         for each in (self._host, report, *(running.report for running in self._running.values())):
             each.detach()
         self._running.clear()
@@ -195,7 +196,7 @@ def main(descriptor: int) -> None:
     sys.path[:0] = setup["path"]
     sys.path.extend(setup["behind"])
     try:
-        preload(PRELOADED, setup["preload"])
+        preload(setup["library"], setup["preload"])
     except Exception as error:  # noqa: BLE001 - whatever a module raises is told to the host
         wire_format.send(host, {"event": "failed", "problem": f"{type(error).__name__}: {error}"})
         return

@@ -16,6 +16,7 @@ from chatrobot.box import wire_format
 from chatrobot.box.layers import Layers
 from chatrobot.box.limits import BoxLimits
 from chatrobot.box.process import BoxedProcess
+from chatrobot.box.stdlib import PRELOADED
 from chatrobot.core.errors import BoxError
 from chatrobot.core.reason import Reason
 
@@ -36,6 +37,7 @@ class WarmServer:
         preload: modules to import; entry functions are in one of them. Many of the standard library are, anyway.
         limits: of each program, unless `launch` gets others.
         layers: walls wanted beside the sound minimum; by default all that stand here.
+        has_library: False leaves the standard library unloaded, for whoever only wants to know what stands.
     """
 
     def __init__(
@@ -44,11 +46,14 @@ class WarmServer:
         preload: Sequence[str] = (),
         limits: BoxLimits | None = None,
         layers: Layers | None = None,
+        *,
+        has_library: bool = True,
     ) -> None:
         self._path = [str(folder) for folder in path]
         self._preload = list(preload)
         self._limits = limits or BoxLimits()
         self._layers = layers or Layers()
+        self._library = PRELOADED if has_library else ()
         self._lock = threading.Lock()
         self._line: socket.socket | None = None
         self.process: subprocess.Popen[bytes] | None = None
@@ -140,6 +145,7 @@ class WarmServer:
             "host_pid": os.getpid(),
             "path": self._path,
             "behind": _site_folders(),
+            "library": self._library,
             "preload": self._preload,
             "layers": self._layers.to_json(),
         }
