@@ -45,7 +45,7 @@ def _choose(config: ModelConfig) -> tuple[str, ModelConfig]:
     if not local:
         print(
             "  No Ollama or llama.cpp answers here. Ollama is the easiest: https://ollama.com, "
-            "then: ollama pull qwen3:4b"
+            "then: ollama pull qwen3:4b-instruct"
         )
     chosen = rows[_number(len(rows)) - 1]
     if isinstance(chosen, str):
