@@ -6,7 +6,6 @@ Console, web, MCP and the Python API all begin here; nothing below knows how it 
 from __future__ import annotations
 
 import subprocess
-import sys
 import threading
 import uuid
 from collections.abc import Callable
@@ -19,6 +18,7 @@ from chatrobot.core.errors import JointError, UsageError
 from chatrobot.core.events import Event, TruePose
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile, profile_argument
 from chatrobot.robots.profile import RobotProfile
+from chatrobot.session.child import spawn
 from chatrobot.session.joint import SimulatedJoint
 from chatrobot.session.session import Options, Session
 from chatrobot.session.understanding import Understanding
@@ -194,14 +194,10 @@ def _connect_wire(
 
 def spawn_simulated_robot(setup: Setup, profile: str, wire_path: Path) -> subprocess.Popen[bytes]:
     """In a session of its own: Ctrl-C at the console must not kill the robot before it stands."""
-    return subprocess.Popen(
-        [
-            *(sys.executable, "-m", "chatrobot.sim", "--socket", str(wire_path)),
-            *("--profile", profile, "--world", setup.world, "--sim", setup.sim),
-        ],
-        start_new_session=True,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL,
+    return spawn(
+        "chatrobot.sim",
+        *("--socket", str(wire_path), "--profile", profile),
+        *("--world", setup.world, "--sim", setup.sim),
     )
 
 
