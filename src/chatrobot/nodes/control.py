@@ -26,13 +26,14 @@ NODE = "chatrobot_control"
 
 @dataclass(frozen=True)
 class ControlOptions:
-    """`release`: an emergency stop may be released over ROS. `accept_others`: see `MotionRunner`."""
+    """`release`: an emergency stop may be released over ROS. `accept_others`, `on_robot`: see `MotionRunner`."""
 
     wire: str
     profile: str
     world: str = "empty"
     release: bool = False
     accept_others: bool = False
+    on_robot: bool = False
 
 
 class ControlNode:
@@ -54,6 +55,7 @@ class ControlNode:
             self._tell,
             node=NODE,
             accept_others=options.accept_others,
+            on_robot=options.on_robot,
         )
         self._foreign = Foreign(self._runner, lambda: bool(self._ours))
         advertise(self._runner.wire, EVENTS, Text)
