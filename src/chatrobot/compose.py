@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.errors import JointError, UsageError
 from chatrobot.core.events import Event, TruePose
+from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile, profile_argument
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.child import spawn
@@ -26,7 +27,7 @@ from chatrobot.sim.lies import SimLies
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import TRUTH_TOPIC, SimRobot
 from chatrobot.sim.world import World
-from chatrobot.wire.connect import wire_address
+from chatrobot.wire.connect import is_on_this_machine, wire_address
 from chatrobot.wire.messages import Odometry
 
 if TYPE_CHECKING:
@@ -81,6 +82,8 @@ def connect(setup: Setup, on_event: OnEvent) -> Connection:
     profile = load_profile(setup.robot, profile_dirs(setup.folder))
     if not on_wire:
         profile = replace(profile, approval="stream")
+    elif drives_on_alone(profile) and not is_on_this_machine(wire_address(setup.on)):
+        profile = slowed(profile)  # as Motion does: what is said of speeds must be true
     setup = replace(setup, world=setup.world or default_world(setup.on))
     world = load_world(setup.world)
     SimLies.parse(setup.sim)
