@@ -17,6 +17,7 @@ COMMANDS = {
     "plan": "understand and rehearse only; nothing moves",
     "stop": "stop whatever runs on this machine",
     "eval": "run a corpus of sayings and count correct, wrong and abstained",
+    "calibrate": "one metre and one turn: you measure, your profile gets the correction",
     "doctor": "what works here, and how to get the rest",
     "schema": "the JSON schema of plans",
     "sim": "run the simulated robot alone, for other programs to drive",
