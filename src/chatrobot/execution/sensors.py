@@ -52,6 +52,11 @@ class Sensors:
         """Seconds since odometry last came; infinite before the first."""
         return self._clock.now_s() - self._odometry_at_s
 
+    def odometry_lag_s(self) -> float:
+        """Seconds since the moment that the newest odometry tells of; infinite before the first."""
+        estimate = self.estimate
+        return self._clock.now_s() - estimate.stamp_s if estimate is not None else math.inf
+
     def ages_s(self) -> dict[str, float]:
         """Seconds since each sensor last spoke, by name; infinite before the first word."""
         now_s = self._clock.now_s()

@@ -162,6 +162,8 @@ def _wiring(table: Table) -> Wiring:
             continue
         if key == "base_timeout_s":
             values[key] = None if table.is_text(key, FOREVER) else table.number(key, TIMEOUT_RANGE)
+        elif key == "namespace":
+            values[key] = table.topic(key).strip("/")
         elif key in WIRING_CHOICES:
             values[key] = table.choice(key, WIRING_CHOICES[key])
         else:
