@@ -12,6 +12,7 @@ from pathlib import Path
 from chatrobot.core.errors import JointError, WireError
 from chatrobot.core.events import Event, Finished, Interpreted, Notice, Result
 from chatrobot.language.phrases import render_reason, say
+from chatrobot.reflex import is_release
 from chatrobot.robots.load import load_profile
 from chatrobot.session.session import Options, Session
 from chatrobot.session.topic_joint import TopicJoint
@@ -88,7 +89,10 @@ class BaseNode:
     def _hear(self, message: Text) -> None:
         if message.data.strip():
             with contextlib.suppress(JointError):  # the wire is closing
-                self._session.say(message.data)
+                if is_release(message.data):
+                    self._session.release()  # control decides, and says what it did
+                else:
+                    self._session.say(message.data)
 
     def _hear_stop(self, message: Flag) -> None:
         if message.data:

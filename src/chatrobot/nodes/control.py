@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Finished, Notice, Started
 from chatrobot.core.reason import Reason
+from chatrobot.governor.priority import RELEASERS
 from chatrobot.nodes.foreign import Foreign
 from chatrobot.session.envelope import Envelope
 from chatrobot.session.motion_runner import MotionRunner
@@ -22,6 +23,8 @@ from chatrobot.wire.connect import advertise
 from chatrobot.wire.messages import Text
 
 NODE = "chatrobot_control"
+BASE = "base"
+"""The source that `base` speaks as: what a person typed on `user_input`."""
 
 
 @dataclass(frozen=True)
@@ -54,6 +57,7 @@ class ControlNode:
             self._tell,
             node=NODE,
             accept_others=options.accept_others,
+            releasers=RELEASERS | {BASE} if options.release else RELEASERS,
         )
         self._foreign = Foreign(self._runner, lambda: bool(self._ours))
         advertise(self._runner.wire, EVENTS, Text)
@@ -79,7 +83,9 @@ class ControlNode:
             self._foreign.hear(message.data)
         elif envelope.word == "plan":
             self._hear_plan(envelope)
-        elif envelope.word != "release" or self._options.release:
+        elif envelope.word == "release" and not self._options.release:
+            self._runner.notice(Reason("release_refused", {"source": envelope.source}))
+        else:
             self._runner.receive(envelope)
 
     def _hear_plan(self, envelope: Envelope) -> None:

@@ -7,7 +7,7 @@ methods belong to the control thread but for `halt`, which any thread may call a
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 
 from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Notice, Outcome, Started, Telemetry
@@ -18,7 +18,7 @@ from chatrobot.execution.lookahead import nearest_m
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
 from chatrobot.governor.lease import LOCAL_TERM_S
-from chatrobot.governor.priority import Priority, priority_of
+from chatrobot.governor.priority import RELEASERS, Priority, priority_of
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.approval import Approval
 from chatrobot.session.envelope import Envelope, seconds
@@ -51,6 +51,7 @@ class Motion:
         planner: makes `Planned` from plan text: parsed, lowered, rehearsed.
         background: runs a function off the control thread, then posts; a simulation runs it at once.
         emit: takes events; called on the control thread only.
+        releasers: the sources that may release an emergency stop.
     """
 
     def __init__(
@@ -62,6 +63,7 @@ class Motion:
         guard: GuardLink,
         emit: Callable[[Event], None],
         background: Callable[[Callable[[], None]], None],
+        releasers: Collection[str] = RELEASERS,
     ) -> None:
         self._profile = profile
         self._clock = clock
@@ -73,7 +75,7 @@ class Motion:
         self._seen_epoch = 0
         self._stop_reason = Reason("stopped")
         self._transport = WireTransport(wire, profile.wiring, self._epoch)
-        self._governor = Governor(profile, self._epoch, planner.allowed_area)
+        self._governor = Governor(profile, self._epoch, planner.allowed_area, releasers)
         self._sensors = Sensors(profile, clock)
         self._looked_at: LaserScan | None = None
         self._inbox: deque[Callable[[], None]] = deque()
@@ -168,11 +170,17 @@ class Motion:
             if priority_of(envelope.source) >= Priority.PLAN:  # a person's word, not an agent's
                 self._approve(envelope.turn, bool(envelope.payload.get("yes")))
         elif envelope.word == "release":
-            if not self._governor.release(envelope.source):
-                self._emit(Notice(envelope.turn, Reason("release_refused", {"source": envelope.source})))
+            self._release(envelope)
         elif envelope.word == "goodbye":
             self._governor.leases.entrust(envelope.lease)
             self._leaving.add(envelope.lease)
+
+    def _release(self, envelope: Envelope) -> None:
+        who = {"source": envelope.source}
+        if not self._governor.release(envelope.source):
+            self._emit(Notice(envelope.turn, Reason("release_refused", who)))
+        elif envelope.source != "console":  # the person there sees it
+            self._emit(Notice(envelope.turn, Reason("released", who)))
 
     def _opens_lease(self, envelope: Envelope) -> bool:
         """A source that was there before us, and names its term with what it says."""

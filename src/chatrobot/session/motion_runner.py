@@ -14,7 +14,7 @@ import socket
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 
 from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import WireError
@@ -22,6 +22,7 @@ from chatrobot.core.events import Event, Notice
 from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import Wiring
 from chatrobot.governor.governor import TICK_S
+from chatrobot.governor.priority import RELEASERS
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
 from chatrobot.robots.load import load_profile
 from chatrobot.session.envelope import Envelope
@@ -53,6 +54,7 @@ class MotionRunner:
         emit: takes events; called on the control thread only.
         node: our name on the wire.
         accept_others: drive though another Motion is on the same robot.
+        releasers: the sources that may release an emergency stop.
 
     Raises:
         WireError: there is no robot, or the guard does not start.
@@ -68,6 +70,7 @@ class MotionRunner:
         *,
         node: str = "chatrobot_motion",
         accept_others: bool = False,
+        releasers: Collection[str] = RELEASERS,
     ) -> None:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         clock = RealClock()
@@ -89,6 +92,7 @@ class MotionRunner:
             self._guard,
             emit,
             self._plans.put,
+            releasers,
         )
         self._rivals = Rivals(self.wire, node, self.profile.wiring.cmd_vel_topic)
         if not self._guard.wait_until_alive(CONNECT_S):
