@@ -84,6 +84,7 @@ class Motion:
         self._run: Run | None = None
         self._zeroing_since_s: float | None = None
         self._last_tick_s: float | None = None
+        self._suspended_s = clock.suspended_s()
         self._next_telemetry_s = 0.0
         self._leaving: set[str] = set()
         self.obstruction: Reason | None = None
@@ -410,10 +411,18 @@ class Motion:
         self._transport.send(self._governor.govern(ZERO_TWIST, "", now_s).sent)
 
     def _notice_freeze(self, now_s: float) -> None:
-        """This process was frozen, or the guard thinks so: what moved is over; shake hands anew."""
-        gap_s = now_s - self._last_tick_s if self._last_tick_s is not None else 0.0
+        """This process was frozen, or the guard thinks so: what moved is over; shake hands anew.
+
+        What slept through a suspended machine is over too, a plan that waits for a yes included.
+        """
+        suspended_s, self._suspended_s = (
+            self._clock.suspended_s() - self._suspended_s,
+            self._clock.suspended_s(),
+        )
+        gap_s = suspended_s + (now_s - self._last_tick_s if self._last_tick_s is not None else 0.0)
         tripped = self._guard.was_tripped()
-        if self._run is not None and (gap_s > FROZEN_S or tripped):
+        slept = suspended_s > FROZEN_S and self._current is not None
+        if slept or (self._run is not None and (gap_s > FROZEN_S or tripped)):
             self.halt(Reason("motion_froze", {"gap_s": round(gap_s, 2)}))
         if tripped or gap_s > FROZEN_S:
             self._guard.handshake()
