@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-import sys
 import time
 from typing import Protocol
+
+
+_BOOT_CLOCK: int = getattr(time, "CLOCK_BOOTTIME", time.CLOCK_MONOTONIC)
 
 
 class Clock(Protocol):
@@ -29,9 +31,7 @@ class RealClock:
 
 def awake_or_not_s() -> float:
     """Monotonic time that goes on while the machine sleeps; the plain one where there is none such (not Linux)."""
-    if sys.platform == "linux":
-        return time.clock_gettime(time.CLOCK_BOOTTIME)
-    return time.monotonic()
+    return time.clock_gettime(_BOOT_CLOCK)
 
 
 class VirtualClock:
