@@ -8,7 +8,8 @@ from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.execution.sensors import Sensors
 
-ODOMETRY_SILENT_S = 0.3
+ODOMETRY_SILENT_S = 0.2
+"""Four messages of the slowest odometry that we know; the robot then stands within 250 ms."""
 ODOMETRY_LATE_S = 1.0
 """What a network held up pours in at once when it is back: that says where the robot was, not where it is."""
 OFF_TRACK_M = 0.10
