@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Finished, Notice, Started
 from chatrobot.core.reason import Reason
+from chatrobot.governor.priority import RELEASERS
 from chatrobot.nodes.foreign import Foreign
 from chatrobot.session.envelope import Envelope
 from chatrobot.session.motion_runner import MotionRunner
@@ -23,6 +24,8 @@ from chatrobot.wire.connect import advertise
 from chatrobot.wire.messages import Text
 
 NODE = "chatrobot_control"
+BASE = "base"
+"""The source that `base` speaks as: what a person typed on `user_input`."""
 
 
 @dataclass(frozen=True)
@@ -58,6 +61,7 @@ class ControlNode:
             node=NODE,
             accept_others=options.accept_others,
             on_robot=options.on_robot,
+            releasers=RELEASERS | {BASE} if options.release else RELEASERS,
         )
         self._foreign = Foreign(self._runner, lambda: bool(self._ours))
         advertise(self._runner.wire, EVENTS, Text)
@@ -83,7 +87,9 @@ class ControlNode:
             self._foreign.hear(message.data)
         elif envelope.word == "plan":
             self._hear_plan(envelope)
-        elif envelope.word != "release" or self._options.release:
+        elif envelope.word == "release" and not self._options.release:
+            self._runner.notice(Reason("release_refused", {"source": envelope.source}))
+        else:
             self._runner.receive(envelope)
 
     def _hear_plan(self, envelope: Envelope) -> None:

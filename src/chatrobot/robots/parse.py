@@ -40,6 +40,10 @@ LIMIT_RANGES = {
     "deceleration_mps2": Range(0.0, 50.0, "m/s²"),
     "latency_s": Range(0.0, 2.0, "s", with_low=True),
     "min_turning_radius_m": Range(0.0, 20.0, "m", with_low=True),
+    "max_wheel_speed_mps": Range(0.0, 20.0, "m/s"),
+    "wheel_reach_m": Range(0.0, 5.0, "m"),
+    "jerk_mps3": Range(0.0, 1000.0, "m/s³"),
+    "angular_jerk_radps3": Range(0.0, 4000.0, "rad/s³"),
 }
 DEFAULT_RANGES = {
     "speed_mps": Range(0.0, 10.0, "m/s"),
@@ -74,7 +78,9 @@ WIRING_CHOICES = {"cmd_vel_type": ("Twist", "TwistStamped"), "odom_type": ("Odom
 FOREVER = "forever"
 
 SOURCE_MEANING = "where the number comes from: a document, a measurement, or that it is a cautious guess"
-_OPTIONAL_LIMIT = "min_turning_radius_m"
+OPTIONAL_LIMITS = frozenset(
+    {"min_turning_radius_m", "max_wheel_speed_mps", "wheel_reach_m", "jerk_mps3", "angular_jerk_radps3"}
+)
 _TOP = (
     "title",
     "kinematics",
@@ -142,7 +148,7 @@ def _limits(table: Table) -> tuple[Limits, dict[str, str]]:
     values: dict[str, float] = {}
     sources: dict[str, str] = {}
     for key, allowed in LIMIT_RANGES.items():
-        if key == _OPTIONAL_LIMIT and key not in table:
+        if key in OPTIONAL_LIMITS and key not in table:
             continue
         limit = table.table(key)
         limit.only(("value", "source"))

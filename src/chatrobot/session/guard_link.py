@@ -89,11 +89,15 @@ class GuardProcess:
             self._line.send(word, socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
 
     def _hear(self) -> None:
-        with contextlib.suppress(OSError):
+        try:
             answers = self._line.recv(4096)
-            if answers:
-                self._echo_at_s = self._clock.now_s()
-                self._tripped = self._tripped or TRIPPED in answers
+        except BlockingIOError:
+            return
+        except OSError:
+            answers = b""
+        # Its end is closed: it is dead, and nobody has to wait to see that.
+        self._echo_at_s = self._clock.now_s() if answers else float("-inf")
+        self._tripped = self._tripped or TRIPPED in answers
 
 
 class SimulatedGuard:

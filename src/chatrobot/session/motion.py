@@ -7,7 +7,7 @@ methods belong to the control thread but for `halt`, which any thread may call a
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 
 from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Notice, Outcome, Started, Telemetry
@@ -18,7 +18,7 @@ from chatrobot.execution.lookahead import nearest_m
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
 from chatrobot.governor.lease import LOCAL_TERM_S
-from chatrobot.governor.priority import Priority, priority_of
+from chatrobot.governor.priority import RELEASERS, Priority, priority_of
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.approval import Approval
 from chatrobot.session.envelope import Envelope, seconds
@@ -48,6 +48,7 @@ class Motion:
         planner: makes `Planned` from plan text: parsed, lowered, rehearsed.
         background: runs a function off the control thread, then posts; a simulation runs it at once.
         emit: takes events; called on the control thread only.
+        releasers: the sources that may release an emergency stop.
     """
 
     def __init__(
@@ -59,6 +60,7 @@ class Motion:
         guard: GuardLink,
         emit: Callable[[Event], None],
         background: Callable[[Callable[[], None]], None],
+        releasers: Collection[str] = RELEASERS,
     ) -> None:
         self._profile = profile
         self._clock = clock
@@ -70,7 +72,7 @@ class Motion:
         self._seen_epoch = 0
         self._stop_reason = Reason("stopped")
         self._transport = WireTransport(wire, profile.wiring, self._epoch)
-        self._governor = Governor(profile, self._epoch, planner.allowed_area)
+        self._governor = Governor(profile, self._epoch, planner.allowed_area, releasers)
         self._sensors = Sensors(profile, clock)
         self._looked_at: LaserScan | None = None
         self._inbox: deque[Callable[[], None]] = deque()
@@ -79,6 +81,7 @@ class Motion:
         self._run: Run | None = None
         self.zeroing = Zeroing(self._sensors, self._send_zero, lambda reason: emit(Notice(0, reason)))
         self._last_tick_s: float | None = None
+        self._suspended_s = clock.suspended_s()
         self._next_telemetry_s = 0.0
         self._leaving: set[str] = set()
         self.obstruction: Reason | None = None
@@ -165,11 +168,17 @@ class Motion:
             if priority_of(envelope.source) >= Priority.PLAN:  # a person's word, not an agent's
                 self._approve(envelope.turn, bool(envelope.payload.get("yes")))
         elif envelope.word == "release":
-            if not self._governor.release(envelope.source):
-                self._emit(Notice(envelope.turn, Reason("release_refused", {"source": envelope.source})))
+            self._release(envelope)
         elif envelope.word == "goodbye":
             self._governor.leases.entrust(envelope.lease)
             self._leaving.add(envelope.lease)
+
+    def _release(self, envelope: Envelope) -> None:
+        who = {"source": envelope.source}
+        if not self._governor.release(envelope.source):
+            self._emit(Notice(envelope.turn, Reason("release_refused", who)))
+        elif envelope.source != "console":  # the person there sees it
+            self._emit(Notice(envelope.turn, Reason("released", who)))
 
     def _opens_lease(self, envelope: Envelope) -> bool:
         """A source that was there before us, and names its term with what it says."""
@@ -394,10 +403,18 @@ class Motion:
         self._transport.send(self._governor.govern(ZERO_TWIST, "", now_s).sent)
 
     def _notice_freeze(self, now_s: float) -> None:
-        """This process was frozen, or the guard thinks so: what moved is over; shake hands anew."""
-        gap_s = now_s - self._last_tick_s if self._last_tick_s is not None else 0.0
+        """This process was frozen, or the guard thinks so: what moved is over; shake hands anew.
+
+        What slept through a suspended machine is over too, a plan that waits for a yes included.
+        """
+        suspended_s, self._suspended_s = (
+            self._clock.suspended_s() - self._suspended_s,
+            self._clock.suspended_s(),
+        )
+        gap_s = suspended_s + (now_s - self._last_tick_s if self._last_tick_s is not None else 0.0)
         tripped = self._guard.was_tripped()
-        if self._run is not None and (gap_s > FROZEN_S or tripped):
+        slept = suspended_s > FROZEN_S and self._current is not None
+        if slept or (self._run is not None and (gap_s > FROZEN_S or tripped)):
             self.halt(Reason("motion_froze", {"gap_s": round(gap_s, 2)}))
         if tripped or gap_s > FROZEN_S:
             self._guard.handshake()

@@ -15,7 +15,7 @@ import socket
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import replace
 
 from chatrobot.core.clock import RealClock
@@ -23,6 +23,7 @@ from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Notice
 from chatrobot.core.reason import Reason
 from chatrobot.governor.governor import TICK_S
+from chatrobot.governor.priority import RELEASERS
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
 from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import load_profile
@@ -56,6 +57,7 @@ class MotionRunner:
         node: our name on the wire.
         accept_others: drive though another Motion is on the same robot.
         on_robot: no network lies between this machine and the base, whatever the address looks like.
+        releasers: the sources that may release an emergency stop.
 
     Raises:
         WireError: there is no robot, or the guard does not start.
@@ -72,6 +74,7 @@ class MotionRunner:
         node: str = "chatrobot_motion",
         accept_others: bool = False,
         on_robot: bool = False,
+        releasers: Collection[str] = RELEASERS,
     ) -> None:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         clock = RealClock()
@@ -99,6 +102,7 @@ class MotionRunner:
             self._guard,
             emit,
             self._plans.put,
+            releasers,
         )
         self._rivals = Rivals(self.wire, node, self.profile.wiring.cmd_vel_topic)
         if not self._guard.wait_until_alive(GUARD_S):
