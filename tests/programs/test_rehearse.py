@@ -95,7 +95,9 @@ def test_an_endless_program_is_rehearsed_to_the_horizon(server: WarmServer) -> N
 
 
 def test_a_rate_that_nobody_spins_for_waits_for_ever(server: WarmServer) -> None:
-    rehearsal = rehearse(server, "rate = node.create_rate(10)\nwhile rclpy.ok():\n    go(0.1)\n    rate.sleep()")
+    rehearsal = rehearse(
+        server, "rate = node.create_rate(10)\nwhile rclpy.ok():\n    go(0.1)\n    rate.sleep()"
+    )
     assert "program_waits_for_ever" in codes(rehearsal)
 
 
