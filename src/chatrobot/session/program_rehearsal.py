@@ -23,6 +23,7 @@ from chatrobot.plan.sweep import area_clearance, first_contact
 from chatrobot.programs.boxed import BoxedProgram, Launcher
 from chatrobot.programs.events import Died, Ended, Log, Output, Raised, TopicNoticed
 from chatrobot.programs.lock_step import Played, play
+from chatrobot.programs.raised import raised_reason
 from chatrobot.programs.settings import ProgramSettings, robot_topics
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.program_stage import ProgramStage, limited_reason
@@ -140,8 +141,8 @@ def _stopped(played: Played) -> bool:
     return not played.cmd_vel or played.cmd_vel[-1][1].is_zero
 
 
-def _found(severity: Severity, code: str, t_s: float = 0.0, **values: float | int | str) -> Finding:
-    return Finding(severity, Reason(code, values), t_s=t_s)
+def _found(severity: Severity, reason_code: str, t_s: float = 0.0, **values: float | int | str) -> Finding:
+    return Finding(severity, Reason(reason_code, values), t_s=t_s)
 
 
 def _about_the_end(played: Played, horizon_s: float) -> Iterator[Finding]:
@@ -149,26 +150,15 @@ def _about_the_end(played: Played, horizon_s: float) -> Iterator[Finding]:
     if isinstance(end, Died):
         yield Finding("refuse", end.reason, t_s=played.duration_s)
     elif isinstance(end, Raised):
-        yield Finding("refuse", _raised_reason(end), t_s=end.t_s)
+        yield Finding("refuse", raised_reason(end), t_s=end.t_s)
     elif end.how == "horizon":
         yield _found("note", "program_endless", end.t_s, horizon_s=horizon_s)
     elif end.how == "stuck":
         yield _found("warn", "program_waits_for_ever", end.t_s, horizon_s=horizon_s)
     elif end.exit_code != 0:
-        yield _found("warn", "program_exit_code", end.t_s, exit_code=end.exit_code)
+        yield _found("warn", "program_exit_code", end.t_s, code=end.exit_code)
     for attempt in played.attempts:
         yield Finding("refuse", attempt, t_s=played.duration_s)
-
-
-def _raised_reason(end: Raised) -> Reason:
-    values: dict[str, float | int | str] = {"type": end.type_name, "message": end.message, "line": end.line}
-    if end.type_name in ("ModuleNotFoundError", "ImportError"):
-        return Reason("program_import", values)
-    if end.type_name == "SyntaxError" or end.type_name == "IndentationError":
-        return Reason("program_syntax", values)
-    if end.type_name == "PermissionError":
-        return Reason("program_forbidden", values)
-    return Reason("program_raised", values)
 
 
 def _about_motion(played: Played, stage: ProgramStage) -> Iterator[Finding]:
