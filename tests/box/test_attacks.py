@@ -12,6 +12,7 @@ import pytest
 from attacks import ATTACKS, Attack
 from witness import Witness
 
+from chatrobot.box import bubblewrap
 from chatrobot.box.layers import Layers
 from chatrobot.box.probe import probe
 from chatrobot.box.process import ExitReport
@@ -25,6 +26,8 @@ LEVELS = {
     "bubblewrap": Layers(landlock=False, namespaces=False, bubblewrap=True),
     "full": Layers(),
 }
+if bubblewrap.find() is None:
+    del LEVELS["bubblewrap"]
 
 
 @pytest.fixture(scope="module")
@@ -69,6 +72,7 @@ def test_attack(server: WarmServer, witness: Witness, attack: Attack) -> None:
     assert "LEAK" not in logs
     assert witness.word not in logs
     assert server.is_running()
+    assert all(letter.isprintable() or letter in "\n\t" for letter in logs)
     if attack.ends == "refused":
         assert report.exit_code not in (None, 0), (report, logs)
     elif attack.ends == "runs":

@@ -15,8 +15,9 @@ from chatrobot.box.seccomp import Filter
 from chatrobot.box.syscalls import Machine, this_machine
 
 NOT_WANTED = "not wanted"
-UNPRIVILEGED_SPARE_TASKS = 256
-"""Room for what else the user starts, where the kernel counts all tasks of a user together."""
+OWN_TASKS = 4
+SPARE_TASKS = 256
+"""Room for what else the user starts, where the user is not our own."""
 
 
 @dataclass(frozen=True)
@@ -52,13 +53,14 @@ class Walls:
         return dict(self.problems)
 
 
-def build_walls(wanted: Layers, *, is_wrapped: bool) -> Walls:
+def build_walls(wanted: Layers, tasks: int, *, is_wrapped: bool) -> Walls:
     """Called once in the warm server, with all imports done and one thread; it may return in a forked process.
 
     What stands is used; what does not is left out and named.
 
     Args:
         wanted: what to try.
+        tasks: how many tasks the user has who started us.
         is_wrapped: bubblewrap is around this process already.
     """
     machine = this_machine()
@@ -79,8 +81,8 @@ def build_walls(wanted: Layers, *, is_wrapped: bool) -> Walls:
         problems["namespaces"] = _trial(lambda: _try_namespaces(machine))
         if problems["namespaces"]:
             problems["bubblewrap"] = "not installed, or it does not work here"
-    is_alone = namespaces.has_own_user() or is_wrapped
-    other_tasks = 8 if is_alone else _tasks_of_this_user()
+    # The kernel counts all tasks of a user together.
+    other_tasks = OWN_TASKS if namespaces.has_own_user() else tasks + SPARE_TASKS
     if not problems["namespaces"]:
         namespaces.leave(machine)
         _go_on_as_first_process()
@@ -181,7 +183,7 @@ def _go_on_as_first_process() -> None:
         prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
         return
 
-    os.closerange(3, 64)
+    os.closerange(3, os.sysconf("SC_OPEN_MAX"))
     os.waitpid(pid, 0)
     os._exit(0)
 
@@ -189,16 +191,3 @@ def _go_on_as_first_process() -> None:
 def _own_bytes() -> int:
     pages = int(Path("/proc/self/statm").read_text().split()[0])
     return pages * os.sysconf("SC_PAGE_SIZE")
-
-
-def _tasks_of_this_user() -> int:
-    """How many tasks this user has now, with room for some more: the kernel counts them all together."""
-    user, tasks = os.geteuid(), 0
-    for folder in Path("/proc").iterdir():
-        if folder.name.isdigit():
-            try:
-                if folder.stat().st_uid == user:
-                    tasks += (folder / "task").stat().st_nlink - 2
-            except OSError:
-                continue
-    return tasks + UNPRIVILEGED_SPARE_TASKS

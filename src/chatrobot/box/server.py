@@ -20,6 +20,7 @@ import threading
 import time
 from collections.abc import Iterable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from chatrobot.box import attempts, child, wire_format
@@ -28,8 +29,8 @@ from chatrobot.box.libc import PR_SET_PDEATHSIG, pidfd_open, prctl
 from chatrobot.box.limits import BoxLimits
 
 THREAD_STACK_BYTES = 1 << 20
-REPORT_BYTES = 4096
-KILL = b"kill"
+MOST_DESCRIPTORS = 256
+FIRST_WHEN_MEMORY_RUNS_OUT = "900"
 
 
 @dataclass
@@ -195,6 +196,10 @@ def main(descriptor: int, host_pidfd: int | None = None) -> None:
         host_pidfd: readable when the host is gone; None where the kernel has no such thing.
     """
     prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    # Few numbers to close in each child; and where memory runs out, the box goes first.
+    resource.setrlimit(resource.RLIMIT_NOFILE, (MOST_DESCRIPTORS, MOST_DESCRIPTORS))
+    with contextlib.suppress(OSError):
+        Path("/proc/self/oom_score_adj").write_text(FIRST_WHEN_MEMORY_RUNS_OUT)
     host = socket.socket(fileno=descriptor)
     for each in (descriptor, host_pidfd):
         if each is not None:
@@ -212,7 +217,7 @@ def main(descriptor: int, host_pidfd: int | None = None) -> None:
         wire_format.send(host, {"event": "failed", "problem": f"{type(error).__name__}: {error}"})
         return
     threading.stack_size(THREAD_STACK_BYTES)
-    walls = build_walls(layers, is_wrapped=setup["is_wrapped"])
+    walls = build_walls(layers, setup["tasks"], is_wrapped=setup["is_wrapped"])
     if walls.doors is None:
         wire_format.send(host, {"event": "refused", "layers": walls.to_json()})
         return

@@ -111,6 +111,7 @@ class WarmServer:
                     problem = ""
         except OSError as error:
             problem = str(error)
+            self._hang_up()
         finally:
             their_channel.close()
             their_report.close()
@@ -126,12 +127,16 @@ class WarmServer:
 
     def close(self) -> None:
         """End it and all its children."""
-        if self._line is not None:
-            self._line.close()
-            self._line = None
+        self._hang_up()
         if self.process is not None:
             self.process.kill()
             self.process.wait()
+
+    def _hang_up(self) -> None:
+        """The server ends when its line does. After half a message there is no other way."""
+        line, self._line = self._line, None
+        if line is not None:
+            line.close()
 
     def __enter__(self) -> WarmServer:
         return self
@@ -161,6 +166,7 @@ class WarmServer:
             "library": self._library,
             "preload": self._preload,
             "layers": self._layers.to_json(),
+            "tasks": _tasks_of_this_user(),
             "is_wrapped": is_wrapped,
             "can_wrap": wrap is not None,
         }
@@ -170,7 +176,7 @@ class WarmServer:
             said, _, _ = wire_format.receive(line)
         except (EOFError, OSError) as error:
             said = {"event": "failed", "problem": str(error) or "it ended at once"}
-        line.settimeout(None)
+        line.settimeout(LAUNCH_TIMEOUT_S)
         if said["event"] == "ready":
             self._line = line
         else:
@@ -236,3 +242,16 @@ def _clean_environment() -> dict[str, str]:
 def _site_folders() -> list[str]:
     """Where installed packages are: `-S` leaves them out, and a program may want numpy."""
     return [folder for folder in sys.path if folder.rstrip("/").endswith(("site-packages", "dist-packages"))]
+
+
+def _tasks_of_this_user() -> int:
+    """How many tasks this user has now, all processes and threads."""
+    user, tasks = os.geteuid(), 0
+    for folder in Path("/proc").iterdir():
+        if folder.name.isdigit():
+            try:
+                if folder.stat().st_uid == user:
+                    tasks += (folder / "task").stat().st_nlink - 2
+            except OSError:
+                continue
+    return tasks
