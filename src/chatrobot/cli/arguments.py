@@ -17,6 +17,7 @@ COMMANDS = {
     "plan": "understand and rehearse only; nothing moves",
     "stop": "stop whatever runs on this machine",
     "eval": "run a corpus of sayings and count correct, wrong and abstained",
+    "calibrate": "one metre and one turn: you measure, your profile gets the correction",
     "doctor": "what works here, and how to get the rest",
     "schema": "the JSON schema of plans",
     "sim": "run the simulated robot alone, for other programs to drive",
@@ -195,6 +196,11 @@ def _node(parser: argparse.ArgumentParser) -> None:
         "--accept-others",
         action="store_true",
         help="control: drive though another ChatRobot is on the same robot",
+    )
+    parser.add_argument(
+        "--on-robot",
+        action="store_true",
+        help="control: this machine is the robot, so no network can part us from its base",
     )
 
 
