@@ -15,6 +15,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
 from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import WireError
@@ -31,7 +32,15 @@ from chatrobot.session.planner import Planner
 from chatrobot.session.rivals import BEAT_S, Rivals
 from chatrobot.session.topics import STOP, USER_INPUT
 from chatrobot.sim.load import load_world
-from chatrobot.wire.connect import Returning, advertise, comes_back, connect_wire
+from chatrobot.wire.connect import (
+    Connect,
+    Returning,
+    advertise,
+    clock_of,
+    comes_back,
+    connect_wire,
+    resolved,
+)
 from chatrobot.wire.messages import Flag, Message, Text, TwistMessage
 from chatrobot.wire.runtime_dir import stop_socket_path
 from chatrobot.wire.wire import M, Wire
@@ -53,6 +62,7 @@ class MotionRunner:
         emit: takes events; called on the control thread only.
         node: our name on the wire.
         accept_others: drive though another Motion is on the same robot.
+        connect: how our end of the wire is made; the guard has one of its own, at `address`.
 
     Raises:
         WireError: there is no robot, or the guard does not start.
@@ -68,23 +78,23 @@ class MotionRunner:
         *,
         node: str = "chatrobot_motion",
         accept_others: bool = False,
+        connect: Connect = connect_wire,
     ) -> None:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
-        clock = RealClock()
         self.profile = load_profile(profile)
         known_world = load_world(world)
-        self.wire = _connect(address, self.profile.wiring, node)
+        self.wire = _connect(connect, address, self.profile.wiring, node)
         self._emit = emit
         self._accept_others = accept_others
         self._seen: list[str] = []
         self._named: list[str] = []
         self._wake = threading.Event()
         self._plans: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
-        self._guard = GuardProcess(address, self.profile.wiring, clock)
+        self._guard = GuardProcess(address, _as_others_name_it(self.wire, self.profile.wiring), RealClock())
         self.motion = Motion(
             self.profile,
             self.wire,
-            clock,
+            clock_of(self.wire),
             Planner(self.profile, known_world),
             self._guard,
             emit,
@@ -231,12 +241,18 @@ class _PatientWire:
         return isinstance(self._wire, Returning) and self._wire.is_connected
 
 
-def _connect(address: str, wiring: Wiring, node: str) -> Wire:
+def _as_others_name_it(wire: Wire, wiring: Wiring) -> Wiring:
+    """The guard is another end of the wire, which knows nothing of our namespace and remappings."""
+    cmd_vel_topic, odom_topic = resolved(wire, wiring.cmd_vel_topic), resolved(wire, wiring.odom_topic)
+    return replace(wiring, cmd_vel_topic=cmd_vel_topic, odom_topic=odom_topic)
+
+
+def _connect(connect: Connect, address: str, wiring: Wiring, node: str) -> Wire:
     """The robot's wire; it may still be starting."""
     deadline_s = time.monotonic() + CONNECT_S
     while True:
         try:
-            wire = connect_wire(address, wiring, node)
+            wire = connect(address, wiring, node)
         except WireError:
             if time.monotonic() > deadline_s:
                 raise
