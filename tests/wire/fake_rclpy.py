@@ -290,5 +290,4 @@ def install(monkeypatch: pytest.MonkeyPatch) -> Ros:
         monkeypatch.setitem(sys.modules, f"chatrobot.{name}", ModuleType(name))
         del sys.modules[f"chatrobot.{name}"]
     monkeypatch.setenv("ROS_DISTRO", "jazzy")
-    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     return ros

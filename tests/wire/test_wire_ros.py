@@ -26,7 +26,7 @@ from chatrobot.wire.connect import (
     resolved,
 )
 from chatrobot.wire.messages import Message, Number, Odometry, Text, TwistMessage
-from chatrobot.wire.ros.environment import prefer_this_machine, reaches_this_machine_alone
+from chatrobot.wire.ros.environment import reaches_this_machine_alone
 
 ZERO = TwistMessage(0.0, 0.0, 0.0)
 STANDING = Odometry(1.5, 0.5, 0.25, 1.0, 0.5, 0.0, 0.5)
@@ -203,7 +203,8 @@ def test_without_ros_it_says_how_to_get_it(monkeypatch: pytest.MonkeyPatch) -> N
 @pytest.mark.parametrize(
     ("environ", "alone"),
     [
-        ({}, True),
+        ({}, False),
+        ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}, True),
         ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}, False),
         ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", "ROS_STATIC_PEERS": "robot"}, False),
         ({"ROS_LOCALHOST_ONLY": "0"}, False),
@@ -212,8 +213,7 @@ def test_without_ros_it_says_how_to_get_it(monkeypatch: pytest.MonkeyPatch) -> N
         ({"ROS_DISTRO": "humble", "ROS_LOCALHOST_ONLY": "1"}, True),
     ],
 )
-def test_where_nobody_says_we_meet_this_machine_alone(environ: dict[str, str], alone: bool) -> None:
-    prefer_this_machine(environ)
+def test_how_far_we_reach_is_ros_s_to_say(environ: dict[str, str], alone: bool) -> None:
     assert reaches_this_machine_alone(environ) is alone
 
 

@@ -58,7 +58,7 @@ def _run_control(args: argparse.Namespace, citizen: Citizen | None, connect: Con
         if citizen is not None:
             node.introduce(citizen)
         _say(
-            f"control drives {args.robot} on {_address(args)}: chatgpt_node → cmd_vel; Ctrl-C stops and ends"
+            f"control drives {args.robot} on {_address(args).rstrip(':')}: chatgpt_node → cmd_vel; Ctrl-C stops and ends"
         )
         node.run(is_leaving)
     return STOPPED
@@ -83,7 +83,7 @@ def _run_base(args: argparse.Namespace, citizen: Citizen | None, connect: Connec
     with SignalWatch(node.stop) as watch:
         if citizen is not None:
             node.introduce(citizen)
-        _say(f"base understands for {args.robot} on {_address(args)}: user_input → chatgpt_node")
+        _say(f"base understands for {args.robot} on {_address(args).rstrip(':')}: user_input → chatgpt_node")
         node.run(lambda: watch.is_leaving)
     return STOPPED
 
@@ -102,7 +102,7 @@ def _run_input(args: argparse.Namespace, _: Citizen | None, connect: Connect) ->
 
     reader = LineReader(on_line)
     with SignalWatch(lambda _: node.stop()) as watch:
-        _say(f"input on {_address(args)}: each line goes to user_input")
+        _say(f"input on {_address(args).rstrip(':')}: each line goes to user_input")
         reader.start()
         while not (watch.is_leaving or reader.has_ended):
             reader.wait(0.1)

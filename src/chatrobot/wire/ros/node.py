@@ -6,7 +6,6 @@ end it stops the robot first, and then calls `close`.
 
 from __future__ import annotations
 
-import os
 import threading
 import time
 from collections.abc import Sequence
@@ -20,7 +19,6 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
 from chatrobot.core.errors import UsageError, WireError
-from chatrobot.wire.ros.environment import prefer_this_machine
 
 JOIN_S = 5.0
 
@@ -47,7 +45,6 @@ class RosNode:
         ros_args: Sequence[str] = (),
         domain_id: int | None = None,
     ) -> None:
-        prefer_this_machine(os.environ)
         self.context = Context()
         arguments = ["chatrobot", "--ros-args", *ros_args] if ros_args else None
         try:
