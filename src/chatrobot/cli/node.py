@@ -57,9 +57,7 @@ def _run_control(args: argparse.Namespace, citizen: Citizen | None, connect: Con
     with SignalWatch(stop) as watch:
         if citizen is not None:
             node.introduce(citizen)
-        _say(
-            f"control drives {args.robot} on {_address(args).rstrip(':')}: chatgpt_node → cmd_vel; Ctrl-C stops and ends"
-        )
+        _say(f"control drives {args.robot} on {_place(args)}: chatgpt_node → cmd_vel; Ctrl-C stops and ends")
         node.run(is_leaving)
     return STOPPED
 
@@ -83,7 +81,7 @@ def _run_base(args: argparse.Namespace, citizen: Citizen | None, connect: Connec
     with SignalWatch(node.stop) as watch:
         if citizen is not None:
             node.introduce(citizen)
-        _say(f"base understands for {args.robot} on {_address(args).rstrip(':')}: user_input → chatgpt_node")
+        _say(f"base understands for {args.robot} on {_place(args)}: user_input → chatgpt_node")
         node.run(lambda: watch.is_leaving)
     return STOPPED
 
@@ -102,7 +100,7 @@ def _run_input(args: argparse.Namespace, _: Citizen | None, connect: Connect) ->
 
     reader = LineReader(on_line)
     with SignalWatch(lambda _: node.stop()) as watch:
-        _say(f"input on {_address(args).rstrip(':')}: each line goes to user_input")
+        _say(f"input on {_place(args)}: each line goes to user_input")
         reader.start()
         while not (watch.is_leaving or reader.has_ended):
             reader.wait(0.1)
@@ -114,6 +112,11 @@ def _address(args: argparse.Namespace) -> str:
     from chatrobot.wire.connect import wire_address
 
     return wire_address("dds" if args.on == "auto" else args.on)
+
+
+def _place(args: argparse.Namespace) -> str:
+    """The address as a person would say it."""
+    return _address(args).rstrip(":")
 
 
 def _profile(args: argparse.Namespace) -> str:
