@@ -143,7 +143,7 @@ def test_namespace_remapping_and_name_reach_the_guard_and_the_graph(
         "-r",
         "__node:=driver",
         "-p",
-        "robot:=turtlesim",
+        "robot:=originbot",
     ]
     with running(monkeypatch, ros, "control", "--ros-args", *words):
         node = ros.nodes[-1]
