@@ -46,6 +46,9 @@ class InvalidNodeNameException(NameValidationException): ...
 class InvalidNamespaceException(NameValidationException): ...
 
 
+class ExternalShutdownException(Exception): ...
+
+
 class InvalidParameterTypeException(Exception): ...
 
 
@@ -211,7 +214,9 @@ class SingleThreadedExecutor:
         self.node = node
 
     def spin_until_future_complete(self, future: Future) -> None:
-        while self.context.is_valid and not future.event.is_set():
+        while not future.event.is_set():
+            if not self.context.is_valid:
+                raise ExternalShutdownException
             for timer in self.node.timers:
                 if time.monotonic() >= timer[0]:
                     timer[0] += timer[1]
@@ -259,7 +264,10 @@ def _rclpy(ros: Ros) -> dict[str, ModuleType]:
         "rclpy.clock": {"Clock": lambda clock_type: clock_type, "ClockType": Option},
         "rclpy.context": {"Context": Context},
         "rclpy.exceptions": exceptions,
-        "rclpy.executors": {"SingleThreadedExecutor": SingleThreadedExecutor},
+        "rclpy.executors": {
+            "SingleThreadedExecutor": SingleThreadedExecutor,
+            "ExternalShutdownException": ExternalShutdownException,
+        },
         "rclpy.qos": {
             "DurabilityPolicy": Option, "HistoryPolicy": Option, "ReliabilityPolicy": Option,
             "QoSProfile": SimpleNamespace,

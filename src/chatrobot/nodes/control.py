@@ -33,6 +33,7 @@ BASE = "base"
 """The source that `base` speaks as: what a person typed on `user_input`."""
 SERVICE = "service"
 RELEASE_S = 0.5
+LEAVE_S = 5.0
 ODOMETRY_LATE_S = 1.0
 
 
@@ -77,8 +78,18 @@ class ControlNode:
         self._runner.wire.subscribe(CHATGPT_NODE, Text, self._hear)
 
     def run(self, is_leaving: Callable[[], bool]) -> None:
-        """Until `is_leaving`, and then until the robot stands."""
-        self._runner.run(lambda: is_leaving() and not self._runner.motion.is_busy, self._each_tick)
+        """Until `is_leaving`, and then until the robot stands; in a simulation that stands still not for ever."""
+        leaving_since_s: float | None = None
+
+        def has_left() -> bool:
+            nonlocal leaving_since_s
+            if not is_leaving():
+                return False
+            now_s = time.monotonic()
+            leaving_since_s = now_s if leaving_since_s is None else leaving_since_s
+            return not self._runner.motion.is_busy or now_s - leaving_since_s > LEAVE_S
+
+        self._runner.run(has_left, self._each_tick)
 
     def stop(self, why: str) -> None:
         """Zero, now, from any thread."""

@@ -14,7 +14,7 @@ from typing import Any
 import rclpy
 from rclpy.context import Context
 from rclpy.exceptions import InvalidNamespaceException, InvalidNodeNameException
-from rclpy.executors import SingleThreadedExecutor
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
@@ -58,8 +58,10 @@ class RosNode:
                 name, context=self.context, namespace=namespace.strip("/") or None
             )
         except (InvalidNodeNameException, InvalidNamespaceException) as error:
+            rclpy.try_shutdown(context=self.context)
             raise UsageError(str(error), where=name) from error
         except RuntimeError as error:
+            rclpy.try_shutdown(context=self.context)
             if ros_args:
                 raise UsageError(f"ROS cannot use these: {error}", where="--ros-args") from error
             raise WireError(f"ROS cannot be opened: {error}") from error
@@ -104,6 +106,8 @@ class RosNode:
     def _deliver(self) -> None:
         try:
             self._executor.spin_until_future_complete(self._leaving)
+        except ExternalShutdownException:
+            pass  # somebody has closed the context: publishing says so from now on
         finally:
             self._closed = True
             self._executor.shutdown()
