@@ -1,0 +1,1 @@
+"""Programs for the robot: taken out of replies, written, checked, kept and exported."""
