@@ -95,10 +95,11 @@ def _settled(atoms: Sequence[Atom], i: int) -> Atom:
     """Words of numbers that turned out to be no number."""
     atom = atoms[i]
     if atom.kind == "num":
-        if atom.value == "point":
-            return (
-                Atom("flag", "bit", atom.text) if is_chinese(atom.text) else Atom("verb", "face", atom.text)
-            )
+        if atom.value == "point" and is_chinese(atom.text):
+            return Atom("flag", "bit", atom.text)
+        if atom.value == "point":  # `point left`, but not `back to the point`
+            ends = i + 1 >= len(atoms) or atoms[i + 1].kind in ("sep", "conn")
+            return Atom("unknown" if ends and i else "verb", atom.text if ends and i else "face", atom.text)
         if atom.value == "minus" or atom.value == "parts":
             return Atom("unknown", atom.text, atom.text)
         return Atom("glue", "x", atom.text)
