@@ -18,11 +18,12 @@ COMMANDS = {
     "stop": "stop whatever runs on this machine",
     "eval": "run a corpus of sayings and count correct, wrong and abstained",
     "doctor": "what works here, and how to get the rest",
+    "program": "programs that move the robot: new, list, show, run, edit, rename, remove, export",
     "schema": "the JSON schema of plans",
     "sim": "run the simulated robot alone, for other programs to drive",
     "node": "one of the tutorial's three nodes: input, base or control",
 }
-LATER = ("model", "program", "usage", "fake-model")
+LATER = ("model", "usage", "fake-model")
 """Commands of versions to come: known, so that they are not mistaken for something else."""
 
 DEFAULTS: dict[str, Any] = {
@@ -195,8 +196,40 @@ def _node(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def _program(parser: argparse.ArgumentParser) -> None:
+    actions = parser.add_subparsers(dest="action", metavar="ACTION", required=True, title="actions")
+    for name, (text, takes) in PROGRAM_ACTIONS.items():
+        action = actions.add_parser(
+            name,
+            help=text,
+            description=f"{text[0].upper()}{text[1:]}.",
+            parents=[_options()],
+            allow_abbrev=False,
+        )
+        for argument, meaning in takes.items():
+            action.add_argument(argument.casefold(), metavar=argument, help=meaning)
+        if name == "new":
+            action.add_argument("--name", dest="called", default="", metavar="NAME", help="what to call it")
+        if name == "edit":
+            action.add_argument(
+                "--file", default="", metavar="FILE.py", help="take this source, ask no editor"
+            )
+
+
+PROGRAM_ACTIONS: dict[str, tuple[str, dict[str, str]]] = {
+    "new": ("write a program, rehearse it, run it and keep it", {"TEXT": "what it is to do"}),
+    "list": ("the programs that are kept", {}),
+    "show": ("one program: its source, where it comes from, how it went", {"NAME": "which"}),
+    "run": ("rehearse a program in today's world, and run it", {"NAME": "a kept program, or FILE.py"}),
+    "edit": ("change a program's source in your editor", {"NAME": "which"}),
+    "rename": ("give a program another name", {"NAME": "which", "TO": "its new name"}),
+    "remove": ("forget a program", {"NAME": "which"}),
+    "export": ("write a program as a ROS 2 workspace", {"NAME": "which", "DIR": "a new or empty folder"}),
+}
+
+
 def _no_arguments(_: argparse.ArgumentParser) -> None:
     pass
 
 
-_ARGUMENTS = {"do": _do, "plan": _plan, "eval": _eval, "sim": _sim, "node": _node}
+_ARGUMENTS = {"do": _do, "plan": _plan, "eval": _eval, "sim": _sim, "node": _node, "program": _program}
