@@ -83,7 +83,7 @@ def _drive(args: argparse.Namespace, say: Callable[[Conversation], int]) -> int:
         ask_new=is_new and can_ask and not args.yes,
     )
     approver = ProgramApprover(can_ask=can_ask)
-    with Conversation(setup_from(args, options=options), printer, approver) as conversation:
+    with Conversation(setup_from(args, options=options, programs=True), printer, approver) as conversation:
         conversation.see_through(say(conversation))
         while (draft := approver.edited()) is not None and not conversation.is_leaving:
             conversation.see_through(conversation.session.say_draft(_rewritten(conversation, draft)))

@@ -56,7 +56,7 @@ class Authoring:
         interpret: reads a sentence as the session does.
         model: writes what the offline language does not understand; None for no model.
         prefers_model: the model writes all of them.
-        routes: finds ways around what is known, for programs that go to places.
+        routes: makes who finds ways around what is known, for programs that go to places.
     """
 
     def __init__(
@@ -67,7 +67,7 @@ class Authoring:
         *,
         model: Model | None = None,
         prefers_model: bool = False,
-        routes: RoutePlanner | None = None,
+        routes: Callable[[], RoutePlanner | None] = lambda: None,
     ) -> None:
         self.library = library
         self._profile = profile
@@ -128,7 +128,7 @@ class Authoring:
         plan = self._plan(request, language)
         name = self.library.free_name(request.name)
         wanted = Wanted(
-            name, request.text, request.topic, request.uses_sleep, request.rest_s, pose, self._routes
+            name, request.text, request.topic, request.uses_sleep, request.rest_s, pose, self._routes()
         )
         source = write_program(plan, self._profile, wanted)
         if isinstance(source, Impossible):
