@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Protocol
 
-from chatrobot.core.events import Event, Finished, Limited, Outcome, Progress, ProgramLog
+from chatrobot.core.events import Event, Finished, Limited, Outcome, ProgramLog, Progress
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.execution.sensors import Sensors
@@ -17,6 +17,7 @@ from chatrobot.governor.governor import Governor, Verdict
 from chatrobot.governor.lease import TERM_S
 from chatrobot.programs.events import Died, Ended, Log, Output, ProgramEvent, Raised, TwistAsked
 from chatrobot.programs.held_twist import HeldTwist
+from chatrobot.programs.raised import raised_reason
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.program_job import ProgramJob
 from chatrobot.session.run import Stopwatch, is_worth_telling, sensed_by
@@ -109,7 +110,8 @@ class ProgramRun:
     def progress(self, now_s: float) -> Progress:
         """By the duration that was rehearsed."""
         estimate = self._sensors.estimate
-        assert estimate is not None and self.job.planned is not None
+        assert estimate is not None
+        assert self.job.planned is not None
         expected_s = self.job.planned.duration_s
         fraction = min(1.0, (now_s - self._began_s) / expected_s) if expected_s > 0.0 else 1.0
         return Progress(self.job.turn, 1, 1, fraction, estimate.pose, estimate.twist)
@@ -182,9 +184,3 @@ class ProgramRun:
         if is_worth_telling(verdict) and len(self._told) < LOG_LINES:
             self._told.add(key)
             self._emit(Limited(self.job.turn, verdict.rule, verdict.asked, verdict.allowed, verdict.reason))
-
-
-def raised_reason(event: Raised) -> Reason:
-    """Why a program broke off."""
-    error = f"{event.type_name}: {event.message}" if event.message else event.type_name
-    return Reason("program_raised", {"error": error[:300], "line": event.line})

@@ -25,9 +25,11 @@ from chatrobot.session.understanding import Understanding
 
 MENDABLE = frozenset(
     {
-        "program_syntax", "program_unreadable", "program_too_long", "import_forbidden", "import_unknown",
-        "program_raised", "program_died", "program_stuck", "program_limited", "would_collide", "leaves_area",
-        "leaves_fence", "obstacle_ahead", "program_moves_nothing",
+        "source_syntax", "program_unreadable", "program_too_long", "import_forbidden", "import_unknown",
+        "program_syntax", "program_import", "program_forbidden", "program_raised", "program_exit_code",
+        "program_waits_for_ever", "program_never_stops", "program_moves_nothing", "program_not_finite",
+        "program_other_topic", "program_topic_silent", "program_too_busy", "program_vanished", "limited",
+        "would_collide", "leaves_area", "leaves_fence",
     }
 )  # fmt: skip
 """What a model is asked to mend."""
@@ -69,7 +71,10 @@ class ProgramTurns:
         self._turns: dict[int, _Turn] = {}
 
     def begin(self, turn: int, text: str, *, is_asked_for: bool = False, name: str = "") -> bool:
-        """Take the turn if it is about a program. `name` is what it is to be called. Blocks while a model writes; a stop ends that."""
+        """Take the turn if it is about a program; `name` is what it is to be called.
+
+        Blocks while a model writes; a stop ends that.
+        """
         draft = None if is_asked_for else self.authoring.kept(text)
         if draft is not None:
             self.run(turn, text, draft)

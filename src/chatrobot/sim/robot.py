@@ -33,7 +33,8 @@ class SimRobot:
     """A robot in a world. It holds its last command for ever, or for the profile's `base_timeout_s`.
 
     Topics are the profile's. Stamps are seconds of `clock`, read once at the start: afterwards time passes by
-    `step` alone. Wheels that cannot move the robot spin on unless the lies say that they stall.
+    `step` alone. It begins at `start`, in the frame of the world and of its odometry. Wheels that cannot move
+    the robot spin on unless the lies say that they stall.
     """
 
     def __init__(
@@ -44,6 +45,7 @@ class SimRobot:
         *,
         wire: Wire,
         clock: Clock,
+        start: Pose = ORIGIN,
     ) -> None:
         self._wiring = profile.wiring
         self._lies = lies
@@ -53,18 +55,21 @@ class SimRobot:
         self._surroundings = Surroundings(profile.footprint, [obstacle.shape for obstacle in world.obstacles])
         self._added: dict[str, Obstacle] = {}
         self._odometry = WheelOdometry(lies)
+        self._odometry.pose = start
         self._gyro = Gyro(lies)
         self._lidar = SimLidar(profile.lidar, lies) if profile.lidar and profile.wiring.scan_topic else None
         self._start_s = self._now_s = clock.now_s()
         self._ticks = 0
         self._command_ends_s = math.inf
         self._late: deque[tuple[float, str, Message]] = deque()
-        self._pose = ORIGIN
-        self._yaw_at_tick_rad = 0.0
+        self._pose = start
+        self._yaw_at_tick_rad = start.yaw_rad
         self._twist = ZERO_TWIST
         self._travelled_m = 0.0
         self._in_contact = False
-        self._contact_pose = ORIGIN
+        self._contact_pose = start
+        self.scans = True
+        """False spares a lidar that nobody listens to."""
         wire.subscribe(self._wiring.cmd_vel_topic, TwistMessage, self._on_command)
 
     @property
@@ -226,6 +231,7 @@ class SimRobot:
             self._wire.publish(TRUTH_TOPIC, Odometry(stamp_s, *self._pose, *self._twist))
         if (
             self._lidar is not None
+            and self.scans
             and self._wiring.scan_topic
             and self._ticks % self._lidar.period_ticks == 0
         ):
