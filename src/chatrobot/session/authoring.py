@@ -20,7 +20,7 @@ from chatrobot.plan.context import Impossible, RoutePlanner
 from chatrobot.plan.steps import Plan
 from chatrobot.programs.check import check
 from chatrobot.programs.extract import extract
-from chatrobot.programs.library import KeptProgram, Library, Provenance, RunRecord, today
+from chatrobot.programs.library import KeptProgram, Library, Provenance, RunRecord, clean_name, today
 from chatrobot.programs.prompts import mend_prompt, system_prompt
 from chatrobot.programs.writing.program import write_program
 from chatrobot.programs.writing.wanted import Wanted
@@ -72,8 +72,8 @@ class Authoring:
         self.library = library
         self._profile = profile
         self._interpret = interpret
-        self._model = model
-        self._prefers_model = prefers_model and model is not None
+        self.model = model
+        self.prefers_model = prefers_model
         self._routes = routes
         self._cancels = 0
         self._cancel_reply: Callable[[], None] | None = None
@@ -115,26 +115,34 @@ class Authoring:
         Raises:
             NotWrittenError: nobody could write it, and why.
         """
-        if self._prefers_model:
+        if self.prefers_model and self.model is not None:
             return self._by_model(request, language)
         try:
             return self._offline(request, pose, language)
         except NotWrittenError as refusal:
-            if self._model is None or refusal.outcome != "unclear":
+            if self.model is None or refusal.outcome != "unclear":
                 raise
             return self._by_model(request, language)
 
     def _offline(self, request: ProgramRequest, pose: Pose, language: str) -> Draft:
         plan = self._plan(request, language)
-        name = self.library.free_name(request.name)
+        name = clean_name(request.name) or "program"
+        source = self._written(plan, name, request, pose, language)
+        kept = self.library.find(name)
+        if kept is not None and kept.source != source:
+            name = self.library.free_name(name)
+            source = self._written(plan, name, request, pose, language)
+        program = KeptProgram(name, source, provenance=Provenance(request.text, "offline", "", today()))
+        return self._new(program, request)
+
+    def _written(self, plan: Plan, name: str, request: ProgramRequest, pose: Pose, language: str) -> str:
         wanted = Wanted(
             name, request.text, request.topic, request.uses_sleep, request.rest_s, pose, self._routes()
         )
         source = write_program(plan, self._profile, wanted)
         if isinstance(source, Impossible):
             raise NotWrittenError("refused", render_reason(source.reason, language))
-        program = KeptProgram(name, source, provenance=Provenance(request.text, "offline", "", today()))
-        return self._new(program, request)
+        return source
 
     def _plan(self, request: ProgramRequest, language: str) -> Plan:
         if request.steps:
@@ -147,8 +155,6 @@ class Authoring:
         return meant.plan
 
     def _new(self, program: KeptProgram, request: ProgramRequest, messages: Sequence[Message] = ()) -> Draft:
-        twin = next((kept for kept in self.library.all() if kept.source == program.source), None)
-        program = replace(program, name=twin.name) if twin is not None else program
         checked = check(program.source, self._profile)
         program = replace(program, remap=dict(checked.remap))
         return Draft(program, checked, True, promises=request.promises, messages=tuple(messages))
@@ -156,13 +162,13 @@ class Authoring:
     # --- with a model ---
 
     def _by_model(self, request: ProgramRequest, language: str) -> Draft:
-        assert self._model is not None
+        assert self.model is not None
         messages = [Message("system", system_prompt(self._profile)), Message("user", request.text)]
         reply = self._ask(messages, language)
         found = extract(reply)
         if found is None:
             raise NotWrittenError("unclear", say(language, "no_program_in_reply", reply=reply.strip()[:200]))
-        provenance = Provenance(request.text, "model", self._model.name, today())
+        provenance = Provenance(request.text, "model", self.model.name, today())
         program = KeptProgram(
             self.library.free_name(request.name), found.source, found.description, provenance
         )
@@ -174,7 +180,7 @@ class Authoring:
         Raises:
             NotWrittenError: the model did not answer with one.
         """
-        if not draft.by_model or draft.version > MOST_REPAIRS or self._model is None:
+        if not draft.by_model or draft.version > MOST_REPAIRS or self.model is None:
             return None
         told = mend_prompt(render_reason(problem, "en"), details)
         messages = [*draft.messages, Message("user", told)]
@@ -186,9 +192,9 @@ class Authoring:
         return draft.next(found.source, checked, (*messages, Message("assistant", reply)))
 
     def _ask(self, messages: Sequence[Message], language: str) -> str:
-        assert self._model is not None
+        assert self.model is not None
         before = self._cancels
-        reply = self._model.ask(messages, LIMITS)
+        reply = self.model.ask(messages, LIMITS)
         self._cancel_reply = reply.cancel
         pieces: list[str] = []
         try:

@@ -28,6 +28,7 @@ from chatrobot.session.envelope import Envelope
 from chatrobot.session.guard_link import GuardProcess
 from chatrobot.session.motion import Motion
 from chatrobot.session.planner import Planner
+from chatrobot.session.program_host import ProgramHost
 from chatrobot.session.rivals import BEAT_S, Rivals
 from chatrobot.session.topics import STOP, USER_INPUT
 from chatrobot.sim.load import load_world
@@ -80,6 +81,7 @@ class MotionRunner:
         self._named: list[str] = []
         self._wake = threading.Event()
         self._plans: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
+        self.programs = ProgramHost(self.profile, is_in_step=False)
         self._guard = GuardProcess(address, self.profile.wiring, clock)
         self.motion = Motion(
             self.profile,
@@ -89,6 +91,7 @@ class MotionRunner:
             self._guard,
             emit,
             self._plans.put,
+            self.programs,
         )
         self._rivals = Rivals(self.wire, node, self.profile.wiring.cmd_vel_topic)
         if not self._guard.wait_until_alive(CONNECT_S):
@@ -114,6 +117,7 @@ class MotionRunner:
             self._guard.goodbye()
             self.wire.close()
         finally:
+            self.programs.close()
             with contextlib.suppress(OSError):
                 stop_socket_path(os.getpid()).unlink()
 
