@@ -167,6 +167,7 @@ s.sendto(packet, ('127.0.0.1', world['udp']))
     Attack("connects the channel elsewhere", "network", "channel.connect(world['unix'])"),
     Attack("sends a descriptor out", "network", "import socket; socket.send_fds(channel, [b'x'], [1])"),
     Attack("takes a descriptor in", "network", "import socket; socket.recv_fds(channel, 1, 1)"),
+    Attack("asks for a handle on its host", "network", "print('LEAK', channel.getsockopt(1, 77))"),
     Attack("sends out of band", "network", "import socket; channel.send(b'x', socket.MSG_OOB)"),
 )
 
@@ -606,6 +607,12 @@ while frame:
         if isinstance(page, mmap.mmap) and not page.closed: page[:] = b'\\xff' * len(page)
     frame = frame.f_back
 """,
+        "runs",
+    ),
+    Attack(
+        "commands the terminal it is shown on",
+        "the box itself",
+        "print('\\x1b]52;c;bWluZQ==\\x07\\x1b[2J\\u202e')",
         "runs",
     ),
     Attack("leaves without a word", "the box itself", "import os; os._exit(7)", "refused"),

@@ -30,7 +30,7 @@ def test_a_plain_program_has_nothing_to_look_at() -> None:
 def test_a_syntax_error_refuses_it_with_its_line() -> None:
     found = check(NODE.replace("def go(self):", "def go(self)"), PROFILE).refusal
     assert found is not None
-    assert (found.reason.code, found.line) == ("source_syntax", 11)
+    assert (found.reason.code, found.line) == ("program_syntax", 11)
 
 
 @pytest.mark.parametrize(

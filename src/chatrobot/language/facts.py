@@ -84,7 +84,9 @@ def with_words_counted(atoms: Sequence[Atom], words: Mapping[str, Plan]) -> list
         plan = words.get(word)
         length_m = unit_length_m(plan) if plan is not None else None
         if plan is None:
-            counted = atom.kind == "defined" and bool(out) and out[-1].kind == "q" and out[-1].value == "number"
+            counted = (
+                atom.kind == "defined" and bool(out) and out[-1].kind == "q" and out[-1].value == "number"
+            )
             if counted:  # `three shuffles`
                 out[-1:] = [atom, quantity("times", out[-1].number, out[-1].text)]
             else:

@@ -104,7 +104,7 @@ def check(source: str, profile: RobotProfile) -> Checked:
 
 def _syntax(error: SyntaxError) -> Mark:
     line = error.lineno or 0
-    return Mark("refuse", line, Reason("source_syntax", {"line": line, "problem": str(error.msg)}))
+    return Mark("refuse", line, Reason("program_syntax", {"line": line, "problem": str(error.msg)}))
 
 
 class _Reader:

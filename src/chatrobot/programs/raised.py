@@ -17,7 +17,7 @@ def raised_reason(end: Raised) -> Reason:
     if end.type_name in ("ModuleNotFoundError", "ImportError"):
         return Reason("program_import", values)
     if end.type_name in ("SyntaxError", "IndentationError", "TabError"):
-        return Reason("program_syntax", values)
+        return Reason("program_syntax", {"problem": end.message[:LONGEST_ERROR], "line": end.line})
     if end.type_name == "PermissionError":
         return Reason("program_forbidden", values)
     return Reason("program_raised", values)

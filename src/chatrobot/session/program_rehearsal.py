@@ -141,8 +141,8 @@ def _stopped(played: Played) -> bool:
     return not played.cmd_vel or played.cmd_vel[-1][1].is_zero
 
 
-def _found(severity: Severity, code: str, t_s: float = 0.0, **values: float | int | str) -> Finding:
-    return Finding(severity, Reason(code, values), t_s=t_s)
+def _found(severity: Severity, reason_code: str, t_s: float = 0.0, **values: float | int | str) -> Finding:
+    return Finding(severity, Reason(reason_code, values), t_s=t_s)
 
 
 def _about_the_end(played: Played, horizon_s: float) -> Iterator[Finding]:
@@ -156,7 +156,7 @@ def _about_the_end(played: Played, horizon_s: float) -> Iterator[Finding]:
     elif end.how == "stuck":
         yield _found("warn", "program_waits_for_ever", end.t_s, horizon_s=horizon_s)
     elif end.exit_code != 0:
-        yield Finding("warn", Reason("program_exit_code", {"code": end.exit_code}), t_s=end.t_s)
+        yield _found("warn", "program_exit_code", end.t_s, code=end.exit_code)
     for attempt in played.attempts:
         yield Finding("refuse", attempt, t_s=played.duration_s)
 

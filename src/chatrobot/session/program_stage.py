@@ -50,7 +50,7 @@ class ProgramStage:
         self._clock = VirtualClock()
         hub = MemoryHub()
         self.robot = SimRobot(profile, world, HONEST, wire=hub.connect(), clock=self._clock, start=start)
-        self.robot.scans = False
+        self.robot.listen_to(sensors=False, lidar=False)
         epoch = StopEpoch()
         self._wire = hub.connect()
         self._transport = WireTransport(self._wire, profile.wiring, epoch)
@@ -90,7 +90,7 @@ class ProgramStage:
             topic = getattr(self._profile.wiring, f"{sensor}_topic")
             if kind is not None and topic is not None:
                 self._wire.subscribe(topic, kind, self._hear(sensor))
-            self.robot.scans |= sensor == "scan"
+            self.robot.listen_to(sensors=True, lidar=sensor == "scan" or "scan" in self._boxes)
         before = self._boxes.get(sensor, ())
         self._boxes[sensor] = deque(before, maxlen=max(1, min(depth, 100)))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from array import array
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -84,7 +85,7 @@ def _scan(values: Values) -> Any:
     )
     message.header.stamp, message.header.frame_id = _stamp(stamp_s), "laser"
     message.angle_max = angle_min + increment * max(0, len(ranges) - 1)
-    message.ranges = ranges
+    message.ranges = array("f", ranges)
     return message
 
 

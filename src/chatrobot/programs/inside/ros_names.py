@@ -65,7 +65,8 @@ def _expand(name: str, node_name: str, namespace: str) -> str:
 
 
 def _bad_character(what: str, name: str, also: str) -> tuple[str, int] | None:
+    others = ", '_', '~', '{', or '}'" if also else " or '_'"
     for at, letter in enumerate(name):
         if not (letter.isascii() and (letter.isalnum() or letter == "_" or letter in also)):
-            return f"{what} must not contain characters other than alphanumerics or '_{also}'"[:120], at
+            return f"{what} must not contain characters other than alphanumerics{others}", at
     return None

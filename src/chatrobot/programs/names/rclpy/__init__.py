@@ -19,29 +19,15 @@ from chatrobot.programs.names.rclpy.utilities import try_shutdown as _try_shutdo
 _executors: list[Any] = []
 
 
-class InitContextManager:
-    """What `init` gives: shuts down where it is used as a context manager."""
-
-    def __init__(self, context: Context) -> None:
-        self.context = context
-
-    def __enter__(self) -> InitContextManager:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        try_shutdown(context=None if self.context is get_default_context() else self.context)
-
-
 def init(
     *,
     args: list[str] | None = None,
     context: Context | None = None,
     domain_id: int | None = None,
     signal_handler_options: SignalHandlerOptions | None = None,
-) -> InitContextManager:
+) -> None:
     context = get_default_context() if context is None else context
     context.init(args, domain_id=domain_id)
-    return InitContextManager(context)
 
 
 def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from typing import Any
 
 from chatrobot.programs.inside.link import get_link
-from chatrobot.programs.inside.work import find_work
+from chatrobot.programs.inside.work import find_batch
 from chatrobot.programs.names.rclpy.task import Task
 from chatrobot.programs.names.rclpy.utilities import get_default_context
 
@@ -37,6 +38,7 @@ class Executor:
         self._context = get_default_context() if context is None else context
         self._nodes: list[Any] = []
         self._tasks: deque[Task] = deque()
+        self._batch: Iterator[Task] = iter(())
         self._wakeup = threading.Event()
         self._is_shutdown = False
         self._context.on_shutdown(self._wakeup.set)
@@ -138,9 +140,13 @@ class Executor:
 
     def _find(self) -> tuple[Task | None, int | None]:
         """A task to run now, or when the next timer ticks."""
+        task = next(self._batch, None)
+        if task is not None:
+            return task, None
         if self._tasks:
             return self._tasks.popleft(), None
-        return find_work(self, self._nodes, get_link().now_ns())
+        self._batch, due_ns = find_batch(self, self._nodes, get_link().now_ns())
+        return next(self._batch, None), due_ns
 
     def __enter__(self) -> Executor:
         return self
@@ -164,7 +170,11 @@ class SingleThreadedExecutor(Executor):
 
 
 class MultiThreadedExecutor(Executor):
-    """Callbacks run on a pool of threads; what they raise leaves through the thread that spins."""
+    """Callbacks run on a pool of threads.
+
+    As in rclpy, what they raise leaves through the thread that spins, but only once there is more to do, and a
+    shutdown of rclpy ends the spinning without an exception.
+    """
 
     def __init__(self, num_threads: int | None = None, *, context: Any = None) -> None:
         super().__init__(context=context)
@@ -174,23 +184,16 @@ class MultiThreadedExecutor(Executor):
     def _execute(self, task: Task) -> None:
         if task not in self._running:
             self._running.append(task)
-        self._pool.submit(self._run, task)
-        self._raise_what_failed()
-
-    def _run(self, task: Task) -> None:
-        task()
-        self.wake()
-
-    def _spin_once(self, timeout_sec: float | None, is_reached: Callable[[], bool]) -> None:
-        super()._spin_once(timeout_sec, lambda: is_reached() or any(task._done for task in self._running))
-        self._raise_what_failed()
-
-    def _raise_what_failed(self) -> None:
+        self._pool.submit(task)
         for task in [task for task in self._running if task._done]:
             self._running.remove(task)
             error = task.exception()
             if error is not None:
                 raise error
+
+    def _spin_once(self, timeout_sec: float | None, is_reached: Callable[[], bool]) -> None:
+        with suppress(ExternalShutdownException):
+            super()._spin_once(timeout_sec, is_reached)
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
         self._pool.shutdown(wait=False)
