@@ -17,7 +17,6 @@ from chatrobot.cli.printer import printer_for
 from chatrobot.cli.program_approver import ProgramApprover
 from chatrobot.core.errors import UsageError
 from chatrobot.programs.library import KeptProgram, Library
-from chatrobot.session.draft import Draft
 from chatrobot.session.session import Options
 
 _READ_BYTES = 1_000_000
@@ -85,19 +84,9 @@ def _drive(args: argparse.Namespace, say: Callable[[Conversation], int]) -> int:
     approver = ProgramApprover(can_ask=can_ask)
     with Conversation(setup_from(args, options=options, programs=True), printer, approver) as conversation:
         conversation.see_through(say(conversation))
-        while (draft := approver.edited()) is not None and not conversation.is_leaving:
-            conversation.see_through(conversation.session.say_draft(_rewritten(conversation, draft)))
+        while (edited := approver.edited()) is not None and not conversation.is_leaving:
+            conversation.see_through(conversation.session.say_source(*edited))
     return conversation.exit_code
-
-
-def _rewritten(conversation: Conversation, edited: tuple[str, str]) -> Draft:
-    """What a person made of the program that was shown; where that one is kept, it is kept so."""
-    name, source = edited
-    authoring = conversation.session.authoring
-    assert authoring is not None
-    if authoring.library.find(name) is not None:
-        return authoring.draft_of(authoring.library.edit(name, source))
-    return authoring.draft_of(KeptProgram(name, source))
 
 
 # --- those that do not ---

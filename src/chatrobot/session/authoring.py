@@ -102,6 +102,12 @@ class Authoring:
         """A program from a file, which is not kept."""
         return self.draft_of(KeptProgram(path.stem, source, provenance=Provenance(f"from {path.name}")))
 
+    def edited(self, name: str, source: str) -> Draft:
+        """What a person made of a program; where that one is kept, it is kept so."""
+        if self.library.find(name) is not None:
+            return self.draft_of(self.library.edit(name, source))
+        return self.draft_of(KeptProgram(name, source))
+
     @staticmethod
     def request(text: str, *, is_asked_for: bool = False) -> ProgramRequest | None:
         """What program `text` asks for; None where it asks for none."""

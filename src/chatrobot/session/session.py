@@ -110,6 +110,11 @@ class Session:
         """Take in a program that is there; the number of its turn."""
         return self._take_in(draft.program.name, "draft", draft)
 
+    def say_source(self, name: str, source: str) -> int:
+        """Take in what a person made of the program of that name; where that one is kept, it is kept so."""
+        assert self.authoring is not None
+        return self.say_draft(self.authoring.edited(name, source))
+
     def _take_in(self, text: str, kind: _Kind, program: Draft | str = "") -> int:
         with self._lock:
             self._turns += 1
