@@ -72,15 +72,14 @@ def is_here(wall: str) -> bool:
 def stopped_by(wall: str, tmp_path: Path) -> dict[str, bool]:
     """Each attack of the table behind this wall alone."""
     stopped: dict[str, bool] = {}
-    witness = Witness(_new_folder(tmp_path))
+    witness = Witness(tmp_path)
     with runner(wall) as strike:
         for name in documented():
             said = strike(SOURCES[name], witness)
             effects = witness.effects() or (time.sleep(DYING_S), witness.effects())[1]
             stopped[name] = not effects and "LEAK" not in said
             if effects:
-                witness.close()
-                witness = Witness(_new_folder(tmp_path))
+                witness.restore()
     witness.close()
     return stopped
 
@@ -99,12 +98,6 @@ def test_a_wall_stops_what_the_table_says(wall: str, works_here: set[str], tmp_p
     measured = stopped_by(wall, tmp_path)
     said = {name: walls[wall] for name, walls in documented().items()}
     assert {name: measured[name] for name in works_here} == {name: said[name] for name in works_here}
-
-
-def _new_folder(below: Path) -> Path:
-    folder = below / str(len(list(below.iterdir())))
-    folder.mkdir()
-    return folder
 
 
 def test_the_table_covers_what_matters() -> None:

@@ -59,6 +59,21 @@ class Witness:
             if now[name] != self._before[name]
         ]
 
+    def restore(self) -> None:
+        """As at the beginning, after an attack that had effects."""
+        writable = self._folder / "writable"
+        for each in self._folder.iterdir():
+            if each.name not in ("secret", "writable", "unix", "datagram"):
+                each.unlink() if not each.is_dir() else each.rmdir()
+        writable.unlink(missing_ok=True)
+        writable.write_text("as it was")
+        writable.chmod(0o666)
+        self._victim.kill()
+        self._victim.wait()
+        self._victim = subprocess.Popen(["sleep", "600"])
+        self.world["victim"] = self._victim.pid
+        self._before = self._look()
+
     def close(self) -> None:
         self._victim.kill()
         self._victim.wait()
