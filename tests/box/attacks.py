@@ -11,7 +11,7 @@ from typing import Literal
 
 from chatrobot.box.limits import BoxLimits
 
-End = Literal["refused", "dies", "runs", "crashes"]
+End = Literal["refused", "dies", "runs", "crashes", "fails"]
 Family = Literal[
     "files", "network", "processes", "signals", "memory of others", "the kernel", "machine code",
     "shared memory", "using it up", "the box itself",
@@ -30,7 +30,7 @@ class Attack:
     Args:
         name: says it in words, and is the test's name.
         ends: refused: an exception inside (exit code 1); dies: killed by the filter; runs: to its end, without an
-            effect; crashes: by a signal of its own making.
+            effect; crashes: by a signal of its own making, or of a limit's; fails: in whatever way this Python does.
         reason: the code of the reason in the report, if it is ended by a limit.
         finding: what the report says it tried, if it says so.
     """
@@ -507,8 +507,7 @@ class A:
     def __repr__(self): return repr([self])
 repr(A())
 """,
-        "crashes",
-        "box_crashed",
+        "fails",
         limits=SMALL,
     ),
     Attack(

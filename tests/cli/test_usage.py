@@ -19,7 +19,7 @@ from tests.cli.running import Command
         (["do", "hi", "--interpreter", "psychic"], "auto"),
         (["do", "hi", "--interpreter", "model"], "not built in yet"),
         (["do", "hi", "--model", "openai:gpt"], "not built in yet"),
-        (["do", "hi", "--on", "ros"], "sim"),
+        (["do", "hi", "--on", "mars"], "sim"),
         (["do", "hi", "--fast", "--robot", "r2d2"], "wheeltec_mini_mec"),
         (["do", "hi", "--fast", "--world", "mars"], "home"),
         (["do", "hi", "--fast", "--sim", "slip=lots"], "share"),

@@ -59,6 +59,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     Raises:
         UsageError: what is wrong, and what is allowed.
     """
+    arguments, ros_args = split_ros_args(arguments)
     parser, options = _parsers()
     word = _first_word(arguments, options)
     if word in LATER:
@@ -72,10 +73,28 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         )
     parsed = parser.parse_args(list(arguments))
     parsed.command = parsed.command or ""
+    if ros_args and parsed.command not in ("node", "sim"):
+        raise UsageError("--ros-args is for nodes", allowed="chatrobot node … or chatrobot sim … --on ros")
+    parsed.ros_args = ros_args
     for name, value in DEFAULTS.items():
         if not hasattr(parsed, name):
             setattr(parsed, name, value)
     return parsed
+
+
+def split_ros_args(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
+    """The arguments without, and those between each `--ros-args` and `--` or the end, as ROS has it."""
+    ours: list[str] = []
+    theirs: list[str] = []
+    taking = ours
+    for argument in arguments:
+        if argument == "--ros-args":
+            taking = theirs
+        elif argument == "--" and taking is theirs:
+            taking = ours
+        else:
+            taking.append(argument)
+    return ours, theirs
 
 
 def _first_word(arguments: Sequence[str], options: _Parser) -> str | None:
@@ -123,7 +142,7 @@ def _options() -> _Parser:
     add(
         "--on",
         metavar="WHERE",
-        help="which robot: sim (the default), dds[://DOMAIN[/NAMESPACE]] or rosbridge[:ws://HOST:9090]",
+        help="which robot: sim (the default), dds or ros[://DOMAIN[/NAMESPACE]], or rosbridge[:ws://HOST:9090]",
     )
     add(
         "--robot",
@@ -168,6 +187,7 @@ def _sim(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--socket", metavar="PATH", help="where its wire is served (default: the runtime folder)"
     )
+    _ros_args(parser)
 
 
 def _node(parser: argparse.ArgumentParser) -> None:
@@ -177,9 +197,6 @@ def _node(parser: argparse.ArgumentParser) -> None:
         help="input: lines typed → user_input; base: user_input → chatgpt_node; control: chatgpt_node → cmd_vel",
     )
     parser.add_argument(
-        "--ros-args", action="store_true", help="accepted before -p, so that lines written for ros2 run work"
-    )
-    parser.add_argument(
         "-p",
         dest="parameters",
         action="append",
@@ -187,6 +204,7 @@ def _node(parser: argparse.ArgumentParser) -> None:
         metavar="NAME:=VALUE",
         help="base: generate_code:=True or revChatGPT:=True, the tutorial's parameters",
     )
+    _ros_args(parser)
     parser.add_argument(
         "--allow-release",
         action="store_true",
@@ -228,6 +246,16 @@ def _fake_model(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--port", type=int, default=8399, help="0: any that is free (default: 8399)")
     parser.add_argument(
         "--host", default="127.0.0.1", help="where to listen; beyond loopback a token is asked for"
+    )
+
+
+def _ros_args(parser: argparse.ArgumentParser) -> None:
+    """For the help text alone: `split_ros_args` has taken them."""
+    parser.add_argument(
+        "--ros-args",
+        nargs=argparse.REMAINDER,
+        metavar="…",
+        help="with --on ros what every ROS node takes: -p NAME:=VALUE, -r FROM:=TO, --params-file FILE",
     )
 
 
