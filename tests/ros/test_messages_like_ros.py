@@ -1,4 +1,4 @@
-"""Our message classes are ROS's: the same fields of the same types, the same defaults, the same words in their errors."""
+"""Our message classes are ROS's: the same fields, types and defaults, and the same is taken and refused."""
 
 from __future__ import annotations
 
@@ -17,7 +17,25 @@ from chatrobot.programs.inside import messages, top_level
 
 top_level.preload()
 KINDS = {name: kind for name, kind in messages.REGISTRY.items() if "_R" not in name}
-ODD = (None, True, 1, -1, 2**70, 1.5, float("nan"), float("inf"), 1e300, "x", b"x", b"xy", [1], [1.5], ["x"], {}, object())
+ODD = (
+    None,
+    True,
+    1,
+    -1,
+    2**70,
+    1.5,
+    float("nan"),
+    float("inf"),
+    1e300,
+    "x",
+    b"x",
+    b"xy",
+    [1],
+    [1.5],
+    ["x"],
+    {},
+    object(),
+)
 
 
 def theirs(name: str) -> Any:
