@@ -50,9 +50,9 @@ def _checks(args: argparse.Namespace) -> Iterator[Check]:
     yield _try("settings folder", lambda: _settings(args))
     yield _try("simulated robot", lambda: _simulated_robot(args))
     yield _try("in real time", lambda: _in_real_time(args))
-    yield _ros()
+    yield _ros(args)
     yield _dds(args)
-    yield _model()
+    yield _model(args)
     yield _box()
 
 
@@ -99,28 +99,52 @@ def _ignore(_: Event) -> None:
     """Only the result counts here."""
 
 
-def _ros() -> Check:
+def _ros(args: argparse.Namespace) -> Check:
+    """What is sourced here, and who is there in a moment's listening."""
     from importlib.util import find_spec
 
+    from chatrobot.wire.ros.environment import HOW_TO_GET_IT, reaches_this_machine_alone
+
     distribution = os.environ.get("ROS_DISTRO", "")
-    found = (
-        f"ROS 2 {distribution} is here"
-        if find_spec("rclpy") is not None
-        else "no ROS 2 here, and none is needed"
-    )
-    return Check("ROS 2", "later", f"{found}: this version drives robots over --on dds and --on rosbridge")
+    if find_spec("rclpy") is None:
+        here = (
+            f"{distribution} is sourced, but not for this Python" if distribution else "not here, nor needed"
+        )
+        return Check("ROS 2", "later", f"{here}; for --on ros {HOW_TO_GET_IT}")
+    try:
+        from rclpy.utilities import get_rmw_implementation_identifier
+
+        middleware = get_rmw_implementation_identifier()
+        seen = _who_is_on("ros:", args)
+    except (ChatRobotError, ImportError, RuntimeError) as error:
+        return Check("ROS 2", "later", f"{distribution} does not work with this Python: {error}")
+    reach = "this machine" if reaches_this_machine_alone(os.environ) else "the whole network"
+    return Check("ROS 2", "ok", f"{distribution} with {middleware}; {_domain()}, {reach}, {seen}")
 
 
 def _dds(args: argparse.Namespace) -> Check:
     """Who is there in a moment's listening."""
-    from chatrobot.robots.load import load_profile
-    from chatrobot.wire.connect import connect_wire, is_on_this_machine, publishers_of
+    from chatrobot.wire.connect import is_on_this_machine
 
-    wiring = load_profile(args.robot, profile_folders(args)).wiring
     try:
-        wire = connect_wire("dds:", wiring, "chatrobot_doctor")
+        seen = _who_is_on("dds:", args)
     except (ChatRobotError, OSError) as error:
         return Check("DDS", "later", str(error))
+    reach = "this machine" if is_on_this_machine("dds:") else "the whole network"
+    return Check("DDS", "ok", f"works; {_domain()}, {reach}, {seen}")
+
+
+def _domain() -> str:
+    return f"on domain {os.environ.get('ROS_DOMAIN_ID', '').strip() or '0'}"
+
+
+def _who_is_on(address: str, args: argparse.Namespace) -> str:
+    """Who tells the robot's odometry there, and who sends velocities."""
+    from chatrobot.robots.load import load_profile
+    from chatrobot.wire.connect import connect_wire, publishers_of
+
+    wiring = load_profile(args.robot, profile_folders(args)).wiring
+    wire = connect_wire(address, wiring, "chatrobot_doctor")
     ends_s = time.monotonic() + DISCOVERY_S
     robots: list[str] = []
     while not robots and time.monotonic() < ends_s:
@@ -128,23 +152,32 @@ def _dds(args: argparse.Namespace) -> Check:
         robots = publishers_of(wire, wiring.odom_topic) if wiring.odom_topic else []
     drivers = publishers_of(wire, wiring.cmd_vel_topic)
     wire.close()
-    reach = "this machine" if is_on_this_machine("dds:") else "the whole network"
-    domain = os.environ.get("ROS_DOMAIN_ID", "").strip() or "0"
-    text = f"works; on domain {domain}, {reach}, "
-    text += (
-        f"{', '.join(robots)} tells {wiring.odom_topic}" if robots else f"nobody tells {wiring.odom_topic}"
-    )
-    return Check(
-        "DDS", "ok", text + (f"; {', '.join(drivers)} sends {wiring.cmd_vel_topic}" if drivers else "")
-    )
+    text = f"{', '.join(robots)} tells {wiring.odom_topic}" if robots else f"nobody tells {wiring.odom_topic}"
+    return text + (f"; {', '.join(drivers)} sends {wiring.cmd_vel_topic}" if drivers else "")
 
 
-def _model() -> Check:
-    wanted = os.environ.get("CHATROBOT_MODEL", "")
-    text = "this version understands English and Chinese offline, and uses no model"
-    return Check(
-        "language model", "later", f"{text} (CHATROBOT_MODEL={wanted} is not used)" if wanted else text
-    )
+def _model(args: argparse.Namespace) -> Check:
+    """What would be asked; it is not asked, that may cost: `chatrobot model test` does."""
+    from chatrobot.language.phrases import render_reason
+    from chatrobot.models.choice import resolve
+    from chatrobot.models.config import ModelConfig
+    from chatrobot.models.state import problem_with
+
+    config = ModelConfig(folder=config_folder(args))
+    try:
+        choice = resolve(args.model, config)
+    except ChatRobotError as error:
+        return Check("language model", "missing", str(error))
+    if choice is None:
+        text = "none is set up (chatrobot model does it); English and Chinese are understood without one"
+        return Check("language model", "later", text)
+    problem = problem_with(choice.name, config)
+    if problem is not None:
+        return Check("language model", "missing", f"{choice.name}: {render_reason(problem, 'en')}")
+    source = {"option": "--model", "environment": "CHATROBOT_MODEL", "stored": "chatrobot model use"}[
+        choice.source
+    ]
+    return Check("language model", "ok", f"{choice.name}, by {source}; chatrobot model test tries it")
 
 
 _MORE = {
