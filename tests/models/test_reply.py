@@ -102,12 +102,18 @@ def test_pieces_are_handed_on_as_they_come() -> None:
 
 @pytest.mark.realtime
 def test_our_own_part_of_a_call_is_short() -> None:
-    """From `ask` to the end of a reply that the server gives at once."""
+    """From `ask` to the end of a reply that the server gives at once, with the server's own part in it.
+
+    In processor time: a busy machine makes a call longer, but not more work. `bench.models` measures both.
+    """
     with serving([{"match": "", "text": "drive 1 m"}]) as fake:
         for provider in WIRES:
             model = model_at(provider, fake.url)
             Got(model, "warm up")
-            assert statistics.median(Got(model, "go").took_s for _ in range(9)) < OVERHEAD_S, provider
+            began_s = time.process_time()
+            for _ in range(9):
+                Got(model, "go")
+            assert (time.process_time() - began_s) / 9 < OVERHEAD_S, provider
 
 
 @pytest.mark.realtime
