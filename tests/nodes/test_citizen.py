@@ -18,6 +18,7 @@ import yaml
 sys.path.insert(0, str(Path(__file__).parents[1] / "wire"))
 import fake_rclpy
 
+from chatrobot.cli import doctor, ros_run
 from chatrobot.cli import node as command
 from chatrobot.cli.arguments import parse, split_ros_args
 from chatrobot.core.clock import VirtualClock
@@ -25,7 +26,7 @@ from chatrobot.core.errors import UsageError, WireError
 from chatrobot.nodes.parameters import PARAMETERS
 from chatrobot.session import motion_runner
 from chatrobot.session.guard_link import SimulatedGuard
-from chatrobot.wire.messages import Text, TwistMessage
+from chatrobot.wire.messages import Odometry, Text, TwistMessage
 
 ROOT = Path(__file__).parents[2]
 PARAMS_FILE = ROOT / "ros" / "chatrobot" / "params" / "params.yaml"
@@ -234,6 +235,43 @@ def test_every_parameter_stands_on_the_page_and_every_switch_of_a_launch_line_is
     assert set(re.findall(r'^    "(\w+)":', launch, re.MULTILINE)) <= {*names, "use_sim_time"}
     for node, own in ast.literal_eval(of_one[1]).items():
         assert own <= {parameter.name for parameter in PARAMETERS[node]}
+
+
+def test_doctor_tells_which_ros_is_here_and_who_is_on_it(ros: fake_rclpy.Ros, ear: Any) -> None:
+    ear.advertise("odom", Odometry)
+    check = doctor._ros(parse(["doctor"]))
+    assert check.state == "ok"
+    assert check.text.startswith("jazzy with rmw_fake_cpp; on domain ")
+    assert check.text.endswith("/ear tells odom")
+    assert [node.name for node in ros.nodes] == ["ear"]
+
+
+def test_doctor_says_how_to_get_ros(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("importlib.util.find_spec", lambda _: None)
+    monkeypatch.setenv("ROS_DISTRO", "jazzy")
+    check = doctor._ros(parse(["doctor"]))
+    assert check.state == "later"
+    assert "not for this Python" in check.text
+    assert "source /opt/ros" in check.text
+
+
+@pytest.mark.parametrize(
+    ("executable", "command_line"),
+    [
+        (ros_run.input_node, ["node", "input"]),
+        (ros_run.base_node, ["node", "base"]),
+        (ros_run.control_node, ["node", "control"]),
+        (ros_run.simulated_robot, ["sim"]),
+    ],
+)
+def test_ros2_run_starts_what_the_command_line_starts(
+    monkeypatch: pytest.MonkeyPatch, executable: Callable[[], int], command_line: list[str]
+) -> None:
+    started: list[list[str]] = []
+    monkeypatch.setattr(ros_run, "main", lambda arguments: started.append(arguments) or 7)
+    monkeypatch.setattr(sys, "argv", ["/ws/lib/chatrobot/it", "--ros-args", "-r", "a:=b"])
+    assert executable() == 7
+    assert started == [[*command_line, "--on", "ros", "--ros-args", "-r", "a:=b"]]
 
 
 def test_ros_s_arguments_end_at_two_dashes() -> None:
