@@ -21,7 +21,7 @@ import fake_rclpy
 from chatrobot.cli import doctor, ros_run
 from chatrobot.cli import node as command
 from chatrobot.cli.arguments import parse, split_ros_args
-from chatrobot.core.clock import VirtualClock
+from chatrobot.core.clock import RealClock, VirtualClock
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.nodes.parameters import PARAMETERS
 from chatrobot.session import motion_runner
@@ -41,8 +41,9 @@ def ros(monkeypatch: pytest.MonkeyPatch) -> fake_rclpy.Ros:
 class _Guard(SimulatedGuard):
     """In place of the guard's process, which has no fake of ROS."""
 
-    def __init__(self, address: str, wiring: Any) -> None:
+    def __init__(self, address: str, wiring: Any, clock: Any) -> None:
         super().__init__(VirtualClock())
+        self.given_clock = clock
         self.halts = address, wiring.cmd_vel_topic, wiring.odom_topic
 
     def wait_until_alive(self, _timeout_s: float) -> bool:
@@ -53,8 +54,8 @@ class _Guard(SimulatedGuard):
 def guards(monkeypatch: pytest.MonkeyPatch) -> list[_Guard]:
     made: list[_Guard] = []
 
-    def make(address: str, wiring: Any, _clock: Any) -> _Guard:
-        made.append(_Guard(address, wiring))
+    def make(address: str, wiring: Any, clock: Any) -> _Guard:
+        made.append(_Guard(address, wiring, clock))
         return made[-1]
 
     monkeypatch.setattr(motion_runner, "GuardProcess", make)
@@ -199,6 +200,23 @@ def test_a_parameter_out_of_range_or_of_another_type_is_refused(ros: fake_rclpy.
     with pytest.raises(UsageError, match=given.partition(":")[0]):
         command.run(parse(["node", "base", "--on", "ros", "--ros-args", "-p", given]))
     assert not ros.nodes
+
+
+def test_motion_keeps_the_simulation_s_time_and_the_guard_real_time(
+    monkeypatch: pytest.MonkeyPatch, ros: fake_rclpy.Ros, guards: list[_Guard]
+) -> None:
+    clocks: list[Any] = []
+
+    class Spy(motion_runner.Motion):
+        def __init__(self, profile: Any, wire: Any, clock: Any, *rest: Any) -> None:
+            clocks.append(clock)
+            super().__init__(profile, wire, clock, *rest)
+
+    monkeypatch.setattr(motion_runner, "Motion", Spy)
+    ros.clock_s = 12.5
+    with running(monkeypatch, ros, "control", "--ros-args", "-p", "use_sim_time:=true"):
+        assert clocks[0].now_s() == 12.5
+        assert isinstance(guards[0].given_clock, RealClock)
 
 
 def test_without_a_clock_a_node_that_follows_simulated_time_does_not_start(
