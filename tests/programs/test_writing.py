@@ -9,6 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import chatrobot.robots
 from chatrobot.box.warm_server import WarmServer
@@ -17,8 +19,10 @@ from chatrobot.governor.kernel import make_kernel
 from chatrobot.plan.context import Impossible
 from chatrobot.plan.rehearsal import rehearse
 from chatrobot.plan.route import GridRoutePlanner
+from chatrobot.plan.steps import Drive, Go, Repeat, Step, Wait
 from chatrobot.plan.text import parse_plan
 from chatrobot.programs.check import check
+from chatrobot.programs.writing.fold import folded
 from chatrobot.programs.writing.program import class_name, node_name, write_program
 from chatrobot.programs.writing.wanted import Wanted
 from chatrobot.robots.load import load_profile
@@ -146,6 +150,21 @@ def test_it_reads_as_a_person_writes_it() -> None:
     assert "self.create_publisher(Twist, '/cmd_vel', 10)" in source
     assert max(len(line) for line in source.splitlines()) <= 110
     assert "    finally:\n        node.stop()" in source
+
+
+def test_what_is_said_several_times_becomes_a_loop() -> None:
+    source = written("drive 1 m\n" + "drive 40 cm\nturn left 90 deg\n" * 4 + "go to 1 1\ngo to 1 1")
+    assert source.count("for _ in range(4):") == 1
+    assert source.count("0.4 / 0.3") == 1
+    assert source.count("self.go_to(1.0, 1.0") == 2
+
+
+@given(st.lists(st.sampled_from([Wait(1.0), Wait(2.0), Drive(1.0), Go(1.0, 0.0)]), min_size=1, max_size=12))
+def test_folded_steps_are_the_same_steps(steps: list[Step]) -> None:
+    unfolded: list[Step] = []
+    for step in folded(steps):
+        unfolded += list(step.steps) * step.count if isinstance(step, Repeat) else [step]
+    assert unfolded == steps
 
 
 def test_time_sleep_is_used_where_it_was_asked_for() -> None:

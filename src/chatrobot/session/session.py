@@ -288,14 +288,16 @@ class Session:
         return turn <= self._void_turn
 
     def _send_program(self, turn: int, payload: dict[str, Any]) -> None:
-        is_new = payload.pop("is_new")
+        options = self._options
+        asks_new = payload.pop("is_new") and options.ask_new
+        asks_remap = payload.pop("is_led_elsewhere") and options.ask_findings
         self._joint.send(
             "program",
             turn,
-            mode=self._options.while_moving,
-            approve=self._options.approve or (is_new and self._options.ask_new),
-            ask_findings=self._options.ask_findings,
-            rehearse_only=self._options.rehearse_only,
+            mode=options.while_moving,
+            approve=options.approve or asks_new or asks_remap,
+            ask_findings=options.ask_findings,
+            rehearse_only=options.rehearse_only,
             **payload,
         )
 
