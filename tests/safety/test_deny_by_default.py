@@ -29,7 +29,9 @@ GOOD: dict[str, dict[str, Any]] = {
         "rehearse_only": False,
         "term_s": 0.3,
         "longest_s": 10,
+        "more": False,
     },
+    "look": {},
     "approve": {"yes": True},
     "stop": {"why": "x"},
     "emergency_stop": {"why": "x"},
@@ -50,6 +52,7 @@ ALLOWED: dict[str, list[Any]] = {
     "approve": [True, False],
     "rehearse_only": [True, False],
     "yes": [True, False],
+    "more": [True, False],
 }
 STOPS = ("stop", "emergency_stop")
 
@@ -175,6 +178,6 @@ def test_words_beyond_the_limits_are_refused_however_they_are_put(tmp_path: Path
 
 
 def test_an_unlisted_mode_is_refused() -> None:
-    assert MODES == ("queue", "replace", "append")
+    assert MODES == ("queue", "replace", "append", "extend")
     for mode in ("", "now", "QUEUE", "force"):
         assert Envelope.from_bytes(packet("plan", {"plan_text": "drive 1 m", "mode": mode})) is None
