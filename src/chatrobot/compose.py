@@ -17,10 +17,14 @@ from typing import TYPE_CHECKING
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.errors import JointError, UsageError
 from chatrobot.core.events import Event, TruePose
+from chatrobot.models.seam import Model
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile, profile_argument
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.joint import SimulatedJoint
+from chatrobot.session.model_turn import ModelOptions
+from chatrobot.session.observations import Camera
 from chatrobot.session.session import Options, Session
+from chatrobot.session.thinking import Mind
 from chatrobot.session.understanding import Understanding
 from chatrobot.sim.lies import SimLies
 from chatrobot.sim.load import load_world
@@ -46,7 +50,8 @@ class Setup:
     `on` is auto, sim, or a robot's wire (`wire_address`). `world`: "" is what fits, the furnished home for the
     simulated robot and nothing known for any other. `sim` holds the lies of the simulated robot (`slip=0.03,…`).
     `yes`: plans of a real robot need no approval. `folder` is where places, programs and history live; None keeps
-    nothing.
+    nothing. `model` is the language model to ask, None for none, `model_options` how it is used, and `camera` takes
+    pictures for it.
     """
 
     on: str = "sim"
@@ -58,6 +63,9 @@ class Setup:
     yes: bool = False
     folder: Path | None = None
     options: Options = field(default_factory=Options)
+    model: Model | None = None
+    model_options: ModelOptions = field(default_factory=ModelOptions)
+    camera: Camera | None = None
 
 
 @dataclass
@@ -97,6 +105,18 @@ def default_world(on: str) -> str:
     return "home" if on in SIMULATED else "empty"
 
 
+def mind_of(setup: Setup, profile: RobotProfile) -> Mind | None:
+    """The model and how it drives this robot.
+
+    Its steps run as they come where the profile allows that; on a base that steers like a car a plan comes whole,
+    because corners can be rounded only where both legs are known.
+    """
+    if setup.model is None:
+        return None
+    streams = setup.model_options.streams and profile.approval == "stream" and profile.can_turn_on_the_spot
+    return Mind(setup.model, replace(setup.model_options, streams=streams), profile, setup.camera)
+
+
 def profile_dirs(folder: Path | None) -> tuple[Path, ...]:
     """Where a person's own robot profiles live."""
     return (folder / "robots",) if folder is not None else ()
@@ -129,7 +149,7 @@ def _connect_simulated(
 
     joint = SimulatedJoint(build, wire, clock, robot.step, guard, hub.connect(), profile.wiring.cmd_vel_topic)
     joint.next_event(SETTLE_S)
-    session = Session(joint, understanding, on_event, setup.options)
+    session = Session(joint, understanding, on_event, setup.options, mind_of(setup, profile))
     return Connection(session, profile, world, session.close)
 
 
@@ -163,7 +183,7 @@ def _connect_real_time(
     trace = LocalWire(wire_path) if setup.trace else None
     if trace is not None:
         trace.subscribe(TRUTH_TOPIC, Odometry, _tracer(one_at_a_time))
-    session = Session(joint, understanding, one_at_a_time, setup.options)
+    session = Session(joint, understanding, one_at_a_time, setup.options, mind_of(setup, profile))
 
     def close() -> None:
         session.close()
@@ -188,7 +208,8 @@ def _connect_wire(
     approve = setup.options.approve or (profile.approval == "plan" and not setup.yes)
     joint = SocketJoint(address, profile_argument(setup.robot, profile_dirs(setup.folder)), setup.world)
     joint.wait_until_ready()
-    session = Session(joint, understanding, on_event, replace(setup.options, approve=approve))
+    options = replace(setup.options, approve=approve)
+    session = Session(joint, understanding, on_event, options, mind_of(setup, profile))
     return Connection(session, profile, world, session.close)
 
 

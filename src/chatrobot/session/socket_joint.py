@@ -38,6 +38,7 @@ class SocketJoint:
         self._events: queue.SimpleQueue[Event | None] = queue.SimpleQueue()
         self._closed = threading.Event()
         self.is_lost = False
+        self.is_simulated = False
         self.beats = True
         ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self._line = ours

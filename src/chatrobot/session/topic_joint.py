@@ -55,6 +55,7 @@ class TopicJoint:
         self._in_flight: dict[int, str] = {}
         self._pose: Pose = ORIGIN
         self.beats = True
+        self.is_simulated = False
 
     def open(self) -> None:
         """Listen, and begin to beat."""
@@ -70,7 +71,7 @@ class TopicJoint:
         return False
 
     def send(self, word: Word, turn: int = 0, **payload: Any) -> None:
-        if word == "plan":
+        if word == "plan" and payload.get("mode") != "extend":
             control = self._find_control()
             if control is None:
                 self._conclude(turn, "failed", Reason("no_control"))
