@@ -69,6 +69,7 @@ class Sequence:
         self.stops = 0
         self.sent = Twist()
         self.sent_at_s = -math.inf
+        self.gaining = (0.0, 0.0)
         self.held_back: list[tuple[GovernedTwist, int]] = []
         self.scans_left = 1
         self.most_mps = math.inf
@@ -249,7 +250,17 @@ class Sequence:
         if self.chance.random() < 0.05:
             self.held_back.append((governed, self.stops))
         self._check(governed.twist, source)
-        self.sent, self.sent_at_s = governed.twist, self.now_s
+        self._note(governed.twist)
+
+    def _note(self, sent: Twist) -> None:
+        """The acceleration that the next step goes on from: of the change, for what turns about slows first."""
+        step_s = TICK_S if self.sent.is_zero else min(self.now_s - self.sent_at_s, LONGEST_STEP_S)
+        if sent.is_zero:
+            self.gaining = (0.0, 0.0)
+        elif step_s > 0.0:
+            change = math.hypot(sent.vx_mps - self.sent.vx_mps, sent.vy_mps - self.sent.vy_mps)
+            self.gaining = (change / step_s, abs(sent.wz_radps - self.sent.wz_radps) / step_s)
+        self.sent, self.sent_at_s = sent, self.now_s
 
     def _check(self, sent: Twist, source: Source) -> None:
         vx, vy, wz = sent
@@ -272,8 +283,26 @@ class Sequence:
         change = math.hypot(vx - self.sent.vx_mps, vy - self.sent.vy_mps)
         if change > limits.acceleration_mps2 * step_s + EPSILON:
             raise BrokenPromiseError(f"{change} m/s in {step_s} s")
+        if vx * self.sent.vx_mps + vy * self.sent.vy_mps < self.sent.speed_mps**2 - EPSILON:
+            brakes = min(limits.acceleration_mps2, limits.deceleration_mps2)
+            if change > brakes * step_s + EPSILON:
+                raise BrokenPromiseError(f"brakes by {change} m/s in {step_s} s")
         if abs(wz - self.sent.wz_radps) > limits.angular_acceleration_radps2 * step_s + EPSILON:
             raise BrokenPromiseError(f"{wz - self.sent.wz_radps} rad/s in {step_s} s")
+        self._check_jerk(sent, step_s)
+
+    def _check_jerk(self, sent: Twist, step_s: float) -> None:
+        """What only gains, gains no more than the last gain and a step's jerk on top. `gain` is in m/s and rad/s."""
+        before, limits = self.sent, self.profile.limits
+        gained = sent.speed_mps - before.speed_mps
+        turned = abs(sent.wz_radps) - abs(before.wz_radps)
+        if gained < 0.0 or turned < 0.0 or not step_s:
+            return
+        last_mps2, last_radps2 = self.gaining
+        if gained > (last_mps2 + limits.jerk_mps3 * step_s) * step_s + EPSILON:
+            raise BrokenPromiseError(f"from {last_mps2} to {gained / step_s} m/s² in {step_s} s")
+        if turned > (last_radps2 + limits.angular_jerk_radps3 * step_s) * step_s + EPSILON:
+            raise BrokenPromiseError(f"from {last_radps2} to {turned / step_s} rad/s² in {step_s} s")
 
     def _check_speed(self, sent: Twist) -> None:
         limits, profile = self.profile.limits, self.profile
@@ -284,6 +313,8 @@ class Sequence:
             raise BrokenPromiseError(f"{sent} is above the profile's rate")
         if not profile.can_go_sideways and sent.vy_mps != 0.0:
             raise BrokenPromiseError("sideways on a base that cannot")
+        if limits.wheel_speed_mps(*sent) > limits.max_wheel_speed_mps + EPSILON:
+            raise BrokenPromiseError("a wheel rolls faster than it may")
         if rate * limits.min_turning_radius_m > abs(sent.vx_mps) + EPSILON:
             raise BrokenPromiseError("a tighter curve than the base can do")
         if speed > max(self.most_mps, self.sent.speed_mps) + EPSILON:
@@ -301,8 +332,24 @@ def _good_scan(chance: random.Random) -> LaserScan:
 def profiles() -> list[RobotProfile]:
     """All there are, and each with every rule that a profile can switch on."""
     plain = [entry.load() for entry in list_profiles()]
-    everything = Safety(Circle(0.0, 0.0, 3.0), ("odom", "imu"), 0.05, 60.0)
-    return [*plain, *(replace(profile, safety=everything) for profile in plain)]
+    return [*plain, *map(with_everything, plain)]
+
+
+def with_everything(profile: RobotProfile) -> RobotProfile:
+    """The same robot with every rule and every limit that a profile can switch on."""
+    limits = profile.limits
+    reach_m = limits.max_speed_mps / limits.max_rate_radps
+    return replace(
+        profile,
+        safety=Safety(Circle(0.0, 0.0, 3.0), ("odom", "imu"), 0.05, 60.0),
+        limits=replace(
+            limits,
+            max_wheel_speed_mps=1.1 * limits.max_speed_mps,
+            wheel_reach_m=reach_m,
+            jerk_mps3=4.0 * limits.acceleration_mps2,
+            angular_jerk_radps3=5.0 * limits.angular_acceleration_radps2,
+        ),
+    )
 
 
 def run_chunk(seed: int, sequences: int) -> str:

@@ -10,6 +10,7 @@ import pytest
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 from chatrobot.core.governed import StopEpoch
 from chatrobot.governor.governor import LONGEST_STEP_S, TICK_S, Governor
+from chatrobot.governor.rule import Sensed
 from chatrobot.robots.load import load_profile
 from chatrobot.wire.messages import LaserScan
 
@@ -136,3 +137,16 @@ def test_a_scan_is_nothing_to_a_robot_without_a_lidar() -> None:
     governor, _ = governor_with_lease()
     governor.take_scan(LaserScan(0.0, -math.pi, 0.1, 0.1, 8.0, [0.2] * 63), ORIGIN)
     assert governor.govern(SLOW, "lease", 0.0, ORIGIN).rule == "acceleration"
+
+
+@pytest.mark.parametrize("pose", [Pose(1e308, 0.0, 0.0), Pose(0.0, -2e6, 0.0), Pose(0.0, 0.0, math.nan)])
+def test_a_pose_that_nobody_can_be_at_is_as_good_as_none(pose: Pose) -> None:
+    """Else what the lidar saw would lie infinitely far away."""
+    governor = Governor(load_profile("wheeltec_mini_mec"), StopEpoch())
+    governor.leases.open("lease", "console", math.inf, 0.0)
+    governor.begin("lease", 0.0)
+    free = LaserScan(0.0, -math.pi, math.radians(1.0), 0.1, 8.0, [math.inf] * 360)
+    governor.take_scan(free, ORIGIN)
+    verdict = governor.govern(SLOW, "lease", 0.02, pose, Sensed({"scan": 0.0, "odom": 0.0}))
+    assert verdict.rule == "blind"
+    assert governor.govern(SLOW, "lease", 0.04, ORIGIN, Sensed({"scan": 0.0})).rule == "acceleration"

@@ -105,3 +105,43 @@ def test_a_base_that_is_slower_sideways_keeps_its_direction_too() -> None:
     assert bounded(slow, Twist(0.4, 0.4, 0.2)) == pytest.approx(Twist(0.2, 0.2, 0.1))
     assert bounded(slow, Twist(0.4, -0.2, 0.2)) == Twist(0.4, -0.2, 0.2)
     assert bounded(slow, Twist(9.0, 0.1, 0.0)).speed_mps == pytest.approx(1.0)
+
+
+def with_wheels(profile: RobotProfile) -> RobotProfile:
+    """Its wheels roll no faster than straight ahead or turning alone make them."""
+    limits = profile.limits
+    reach_m = limits.max_speed_mps / limits.max_rate_radps
+    wheels = replace(limits, max_wheel_speed_mps=limits.max_speed_mps, wheel_reach_m=reach_m)
+    return replace(profile, limits=wheels)
+
+
+@given(st.sampled_from([with_wheels(profile) for profile in PROFILES]), st.lists(twists, max_size=30))
+def test_no_wheel_rolls_faster_than_it_may_whatever_is_asked_together(
+    profile: RobotProfile, requests: list[Twist]
+) -> None:
+    kernel, sent = make_kernel(profile), ZERO_TWIST
+    for asked in requests:
+        sent = kernel(sent, asked, 0.02)
+        assert_within_speed(profile, sent)
+        assert profile.limits.wheel_speed_mps(*sent) <= profile.limits.max_wheel_speed_mps + EPSILON
+
+
+def test_driving_and_turning_together_share_what_the_wheels_can_do() -> None:
+    robot = with_wheels(next(profile for profile in PROFILES if profile.name == "wheeltec_mini_diff"))
+    assert bounded(robot, Twist(0.6, 0.0, 1.5)) == pytest.approx(Twist(0.3, 0.0, 0.75))
+    assert bounded(robot, Twist(0.6, 0.0, 0.0)) == Twist(0.6, 0.0, 0.0)
+    assert bounded(robot, Twist(0.0, 0.0, -1.5)) == Twist(0.0, 0.0, -1.5)
+
+
+@pytest.mark.parametrize("ahead", [0.4, -0.4])
+def test_a_base_that_brakes_more_weakly_than_it_gains_gets_the_weaker_ramp_down(ahead: float) -> None:
+    robot = next(profile for profile in PROFILES if profile.name == "wheeltec_mini_diff")
+    limits = robot.limits
+    assert limits.deceleration_mps2 < limits.acceleration_mps2
+    kernel, sign = make_kernel(robot), math.copysign(1.0, ahead)
+    slower = kernel(Twist(ahead, 0.0, 0.0), Twist(0.5 * ahead, 0.0, 0.0), 0.02)
+    assert ahead - slower.vx_mps == pytest.approx(sign * limits.deceleration_mps2 * 0.02)
+    faster = kernel(Twist(0.5 * ahead, 0.0, 0.0), Twist(ahead, 0.0, 0.0), 0.02)
+    assert faster.vx_mps - 0.5 * ahead == pytest.approx(sign * limits.acceleration_mps2 * 0.02)
+    back = kernel(Twist(ahead, 0.0, 0.0), Twist(-ahead, 0.0, 0.0), 0.02)
+    assert ahead - back.vx_mps == pytest.approx(sign * limits.deceleration_mps2 * 0.02)

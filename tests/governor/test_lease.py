@@ -87,3 +87,10 @@ def test_leases_do_not_touch_each_other() -> None:
     leases.end("a")
     assert leases.is_valid("b", 11.0)
     assert not leases.is_valid("b", 11.01)
+
+
+def test_a_lease_is_known_from_its_opening_on_whatever_became_of_it() -> None:
+    leases = opened()
+    assert not leases.is_known("b")
+    leases.end("a")
+    assert leases.is_known("a")

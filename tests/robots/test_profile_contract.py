@@ -9,6 +9,7 @@ from dataclasses import fields
 import pytest
 
 from chatrobot.robots.load import DEFAULT_PROFILE, ProfileEntry, list_profiles, load_profile
+from chatrobot.robots.parse import OPTIONAL_LIMITS
 from chatrobot.robots.profile import Limits, RobotProfile
 
 ENTRIES = list_profiles()
@@ -42,7 +43,7 @@ def test_it_is_found_by_its_name(entry: ProfileEntry, profile: RobotProfile) -> 
 
 
 def test_every_limit_says_where_it_comes_from(profile: RobotProfile) -> None:
-    given = {field.name for field in fields(Limits)} - {"min_turning_radius_m"}
+    given = {field.name for field in fields(Limits)} - OPTIONAL_LIMITS
     assert given <= profile.sources.keys()
     assert all(len(source) > 5 for source in profile.sources.values())
 

@@ -279,3 +279,36 @@ def test_any_text_anywhere_loads_or_is_a_profile_error(text: str, data: st.DataO
 def test_the_property_tests_start_from_profiles_that_load() -> None:
     for text in TEXTS:
         assert is_safe(parse_profile(document(tomllib.loads(text)), "bot"))
+
+
+def with_limits(**values: float) -> str:
+    lines = "".join(
+        f'{name} = {{ value = {value}, source = "measured" }}\n' for name, value in values.items()
+    )
+    return MECANUM.replace("\n[defaults]", f"{lines}\n[defaults]", 1)
+
+
+def test_wheels_and_jerk_are_limited_where_a_profile_says_so() -> None:
+    text = with_limits(max_wheel_speed_mps=1.2, wheel_reach_m=0.2, jerk_mps3=4.0, angular_jerk_radps3=8.0)
+    limits = parse_profile(text, "bot").limits
+    assert (limits.max_wheel_speed_mps, limits.wheel_reach_m) == (1.2, 0.2)
+    assert (limits.jerk_mps3, limits.angular_jerk_radps3) == (4.0, 8.0)
+    assert limits.wheel_speed_mps(0.5, -0.25, 0.5) == pytest.approx(0.85)
+    unlimited = parse_profile(MECANUM, "bot").limits
+    assert (unlimited.max_wheel_speed_mps, unlimited.jerk_mps3) == (math.inf, math.inf)
+
+
+@pytest.mark.parametrize(
+    ("values", "field"),
+    [
+        ({"max_wheel_speed_mps": 1.2}, "wheel_reach_m"),
+        ({"wheel_reach_m": 0.2}, "wheel_reach_m"),
+        ({"max_wheel_speed_mps": 0.9, "wheel_reach_m": 0.2}, "max_wheel_speed_mps.value"),
+        ({"max_wheel_speed_mps": 1.2, "wheel_reach_m": 0.7}, "max_wheel_speed_mps.value"),
+        ({"jerk_mps3": 3.9}, "jerk_mps3.value"),
+        ({"angular_jerk_radps3": 7.9}, "angular_jerk_radps3.value"),
+        ({"jerk_mps3": 0.0}, "jerk_mps3.value"),
+    ],
+)
+def test_limits_that_do_not_fit_together_are_refused(values: dict[str, float], field: str) -> None:
+    assert refused(with_limits(**values)).where.endswith(f"limits.{field}")

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from chatrobot.core.events import Event, Finished, Notice
+from chatrobot.governor.priority import RELEASERS
 from chatrobot.session.envelope import Envelope
 from chatrobot.session.joint import Sender, SimulatedJoint
 from tests.session.joint_rigs import SimulatedRig
@@ -16,8 +17,8 @@ from tests.session.joint_rigs import SimulatedRig
 class Crowd:
     """Several sources at one Motion, each with a lease of its own that it keeps."""
 
-    def __init__(self, folder: Path, *sources: str) -> None:
-        self.rig = SimulatedRig(folder)
+    def __init__(self, folder: Path, *sources: str, releasers: frozenset[str] = RELEASERS) -> None:
+        self.rig = SimulatedRig(folder, releasers)
         joint = self.rig.joint
         assert isinstance(joint, SimulatedJoint)
         self._joint, self.motion = joint, joint._motion
@@ -128,6 +129,21 @@ def test_only_the_console_releases_an_emergency_stop(tmp_path: Path, source: str
     crowd.say("console", "plan", 2, plan_text="drive 0.1 m")
     crowd.live(2.0)
     assert crowd.end_of(2).outcome == "completed"
+
+
+def test_the_base_node_releases_an_emergency_stop_only_where_control_was_told_so(tmp_path: Path) -> None:
+    for releasers, code, outcome in (
+        (RELEASERS, "release_refused", "refused"),
+        (RELEASERS | {"base"}, "released", "completed"),
+    ):
+        crowd = Crowd(tmp_path, "base", releasers=releasers)
+        crowd.say("base", "emergency_stop", why="test")
+        crowd.say("base", "release")
+        crowd.live(0.1)
+        assert crowd.notices() == [code]
+        crowd.say("base", "plan", 1, plan_text="drive 0.1 m")
+        crowd.live(2.0)
+        assert crowd.end_of(1).outcome == outcome
 
 
 @pytest.mark.parametrize("source", ["agent", "mcp", "chatgpt_node", "whoever"])

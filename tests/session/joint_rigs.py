@@ -9,6 +9,7 @@ from typing import Any, Protocol
 
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.events import Event, Finished
+from chatrobot.governor.priority import RELEASERS
 from chatrobot.robots.load import load_profile
 from chatrobot.session.guard_link import SimulatedGuard
 from chatrobot.session.joint import Joint, SimulatedJoint
@@ -37,7 +38,7 @@ class JointRig(Protocol):
 class SimulatedRig:
     """Everything in this thread."""
 
-    def __init__(self, _folder: Path) -> None:
+    def __init__(self, _folder: Path, releasers: frozenset[str] = RELEASERS) -> None:
         profile, clock, hub = load_profile(PROFILE), VirtualClock(), MemoryHub()
         self.velocities: list[TwistMessage] = []
         self.robot = SimRobot(
@@ -48,7 +49,7 @@ class SimulatedRig:
 
         def build(emit: Callable[[Event], None]) -> Motion:
             planner = Planner(profile, load_world("empty"))
-            return Motion(profile, wire, clock, planner, guard, emit, lambda job: job())
+            return Motion(profile, wire, clock, planner, guard, emit, lambda job: job(), releasers)
 
         self.joint: Joint = SimulatedJoint(
             build, wire, clock, self.robot.step, guard, hub.connect(), "cmd_vel"

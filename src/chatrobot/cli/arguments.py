@@ -193,6 +193,11 @@ def _node(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="control: drive though another ChatRobot is on the same robot",
     )
+    parser.add_argument(
+        "--on-robot",
+        action="store_true",
+        help="control: this machine is the robot, so no network can part us from its base",
+    )
 
 
 def _no_arguments(_: argparse.ArgumentParser) -> None:

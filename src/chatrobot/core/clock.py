@@ -5,11 +5,17 @@ from __future__ import annotations
 import time
 from typing import Protocol
 
+_BOOT_CLOCK: int = getattr(time, "CLOCK_BOOTTIME", time.CLOCK_MONOTONIC)
+
 
 class Clock(Protocol):
     """Seconds since an arbitrary start. Never goes backwards, is never the wall clock."""
 
     def now_s(self) -> float: ...
+
+    def suspended_s(self) -> float:
+        """Seconds the machine has slept so far. `now_s` does not count them; a robot may have gone on for them."""
+        ...
 
 
 class RealClock:
@@ -18,15 +24,31 @@ class RealClock:
     def now_s(self) -> float:
         return time.monotonic()
 
+    def suspended_s(self) -> float:
+        return awake_or_not_s() - time.monotonic()
+
+
+def awake_or_not_s() -> float:
+    """Monotonic time that goes on while the machine sleeps; the plain one where there is none such (not Linux)."""
+    return time.clock_gettime(_BOOT_CLOCK)
+
 
 class VirtualClock:
     """A clock that stands until someone moves it on."""
 
     def __init__(self, start_s: float = 0.0) -> None:
         self._now_s = start_s
+        self._suspended_s = 0.0
 
     def now_s(self) -> float:
         return self._now_s
+
+    def suspended_s(self) -> float:
+        return self._suspended_s
+
+    def suspend(self, duration_s: float) -> None:
+        """The machine sleeps for so long, and this clock stands meanwhile."""
+        self._suspended_s += duration_s
 
     def advance(self, duration_s: float) -> None:
         """Move on by `duration_s`.

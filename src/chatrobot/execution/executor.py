@@ -247,7 +247,8 @@ class Executor:
         twist = segment.at(t_s)[1]
         speed = twist.speed_mps
         limits = self._profile.limits
-        braking_m = speed * (TICK_S + limits.latency_s) + speed * speed / (2.0 * limits.acceleration_mps2)
+        braking_mps2 = min(limits.acceleration_mps2, limits.deceleration_mps2)
+        braking_m = speed * (TICK_S + limits.latency_s) + speed * speed / (2.0 * braking_mps2)
         full = segment.motion.twist
         direction = math.atan2(full.vy_mps, full.vx_mps)
         return free_ahead_m(self._profile, scan, direction) - braking_m <= condition.distance_m

@@ -5,10 +5,14 @@ from __future__ import annotations
 import math
 
 from chatrobot.core.clock import Clock
+from chatrobot.core.geometry import Pose
 from chatrobot.execution.estimator import Estimate, PoseEstimator
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.messages import Flag, Imu, LaserScan, Number, Odometry
 from chatrobot.wire.wire import Wire
+
+OLD_NEWS_S = 0.5
+"""What was measured longer ago is as old as that, however lately it came."""
 
 
 class Sensors:
@@ -49,17 +53,36 @@ class Sensors:
         return self.estimator.estimate
 
     def odometry_age_s(self) -> float:
-        """Seconds since odometry last came; infinite before the first."""
-        return self._clock.now_s() - self._odometry_at_s
+        """How old the newest odometry is, seconds; infinite before the first."""
+        made_s = self.estimate.stamp_s if self.estimate is not None else -math.inf
+        return self._age_s(self._odometry_at_s, made_s)
+
+    def odometry_lag_s(self) -> float:
+        """Seconds since the moment that the newest odometry tells of; infinite before the first."""
+        estimate = self.estimate
+        return self._clock.now_s() - estimate.stamp_s if estimate is not None else math.inf
 
     def ages_s(self) -> dict[str, float]:
-        """Seconds since each sensor last spoke, by name; infinite before the first word."""
-        now_s = self._clock.now_s()
+        """How old the newest word of each sensor is, seconds, by name; infinite before the first word."""
+        made_s = self.scan.stamp_s if self.scan is not None else -math.inf
         return {
-            "odom": now_s - self._odometry_at_s,
-            "imu": now_s - self._imu_at_s,
-            "scan": now_s - self._scan_at_s,
+            "odom": self.odometry_age_s(),
+            "imu": self._clock.now_s() - self._imu_at_s,
+            "scan": self._age_s(self._scan_at_s, made_s),
         }
+
+    def _age_s(self, came_s: float, made_s: float) -> float:
+        """Since it came; but fresh mail with old news (a wire that is late, a clock that was set back) is no news."""
+        now_s = self._clock.now_s()
+        return now_s - (came_s if now_s - made_s <= OLD_NEWS_S else min(came_s, made_s))
+
+    def pose_now(self) -> Pose | None:
+        """Where the robot is by now, if it went on as odometry last saw it; None before the first."""
+        estimate = self.estimate
+        if estimate is None:
+            return None
+        late_s = max(0.0, min(self._clock.now_s() - estimate.stamp_s, OLD_NEWS_S))
+        return estimate.pose.moved(estimate.twist, late_s)
 
     def _on_imu(self, message: Imu) -> None:
         self._imu_at_s = self._clock.now_s()

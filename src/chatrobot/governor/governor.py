@@ -10,6 +10,7 @@ from typing import Literal
 from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
 from chatrobot.core.governed import GovernedTwist, Mint, StopEpoch
 from chatrobot.core.reason import Reason
+from chatrobot.governor.jerk import JerkLimit
 from chatrobot.governor.kernel import bounded, make_kernel
 from chatrobot.governor.lease import Leases
 from chatrobot.governor.narrowed import NarrowedRule
@@ -30,6 +31,9 @@ LONGEST_STEP_S = 2.0 * TICK_S
 LATE_MPS = 0.05
 LATE_RADPS = 0.1
 """A ramp that is still this much above what the way allows is too late."""
+
+FARTHEST = 1e6
+"""In metres and radians: a pose beyond it (or one of no numbers) is as good as none."""
 
 VOID_EPOCH = -1
 """No stop epoch has this number: what carries it is never sent."""
@@ -74,6 +78,7 @@ class Governor:
         self.leases = Leases()
         self._profile = profile
         self._kernel = make_kernel(profile)
+        self._jerk = JerkLimit(profile.limits)
         self._epoch = epoch
         self._mint = Mint()
         self._wheel = Wheel(self.leases, epoch)
@@ -152,32 +157,43 @@ class Governor:
             return Verdict("refused", refusal, asked, void, ZERO_TWIST)
         if refusal:
             return self._verdict("refused", refusal, asked, ZERO_TWIST, ZERO_TWIST, epoch, now_s)
-        if pose is not None and not all(map(math.isfinite, pose)):
+        if pose is not None and not all(abs(number) <= FARTHEST for number in pose):
             pose = None
-        previous = self._sent if epoch == self._sent_epoch else ZERO_TWIST
+        if epoch != self._sent_epoch:  # a stop came since
+            self._sent = ZERO_TWIST
+            self._jerk.rest()
         target = bounded(self._profile, asked)
         ruled = compose(self._rules, target, Situation(pose, sensed))
         if ruled.rule:
             allowed = target.scaled(ruled.ruling.factor)
-            slowed = self._brake(previous, target, ruled, now_s)
+            slowed = self._brake(target, ruled, now_s)
             return self._verdict(
                 "limited", ruled.rule, asked, slowed, allowed, epoch, now_s, ruled.ruling.reason
             )
-        sent = self._kernel(previous, asked, self._step_s(now_s))
+        sent = self._ramped(target, now_s, urgent=False)
         if sent == asked:
             return self._verdict("passed", "", asked, sent, target, epoch, now_s)
         rule = "speed" if not _close(target, asked) else "acceleration"
         return self._verdict("limited", rule, asked, sent, target, epoch, now_s)
 
-    def _brake(self, previous: Twist, target: Twist, ruled: Composed, now_s: float) -> Twist:
+    def _brake(self, target: Twist, ruled: Composed, now_s: float) -> Twist:
         """Ramp to what is allowed; where that is urgent and comes too late, zero at once (exempt from the ramp)."""
-        sent = self._kernel(previous, target.scaled(ruled.ruling.factor), self._step_s(now_s))
-        if ruled.urgent_factor >= 1.0:
+        is_urgent = ruled.urgent_factor < 1.0
+        sent = self._ramped(target.scaled(ruled.ruling.factor), now_s, urgent=is_urgent)
+        if not is_urgent:
             return sent
         urgent = target.scaled(ruled.urgent_factor)
         too_fast = sent.speed_mps > urgent.speed_mps + LATE_MPS
         turns_too_fast = abs(sent.wz_radps) > abs(urgent.wz_radps) + LATE_RADPS
         return ZERO_TWIST if too_fast or turns_too_fast else sent
+
+    def _ramped(self, target: Twist, now_s: float, *, urgent: bool) -> Twist:
+        """As far from what was sent last to `target` (bounded) as acceleration and jerk allow by now."""
+        previous, step_s = self._sent, self._step_s(now_s)
+        wanted = self._kernel(previous, target, step_s)
+        sent = self._jerk.eased(previous, wanted, target, step_s, urgent=urgent)
+        self._jerk.note(previous, sent, step_s)
+        return sent
 
     def _refusal(self, asked: Twist, lease_id: str, now_s: float) -> str:
         if self._latch is not None:
@@ -213,6 +229,8 @@ class Governor:
         reason: Reason | None = None,
     ) -> Verdict:
         self._sent, self._sent_at_s, self._sent_epoch = sent, now_s, epoch
+        if sent.is_zero:
+            self._jerk.rest()
         return Verdict(action, rule, asked, self._mint.twist(sent, epoch), allowed, reason)
 
 

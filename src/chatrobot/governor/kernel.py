@@ -18,10 +18,11 @@ Kernel = Callable[[Twist, Twist, float], Twist]
 
 
 def bounded(profile: RobotProfile, asked: Twist) -> Twist:
-    """`asked` within the speed limits and the kinematics of the robot, accelerations aside.
+    """`asked` within the speed limits, each and combined, and the kinematics of the robot, accelerations aside.
 
-    A differential base loses its sideways part. An Ackermann base keeps its speed and turns no tighter than its
-    minimum turning radius, so it never gets a spin. The rest is one common factor.
+    All of them bound convex sets of twists, so what lies between two bounded twists is bounded. A differential base
+    loses its sideways part. An Ackermann base keeps its speed and turns no tighter than its minimum turning radius,
+    so it never gets a spin. The rest is one common factor.
     """
     if not asked.is_finite:
         return ZERO_TWIST
@@ -40,12 +41,16 @@ def bounded(profile: RobotProfile, asked: Twist) -> Twist:
         factor = limits.max_sideways_mps / abs(vy)
     if abs(wz) * factor > limits.max_rate_radps:
         factor = limits.max_rate_radps / abs(wz)
+    wheel_mps = limits.wheel_speed_mps(vx, vy, wz)
+    if wheel_mps * factor > limits.max_wheel_speed_mps:
+        factor = limits.max_wheel_speed_mps / wheel_mps
     return Twist(vx * factor, vy * factor, wz * factor)
 
 
 def make_kernel(profile: RobotProfile) -> Kernel:
     """The kernel for one robot. Zero is exempt from the acceleration limits: asking for it yields it at once."""
-    linear_mps2 = profile.limits.acceleration_mps2
+    gaining_mps2 = profile.limits.acceleration_mps2
+    braking_mps2 = min(gaining_mps2, profile.limits.deceleration_mps2)
     angular_radps2 = profile.limits.angular_acceleration_radps2
     ackermann = profile.kinematics == "ackermann"
 
@@ -61,6 +66,8 @@ def make_kernel(profile: RobotProfile) -> Kernel:
         dwz = target.wz_radps - previous.wz_radps
         linear, angular = math.hypot(dvx, dvy), abs(dwz)
         share = 1.0
+        brakes = dvx * previous.vx_mps + dvy * previous.vy_mps < 0.0
+        linear_mps2 = braking_mps2 if brakes else gaining_mps2
         if linear > linear_mps2 * dt_s:
             share = linear_mps2 * dt_s / linear
         if angular * share > angular_radps2 * dt_s:

@@ -24,6 +24,7 @@ PRIORITIES: Mapping[str, Priority] = {
     "console": Priority.PLAN,
     "program": Priority.PLAN,
     "web": Priority.PLAN,
+    "base": Priority.PLAN,
     "agent": Priority.AGENT,
     "mcp": Priority.AGENT,
     "chatgpt_node": Priority.FOREIGN,

@@ -12,6 +12,7 @@ import socket
 import sys
 import time
 
+from chatrobot.core.clock import awake_or_not_s
 from chatrobot.core.errors import WireError
 from chatrobot.core.wiring import Wiring
 from chatrobot.guard.watch import BEAT_S, GOODBYE, TRIPPED, Watch
@@ -38,7 +39,7 @@ class Standing:
         if abs(message.vx_mps) + abs(message.vy_mps) + abs(message.wz_radps) > 0.01:
             self._since_s = None
         elif self._since_s is None:
-            self._since_s = time.monotonic()
+            self._since_s = awake_or_not_s()
 
     def for_s(self, now_s: float) -> float:
         return 0.0 if self._since_s is None else now_s - self._since_s
@@ -62,7 +63,7 @@ class Guard:
         """Until Motion says goodbye, or is gone and the robot stands."""
         tripped_at_s: float | None = None
         while True:
-            now_s = time.monotonic()
+            now_s = awake_or_not_s()
             if self._watch.must_halt(now_s):
                 tripped_at_s = now_s if tripped_at_s is None else tripped_at_s
                 self._halt()
@@ -103,7 +104,7 @@ class Guard:
         if GOODBYE in words:
             return True
         for word in words:
-            self._watch.hear(bytes([word]), time.monotonic())
+            self._watch.hear(bytes([word]), awake_or_not_s())
         answer = TRIPPED if self._watch.state == "tripped" else words[-1:]
         with contextlib.suppress(OSError):
             self._line.send(answer, socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
@@ -122,6 +123,7 @@ def _wiring(options: dict[str, str]) -> Wiring:
         cmd_vel_type="TwistStamped" if options.get("--type") == "TwistStamped" else "Twist",
         odom_topic=options.get("--odom", ""),
         odom_type="turtlesim/Pose" if options.get("--odom-type") == "turtlesim/Pose" else "Odometry",
+        namespace=options.get("--namespace", ""),
     )
 
 

@@ -436,6 +436,8 @@ def _by_compass(frame: Frame, state: State, pace: Pace) -> list[Step]:
 
 
 def _face(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    if set(frame.q) - {"angle", "turns", "rate", "percent", "faster"}:
+        raise Unclear("unclear_motion", frame.text)
     if ("original_heading" in frame.flags or "to_start" in frame.flags) and not frame.has_extent:
         if state.home is not None and not state.steps:
             return [Face(state.home.yaw_rad, frame="odom", rate_radps=pace.rate(frame))]

@@ -5,6 +5,7 @@ Turn right.`
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from chatrobot.language.frames import EXTENTS, Frame
@@ -16,6 +17,7 @@ from chatrobot.language.unclear import Unclear
 _NO = frozenset({"no", "nope", "不", "wait", "sorry", "oops", "whoops", "等等", "no no", "rather"})
 _DENIALS = frozenset({"不是", "not that"})
 _AFTERTHOUGHTS = frozenset({"i mean", "i meant", "i mean to say", "rather"})
+_UNIT_FACTOR = re.compile(r"\d[\d.e+-]*")
 _PIECE = ("dir", "rot", "q", "pace", "verb", "shape")
 
 
@@ -107,8 +109,16 @@ def _replaced(before: list[Atom], after: list[Atom]) -> list[Atom]:
         if at is None:
             added.append(piece)
         else:
-            out[at] = piece
+            out[at] = _in_the_unit_of(out[at], piece)
     return [*out, *added, *rest]
+
+
+def _in_the_unit_of(before: Atom, number: Atom) -> Atom:
+    """`2 metres, no, make it 3`: the unit was said already."""
+    factor = _UNIT_FACTOR.fullmatch(before.role)
+    if number.kind != "q" or number.value != "number" or before.value == "number" or factor is None:
+        return number
+    return quantity(before.value, number.number * float(factor[0]), number.text, before.role)
 
 
 def _is_clause(pieces: list[Atom]) -> bool:
@@ -132,7 +142,9 @@ def _same_kind(atoms: list[Atom], piece: Atom) -> int | None:
     for i in range(len(atoms) - 1, -1, -1):
         atom = atoms[i]
         if atom.kind == piece.kind == "q" and (
-            atom.value in (piece.value, "number") or {atom.value, piece.value} <= {"angle", "turns"}
+            atom.value in (piece.value, "number")
+            or {atom.value, piece.value} <= {"angle", "turns"}
+            or (piece.value == "number" and atom.value in ("length", "angle"))
         ):
             return i
         sideways = piece.kind in ("dir", "rot") and atom.kind in ("dir", "rot")

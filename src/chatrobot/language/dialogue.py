@@ -10,7 +10,9 @@ from chatrobot.core.geometry import Pose
 from chatrobot.language.actions import DIRECTIONS, State
 from chatrobot.language.context import Context, TurnRecord
 from chatrobot.language.frames import GO, SIDES, Frame
+from chatrobot.language.lexicon import cut, lexicon
 from chatrobot.language.manner import Pace
+from chatrobot.language.normalise import normalise
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.quantities import quantity
 from chatrobot.language.unclear import Unclear
@@ -318,6 +320,18 @@ def _run_start(context: Context, step: Drive) -> Pose:
     return start
 
 
+def _said_unit_m(text: str) -> float | None:
+    """The last unit of length in what was said: `another 30` after `50 cm` are centimetres."""
+    words = lexicon().words
+    units = [
+        float(value)
+        for unit in cut(normalise(text))
+        for kind, value in words.get((unit,), ())
+        if kind == "unit_length"
+    ]
+    return units[-1] if units else None
+
+
 def state_after(context: Context) -> State:
     """What the last motion leaves for an ellipsis like `thirty more`."""
     last = context.dialogue.last_motion
@@ -329,6 +343,7 @@ def state_after(context: Context) -> State:
             state.last = "drive"
             if step.distance_m:
                 state.length = quantity("length", step.distance_m, f"{step.distance_m:g} m")
+                state.unit_m = _said_unit_m(last.text)
             state.direction = next(
                 (
                     n

@@ -80,15 +80,30 @@ def with_words_counted(atoms: Sequence[Atom], words: Mapping[str, Plan]) -> list
     """`three steps`, `two laps`, where this dialogue has said what a step or a lap is."""
     out: list[Atom] = []
     for atom in atoms:
-        plan = words.get(atom.role) if atom.kind == "q" and atom.value == "count" else None
+        word = _counted_word(atom, words)
+        plan = words.get(word)
         length_m = unit_length_m(plan) if plan is not None else None
         if plan is None:
-            out.append(atom)
+            counted = (
+                atom.kind == "defined" and bool(out) and out[-1].kind == "q" and out[-1].value == "number"
+            )
+            if counted:  # `three shuffles`
+                out[-1:] = [atom, quantity("times", out[-1].number, out[-1].text)]
+            else:
+                out.append(atom)
         elif length_m is not None:
             out.append(_measured(atom, atom.role, length_m))
         else:
-            out += [Atom("defined", atom.role, atom.text), quantity("times", atom.number, atom.text)]
+            out += [Atom("defined", word, atom.text), quantity("times", atom.number, atom.text)]
     return out
+
+
+def _counted_word(atom: Atom, words: Mapping[str, Plan]) -> str:
+    """The defined word that `atom` counts: `hop` in `three hops`; an empty string for none."""
+    if atom.kind != "q" or atom.value != "count":
+        return ""
+    said = atom.text.split()[-1] if atom.text.split() else ""
+    return next((word for word in (said, said.removesuffix("s"), atom.role) if word in words), "")
 
 
 def unit_length_m(plan: Plan) -> float | None:

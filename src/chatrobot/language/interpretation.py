@@ -26,6 +26,7 @@ from chatrobot.language.facts import (
     with_words_counted,
 )
 from chatrobot.language.frames import STILL, Frame
+from chatrobot.language.heeded import check_heeded
 from chatrobot.language.lexicon import Key, Meaning, cut, lexicon
 from chatrobot.language.manner import Pace
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
@@ -275,8 +276,14 @@ class _Reading:
         default = self._default(frames)
         if default is not None:
             return default
-        steps = refer(frames, self.context, self.pace) or write(frames, self.pace, self._memory())
+        steps = self._read(frames)
+        if not asks:
+            check_heeded(atoms, steps, lambda changed: self._read(_frames(changed)))
         return self._plan(steps, append=_appends(atoms))
+
+    def _read(self, frames: list[Frame]) -> list[Step]:
+        """The steps that the frames mean here and now."""
+        return refer(frames, self.context, self.pace) or write(frames, self.pace, self._memory())
 
     def _until(self, until: UntilObstacle) -> Interpretation:
         frames = _frames(self._atoms(until.before))
@@ -375,6 +382,8 @@ class _Reading:
             if counter and unit_length_m(plan) is not None:
                 continue  # a unit: it is counted
             names[cut(normalise(word))] = (("defined", word),)
+            if word.isascii() and not word.endswith("s"):
+                names[cut(normalise(f"{word}s"))] = (("defined", word),)
         if forms.UNNAMED in dialogue.places:
             for written in (
                 "that place",

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import json
+import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,10 +14,12 @@ from pathlib import Path
 from chatrobot.core.errors import JointError, WireError
 from chatrobot.core.events import Event, Finished, Interpreted, Notice, Result
 from chatrobot.language.phrases import render_reason, say
+from chatrobot.nodes.operator import Operators
+from chatrobot.reflex import is_release
 from chatrobot.robots.load import load_profile
 from chatrobot.session.session import Options, Session
 from chatrobot.session.topic_joint import TopicJoint
-from chatrobot.session.topics import CHATGPT_NODE, EVENTS, REPLY, STOP, USER_INPUT
+from chatrobot.session.topics import CHATGPT_NODE, EVENTS, OPERATOR, REPLY, STOP, USER_INPUT
 from chatrobot.session.understanding import Understanding
 from chatrobot.sim.load import load_world
 from chatrobot.wire.connect import advertise, connect_wire, is_on_this_machine, publishers_of
@@ -23,6 +27,8 @@ from chatrobot.wire.messages import Flag, Text
 
 NODE = "chatrobot_base"
 PUMP_S = 0.1
+SWITCH_INTERVAL_S = 0.0005
+"""The wire's thread must get in between: what it hears may be a stop."""
 LOOK_S = 1.0
 
 
@@ -50,6 +56,7 @@ class BaseNode:
     """
 
     def __init__(self, options: BaseOptions, show: Callable[[str], None]) -> None:
+        sys.setswitchinterval(SWITCH_INTERVAL_S)
         self._options = options
         self._show = show
         profile = load_profile(options.profile)
@@ -60,6 +67,7 @@ class BaseNode:
         self._next_look_s = 0.0
         self._has_twin = False
         self._session = Session(self._joint, understanding, self._hear_event, Options())
+        self._operators = Operators(lambda: self._session.is_idle, self._lose_operator)
 
     def run(self, is_leaving: Callable[[], bool]) -> None:
         """Until `is_leaving`. Understands and pumps in the calling thread.
@@ -71,8 +79,12 @@ class BaseNode:
             advertise(self._wire, topic, Text)
         self._joint.open()
         self._wire.subscribe(STOP, Flag, self._hear_stop)
+        self._wire.subscribe(OPERATOR, Text, self._operators.hear_beat)
+        self._operators.start()
         self._wire.subscribe(USER_INPUT, Text, self._hear)
         self._explain_parameters()
+        gc.collect()
+        gc.freeze()  # the words are many, and stay
         while not is_leaving():
             self._session.pump(PUMP_S)
             self._look_for_twins()
@@ -88,7 +100,15 @@ class BaseNode:
     def _hear(self, message: Text) -> None:
         if message.data.strip():
             with contextlib.suppress(JointError):  # the wire is closing
-                self._session.say(message.data)
+                if is_release(message.data):
+                    self._session.release()  # control decides, and says what it did
+                else:
+                    self._operators.hear_text(message.data)
+                    self._session.say(message.data)
+
+    def _lose_operator(self) -> None:
+        with contextlib.suppress(JointError):
+            self._session.stop("operator lost")
 
     def _hear_stop(self, message: Flag) -> None:
         if message.data:

@@ -6,9 +6,10 @@ import time
 from collections.abc import Callable
 
 from chatrobot.core.wiring import Wiring
+from chatrobot.nodes.operator import OperatorBeat
 from chatrobot.reflex import is_stop
 from chatrobot.session.topics import REPLY, STOP, USER_INPUT
-from chatrobot.wire.connect import advertise, connect_wire, wait_for_listener
+from chatrobot.wire.connect import advertise, connect_wire, is_on_this_machine, wait_for_listener
 from chatrobot.wire.messages import Flag, Text
 
 NODE = "chatrobot_input"
@@ -36,6 +37,8 @@ class InputNode:
         self._has_met = False
         advertise(self._wire, USER_INPUT, Text)
         advertise(self._wire, STOP, Flag)
+        self._operator = OperatorBeat(self._wire, is_on_this_machine=is_on_this_machine(address))
+        self._operator.start()
         self._wire.subscribe(REPLY, Text, lambda message: show(message.data))
 
     def say(self, text: str) -> bool:
@@ -53,6 +56,7 @@ class InputNode:
         if heard and not self._has_met:
             time.sleep(MEETING_S)
             self._has_met = True
+        self._operator.claim(text)
         self._wire.publish(USER_INPUT, Text(text))
         return heard
 
@@ -61,4 +65,6 @@ class InputNode:
         self._wire.publish(STOP, Flag(True))
 
     def close(self) -> None:
+        """An orderly end: what was said is still done."""
+        self._operator.close()
         self._wire.close()

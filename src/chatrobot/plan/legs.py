@@ -17,7 +17,13 @@ from chatrobot.plan.context import (
 )
 from chatrobot.plan.core_motion import CoreMotion, RampedTwist
 from chatrobot.plan.dubins import Curve, curve_to_point, curve_to_pose
-from chatrobot.plan.speeds import choose_arc_speed, choose_rate, choose_speed, refuse_turn_on_the_spot
+from chatrobot.plan.speeds import (
+    choose_arc_speed,
+    choose_rate,
+    choose_speed,
+    max_arc_speed_mps,
+    refuse_turn_on_the_spot,
+)
 from chatrobot.robots.profile import Point, RobotProfile
 
 REVERSE_WITHIN_RAD = math.radians(10.0)
@@ -139,7 +145,7 @@ def _steer_to(
 def _curve_motions(profile: RobotProfile, curve: Curve, radius_m: float, speed_mps: float | None) -> Lowered:
     arc_speed = choose_arc_speed(profile, speed_mps, radius_m)
     if isinstance(arc_speed, Impossible):  # the asked speed is fine straight on; slow down where it bends
-        arc_speed = profile.limits.max_rate_radps * radius_m
+        arc_speed = max_arc_speed_mps(profile.limits, radius_m)
     straight_speed = choose_speed(profile, speed_mps)
     if isinstance(straight_speed, Impossible):
         return straight_speed

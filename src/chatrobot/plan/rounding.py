@@ -15,6 +15,7 @@ from chatrobot.plan.primitives.remember import Remember
 from chatrobot.plan.primitives.say import Say
 from chatrobot.plan.primitives.turn import Turn
 from chatrobot.plan.primitives.wait import Wait
+from chatrobot.plan.speeds import max_arc_speed_mps
 from chatrobot.plan.steps import MAX_LINES, Plan
 from chatrobot.robots.profile import RobotProfile
 
@@ -150,7 +151,7 @@ class _Rounding:
         """As the leg before it, but no faster than the turning rate allows on this radius."""
         if leg.speed_mps is None:
             return None
-        return min(leg.speed_mps, self._profile.limits.max_rate_radps * self._radius_m)
+        return min(leg.speed_mps, max_arc_speed_mps(self._profile.limits, self._radius_m))
 
 
 def _moves(step: Step) -> bool:

@@ -19,10 +19,17 @@ _ABSURD = 1e6
 
 def max_speed_mps(limits: Limits, direction_rad: float) -> float:
     """The largest linear speed in a direction of the robot's frame: overall and sideways limit combined."""
-    sideways = abs(math.sin(direction_rad))
+    ahead, sideways = abs(math.cos(direction_rad)), abs(math.sin(direction_rad))
     if sideways < _STRAIGHT_RAD:
         return limits.max_speed_mps
-    return min(limits.max_speed_mps, limits.max_sideways_mps / sideways)
+    by_wheels = limits.max_wheel_speed_mps / (ahead + sideways)
+    return min(limits.max_speed_mps, limits.max_sideways_mps / sideways, by_wheels)
+
+
+def max_arc_speed_mps(limits: Limits, radius_m: float) -> float:
+    """The largest linear speed on an arc that the turning rate and the outer wheel allow."""
+    share = radius_m / (radius_m + limits.wheel_reach_m) if limits.wheel_reach_m > 0.0 else 1.0
+    return min(limits.max_rate_radps * radius_m, limits.max_wheel_speed_mps * share)
 
 
 def choose_speed(
@@ -58,11 +65,11 @@ def choose_arc_speed(profile: RobotProfile, asked_mps: float | None, radius_m: f
     speed = choose_speed(profile, asked_mps)
     if isinstance(speed, Impossible):
         return speed
-    most = limits.max_rate_radps * radius_m
+    most = max_arc_speed_mps(limits, radius_m)
     if asked_mps is not None and speed > most * _SLACK:
         values = {
             "asked_radps": speed / radius_m,
-            "max_radps": limits.max_rate_radps,
+            "max_radps": most / radius_m,
             "asked_mps": asked_mps,
             "max_mps": most,
         }
@@ -88,6 +95,7 @@ def scale_into_limits(limits: Limits, twist: Twist) -> Twist:
         (twist.speed_mps, limits.max_speed_mps),
         (abs(twist.vy_mps), limits.max_sideways_mps),
         (abs(twist.wz_radps), limits.max_rate_radps),
+        (limits.wheel_speed_mps(*twist), limits.max_wheel_speed_mps),
     ):
         if value > most:
             factor = min(factor, most / value)

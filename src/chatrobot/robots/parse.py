@@ -30,6 +30,10 @@ LIMIT_RANGES = {
     "deceleration_mps2": Range(0.0, 50.0, "m/s²"),
     "latency_s": Range(0.0, 2.0, "s", with_low=True),
     "min_turning_radius_m": Range(0.0, 20.0, "m", with_low=True),
+    "max_wheel_speed_mps": Range(0.0, 20.0, "m/s"),
+    "wheel_reach_m": Range(0.0, 5.0, "m"),
+    "jerk_mps3": Range(0.0, 1000.0, "m/s³"),
+    "angular_jerk_radps3": Range(0.0, 4000.0, "rad/s³"),
 }
 DEFAULT_RANGES = {
     "speed_mps": Range(0.0, 10.0, "m/s"),
@@ -60,7 +64,9 @@ WIRING_CHOICES = {"cmd_vel_type": ("Twist", "TwistStamped"), "odom_type": ("Odom
 FOREVER = "forever"
 
 SOURCE_MEANING = "where the number comes from: a document, a measurement, or that it is a cautious guess"
-_OPTIONAL_LIMIT = "min_turning_radius_m"
+OPTIONAL_LIMITS = frozenset(
+    {"min_turning_radius_m", "max_wheel_speed_mps", "wheel_reach_m", "jerk_mps3", "angular_jerk_radps3"}
+)
 _TOP = ("title", "kinematics", "approval", "footprint", "limits", "defaults", "lidar", "safety", "wiring")
 _LINE = re.compile(r"at line (\d+)")
 
@@ -116,7 +122,7 @@ def _limits(table: Table) -> tuple[Limits, dict[str, str]]:
     values: dict[str, float] = {}
     sources: dict[str, str] = {}
     for key, allowed in LIMIT_RANGES.items():
-        if key == _OPTIONAL_LIMIT and key not in table:
+        if key in OPTIONAL_LIMITS and key not in table:
             continue
         limit = table.table(key)
         limit.only(("value", "source"))
@@ -162,6 +168,8 @@ def _wiring(table: Table) -> Wiring:
             continue
         if key == "base_timeout_s":
             values[key] = None if table.is_text(key, FOREVER) else table.number(key, TIMEOUT_RANGE)
+        elif key == "namespace":
+            values[key] = table.topic(key).strip("/")
         elif key in WIRING_CHOICES:
             values[key] = table.choice(key, WIRING_CHOICES[key])
         else:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
@@ -19,6 +20,10 @@ class Limits:
     `max_speed_mps` bounds the combined linear speed hypot(vx, vy) too. `deceleration_mps2` and `latency_s`
     are what braking distance is computed from: v * latency + v^2 / (2 * deceleration).
     `min_turning_radius_m` is 0 for a base that can turn on the spot.
+
+    Combined limit: no wheel rolls faster than `max_wheel_speed_mps`, where the fastest one rolls at
+    |vx| + |vy| + |wz| * `wheel_reach_m`. The reach is half the track, for a mecanum base half the wheelbase more
+    (Lynch and Park, Modern Robotics, 2017, section 13.2). The jerks bind what gains speed; infinite: not limited.
     """
 
     max_speed_mps: float
@@ -29,6 +34,14 @@ class Limits:
     deceleration_mps2: float
     latency_s: float
     min_turning_radius_m: float = 0.0
+    max_wheel_speed_mps: float = math.inf
+    wheel_reach_m: float = 0.0
+    jerk_mps3: float = math.inf
+    angular_jerk_radps3: float = math.inf
+
+    def wheel_speed_mps(self, vx_mps: float, vy_mps: float, wz_radps: float) -> float:
+        """Of the fastest wheel."""
+        return abs(vx_mps) + abs(vy_mps) + abs(wz_radps) * self.wheel_reach_m
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import NoReturn
 
-from chatrobot.robots.profile import Lidar, Point, RobotProfile
+from chatrobot.robots.profile import Lidar, Limits, Point, RobotProfile
 
 Fail = Callable[[str, str, str], NoReturn]
 """Called with the dotted field, the problem and what is allowed; it raises."""
@@ -15,11 +15,16 @@ Fail = Callable[[str, str, str], NoReturn]
 _TOLERANCE = 1e-6
 _MIN_CORNER_M2 = 1e-7
 
+LONGEST_EASE_S = 0.25
+"""From no acceleration to all of it, where jerk is limited."""
+
 
 def check(profile: RobotProfile, fail: Fail) -> None:
     """Call `fail` about the first contradiction found in `profile`; return if there is none."""
     _check_defaults(profile, fail)
     _check_kinematics(profile, fail)
+    _check_wheels(profile.limits, fail)
+    _check_jerk(profile.limits, fail)
     _check_footprint(profile.footprint, fail)
     if profile.lidar is not None:
         _check_lidar(profile.lidar, fail)
@@ -81,6 +86,47 @@ def _check_steering(profile: RobotProfile, fail: Fail) -> None:
             f"{limits.max_rate_radps:g} rad/s cannot be reached by steering",
             f"at most max_speed_mps / min_turning_radius_m, {reachable:.4g} rad/s",
         )
+
+
+def _check_wheels(limits: Limits, fail: Fail) -> None:
+    """A person who asks for a limit must get it: each alone has to be within what the wheels can do."""
+    if math.isinf(limits.max_wheel_speed_mps):
+        if limits.wheel_reach_m != 0.0:
+            fail(
+                "limits.wheel_reach_m", "it is for max_wheel_speed_mps, which is missing", "both, or neither"
+            )
+        return
+    if limits.wheel_reach_m == 0.0:
+        fail(
+            "limits.wheel_reach_m", "is missing", "half the track, for a mecanum base plus half the wheelbase"
+        )
+    alone = {
+        "max_speed_mps": limits.wheel_speed_mps(limits.max_speed_mps, 0.0, 0.0),
+        "max_sideways_mps": limits.wheel_speed_mps(0.0, limits.max_sideways_mps, 0.0),
+        "max_rate_radps": limits.wheel_speed_mps(0.0, 0.0, limits.max_rate_radps),
+    }
+    for field, wheel_mps in alone.items():
+        if wheel_mps > limits.max_wheel_speed_mps + _TOLERANCE:
+            fail(
+                "limits.max_wheel_speed_mps.value",
+                f"limits.{field} alone makes a wheel roll at {wheel_mps:.4g} m/s",
+                "a lower limit there, or faster wheels",
+            )
+
+
+def _check_jerk(limits: Limits, fail: Fail) -> None:
+    """A ramp that takes longer to get under way than this would leave the reference behind."""
+    pairs = (
+        ("jerk_mps3", limits.jerk_mps3, limits.acceleration_mps2),
+        ("angular_jerk_radps3", limits.angular_jerk_radps3, limits.angular_acceleration_radps2),
+    )
+    for field, jerk, acceleration in pairs:
+        if jerk * LONGEST_EASE_S < acceleration:
+            fail(
+                f"limits.{field}.value",
+                f"{jerk:g} takes {acceleration / jerk:.2g} s to the full acceleration",
+                f"at least {acceleration / LONGEST_EASE_S:.4g}: {LONGEST_EASE_S:g} s",
+            )
 
 
 def _check_lidar(lidar: Lidar, fail: Fail) -> None:

@@ -7,7 +7,7 @@ methods belong to the control thread but for `halt`, which any thread may call a
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 
 from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Looked, Notice, Outcome, Started, Telemetry
@@ -18,7 +18,7 @@ from chatrobot.execution.lookahead import nearest_m
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
 from chatrobot.governor.lease import LOCAL_TERM_S
-from chatrobot.governor.priority import Priority, priority_of
+from chatrobot.governor.priority import RELEASERS, Priority, priority_of
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.approval import Approval
 from chatrobot.session.envelope import Envelope, seconds
@@ -29,6 +29,7 @@ from chatrobot.session.planner import Planned, Planner
 from chatrobot.session.run import Run, sensed_by
 from chatrobot.session.sectors import sectors_m
 from chatrobot.session.stream import Stream
+from chatrobot.session.zeroing import Zeroing
 from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.messages import LaserScan
 from chatrobot.wire.wire import Wire
@@ -36,14 +37,10 @@ from chatrobot.wire.wire import Wire
 FROZEN_S = 0.12
 """A gap this long between two ticks of a moving robot means that this process stood still: the plan is over."""
 
-ZEROING_S = 2.0
-"""Zeros are repeated until the robot is seen standing, or this long where nobody can see it."""
-
 LONGEST_TERM_S = 1.0
 TELEMETRY_S = 0.1
 ODOMETRY_WAIT_S = 2.0
-ODOMETRY_FRESH_S = 0.3
-_FAILURES = frozenset({"guard_lost", "bumped", "motion_froze"})
+_FAILURES = frozenset({"guard_lost", "bumped", "motion_froze", "wire_gone"})
 
 
 class Motion:
@@ -53,6 +50,7 @@ class Motion:
         planner: makes `Planned` from plan text: parsed, lowered, rehearsed.
         background: runs a function off the control thread, then posts; a simulation runs it at once.
         emit: takes events; called on the control thread only.
+        releasers: the sources that may release an emergency stop.
     """
 
     def __init__(
@@ -64,6 +62,7 @@ class Motion:
         guard: GuardLink,
         emit: Callable[[Event], None],
         background: Callable[[Callable[[], None]], None],
+        releasers: Collection[str] = RELEASERS,
     ) -> None:
         self._profile = profile
         self._clock = clock
@@ -75,15 +74,16 @@ class Motion:
         self._seen_epoch = 0
         self._stop_reason = Reason("stopped")
         self._transport = WireTransport(wire, profile.wiring, self._epoch)
-        self._governor = Governor(profile, self._epoch, planner.allowed_area)
+        self._governor = Governor(profile, self._epoch, planner.allowed_area, releasers)
         self._sensors = Sensors(profile, clock)
         self._looked_at: LaserScan | None = None
         self._inbox: deque[Callable[[], None]] = deque()
         self._intake = Intake()
         self._current: Job | None = None
         self._run: Run | None = None
-        self._zeroing_since_s: float | None = None
+        self.zeroing = Zeroing(self._sensors, self._send_zero, lambda reason: emit(Notice(0, reason)))
         self._last_tick_s: float | None = None
+        self._suspended_s = clock.suspended_s()
         self._next_telemetry_s = 0.0
         self._leaving: set[str] = set()
         self.obstruction: Reason | None = None
@@ -134,7 +134,7 @@ class Motion:
             or self._intake.jobs
             or self._inbox
             or unbooked_stop
-            or self._zeroing_since_s is not None
+            or (self.zeroing.is_active and self.zeroing.disobeyed is None)
         )
 
     @property
@@ -172,11 +172,17 @@ class Motion:
             if priority_of(envelope.source) >= Priority.PLAN:  # a person's word, not an agent's
                 self._approve(envelope.turn, bool(envelope.payload.get("yes")))
         elif envelope.word == "release":
-            if not self._governor.release(envelope.source):
-                self._emit(Notice(envelope.turn, Reason("release_refused", {"source": envelope.source})))
+            self._release(envelope)
         elif envelope.word == "goodbye":
             self._governor.leases.entrust(envelope.lease)
             self._leaving.add(envelope.lease)
+
+    def _release(self, envelope: Envelope) -> None:
+        who = {"source": envelope.source}
+        if not self._governor.release(envelope.source):
+            self._emit(Notice(envelope.turn, Reason("release_refused", who)))
+        elif envelope.source != "console":  # the person there sees it
+            self._emit(Notice(envelope.turn, Reason("released", who)))
 
     def _opens_lease(self, envelope: Envelope) -> bool:
         """A source that was there before us, and names its term with what it says."""
@@ -194,7 +200,8 @@ class Motion:
             self._inbox.popleft()()
         self._book_stop()
         self._drive(now_s)
-        self._keep_zeroing(now_s)
+        if self._run is None:
+            self.zeroing.tick(now_s)
         self._begin_next(now_s)
         self._tell(now_s)
 
@@ -250,7 +257,10 @@ class Motion:
 
     def _begin_next(self, now_s: float) -> None:
         jobs = self._intake.jobs
-        if self._current is not None or not jobs or self._zeroing_since_s is not None:
+        if self.zeroing.disobeyed is not None:
+            for job in self._intake.take_all():
+                self._finish_unmoved(job, "refused", self.zeroing.disobeyed)
+        if self._current is not None or not jobs or self.zeroing.is_active:
             return
         job = jobs[0]
         if self._is_waiting_for_odometry(job, now_s):
@@ -384,7 +394,7 @@ class Motion:
         if outcome != "completed":
             self.halt(reason or Reason("stopped"))
             self._seen_epoch = self._epoch.value
-            self._zeroing_since_s = self._clock.now_s()
+            self.zeroing.begin(self._clock.now_s())
         stream = run.job.stream
         if outcome == "completed" and stream is not None and stream.refusal is not None:
             outcome, reason = "refused", stream.refusal  # what came before it has been done
@@ -419,7 +429,7 @@ class Motion:
         if self._seen_epoch == self._epoch.value:
             return
         self._seen_epoch = self._epoch.value
-        self._zeroing_since_s = self._clock.now_s()
+        self.zeroing.begin(self._clock.now_s())
         why = self._stop_reason
         if self._run is not None:
             self._end_run("failed" if why.code in _FAILURES else "stopped", why)
@@ -428,27 +438,26 @@ class Motion:
         for job in self._intake.take_void(self._epoch.value):
             self._finish_unmoved(job, "stopped", why)
 
-    def _keep_zeroing(self, now_s: float) -> None:
-        since_s = self._zeroing_since_s
-        if since_s is None:
-            return
-        estimate = self._sensors.estimate
-        seen_standing = (
-            estimate is not None
-            and estimate.is_standing
-            and estimate.stamp_s > since_s
-            and self._sensors.odometry_age_s() < ODOMETRY_FRESH_S
-        )
-        if seen_standing or now_s - since_s > ZEROING_S:
-            self._zeroing_since_s = None
-            return
+    def see_it_stand(self) -> None:
+        """Send zeros until it does: nobody knows what it has heard last."""
+        self.zeroing.begin(self._clock.now_s())
+
+    def _send_zero(self, now_s: float) -> None:
         self._transport.send(self._governor.govern(ZERO_TWIST, "", now_s).sent)
 
     def _notice_freeze(self, now_s: float) -> None:
-        """This process was frozen, or the guard thinks so: what moved is over; shake hands anew."""
-        gap_s = now_s - self._last_tick_s if self._last_tick_s is not None else 0.0
+        """This process was frozen, or the guard thinks so: what moved is over; shake hands anew.
+
+        What slept through a suspended machine is over too, a plan that waits for a yes included.
+        """
+        suspended_s, self._suspended_s = (
+            self._clock.suspended_s() - self._suspended_s,
+            self._clock.suspended_s(),
+        )
+        gap_s = suspended_s + (now_s - self._last_tick_s if self._last_tick_s is not None else 0.0)
         tripped = self._guard.was_tripped()
-        if self._run is not None and (gap_s > FROZEN_S or tripped):
+        slept = suspended_s > FROZEN_S and self._current is not None
+        if slept or (self._run is not None and (gap_s > FROZEN_S or tripped)):
             self.halt(Reason("motion_froze", {"gap_s": round(gap_s, 2)}))
         if tripped or gap_s > FROZEN_S:
             self._guard.handshake()

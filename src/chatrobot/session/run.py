@@ -76,9 +76,8 @@ class Run:
         asked = self.executor.tick(now_s)
         if self.executor.is_done:
             return
-        estimate = self._sensors.estimate
-        pose = estimate.pose if estimate is not None else None
-        verdict = self._governor.govern(asked, self.job.lease, now_s, pose, sensed_by(self._sensors))
+        pose, sensed = self._sensors.pose_now(), sensed_by(self._sensors)
+        verdict = self._governor.govern(asked, self.job.lease, now_s, pose, sensed)
         self._transport.send(verdict.sent)
         self.executor.note(verdict.rule, verdict.reason, verdict.sent.twist, now_s)
         self._stopwatch.count(verdict.sent.twist.is_zero, now_s)

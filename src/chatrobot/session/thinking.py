@@ -124,7 +124,7 @@ class Thinking:
         return self._is_tutorial and meant.outcome == "plan" and not is_form(text)
 
     def without_model(self, text: str, meant: Interpretation) -> Interpretation:
-        """What was not understood, with a word on how to set up a model; the tutorial's first instruction is answered."""
+        """What was not understood, with how to set up a model; the tutorial's first instruction is answered."""
         if meant.outcome != "unclear" or self._mind is not None:
             return meant
         if connects_to_the_robot(text):

@@ -19,3 +19,6 @@ STOP = "chatrobot/stop"
 
 CONTROL = "chatrobot/control"
 """Every Motion says ten times a second that it is there: {"id", "node", "host", "pid", "hears": [leases]}."""
+
+OPERATOR = "chatrobot/operator"
+"""`input` says many times a second that it is there, and what it said last (`nodes/operator.py`)."""

@@ -17,7 +17,10 @@ from chatrobot.language.context import Place
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.world import World
 
-_UNITS = {"mps": "m/s", "mps2": "m/s²", "radps": "rad/s", "radps2": "rad/s²", "s": "s", "m": "m"}
+_UNITS = {
+    "mps": "m/s", "mps2": "m/s²", "mps3": "m/s³", "radps": "rad/s", "radps2": "rad/s²", "radps3": "rad/s³",
+    "s": "s", "m": "m",
+}  # fmt: skip
 
 
 def example_place(world: World) -> str:
@@ -80,7 +83,7 @@ def robot_tables(words: Words, profile: RobotProfile) -> Iterator[RenderableType
     table = _table(words.say("robot_limit"), "", words.say("robot_source"))
     for field in dataclasses.fields(profile.limits):
         number = getattr(profile.limits, field.name)
-        if not number and field.name not in profile.sources:
+        if field.name not in profile.sources:
             continue
         value = f"{number:g} {_UNITS[field.name.rpartition('_')[2]]}"
         table.add_row(

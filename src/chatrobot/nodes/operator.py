@@ -1,0 +1,149 @@
+"""Is the person who said it still there? `input` beats while it lives; `base` stops the robot when it falls silent.
+
+Text on `user_input` carries no name, so a beat tells what was said last: a text that no beat claims comes from
+somebody who just published it, and binds nobody.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import threading
+import time
+import uuid
+from collections.abc import Callable
+
+from chatrobot.core.errors import WireError
+from chatrobot.governor.lease import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S
+from chatrobot.session.topics import OPERATOR
+from chatrobot.wire.connect import advertise
+from chatrobot.wire.messages import Text
+from chatrobot.wire.wire import Wire
+
+LOOK_S = 0.02
+CLAIMED_WITHIN_S = 1.0
+"""A beat and the text that it claims come on two topics, in any order."""
+
+LONGEST_TERM_S = 1.0
+_CLAIMED = 200
+"""Characters of a text that a beat repeats."""
+
+
+class OperatorBeat:
+    """The end of who speaks. `start` begins to beat; a process that freezes or dies ends it without a word."""
+
+    def __init__(self, wire: Wire, *, is_on_this_machine: bool) -> None:
+        self._wire = wire
+        self._id = uuid.uuid4().hex
+        self._period_s = 1.0 / (LOCAL_BEAT_HZ if is_on_this_machine else BEAT_HZ)
+        self._term_s = LOCAL_TERM_S if is_on_this_machine else TERM_S
+        self._said, self._count = "", 0
+        self._closed = threading.Event()
+        advertise(wire, OPERATOR, Text)
+
+    def start(self) -> None:
+        threading.Thread(target=self._beat, name="operator", daemon=True).start()
+
+    def claim(self, text: str) -> None:
+        """This is about to be said, by us."""
+        self._said, self._count = text[:_CLAIMED], self._count + 1
+        self._publish(leaves=False)
+
+    def close(self) -> None:
+        """An orderly end: what was said is still done."""
+        self._closed.set()
+        self._publish(leaves=True)
+
+    def _beat(self) -> None:
+        while not self._closed.wait(self._period_s):
+            self._publish(leaves=False)
+
+    def _publish(self, *, leaves: bool) -> None:
+        about = {
+            "id": self._id, "said": self._said, "count": self._count, "term_s": self._term_s, "leaves": leaves,
+        }  # fmt: skip
+        with contextlib.suppress(WireError):
+            self._wire.publish(OPERATOR, Text(json.dumps(about, separators=(",", ":"))))
+
+
+class Operators:
+    """The end of who listens: stops the robot when somebody falls silent whose words are being done.
+
+    Args:
+        is_idle: nothing runs and nothing waits.
+        stop: called from a thread of this class's own.
+    """
+
+    def __init__(
+        self,
+        is_idle: Callable[[], bool],
+        stop: Callable[[], None],
+        now_s: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._is_idle = is_idle
+        self._stop = stop
+        self._now_s = now_s
+        self._lock = threading.Lock()
+        self._texts: dict[str, float] = {}
+        self._claims: dict[str, tuple[int, str, float]] = {}
+        self._silent_at_s: dict[str, float] = {}
+        self._bound: set[str] = set()
+
+    def start(self) -> None:
+        threading.Thread(target=self._watch, name="operators", daemon=True).start()
+
+    def hear_text(self, text: str) -> None:
+        """Something was said on `user_input`."""
+        now_s = self._now_s()
+        with self._lock:
+            if self._is_idle():
+                self._bound.clear()
+                self._texts.clear()
+            self._texts = {
+                said: at_s for said, at_s in self._texts.items() if now_s - at_s < CLAIMED_WITHIN_S
+            }
+            self._texts[text[:_CLAIMED]] = now_s
+            for operator, (_, said, at_s) in self._claims.items():
+                self._bind(operator, said, at_s, now_s)
+
+    def hear_beat(self, message: Text) -> None:
+        """A beat, or something else that somebody put on that topic."""
+        try:
+            about = json.loads(message.data)
+            operator, said, count = str(about["id"]), str(about["said"]), int(about["count"])
+            term_s = min(max(float(about["term_s"]), 0.0), LONGEST_TERM_S)
+            leaves = about["leaves"] is True
+        except (ValueError, TypeError, KeyError, OverflowError, RecursionError):
+            return
+        now_s = self._now_s()
+        with self._lock:
+            if leaves:
+                self._bound.discard(operator)
+                self._claims.pop(operator, None)
+                self._silent_at_s.pop(operator, None)
+                return
+            self._silent_at_s[operator] = now_s + term_s
+            known = self._claims.get(operator)
+            if known is None or known[0] != count:
+                self._claims[operator] = (count, said, now_s)
+                self._bind(operator, said, now_s, now_s)
+
+    def look(self) -> None:
+        """Stop, once, where somebody bound has fallen silent."""
+        now_s = self._now_s()
+        with self._lock:
+            gone = {operator for operator in self._bound if now_s > self._silent_at_s.get(operator, 0.0)}
+            self._bound -= gone
+            for operator in gone:
+                self._claims.pop(operator, None)
+        if gone and not self._is_idle():
+            self._stop()
+
+    def _bind(self, operator: str, said: str, claimed_at_s: float, now_s: float) -> None:
+        if said in self._texts and now_s - claimed_at_s < CLAIMED_WITHIN_S:
+            self._bound.add(operator)
+
+    def _watch(self) -> None:
+        while True:
+            time.sleep(LOOK_S)
+            self.look()

@@ -1,0 +1,51 @@
+"""What changes nothing when it is changed was not understood: the interpreter asks back."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import pytest
+
+from chatrobot.language.context import Context
+from chatrobot.language.heeded import check_heeded
+from chatrobot.language.interpretation import OfflineInterpreter
+from chatrobot.language.quantities import quantity
+from chatrobot.language.tokens import Atom
+from chatrobot.language.unclear import Unclear
+from chatrobot.plan.steps import Drive, Step
+from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
+
+METRE, SECONDS = quantity("length", 1.0, "1 m"), quantity("time", 3.0, "3 s")
+
+
+def drives_by_length(atoms: Sequence[Atom]) -> list[Step]:
+    """Rules that read a length and pass over everything else."""
+    length = next(atom.number for atom in atoms if atom.value == "length")
+    return [Drive(length)]
+
+
+def test_an_amount_that_the_rules_pass_over_is_asked_about() -> None:
+    atoms = [Atom("verb", "go", "go"), METRE, SECONDS]
+    with pytest.raises(Unclear, match="3 s"):
+        check_heeded(atoms, drives_by_length(atoms), drives_by_length)
+
+
+def test_a_direction_that_the_rules_pass_over_is_asked_about() -> None:
+    atoms = [METRE, Atom("dir", "back", "backwards")]
+    with pytest.raises(Unclear, match="backwards"):
+        check_heeded(atoms, drives_by_length(atoms), drives_by_length)
+
+
+def test_amounts_that_matter_are_not_asked_about() -> None:
+    check_heeded([METRE], drives_by_length([METRE]), drives_by_length)
+
+
+def test_what_was_taken_back_may_count_for_nothing() -> None:
+    atoms = [METRE, Atom("correction", "x", "no, wait"), SECONDS]
+    check_heeded(atoms, drives_by_length(atoms), drives_by_length)
+
+
+@pytest.mark.parametrize("said", ["1 m forward, back to the point, 2 m forward", "point left 3 metres"])
+def test_a_length_beside_a_word_that_takes_none_moves_nothing(said: str) -> None:
+    meant = OfflineInterpreter(load_profile(DEFAULT_PROFILE)).interpret(said, Context())
+    assert meant.outcome == "unclear"
