@@ -62,6 +62,14 @@ def test_old_servers_are_told_of_the_limit_in_the_old_way(fake: FakeModel) -> No
     assert fake.calls[-1].body["max_tokens"] == 77
 
 
+def test_local_models_are_asked_not_to_think_aloud_for_minutes(fake: FakeModel) -> None:
+    Got(model_at("ollama", fake.url), "go 1")
+    assert fake.calls[-1].body["reasoning_effort"] == "none"
+    Got(model_at("vllm", fake.url), "go 1")
+    assert fake.calls[-1].body["chat_template_kwargs"] == {"enable_thinking": False}
+    assert fake.calls[-1].body["temperature"] == 0
+
+
 @pytest.mark.parametrize("text", ["gpt-5", "nobody:model", "openai:", ":x", ""])
 def test_a_name_that_is_none_is_told_with_those_there_are(text: str) -> None:
     with pytest.raises(ModelError) as caught:

@@ -21,8 +21,11 @@ COMMANDS = {
     "schema": "the JSON schema of plans",
     "sim": "run the simulated robot alone, for other programs to drive",
     "node": "one of the tutorial's three nodes: input, base or control",
+    "model": "set up, list and test language models",
+    "usage": "what language models have used and cost",
+    "fake-model": "a scripted stand-in for a language model, for tests and demonstrations",
 }
-LATER = ("model", "program", "usage", "fake-model")
+LATER = ("program",)
 """Commands of versions to come: known, so that they are not mistaken for something else."""
 
 DEFAULTS: dict[str, Any] = {
@@ -200,8 +203,38 @@ def _node(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def _model(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "action",
+        nargs="?",
+        default="setup",
+        choices=("setup", "list", "test", "use", "key"),
+        help="setup: with questions (the default); list: what there is; test: try one sentence; "
+        "use: keep a choice; key: put a provider's key into the keyring",
+    )
+    parser.add_argument(
+        "name", nargs="?", default="", metavar="PROVIDER[:NAME]", help="use none: keep that no model is used"
+    )
+    parser.add_argument("--delete", action="store_true", help="key: take it out of the keyring")
+
+
+def _usage(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--by", choices=("session", "model", "day"), default="session", help="what to add up")
+
+
+def _fake_model(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("script", metavar="SCRIPT.yaml", help="what it answers: docs/models.md has the form")
+    parser.add_argument("--port", type=int, default=8399, help="0: any that is free (default: 8399)")
+    parser.add_argument(
+        "--host", default="127.0.0.1", help="where to listen; beyond loopback a token is asked for"
+    )
+
+
 def _no_arguments(_: argparse.ArgumentParser) -> None:
     pass
 
 
-_ARGUMENTS = {"do": _do, "plan": _plan, "eval": _eval, "sim": _sim, "node": _node}
+_ARGUMENTS = {
+    "do": _do, "plan": _plan, "eval": _eval, "sim": _sim, "node": _node, "model": _model, "usage": _usage,
+    "fake-model": _fake_model,
+}  # fmt: skip

@@ -52,7 +52,7 @@ def _checks(args: argparse.Namespace) -> Iterator[Check]:
     yield _try("in real time", lambda: _in_real_time(args))
     yield _ros()
     yield _dds(args)
-    yield _model()
+    yield _model(args)
     yield Check("written programs", "later", "this version runs none, so there is no sandbox to check")
 
 
@@ -139,9 +139,25 @@ def _dds(args: argparse.Namespace) -> Check:
     )
 
 
-def _model() -> Check:
-    wanted = os.environ.get("CHATROBOT_MODEL", "")
-    text = "this version understands English and Chinese offline, and uses no model"
-    return Check(
-        "language model", "later", f"{text} (CHATROBOT_MODEL={wanted} is not used)" if wanted else text
-    )
+def _model(args: argparse.Namespace) -> Check:
+    """What would be asked; it is not asked, that may cost: `chatrobot model test` does."""
+    from chatrobot.language.phrases import render_reason
+    from chatrobot.models.choice import resolve
+    from chatrobot.models.config import ModelConfig
+    from chatrobot.models.state import problem_with
+
+    config = ModelConfig(folder=config_folder(args))
+    try:
+        choice = resolve(args.model, config)
+    except ChatRobotError as error:
+        return Check("language model", "missing", str(error))
+    if choice is None:
+        text = "none is set up (chatrobot model does it); English and Chinese are understood without one"
+        return Check("language model", "later", text)
+    problem = problem_with(choice.name, config)
+    if problem is not None:
+        return Check("language model", "missing", f"{choice.name}: {render_reason(problem, 'en')}")
+    source = {"option": "--model", "environment": "CHATROBOT_MODEL", "stored": "chatrobot model use"}[
+        choice.source
+    ]
+    return Check("language model", "ok", f"{choice.name}, by {source}; chatrobot model test tries it")

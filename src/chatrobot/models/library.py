@@ -93,8 +93,14 @@ def build(provider: Provider, name: str, address: str, secret: Secret | None) ->
 
 
 def _habits(provider: Provider, client: Any) -> Any:
+    """The library's class for that provider; releases for Python 3.10 do not have all of them."""
     module, _, class_name = provider.library.partition(":")
-    kind = getattr(importlib.import_module(f"pydantic_ai.providers.{module}"), class_name)
+    try:
+        kind = getattr(importlib.import_module(f"pydantic_ai.providers.{module}"), class_name)
+    except ModuleNotFoundError:
+        from pydantic_ai.providers.openai import OpenAIProvider
+
+        return OpenAIProvider(openai_client=client)
     if class_name == "OpenAICompatibleProvider":
         return kind(provider.name, openai_client=client)
     return kind(openai_client=client)

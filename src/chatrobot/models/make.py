@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import importlib
+import threading
 from collections.abc import Sequence
 from typing import Any
 
@@ -42,10 +43,13 @@ def make_model(name: str, config: ModelConfig | None = None) -> Model:
     return LibraryModel(provider, model, config)
 
 
-def warm(model: Model) -> None:
-    """Begin to load what that model needs, in the background. Returns at once; its first call tells of errors."""
+def warm(model: Model, *, wait_s: float = 0.0) -> None:
+    """Begin to load what that model needs, in the background; wait so long for it. Its first call tells of errors."""
     if isinstance(model, LibraryModel):
-        background.start(model.get_ready(), lambda _: None)
+        done = threading.Event()
+        background.start(model.get_ready(), lambda task: task.add_done_callback(lambda _: done.set()))
+        if wait_s:
+            done.wait(wait_s)
 
 
 def _load(provider: Provider) -> Any:

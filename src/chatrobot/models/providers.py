@@ -50,8 +50,13 @@ class Provider:
         return given or self.base_url
 
 
-_STEADY = {"temperature": 0.0}
-"""Small local models keep to the form of a plan best when nothing is left to chance."""
+_OLLAMA: dict[str, Any] = {"temperature": 0.0, "extra_body": {"reasoning_effort": "none"}}
+"""Small local models keep to the form of a plan best when nothing is left to chance, and some think for minutes."""
+_TEMPLATED: dict[str, Any] = {
+    "temperature": 0.0,
+    "extra_body": {"chat_template_kwargs": {"enable_thinking": False}},
+}
+"""The same where the model's own template decides; one that knows no such word takes no notice."""
 
 _BUILT_IN = (
     Provider(
@@ -77,16 +82,16 @@ _BUILT_IN = (
     Provider(
         "ollama", "Ollama on this machine", library="ollama:OllamaProvider", key_variables=("OLLAMA_API_KEY",),
         needs_key=False, base_url="http://127.0.0.1:11434/v1", base_url_variables=("OLLAMA_BASE_URL", "OLLAMA_HOST"),
-        example="qwen3:4b", settings=_STEADY,
+        example="qwen3:4b-instruct", settings=_OLLAMA,
     ),
     Provider(
         "llamacpp", "llama.cpp on this machine", key_variables=("LLAMACPP_API_KEY", "LLAMA_API_KEY"), needs_key=False,
         base_url="http://127.0.0.1:8080/v1", base_url_variables=("LLAMACPP_BASE_URL",), example="default",
-        settings=_STEADY,
+        settings=_TEMPLATED,
     ),
     Provider(
         "vllm", "vLLM", key_variables=("VLLM_API_KEY",), needs_key=False, base_url="http://127.0.0.1:8000/v1",
-        base_url_variables=("VLLM_BASE_URL",), example="Qwen/Qwen3-8B", settings=_STEADY,
+        base_url_variables=("VLLM_BASE_URL",), example="Qwen/Qwen3-8B", settings=_TEMPLATED,
     ),
     Provider(
         "deepseek", "DeepSeek", library="deepseek:DeepSeekProvider", key_variables=("DEEPSEEK_API_KEY",),

@@ -139,12 +139,16 @@ class StreamedReply:
             end = None
         except ModelError as error:
             end = error
-        finally:  # a call that was cancelled has used tokens, too
-            self._usage = self._usage or self._estimate()
+        except asyncio.CancelledError:  # a call that was given up has used tokens, too
+            end = None
+            raise
+        finally:
+            was_answered = end is None or self._chars > 0 or self._usage is not None
+            self._usage = self._usage or (self._estimate() if was_answered else Usage())
+            if self._began_s is not None and was_answered:
+                self._on_end(self._usage)
             self._ended = True
             self._items.put(end)
-            if self._began_s is not None:
-                self._on_end(self._usage)
 
     # What follows is the `Sink`.
 

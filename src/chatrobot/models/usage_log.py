@@ -38,6 +38,10 @@ class Total:
         self.unpriced += cost is None
         self.estimated += not line.get("counted", True)
 
+    def join(self, other: Total) -> None:
+        for name, value in vars(other).items():
+            setattr(self, name, getattr(self, name) + value)
+
 
 def record(config: ModelConfig, model: str, usage: Usage) -> None:
     """Add one call. A folder that cannot be written costs the record, not the call."""
@@ -76,8 +80,13 @@ def lines(folder: Path) -> Iterator[dict[str, Any]]:
 
 
 def totals(folder: Path, key: str) -> dict[str, Total]:
-    """Sums by `session` or `model`, in the order of their first call."""
+    """Sums by `session`, `model` or `day`, in the order of their first call."""
     found: dict[str, Total] = {}
     for line in lines(folder):
-        found.setdefault(str(line.get(key, "")), Total()).add(line)
+        name = _day(line) if key == "day" else str(line.get(key, ""))
+        found.setdefault(name, Total()).add(line)
     return found
+
+
+def _day(line: dict[str, Any]) -> str:
+    return time.strftime("%Y-%m-%d", time.localtime(float(line.get("at", 0))))

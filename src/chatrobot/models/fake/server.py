@@ -151,7 +151,6 @@ class _Handler(BaseHTTPRequestHandler):
             self._json(200, {"id": fake.conversations.begin(), "object": "conversation"})
         else:
             fake.calls.append(call)
-            fake.on_call(call)
             self._answer(wire, call)
 
     def _answer(self, wire: WireFormat, call: Call) -> None:
@@ -162,6 +161,7 @@ class _Handler(BaseHTTPRequestHandler):
             message = f"Previous response with id '{error}' not found."
             self._json(400, wire.error(HttpError(400, message, "previous_response_not_found")))
             return
+        self.server.fake.on_call(call)
         if asked.model not in script.models:
             message = f"The model `{asked.model}` does not exist"
             self._json(404, wire.error(HttpError(404, message, "model_not_found")))
