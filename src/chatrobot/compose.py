@@ -22,6 +22,7 @@ from chatrobot.robots.load import DEFAULT_PROFILE, load_profile, profile_argumen
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.child import spawn
 from chatrobot.session.joint import SimulatedJoint
+from chatrobot.session.model_choice import warm_up
 from chatrobot.session.model_turn import ModelOptions
 from chatrobot.session.observations import Camera
 from chatrobot.session.session import Options, Session
@@ -96,6 +97,8 @@ def connect(setup: Setup, on_event: OnEvent) -> Connection:
     world = load_world(setup.world)
     SimLies.parse(setup.sim)
     understanding = Understanding(profile, world, setup.folder)
+    if not setup.fast and setup.options.interpreter != "offline":
+        warm_up(setup.model)
     if on_wire:
         return _connect_wire(setup, profile, world, understanding, on_event)
     if setup.fast:

@@ -10,9 +10,6 @@ from chatrobot.cli.entry import STOPPED
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.core.errors import UsageError, WireError
 
-_PARAMETERS = ("generate_code", "revChatGPT")
-_VALUES = {"true": True, "false": False}
-
 
 def run(args: argparse.Namespace) -> int:
     """0 where its input has ended, 5 where it was asked to end."""
@@ -53,10 +50,13 @@ def _run_control(args: argparse.Namespace) -> int:
 
 
 def _run_base(args: argparse.Namespace) -> int:
+    from chatrobot.cli.choices import model_from
     from chatrobot.cli.folders import config_folder
+    from chatrobot.cli.parameters import read_parameters
     from chatrobot.nodes.base import BaseNode, BaseOptions
+    from chatrobot.session.model_turn import ModelOptions
 
-    parameters = _parameters(args.parameters)
+    parameters = read_parameters(args.parameters)
     node = BaseNode(
         BaseOptions(
             _address(args),
@@ -65,6 +65,9 @@ def _run_base(args: argparse.Namespace) -> int:
             config_folder(args),
             parameters["generate_code"],
             parameters["revChatGPT"],
+            args.interpreter,
+            model_from(args),
+            ModelOptions(rounds=args.rounds, budget_tokens=args.budget_tokens, budget_s=args.budget_s),
         ),
         _say,
     )
@@ -111,21 +114,6 @@ def _profile(args: argparse.Namespace) -> str:
 
 def _world(args: argparse.Namespace) -> str:
     return args.world or "empty"
-
-
-def _parameters(given: list[str]) -> dict[str, bool]:
-    """The values of `-p NAME:=VALUE`, by name."""
-    values = dict.fromkeys(_PARAMETERS, False)
-    for parameter in given:
-        name, _, value = parameter.partition(":=")
-        if name not in values or value.lower() not in _VALUES:
-            raise UsageError(
-                f"{parameter!r} is no parameter of this node",
-                where="-p",
-                allowed="generate_code:=True, revChatGPT:=True",
-            )
-        values[name] = _VALUES[value.lower()]
-    return values
 
 
 def _say(text: str) -> None:
