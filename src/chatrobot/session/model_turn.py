@@ -282,7 +282,8 @@ class ModelTurn:
         plan_text = "" if self._only_talks else "\n".join(map(format_step, self._steps))
         if plan_text:
             self._answers.append(plan_text)
-            reply = self._surroundings.describe(tuple(self._steps))
+            moves = any(not isinstance(step, Say) for step in self._steps)
+            reply = self._surroundings.describe(tuple(self._steps)) if moves else ""
             self._emit(Interpreted(self.turn, "model", plan_text, reply))
         elif self._reader.text:
             self._emit(Interpreted(self.turn, "model", "", one_line(self._reader.text)))

@@ -21,6 +21,7 @@ from chatrobot.session import prompt
 from chatrobot.session.history import Exchange, History
 from chatrobot.session.model_turn import Ended, ModelOptions, ModelTurn
 from chatrobot.session.observations import Camera, measured, observation
+from chatrobot.session.quoting import one_line
 from chatrobot.session.tutorial_mode import connects_to_the_robot, is_form
 from chatrobot.session.understanding import Understanding
 
@@ -151,8 +152,9 @@ class Thinking:
             self._is_tutorial, self._history = True, History()
             mind.model.forget()
         elif self._interpreter == "auto" and not self._is_tutorial:
-            why = self._understanding.say("asks_model", text, model=mind.model.name, why=meant.reply)
-            reason = Reason("asks_model", {"model": mind.model.name, "why": meant.code})
+            part = one_line(meant.unaccounted or text, 80)
+            why = self._understanding.say("asks_model", text, model=mind.model.name, part=part)
+            reason = Reason("asks_model", {"model": mind.model.name, "part": part, "why": meant.code})
             self._emit(Notice(turn, reason, why))
         request, messages = self._messages(mind, text)
         doing = ModelTurn(
