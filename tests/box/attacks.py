@@ -11,7 +11,7 @@ from typing import Literal
 
 from chatrobot.box.limits import BoxLimits
 
-End = Literal["refused", "dies", "runs", "crashes"]
+End = Literal["refused", "dies", "runs", "crashes", "fails"]
 Family = Literal[
     "files", "network", "processes", "signals", "memory of others", "the kernel", "machine code",
     "shared memory", "using it up", "the box itself",
@@ -30,7 +30,7 @@ class Attack:
     Args:
         name: says it in words, and is the test's name.
         ends: refused: an exception inside (exit code 1); dies: killed by the filter; runs: to its end, without an
-            effect; crashes: by a signal of its own making.
+            effect; crashes: by a signal of its own making, or of a limit's; fails: in whatever way this Python does.
         reason: the code of the reason in the report, if it is ended by a limit.
         finding: what the report says it tried, if it says so.
     """
@@ -167,6 +167,7 @@ s.sendto(packet, ('127.0.0.1', world['udp']))
     Attack("connects the channel elsewhere", "network", "channel.connect(world['unix'])"),
     Attack("sends a descriptor out", "network", "import socket; socket.send_fds(channel, [b'x'], [1])"),
     Attack("takes a descriptor in", "network", "import socket; socket.recv_fds(channel, 1, 1)"),
+    Attack("asks for a handle on its host", "network", "print('LEAK', channel.getsockopt(1, 77))"),
     Attack("sends out of band", "network", "import socket; channel.send(b'x', socket.MSG_OOB)"),
 )
 
@@ -506,8 +507,7 @@ class A:
     def __repr__(self): return repr([self])
 repr(A())
 """,
-        "crashes",
-        "box_crashed",
+        "fails",
         limits=SMALL,
     ),
     Attack(
@@ -606,6 +606,12 @@ while frame:
         if isinstance(page, mmap.mmap) and not page.closed: page[:] = b'\\xff' * len(page)
     frame = frame.f_back
 """,
+        "runs",
+    ),
+    Attack(
+        "commands the terminal it is shown on",
+        "the box itself",
+        "print('\\x1b]52;c;bWluZQ==\\x07\\x1b[2J\\u202e')",
         "runs",
     ),
     Attack("leaves without a word", "the box itself", "import os; os._exit(7)", "refused"),

@@ -12,6 +12,7 @@ import pytest
 from attacks import ATTACKS, Attack
 from witness import Witness
 
+from chatrobot.box import bubblewrap
 from chatrobot.box.layers import Layers
 from chatrobot.box.probe import probe
 from chatrobot.box.process import ExitReport
@@ -19,11 +20,14 @@ from chatrobot.box.warm_server import WarmServer
 
 INSIDE = Path(__file__).parent / "inside"
 LEVELS = {
-    "minimum": Layers(landlock=False, namespaces=False),
-    "landlock": Layers(landlock=True, namespaces=False),
-    "namespaces": Layers(landlock=False, namespaces=True),
-    "full": Layers(landlock=True, namespaces=True),
+    "minimum": Layers(landlock=False, namespaces=False, bubblewrap=False),
+    "landlock": Layers(landlock=True, namespaces=False, bubblewrap=False),
+    "namespaces": Layers(landlock=False, namespaces=True, bubblewrap=False),
+    "bubblewrap": Layers(landlock=False, namespaces=False, bubblewrap=True),
+    "full": Layers(),
 }
+if bubblewrap.find() is None:
+    del LEVELS["bubblewrap"]
 
 
 @pytest.fixture(scope="module")
@@ -43,10 +47,8 @@ def server(request: pytest.FixtureRequest, witness: Witness) -> Iterator[WarmSer
     try:
         with WarmServer([INSIDE], ["box_entries"], layers=wanted) as server:
             server.start()
-            missing = [
-                name for name, is_wanted in wanted.to_json().items() if is_wanted and server.problems[name]
-            ]
-            if missing:
+            missing = [name for name in ("landlock", "namespaces", "bubblewrap") if server.problems[name]]
+            if request.param in missing or (request.param == "full" and len(missing) > 1):
                 pytest.skip(f"not on this machine: {missing}")
             yield server
     finally:
@@ -70,12 +72,15 @@ def test_attack(server: WarmServer, witness: Witness, attack: Attack) -> None:
     assert "LEAK" not in logs
     assert witness.word not in logs
     assert server.is_running()
+    assert all(letter.isprintable() or letter in "\n\t" for letter in logs)
     if attack.ends == "refused":
         assert report.exit_code not in (None, 0), (report, logs)
     elif attack.ends == "runs":
         assert report.exit_code == 0, (report, logs)
     elif attack.ends == "dies":
         assert report.signal == signal.SIGSYS, (report, logs)
+    elif attack.ends == "fails":
+        assert report.exit_code != 0, (report, logs)
     else:
         assert report.signal is not None, (report, logs)
     if attack.reason:

@@ -21,7 +21,7 @@ from tests.cli.running import Command
         (["do", "hi", "--model", "clippy:95"], "openai"),
         (["do", "hi", "--rounds", "0"], "above zero"),
         (["do", "hi", "-p", "fast:=True"], "revChatGPT:=True"),
-        (["do", "hi", "--on", "ros"], "sim"),
+        (["do", "hi", "--on", "mars"], "sim"),
         (["do", "hi", "--fast", "--robot", "r2d2"], "wheeltec_mini_mec"),
         (["do", "hi", "--fast", "--world", "mars"], "home"),
         (["do", "hi", "--fast", "--sim", "slip=lots"], "share"),

@@ -112,6 +112,16 @@ def test_what_came_before_the_end_is_valid(provider: str, models: dict[str, Any]
         assert not got.usage.counted or got.usage.reply_tokens
 
 
+def test_a_stream_that_ends_in_good_order_but_without_its_end_was_cut_off() -> None:
+    chunk = '{"id": "x", "object": "chat.completion.chunk", "created": 1, "model": "fake", "choices": [%s]}'
+    piece = (
+        chunk % '{"index": 0, "delta": {"role": "assistant", "content": "drive 1 m"}, "finish_reason": null}'
+    )
+    with serving([{"match": "", "raw": f"data: {piece}\n\n"}]) as fake:
+        got = Got(model_at("openai", fake.url), "go")
+    assert (got.text, got.code) == ("drive 1 m", "model_cut_off")
+
+
 def test_a_tool_call_beside_a_text_is_an_error_after_the_text(models: dict[str, Any]) -> None:
     got = Got(models["openai"], "text and tools")
     assert (got.text, got.code) == (TEXT, "model_called_tool")

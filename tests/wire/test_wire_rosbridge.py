@@ -275,10 +275,11 @@ def test_velocities_of_the_type_that_the_robot_takes_are_sent(
     robot: FakeRosbridge, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from chatrobot.session import link
+    from chatrobot.wire.connect import connect_wire
 
     monkeypatch.setattr(link, "SURVEY_S", 0.1)
     _rosapi(robot)
-    reached = link.reach(f"rosbridge:{robot.url}", Wiring(), "test")
+    reached = link.reach(connect_wire, f"rosbridge:{robot.url}", Wiring(), "test")
     assert (reached.wiring.cmd_vel_type, reached.wiring.odom_topic) == ("TwistStamped", "/odom_combined")
     assert [reason.code for reason in reached.said] == ["cmd_vel_type_found", "odom_found"]
     reached.wire.publish("cmd_vel", ZERO)

@@ -67,10 +67,15 @@ class Rule:
 Code = list[tuple[int, int, int, int]]
 
 
-def assemble(machine: Machine, rules: Iterable[Rule]) -> bytes:
-    """The filter as an array of `struct sock_filter`. What no rule names is refused (EPERM).
+def assemble(machine: Machine, rules: Iterable[Rule], default: int = REFUSE) -> bytes:
+    """The filter as an array of `struct sock_filter`.
 
     Calls of another machine's kind, which would have other numbers, kill.
+
+    Args:
+        machine: whose numbers to use.
+        rules: the first that names a call counts.
+        default: the answer to what no rule names.
     """
     code: Code = [
         (_LOAD, 0, 0, _ARCH_AT),
@@ -88,7 +93,7 @@ def assemble(machine: Machine, rules: Iterable[Rule]) -> bytes:
     code += [
         (_JUMP_GREATER_EQUAL, 0, 1, NEWEST),
         (_RETURN, 0, 0, NOT_THERE),
-        (_RETURN, 0, 0, REFUSE),
+        (_RETURN, 0, 0, default),
     ]
     return b"".join(INSTRUCTION.pack(*each) for each in code)
 

@@ -14,16 +14,25 @@ from chatrobot.box.libc import PR_SET_PDEATHSIG, prctl, system_call
 from chatrobot.box.seccomp import Filter
 from chatrobot.box.syscalls import Machine, this_machine
 
-UNPRIVILEGED_SPARE_TASKS = 256
-"""Room for what else the user starts, where the kernel counts all tasks of a user together."""
+NOT_WANTED = "not wanted"
+OWN_TASKS = 4
+SPARE_TASKS = 256
+"""Room for what else the user starts, where the user is not our own."""
 
 
 @dataclass(frozen=True)
 class Layers:
-    """Walls wanted beside the filter, the limits and the clean environment, which are always there."""
+    """Walls wanted beside the filter, the limits and the clean environment, which are always there.
+
+    Args:
+        landlock: the kernel's wall around files, TCP and abstract sockets.
+        namespaces: an empty world without files, network and other processes.
+        bubblewrap: may make it, where we may not (its own program, which some machines trust more).
+    """
 
     landlock: bool = True
     namespaces: bool = True
+    bubblewrap: bool = True
 
     def to_json(self) -> dict[str, bool]:
         return asdict(self)
@@ -44,10 +53,15 @@ class Walls:
         return dict(self.problems)
 
 
-def build_walls(wanted: Layers) -> Walls:
+def build_walls(wanted: Layers, tasks: int, *, is_wrapped: bool) -> Walls:
     """Called once in the warm server, with all imports done and one thread; it may return in a forked process.
 
     What stands is used; what does not is left out and named.
+
+    Args:
+        wanted: what to try.
+        tasks: how many tasks the user has who started us.
+        is_wrapped: bubblewrap is around this process already.
     """
     machine = this_machine()
     if machine is None:
@@ -57,20 +71,35 @@ def build_walls(wanted: Layers) -> Walls:
     if problems["seccomp"]:
         return Walls(problems, None)
     base_bytes, empty = _own_bytes(), os.open("/dev/null", os.O_RDWR | os.O_CLOEXEC)
-    problems["limits"] = ""
-    problems["landlock"] = _trial(lambda: _try_landlock(machine)) if wanted.landlock else "not asked for"
-    dropped = namespaces.drop_root()
-    problems["own user"] = "" if dropped else "root here has no other user to become"
-    problems["namespaces"] = (
-        _trial(lambda: _try_namespaces(machine)) if wanted.namespaces else "not asked for"
-    )
-    other_tasks = 2 if dropped and os.geteuid() >= namespaces.FIRST_OWN_USER else _tasks_of_this_user()
+    problems["landlock"] = _trial(lambda: _try_landlock(machine)) if wanted.landlock else NOT_WANTED
+    is_unprivileged = is_wrapped or namespaces.drop_root()
+    problems["own user"] = "" if is_unprivileged else "root here has no other user to become"
+    prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    problems["namespaces"] = "bubblewrap makes them" if is_wrapped else NOT_WANTED
+    problems["bubblewrap"] = "" if is_wrapped else "not needed" if wanted.bubblewrap else NOT_WANTED
+    if wanted.namespaces and not is_wrapped:
+        problems["namespaces"] = _trial(lambda: _try_namespaces(machine))
+        if problems["namespaces"]:
+            problems["bubblewrap"] = "not installed, or it does not work here"
+    # The kernel counts all tasks of a user together.
+    other_tasks = OWN_TASKS if namespaces.has_own_user() else tasks + SPARE_TASKS
     if not problems["namespaces"]:
         namespaces.leave(machine)
         _go_on_as_first_process()
         namespaces.empty_the_root(machine)
     doors = Doors(machine, program, not problems["landlock"], empty, base_bytes, other_tasks, os.getpid())
     return Walls(problems, doors)
+
+
+def can_make_namespaces() -> bool:
+    """Whether this machine lets us; found out in a process that ends with the trial."""
+    machine = this_machine()
+    return machine is not None and not _trial(lambda: _drop_and_try_namespaces(machine))
+
+
+def _drop_and_try_namespaces(machine: Machine) -> None:
+    namespaces.drop_root()
+    _try_namespaces(machine)
 
 
 def _trial(build: Callable[[], None]) -> str:
@@ -154,7 +183,7 @@ def _go_on_as_first_process() -> None:
         prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
         return
 
-    os.closerange(3, 64)
+    os.closerange(3, os.sysconf("SC_OPEN_MAX"))
     os.waitpid(pid, 0)
     os._exit(0)
 
@@ -162,16 +191,3 @@ def _go_on_as_first_process() -> None:
 def _own_bytes() -> int:
     pages = int(Path("/proc/self/statm").read_text().split()[0])
     return pages * os.sysconf("SC_PAGE_SIZE")
-
-
-def _tasks_of_this_user() -> int:
-    """How many tasks this user has now, with room for some more: the kernel counts them all together."""
-    user, tasks = os.geteuid(), 0
-    for folder in Path("/proc").iterdir():
-        if folder.name.isdigit():
-            try:
-                if folder.stat().st_uid == user:
-                    tasks += (folder / "task").stat().st_nlink - 2
-            except OSError:
-                continue
-    return tasks + UNPRIVILEGED_SPARE_TASKS

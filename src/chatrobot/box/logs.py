@@ -10,6 +10,12 @@ _CHUNK_BYTES = 1 << 16
 _FLOOD_PAUSE_S = 0.01
 """Once the limit is reached, 64 KB each 10 ms: whoever floods waits, and nobody else."""
 
+_SILENCED = dict.fromkeys(
+    [code for code in range(0xA0) if (code < 0x20 or code >= 0x7F) and chr(code) not in "\n\t"]
+    # What turns the direction of writing around, so that a line reads otherwise than it is.
+    + [*range(0x202A, 0x202F), *range(0x2066, 0x206A)]
+)
+
 
 class LogDrain:
     """Reads a pipe on a thread of its own until its writer is gone.
@@ -32,13 +38,16 @@ class LogDrain:
         self._thread.start()
 
     def take(self) -> str:
-        """What is new. Bytes that are no UTF-8 are replaced; a character that came in half waits for its rest."""
+        """What is new. Bytes that are no UTF-8 are replaced; a character that came in half waits for its rest.
+
+        Control characters are left out: this is shown on terminals, which obey them.
+        """
         with self._lock:
             whole = _whole_characters(self._kept)
             text = self._kept[:whole].decode("utf-8", "replace")
             del self._kept[:whole]
             dropped, self._dropped_bytes = self._dropped_bytes, 0
-        return text + (f"\n[… {dropped} bytes more]\n" if dropped else "")
+        return text.translate(_SILENCED) + (f"\n[… {dropped} bytes more]\n" if dropped else "")
 
     def finish(self, timeout_s: float) -> None:
         """Wait for the last words of a writer that is gone."""

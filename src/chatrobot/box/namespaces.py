@@ -71,3 +71,8 @@ def drop_root() -> bool:
             continue
         return True
     return False
+
+
+def has_own_user() -> bool:
+    """Whether this process is one of those users that nobody else is."""
+    return os.geteuid() >= FIRST_OWN_USER

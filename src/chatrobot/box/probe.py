@@ -36,7 +36,8 @@ class BoxReport:
         if self.refusal is not None:
             return "none"
         levels: tuple[Level, ...] = ("minimum", "good", "full")
-        return levels[sum(layer in self.standing for layer in ("landlock", "namespaces"))]
+        has_world = "namespaces" in self.standing or "bubblewrap" in self.standing
+        return levels[("landlock" in self.standing) + has_world]
 
 
 def probe(layers: Layers | None = None) -> BoxReport:

@@ -40,10 +40,18 @@ class Filter:
         Raises:
             OSError: this kernel has no seccomp filters.
         """
-        code = self.for_process(pid)
-        buffer = ctypes.create_string_buffer(code, len(code))
-        # struct sock_fprog: the number of instructions, padding, and where they are.
-        program = struct.pack("=H6xQ", len(code) // INSTRUCTION.size, ctypes.addressof(buffer))
-        prctl(PR_SET_NO_NEW_PRIVS, 1)
-        holder = ctypes.create_string_buffer(program, len(program))
-        prctl(PR_SET_SECCOMP, _MODE_FILTER, ctypes.addressof(holder))
+        install(self.for_process(pid))
+
+
+def install(code: bytes) -> None:
+    """Put an assembled filter over this process.
+
+    Raises:
+        OSError: this kernel has no seccomp filters.
+    """
+    buffer = ctypes.create_string_buffer(code, len(code))
+    # struct sock_fprog: the number of instructions, padding, and where they are.
+    program = struct.pack("=H6xQ", len(code) // INSTRUCTION.size, ctypes.addressof(buffer))
+    holder = ctypes.create_string_buffer(program, len(program))
+    prctl(PR_SET_NO_NEW_PRIVS, 1)
+    prctl(PR_SET_SECCOMP, _MODE_FILTER, ctypes.addressof(holder))

@@ -20,16 +20,17 @@ import threading
 import time
 from collections.abc import Iterable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from chatrobot.box import attempts, child, wire_format
-from chatrobot.box.layers import Layers, build_walls
-from chatrobot.box.libc import pidfd_open
+from chatrobot.box.layers import Layers, build_walls, can_make_namespaces
+from chatrobot.box.libc import PR_SET_PDEATHSIG, pidfd_open, prctl
 from chatrobot.box.limits import BoxLimits
 
 THREAD_STACK_BYTES = 1 << 20
-REPORT_BYTES = 4096
-KILL = b"kill"
+MOST_DESCRIPTORS = 256
+FIRST_WHEN_MEMORY_RUNS_OUT = "900"
 
 
 @dataclass
@@ -187,12 +188,27 @@ def preload(names: Iterable[str], required: Iterable[str]) -> None:
         importlib.import_module(name)
 
 
-def main(descriptor: int) -> None:
-    """The whole life of the server. Says on the line what it found, then serves."""
+def main(descriptor: int, host_pidfd: int | None = None) -> None:
+    """The whole life of the server. Says on the line what it found, then serves.
+
+    Args:
+        descriptor: the line to the host.
+        host_pidfd: readable when the host is gone; None where the kernel has no such thing.
+    """
+    prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    # Few numbers to close in each child; and where memory runs out, the box goes first.
+    resource.setrlimit(resource.RLIMIT_NOFILE, (MOST_DESCRIPTORS, MOST_DESCRIPTORS))
+    with contextlib.suppress(OSError):
+        Path("/proc/self/oom_score_adj").write_text(FIRST_WHEN_MEMORY_RUNS_OUT)
     host = socket.socket(fileno=descriptor)
-    host.set_inheritable(False)
+    for each in (descriptor, host_pidfd):
+        if each is not None:
+            os.set_inheritable(each, False)
     setup, _, _ = wire_format.receive(host)
-    host_pidfd = _pidfd_of_host(setup["host_pid"])
+    layers = Layers.from_json(setup["layers"])
+    if setup["can_wrap"] and not setup["is_wrapped"] and not (layers.namespaces and can_make_namespaces()):
+        wire_format.send(host, {"event": "wrap"})
+        return
     sys.path[:0] = setup["path"]
     sys.path.extend(setup["behind"])
     try:
@@ -201,7 +217,7 @@ def main(descriptor: int) -> None:
         wire_format.send(host, {"event": "failed", "problem": f"{type(error).__name__}: {error}"})
         return
     threading.stack_size(THREAD_STACK_BYTES)
-    walls = build_walls(Layers.from_json(setup["layers"]))
+    walls = build_walls(layers, setup["tasks"], is_wrapped=setup["is_wrapped"])
     if walls.doors is None:
         wire_format.send(host, {"event": "refused", "layers": walls.to_json()})
         return
@@ -211,11 +227,3 @@ def main(descriptor: int) -> None:
     server = Server(host, walls.doors, host_pidfd)
     wire_format.send(host, {"event": "ready", "layers": walls.to_json()})
     server.serve()
-
-
-def _pidfd_of_host(host_pid: int) -> int | None:
-    """Readable when the host is gone. Where this kernel has none, the end of the line tells."""
-    try:
-        return pidfd_open(host_pid)
-    except OSError:
-        return None

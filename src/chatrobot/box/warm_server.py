@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
+import queue
 import socket
 import subprocess
 import sys
 import threading
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from importlib.util import find_spec
 from pathlib import Path
 from types import TracebackType
 
-from chatrobot.box import wire_format
+from chatrobot.box import bubblewrap, wire_format
 from chatrobot.box.layers import Layers
+from chatrobot.box.libc import pidfd_open
 from chatrobot.box.limits import BoxLimits
 from chatrobot.box.process import BoxedProcess
 from chatrobot.box.stdlib import PRELOADED
@@ -21,8 +24,10 @@ from chatrobot.core.errors import BoxError
 from chatrobot.core.reason import Reason
 
 _START = (
-    "import sys; sys.path.append(sys.argv[2]); from chatrobot.box.server import main; main(int(sys.argv[1]))"
+    "import sys; sys.path.append(sys.argv[1]); from chatrobot.box.server import main; "
+    "main(*map(int, sys.argv[2:]))"
 )
+_ROOT = str(Path(__file__).parents[2])
 LAUNCH_TIMEOUT_S = 2.0
 
 
@@ -66,22 +71,20 @@ class WarmServer:
             BoxError: it does not start, or the sound minimum cannot be had here; `reason` says which.
         """
         self.close()
-        line, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
-        root = str(Path(__file__).parents[2])
-        flags = ["-B"] if sys.flags.dont_write_bytecode else []
-        with theirs:
-            self.process = subprocess.Popen(
-                [sys.executable, "-I", "-S", *flags, "-c", _START, str(theirs.fileno()), root],
-                pass_fds=[theirs.fileno()],
-                env=_clean_environment(),
-                cwd="/",
-                start_new_session=True,
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
-            )
-        self._line = line
-        self._greet(line, timeout_s)
+        said = self._begin(timeout_s, is_wrapped=False)
+        if said["event"] == "wrap":
+            said = self._begin(timeout_s, is_wrapped=True)
+            if said["event"] != "ready":
+                self._layers = replace(self._layers, bubblewrap=False)
+                said = self._begin(timeout_s, is_wrapped=False)
+        layers = said.get("layers")
+        self.problems = {str(k): str(v) for k, v in layers.items()} if isinstance(layers, dict) else {}
+        if said["event"] == "ready":
+            return
+        self.close()
+        if said["event"] == "refused":
+            raise BoxError(Reason("box_not_possible", {"missing": self.problems["seccomp"]}))
+        raise BoxError(Reason("box_does_not_start", {"problem": str(said["problem"])}))
 
     def launch(self, entry: str, payload: bytes = b"", limits: BoxLimits | None = None) -> BoxedProcess:
         """Fork a child, shut it in, and let it call `function(channel, payload)`.
@@ -109,6 +112,7 @@ class WarmServer:
                     problem = ""
         except OSError as error:
             problem = str(error)
+            self._hang_up()
         finally:
             their_channel.close()
             their_report.close()
@@ -124,12 +128,16 @@ class WarmServer:
 
     def close(self) -> None:
         """End it and all its children."""
-        if self._line is not None:
-            self._line.close()
-            self._line = None
+        self._hang_up()
         if self.process is not None:
             self.process.kill()
             self.process.wait()
+
+    def _hang_up(self) -> None:
+        """The server ends when its line does. After half a message there is no other way."""
+        line, self._line = self._line, None
+        if line is not None:
+            line.close()
 
     def __enter__(self) -> WarmServer:
         return self
@@ -139,29 +147,81 @@ class WarmServer:
     ) -> None:
         self.close()
 
-    def _greet(self, line: socket.socket, timeout_s: float) -> None:
-        line.settimeout(timeout_s)
+    def _begin(self, timeout_s: float, *, is_wrapped: bool) -> Mapping[str, object]:
+        """Start the process. Returns its first word, or one of ours where it says none."""
+        line, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
+        alive, ours = _life_line()
+        flags = ["-B"] if sys.flags.dont_write_bytecode else []
+        given = [theirs.fileno(), *alive]
+        words = [sys.executable, "-I", "-S", *flags, "-c", _START, _ROOT, *map(str, given)]
+        wrap = bubblewrap.find() if self._layers.bubblewrap else None
+        if is_wrapped and wrap is not None:
+            words = bubblewrap.command(wrap, [_ROOT, *self._path, *_site_folders()]) + words
+        with theirs:
+            self.process = _spawn(words, given)
+        for each in ours:
+            os.close(each)
         setup = {
-            "host_pid": os.getpid(),
             "path": self._path,
             "behind": _site_folders(),
             "library": self._library,
             "preload": self._preload,
             "layers": self._layers.to_json(),
+            "tasks": _tasks_of_this_user(),
+            "is_wrapped": is_wrapped,
+            "can_wrap": wrap is not None,
         }
-        said: dict[str, object] = {"event": "failed", "problem": "it did not answer"}
-        with contextlib.suppress(OSError, EOFError):
+        line.settimeout(timeout_s)
+        try:
             wire_format.send(line, setup)
             said, _, _ = wire_format.receive(line)
-        line.settimeout(None)
-        layers = said.get("layers")
-        self.problems = {str(k): str(v) for k, v in layers.items()} if isinstance(layers, dict) else {}
+        except (EOFError, OSError) as error:
+            said = {"event": "failed", "problem": str(error) or "it ended at once"}
+        line.settimeout(LAUNCH_TIMEOUT_S)
         if said["event"] == "ready":
+            self._line = line
+        else:
+            line.close()
+            self.close()
+        return said
+
+
+def _life_line() -> tuple[list[int], list[int]]:
+    """A descriptor that becomes readable when this process ends. Returns what to give, and what to close then."""
+    try:
+        pidfd = pidfd_open(os.getpid())
+    except OSError:
+        return [], []
+    return [pidfd], [pidfd]
+
+
+def _spawn(words: list[str], given: list[int]) -> subprocess.Popen[bytes]:
+    """Start it on a thread that lives as long as it does: "my parent's death" means that thread's."""
+    started: queue.SimpleQueue[subprocess.Popen[bytes] | OSError] = queue.SimpleQueue()
+
+    def stay() -> None:
+        try:
+            process = subprocess.Popen(
+                words,
+                pass_fds=given,
+                env=_clean_environment(),
+                cwd="/",
+                start_new_session=True,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+            )
+        except OSError as error:
+            started.put(error)
             return
-        self.close()
-        if said["event"] == "refused":
-            raise BoxError(Reason("box_not_possible", {"missing": self.problems.get("seccomp", "")}))
-        raise BoxError(Reason("box_does_not_start", {"problem": str(said["problem"])}))
+        started.put(process)
+        process.wait()
+
+    threading.Thread(target=stay, name="box server", daemon=True).start()
+    process = started.get()
+    if isinstance(process, OSError):
+        raise BoxError(Reason("box_does_not_start", {"problem": str(process)})) from process
+    return process
 
 
 def _clean_environment() -> dict[str, str]:
@@ -182,4 +242,21 @@ def _clean_environment() -> dict[str, str]:
 
 def _site_folders() -> list[str]:
     """Where installed packages are: `-S` leaves them out, and a program may want numpy."""
-    return [folder for folder in sys.path if folder.rstrip("/").endswith(("site-packages", "dist-packages"))]
+    folders = [each for each in sys.path if each.rstrip("/").endswith(("site-packages", "dist-packages"))]
+    numpy = find_spec("numpy")
+    if numpy is not None and numpy.origin is not None:
+        folders.append(str(Path(numpy.origin).parents[1]))
+    return list(dict.fromkeys(folders))
+
+
+def _tasks_of_this_user() -> int:
+    """How many tasks this user has now, all processes and threads."""
+    user, tasks = os.geteuid(), 0
+    for folder in Path("/proc").iterdir():
+        if folder.name.isdigit():
+            try:
+                if folder.stat().st_uid == user:
+                    tasks += (folder / "task").stat().st_nlink - 2
+            except OSError:
+                continue
+    return tasks

@@ -18,6 +18,7 @@ COMMANDS = {
     "plan": "understand and rehearse only; nothing moves",
     "stop": "stop whatever runs on this machine",
     "eval": "run a corpus of sayings and count correct, wrong and abstained",
+    "calibrate": "one metre and one turn: you measure, your profile gets the correction",
     "doctor": "what works here, and how to get the rest",
     "schema": "the JSON schema of plans",
     "sim": "run the simulated robot alone, for other programs to drive",
@@ -32,8 +33,12 @@ LATER = ("program",)
 DEFAULTS: dict[str, Any] = {
     "on": "auto", "robot": DEFAULT_ROBOT, "interpreter": "auto", "model": "", "fast": False, "json": False,
     "trace": False, "sim": "", "world": "", "approve": False, "yes": False, "config_dir": None,
-    "rounds": 6, "budget_tokens": 20_000, "budget_s": 600.0, "parameters": [], "ros_args": False,
+    "rounds": 6, "budget_tokens": 20_000, "budget_s": 600.0, "parameters": [],
 }  # fmt: skip
+
+_NODES = ("node", "sim")
+_TALKS = ("", "do", "plan")
+"""A conversation takes `--ros-args -p revChatGPT:=True` as the tutorial's base node does."""
 
 _DESCRIPTION = "Say it, and a robot does exactly that, safely. Without a command: talk to it."
 _EPILOG = """\
@@ -60,6 +65,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     Raises:
         UsageError: what is wrong, and what is allowed.
     """
+    arguments, ros_args = split_ros_args(arguments)
     parser, options = _parsers()
     word = _first_word(arguments, options)
     if word in LATER:
@@ -73,10 +79,29 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         )
     parsed = parser.parse_args(list(arguments))
     parsed.command = parsed.command or ""
+    are_parameters = all(word == "-p" for word in ros_args[::2])
+    if ros_args and not (parsed.command in _NODES or (parsed.command in _TALKS and are_parameters)):
+        raise UsageError("--ros-args is for nodes", allowed="chatrobot node … or chatrobot sim … --on ros")
+    parsed.ros_args = ros_args
     for name, value in DEFAULTS.items():
         if not hasattr(parsed, name):
             setattr(parsed, name, value)
     return parsed
+
+
+def split_ros_args(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
+    """The arguments without, and those between each `--ros-args` and `--` or the end, as ROS has it."""
+    ours: list[str] = []
+    theirs: list[str] = []
+    taking = ours
+    for argument in arguments:
+        if argument == "--ros-args":
+            taking = theirs
+        elif argument == "--" and taking is theirs:
+            taking = ours
+        else:
+            taking.append(argument)
+    return ours, theirs
 
 
 def _first_word(arguments: Sequence[str], options: _Parser) -> str | None:
@@ -124,7 +149,7 @@ def _options() -> _Parser:
     add(
         "--on",
         metavar="WHERE",
-        help="which robot: sim (the default), dds[://DOMAIN[/NAMESPACE]] or rosbridge[:ws://HOST:9090]",
+        help="which robot: sim (the default), dds or ros[://DOMAIN[/NAMESPACE]], or rosbridge[:ws://HOST:9090]",
     )
     add(
         "--robot",
@@ -162,7 +187,6 @@ def _options() -> _Parser:
     add("--approve", action="store_true", help="ask before each plan")
     add("--yes", action="store_true", help="do each plan without asking")
     add("--config-dir", metavar="DIR", help="where places and robot profiles live")
-    add("--ros-args", action="store_true", help="accepted before -p, so that lines written for ros2 run work")
     add(
         "-p",
         dest="parameters",
@@ -204,6 +228,7 @@ def _sim(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--socket", metavar="PATH", help="where its wire is served (default: the runtime folder)"
     )
+    _ros_args(parser)
 
 
 def _node(parser: argparse.ArgumentParser) -> None:
@@ -212,6 +237,7 @@ def _node(parser: argparse.ArgumentParser) -> None:
         choices=("input", "base", "control"),
         help="input: lines typed → user_input; base: user_input → chatgpt_node; control: chatgpt_node → cmd_vel",
     )
+    _ros_args(parser)
     parser.add_argument(
         "--allow-release",
         action="store_true",
@@ -253,6 +279,16 @@ def _fake_model(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--port", type=int, default=8399, help="0: any that is free (default: 8399)")
     parser.add_argument(
         "--host", default="127.0.0.1", help="where to listen; beyond loopback a token is asked for"
+    )
+
+
+def _ros_args(parser: argparse.ArgumentParser) -> None:
+    """For the help text alone: `split_ros_args` has taken them."""
+    parser.add_argument(
+        "--ros-args",
+        nargs=argparse.REMAINDER,
+        metavar="…",
+        help="with --on ros what every ROS node takes: -p NAME:=VALUE, -r FROM:=TO, --params-file FILE",
     )
 
 

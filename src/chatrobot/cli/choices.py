@@ -7,7 +7,7 @@ import sys
 from dataclasses import replace
 
 from chatrobot.cli.folders import config_folder
-from chatrobot.cli.parameters import read_parameters
+from chatrobot.cli.parameters import parameters_in, read_parameters
 from chatrobot.compose import Setup
 from chatrobot.core.errors import UsageError
 from chatrobot.language.phrases import render_reason, say
@@ -46,7 +46,7 @@ def setup_from(
     )
 
 
-def model_from(args: argparse.Namespace, *, named: bool = False) -> Model | None:
+def model_from(args: argparse.Namespace, *, named: bool = False, server_held: bool = False) -> Model | None:
     """The model that was chosen, and a word about it where the tutorial's switch chose it.
 
     Raises:
@@ -54,7 +54,9 @@ def model_from(args: argparse.Namespace, *, named: bool = False) -> Model | None
     """
     if args.interpreter == "offline" or (named and not args.model and args.interpreter != "model"):
         return None
-    server_held = read_parameters(args.parameters)["revChatGPT"]
+    if args.command != "node":
+        given = [*args.parameters, *parameters_in(args.ros_args)]
+        server_held = read_parameters(given)["revChatGPT"]
     try:
         model = chosen_model(args.model, config_folder(args), server_held=server_held)
     except ModelError as error:

@@ -53,7 +53,7 @@ def _checks(args: argparse.Namespace) -> Iterator[Check]:
     yield _ros()
     yield _dds(args)
     yield _model(args)
-    yield Check("written programs", "later", "this version runs none, so there is no sandbox to check")
+    yield _box()
 
 
 def _try(name: str, check: Callable[[], str]) -> Check:
@@ -161,3 +161,27 @@ def _model(args: argparse.Namespace) -> Check:
         choice.source
     ]
     return Check("language model", "ok", f"{choice.name}, by {source}; chatrobot model test tries it")
+
+
+_MORE = {
+    "landlock": "Landlock: Linux 5.13 or later with lsm=landlock among the kernel's boot options",
+    "own user": "an own user: start it as an ordinary user, or in a container that has more users than root",
+    "namespaces": "an empty world: install bubblewrap, or allow user namespaces (in a container: its seccomp profile)",
+}
+"""How to get the walls that do not stand here."""
+
+
+def _box() -> Check:
+    """Build the box around nothing, and see which walls stand."""
+    from chatrobot.box.probe import probe
+
+    report = probe()
+    if report.refusal is not None:
+        missing = report.problems.get("seccomp") or str(dict(report.refusal.values))
+        return Check("box for programs", "missing", f"none, so programs are refused: {missing}")
+    walls = ", ".join(("filter", "limits", *(each for each in report.standing if each != "seccomp")))
+    wanting = [each for each in _MORE if each not in report.standing]
+    if "bubblewrap" in report.standing:
+        wanting.remove("namespaces")
+    more = "".join(f"; more with {_MORE[each]}" for each in wanting)
+    return Check("box for programs", "ok", f"{report.level}: {walls}{more}")

@@ -21,9 +21,15 @@ def read_parameters(given: Sequence[str]) -> dict[str, bool]:
         name, _, value = parameter.partition(":=")
         if name not in values or value.lower() not in _VALUES:
             raise UsageError(
-                f"{parameter!r} is no parameter here",
+                f"{parameter!r} is no parameter here without --on ros",
                 where="-p",
                 allowed="generate_code:=True, revChatGPT:=True",
             )
         values[name] = _VALUES[value.lower()]
     return values
+
+
+def parameters_in(ros_args: Sequence[str]) -> list[str]:
+    """The `NAME:=VALUE` of what stands after `--ros-args`; what is something else comes as it is."""
+    words = iter(ros_args)
+    return [next(words, "") if word in ("-p", "--param") else word for word in words]

@@ -10,8 +10,6 @@ from chatrobot.execution.sensors import Sensors
 
 ODOMETRY_SILENT_S = 0.2
 """Four messages of the slowest odometry that we know; the robot then stands within 250 ms."""
-ODOMETRY_LATE_S = 1.0
-"""What a network held up pours in at once when it is back: that says where the robot was, not where it is."""
 OFF_TRACK_M = 0.10
 OFF_TRACK_RAD = math.radians(15.0)
 OFF_TRACK_SHARE = 0.10
@@ -26,9 +24,6 @@ def sensor_fault(sensors: Sensors) -> Reason | None:
     age_s = sensors.odometry_age_s()
     if age_s > ODOMETRY_SILENT_S:
         return Reason("odometry_silent", {"age_s": round(min(age_s, 999.0), 2)})
-    late_s = sensors.odometry_lag_s()
-    if late_s > ODOMETRY_LATE_S:
-        return Reason("odometry_late", {"age_s": round(min(late_s, 999.0), 2)})
     fault, sensors.estimator.fault = sensors.estimator.fault, None
     return fault
 

@@ -21,7 +21,7 @@ class Sensors:
     def __init__(self, profile: RobotProfile, clock: Clock) -> None:
         self._profile = profile
         self._clock = clock
-        self.estimator = PoseEstimator(profile.limits)
+        self.estimator = PoseEstimator(profile.limits, profile.calibration)
         self.scan: LaserScan | None = None
         self.bumped = False
         self.battery_percent: float | None = None
@@ -56,11 +56,6 @@ class Sensors:
         """How old the newest odometry is, seconds; infinite before the first."""
         made_s = self.estimate.stamp_s if self.estimate is not None else -math.inf
         return self._age_s(self._odometry_at_s, made_s)
-
-    def odometry_lag_s(self) -> float:
-        """Seconds since the moment that the newest odometry tells of; infinite before the first."""
-        estimate = self.estimate
-        return self._clock.now_s() - estimate.stamp_s if estimate is not None else math.inf
 
     def ages_s(self) -> dict[str, float]:
         """How old the newest word of each sensor is, seconds, by name; infinite before the first word."""

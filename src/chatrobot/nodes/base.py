@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from chatrobot.core.errors import JointError, WireError
 from chatrobot.core.events import Event, Finished, Interpreted, Notice, Result, Said
@@ -27,8 +28,11 @@ from chatrobot.session.topic_joint import TopicJoint
 from chatrobot.session.topics import CHATGPT_NODE, EVENTS, OPERATOR, REPLY, STOP, USER_INPUT
 from chatrobot.session.understanding import Understanding
 from chatrobot.sim.load import load_world
-from chatrobot.wire.connect import advertise, connect_wire, is_on_this_machine, publishers_of
+from chatrobot.wire.connect import Connect, advertise, connect_wire, is_on_this_machine, publishers_of
 from chatrobot.wire.messages import Flag, Text
+
+if TYPE_CHECKING:
+    from chatrobot.nodes.citizen import Citizen, Diagnosis
 
 NODE = "chatrobot_base"
 PUMP_S = 0.1
@@ -64,14 +68,16 @@ class BaseNode:
         InputError: the profile or the world cannot be used.
     """
 
-    def __init__(self, options: BaseOptions, show: Callable[[str], None]) -> None:
+    def __init__(
+        self, options: BaseOptions, show: Callable[[str], None], connect: Connect = connect_wire
+    ) -> None:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         self._options = options
         self._show = show
         profile = load_profile(options.profile)
         understanding = Understanding(profile, load_world(options.world), options.folder)
         understanding.interpret("forward 1 m")  # reads the tables now, not with the first instruction
-        self._wire = connect_wire(options.wire, profile.wiring, NODE)
+        self._wire = connect(options.wire, profile.wiring, NODE)
         self._joint = TopicJoint(self._wire, "base", is_on_this_machine=is_on_this_machine(options.wire))
         self._next_look_s = 0.0
         self._has_twin = False
@@ -115,7 +121,27 @@ class BaseNode:
         """Stop the robot and drop what waits; from any thread."""
         self._session.stop(why)
 
+    def introduce(self, citizen: Citizen) -> None:
+        """Offer to ROS what a node of it offers."""
+        citizen.serve("~/stop", self._serve_stop)
+        citizen.diagnose(self._options.profile, self._diagnose)
+
     # --- the wire's thread ---
+
+    def _serve_stop(self) -> tuple[bool, str]:
+        try:
+            self._session.stop("~/stop")
+        except JointError as error:
+            return False, str(error)
+        return True, "stopped"
+
+    def _diagnose(self) -> Diagnosis:
+        from chatrobot.nodes.citizen import Diagnosis
+
+        values = {"interpreter": "offline", "profile": self._options.profile}
+        if not self._joint.has_control:
+            return Diagnosis("warn", "no_control", values)
+        return Diagnosis("ok", "ready", values)
 
     def _hear(self, message: Text) -> None:
         if message.data.strip():

@@ -143,6 +143,11 @@ class Motion:
         return self._epoch.value
 
     @property
+    def latched(self) -> Reason | None:
+        """The emergency stop that has not been released."""
+        return self._governor.latched
+
+    @property
     def has_left(self) -> bool:
         """Every source has gone, and all is done."""
         return bool(self._leaving) and not self.is_busy

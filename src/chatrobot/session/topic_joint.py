@@ -70,6 +70,11 @@ class TopicJoint:
         """Never for good: a control node may come again."""
         return False
 
+    @property
+    def has_control(self) -> bool:
+        """Whether a control node is there that hears us."""
+        return self._present() is not None
+
     def send(self, word: Word, turn: int = 0, **payload: Any) -> None:
         if word == "plan" and payload.get("mode") != "extend":
             control = self._find_control()
