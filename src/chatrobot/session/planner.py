@@ -62,13 +62,15 @@ class Planned:
         """All that is told of it."""
         return (self.event(needs_approval),)
 
-    def event(self, needs_approval: bool) -> Rehearsed:
-        """What the faces show of it."""
+    def event(self, needs_approval: bool, steps_before: int = 0) -> Rehearsed:
+        """What the faces show of it. `steps_before`: it goes on after so many steps of the same turn."""
         rehearsal = self.rehearsal
         if rehearsal is None:
             return Rehearsed(self.turn, False, 0.0, 0.0, Pose())
         findings = tuple(
-            FindingSeen(self.turn, found.severity, found.reason, tuple(i + 1 for i in found.index), found.t_s)
+            FindingSeen(
+                self.turn, found.severity, found.reason, _from_one(found.index, steps_before), found.t_s
+            )
             for found in rehearsal.findings
         )
         stride = max(1, len(rehearsal.path) // DRAWN_POINTS)
@@ -83,6 +85,12 @@ class Planned:
             tuple((row[1], row[2], row[3]) for row in rows),
             needs_approval,
         )
+
+
+def _from_one(index: tuple[int, ...], steps_before: int) -> tuple[int, ...]:
+    """The path of a step as people count."""
+    first = index[:1]
+    return (*(i + 1 + steps_before for i in first), *(i + 1 for i in index[1:]))
 
 
 class Planner:
@@ -109,13 +117,23 @@ class Planner:
         """Corners, in `odom`, of where the world lets a robot be; None where it says nothing."""
         return self._world.allowed_area.points if self._world.allowed_area is not None else None
 
-    def plan(self, turn: int, plan_text: str, start: Pose) -> Planned:
-        """Read and rehearse `plan_text` from `start` (odom frame). Never raises for what a person or model wrote."""
+    def plan(self, turn: int, plan_text: str, start: Pose, plan_start: Pose | None = None) -> Planned:
+        """Read and rehearse `plan_text` from `start` (odom frame). Never raises for what a person or model wrote.
+
+        Args:
+            plan_start: where the whole began that this is a part of, if it did not begin here.
+        """
         try:
             plan = parse_plan(plan_text)
         except PlanTextError as error:
             return Planned(turn, None, Reason("plan_text", {"problem": str(error)}))
         rehearsal = rehearse(
-            plan, self._profile, self._world, start, self._kernel, route_planner=self._routes
+            plan,
+            self._profile,
+            self._world,
+            start,
+            self._kernel,
+            plan_start=plan_start,
+            route_planner=self._routes,
         )
         return Planned(turn, rehearsal)
