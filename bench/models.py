@@ -60,7 +60,7 @@ def robot_with(fake: FakeModel, folder: Path, *more: str) -> Iterator[RunningRob
 
 def ask_once(robot: RunningRobot) -> None:
     """The first call loads the library: that is not what is measured here."""
-    robot.say("please tell me something about yourself that nobody knows")
+    robot.say("please do something odd")
     robot.wait_for_event("result")
 
 

@@ -38,6 +38,7 @@ class Conversation:
     def __enter__(self) -> Conversation:
         self._connection = connect(self._setup, self._on_event)
         self.session = self._connection.session
+        self._approver.attach(self._connection.world)
         self._watch.__enter__()
         return self
 
@@ -100,7 +101,11 @@ class Conversation:
 
     def do(self, text: str) -> None:
         """One turn, seen through to its result."""
-        turn = self.session.say(text)
+        self._see_through(self.session.say(text))
+        while (edited := self._approver.take_edited()) is not None:
+            self._see_through(self.session.say_plan(edited))
+
+    def _see_through(self, turn: int) -> None:
         while turn not in self.session.results:
             self.step()
 
