@@ -53,7 +53,7 @@ def _network(name: str, source: str, ends: End = "refused") -> Attack:
 
 
 def _kernel(name: str, source: str) -> Attack:
-    return Attack(name, "the kernel", source, "dies", "box_forbidden")
+    return Attack(name, "the kernel", source + "; print('LEAK')", "dies", "box_forbidden")
 
 
 FILES = (
@@ -172,7 +172,7 @@ s.sendto(packet, ('127.0.0.1', world['udp']))
 )
 
 PROCESSES = (
-    Attack("forks", "processes", "import os; os.fork()", finding="box_tried_processes"),
+    Attack("forks", "processes", "import os; os.fork() and print('LEAK')", finding="box_tried_processes"),
     Attack(
         "forks like a bomb",
         "processes",
@@ -241,7 +241,9 @@ SIGNALS = (
         finding="box_tried_signals",
     ),
     Attack("kills its host", "signals", "import os; os.kill(world['host'], 9)", finding="box_tried_signals"),
-    Attack("kills everybody", "signals", "import os; os.kill(-1, 9)", finding="box_tried_signals"),
+    Attack(
+        "kills everybody", "signals", "import os; os.kill(-1, 0); print('LEAK')", finding="box_tried_signals"
+    ),
     Attack("kills its process group", "signals", "import os; os.killpg(0, 9)", finding="box_tried_signals"),
     Attack("signals a thread of another", "signals", "call('tgkill', world['victim'], world['victim'], 9)"),
     Attack("signals by tkill", "signals", "call('tkill', world['victim'], 9)"),
@@ -291,7 +293,7 @@ MEMORY_OF_OTHERS = (
     Attack(
         "traces another process",
         "memory of others",
-        "call('ptrace', 16, world['victim'], 0, 0)",
+        "call('ptrace', 16, world['victim'], 0, 0); print('LEAK')",
         "dies",
         "box_forbidden",
     ),
@@ -335,7 +337,7 @@ SHARED_MEMORY = (
     Attack(
         "makes System V memory",
         "shared memory",
-        "call('shmget', 0x1234, 4096, 0o1666)",
+        "call('shmctl', call('shmget', 0, 4096, 0o600), 0, 0); print('LEAK')",
         "dies",
         "box_forbidden",
     ),
@@ -434,6 +436,12 @@ USING_UP = (
         "x = []\nwhile True: x.append(bytearray(1 << 20))",
         reason="box_used_too_much_memory",
         finding="box_tried_memory",
+        limits=SMALL,
+    ),
+    Attack(
+        "reserves a gigabyte",
+        "using it up",
+        "import mmap; mmap.mmap(-1, 1 << 30); print('LEAK')",
         limits=SMALL,
     ),
     Attack(

@@ -18,6 +18,10 @@ if TYPE_CHECKING:
 ROS = ("rclpy", "ros2cli", "colcon_core")
 TESTS = {
     "test_ros_wire.py": (ROS, "the contract of wires over rclpy"),
+    "test_real_rosbridge.py": (
+        ("rclpy", "ros2cli", "rosbridge_server", "rosbridge_library", "websockets"),
+        "the contract of wires over the real rosbridge_server, and a robot driven over it",
+    ),
     "test_tutorial_lines.py": (
         ROS,
         "colcon build, every `ros2 run` of the tutorial, ros2 topic/node/param/service, diagnostics, Ctrl-C",

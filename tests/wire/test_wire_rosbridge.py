@@ -266,6 +266,15 @@ def test_where_rosapi_runs_the_others_are_known(robot: FakeRosbridge, connect: C
     ]
 
 
+def test_the_guard_is_told_the_topics_with_their_namespace(robot: FakeRosbridge) -> None:
+    from chatrobot.session import link
+    from chatrobot.wire.connect import connect_wire, resolved
+
+    reached = link.reach(connect_wire, f"rosbridge:{robot.url}", Wiring(namespace="robot1"), "test")
+    assert resolved(reached.wire, "cmd_vel") == "/robot1/cmd_vel"
+    reached.wire.close()
+
+
 def test_where_no_rosapi_runs_nobody_is_known(connect: Connect) -> None:
     wire = connect()
     assert (wire.survey(), wire.publishers_of("cmd_vel")) == ([], [])

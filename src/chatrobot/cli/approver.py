@@ -6,7 +6,7 @@ import select
 import sys
 
 from chatrobot.cli.console.ride import Ride
-from chatrobot.cli.editor import edited
+from chatrobot.cli.editor import edited_text
 from chatrobot.core.events import Event, Finished, Rehearsed
 from chatrobot.session.session import Session
 from chatrobot.sim.world import World
@@ -23,6 +23,8 @@ class Approver:
         others_answer: whoever reads our events answers; see `talk`.
     """
 
+    prompt = "Do it (e edits it first)? [y/N] "
+
     def __init__(self, *, can_ask: bool, others_answer: bool = False) -> None:
         self._can_ask = can_ask
         self._others_answer = others_answer
@@ -30,7 +32,7 @@ class Approver:
         self._has_asked = False
         self._ride = Ride()
         self._world: World | None = None
-        self._edited: str | None = None
+        self._edited_plan: str | None = None
 
     def attach(self, world: World) -> None:
         """What to draw the way in."""
@@ -56,7 +58,7 @@ class Approver:
             self._ask(session)
         elif not self._others_answer:
             print(
-                "chatrobot: --approve needs a terminal to ask at; --yes does each plan unasked",
+                "chatrobot: this wants a yes, and there is no terminal to ask at; --yes does it unasked",
                 file=sys.stderr,
             )
             self.give(session, False)
@@ -70,17 +72,20 @@ class Approver:
     def _ask(self, session: Session) -> None:
         if not self._has_asked:
             self._draw_way()
-            print("Do it (e edits it first)? [y/N] ", end="", file=sys.stderr, flush=True)
+            print(self.prompt, end="", file=sys.stderr, flush=True)
             self._has_asked = True
         if select.select([sys.stdin], [], [], 0.0)[0]:
-            said = sys.stdin.readline().strip().casefold()
-            self.give(session, said in _YES)
-            if said in _EDIT:
-                self._edited = edited(self._ride.plan_text)
+            self.take(session, sys.stdin.readline().strip().casefold())
+
+    def take(self, session: Session, answer: str) -> None:
+        """What the person typed, in lower case."""
+        self.give(session, answer in _YES)
+        if answer in _EDIT and self._ride.plan_text and self._ride.program is None:
+            self._edited_plan = edited_text(self._ride.plan_text, ".txt").strip() or None
 
     def take_edited(self) -> str | None:
         """The plan as the person has changed it; it is rehearsed and asked about like a new one."""
-        text, self._edited = self._edited, None
+        text, self._edited_plan = self._edited_plan, None
         return text
 
     def _draw_way(self) -> None:

@@ -18,17 +18,23 @@ from chatrobot.session.session import Options
 
 
 def setup_from(
-    args: argparse.Namespace, *, options: Options | None = None, world: str = "", named_model: bool = False
+    args: argparse.Namespace,
+    *,
+    options: Options | None = None,
+    world: str = "",
+    named_model: bool = False,
+    programs: bool = False,
 ) -> Setup:
     """What a person chose. `world` is the one where nothing is said; "" for the one that fits the robot.
 
     Args:
         named_model: only a model that is named on this very command line counts.
+        programs: see `Setup`.
 
     Raises:
         UsageError: what was chosen does not exist.
     """
-    options = options or Options(approve=args.approve and not args.yes)
+    options = options or Options(approve=args.approve and not args.yes, ask_findings=not args.yes)
     return Setup(
         on=args.on,
         robot=args.robot,
@@ -37,6 +43,7 @@ def setup_from(
         fast=args.fast,
         trace=args.trace,
         yes=args.yes,
+        programs=programs,
         folder=config_folder(args),
         options=replace(options, interpreter=args.interpreter),
         model=model_from(args, named=named_model),

@@ -101,11 +101,12 @@ class Conversation:
 
     def do(self, text: str) -> None:
         """One turn, seen through to its result."""
-        self._see_through(self.session.say(text))
+        self.see_through(self.session.say(text))
         while (edited := self._approver.take_edited()) is not None:
-            self._see_through(self.session.say_plan(edited))
+            self.see_through(self.session.say_plan(edited))
 
-    def _see_through(self, turn: int) -> None:
+    def see_through(self, turn: int) -> None:
+        """Let things happen until that turn has its result."""
         while turn not in self.session.results:
             self.step()
 

@@ -1,30 +1,32 @@
-"""A person's own editor for a plan: $VISUAL, $EDITOR, or what there is."""
+"""A text in the person's own editor."""
 
 from __future__ import annotations
 
 import os
 import shlex
-import shutil
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
-_USUAL = ("sensible-editor", "nano", "vi")
+from chatrobot.core.errors import UsageError
+
+_OTHERWISE = "vi"
 
 
-def edited(plan_text: str) -> str | None:
-    """`plan_text` as the person leaves it; None where it was emptied, or nothing can be edited here."""
-    command = os.environ.get("VISUAL") or os.environ.get("EDITOR") or next(filter(shutil.which, _USUAL), "")
-    if not command:
-        print("chatrobot: no editor here; set EDITOR", file=sys.stderr)
-        return None
+def edited_text(text: str, suffix: str) -> str:
+    """`text` as the person leaves it; unchanged where the editor fails.
+
+    Raises:
+        UsageError: there is no such editor.
+    """
+    command = shlex.split(os.environ.get("VISUAL") or os.environ.get("EDITOR") or _OTHERWISE)
     with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "plan.txt"
-        file.write_text(plan_text + "\n", encoding="utf-8")
+        path = Path(folder) / f"program{suffix}"
+        path.write_text(text, encoding="utf-8")
         try:
-            subprocess.run([*shlex.split(command), str(file)], check=True)
-        except (OSError, ValueError, subprocess.CalledProcessError) as error:
-            print(f"chatrobot: {command}: {error}", file=sys.stderr)
-            return None
-        return file.read_text(encoding="utf-8", errors="replace").strip() or None
+            done = subprocess.run([*command, str(path)], check=False)
+        except OSError as error:
+            raise UsageError(
+                f"{command[0]!r} cannot be started", where="EDITOR", allowed="an editor's command, or --file"
+            ) from error
+        return path.read_text(encoding="utf-8") if done.returncode == 0 else text

@@ -11,7 +11,15 @@ from chatrobot.core.errors import WireError
 from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import Wiring
 from chatrobot.session.discovered import fit, is_complete
-from chatrobot.wire.connect import Connect, Returning, Surveying, advertise, comes_back, publishers_of
+from chatrobot.wire.connect import (
+    Connect,
+    Returning,
+    Surveying,
+    advertise,
+    comes_back,
+    publishers_of,
+    resolved,
+)
 from chatrobot.wire.messages import Message, TwistMessage
 from chatrobot.wire.wire import M, Wire
 
@@ -40,6 +48,9 @@ class PatientWire:
     @property
     def is_connected(self) -> bool:
         return is_up(self._wire)
+
+    def resolve(self, topic: str) -> str:
+        return resolved(self._wire, topic)
 
     def publishers_of(self, topic: str) -> list[str]:
         return publishers_of(self._wire, topic)

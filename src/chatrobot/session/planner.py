@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from chatrobot.core.errors import PlanTextError
-from chatrobot.core.events import FindingSeen, Rehearsed
+from chatrobot.core.events import Event, FindingSeen, Rehearsed
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
-from chatrobot.governor.kernel import make_kernel
+from chatrobot.governor.kernel import Kernel, make_kernel
 from chatrobot.plan.lowering import CoreWalk
 from chatrobot.plan.rehearsal import Rehearsal, rehearse
 from chatrobot.plan.route import GridRoutePlanner
@@ -44,20 +44,37 @@ class Planned:
     def duration_s(self) -> float:
         return self.rehearsal.duration_s if self.rehearsal is not None else 0.0
 
+    @property
+    def length_m(self) -> float:
+        return self.rehearsal.length_m if self.rehearsal is not None else 0.0
+
+    @property
+    def has_findings(self) -> bool:
+        """Something that a person should look at before it runs."""
+        return False
+
     def walk(self) -> CoreWalk:
         """The very motions that were rehearsed."""
         assert self.rehearsal is not None
         return self.rehearsal.walk()
 
-    def event(self, needs_approval: bool, steps_before: int = 0) -> Rehearsed:
-        """What the faces show of it. `steps_before`: it goes on after so many steps of the same turn."""
+    def events(self, needs_approval: bool) -> tuple[Event, ...]:
+        """All that is told of it."""
+        return (self.event(needs_approval),)
+
+    def part_event(self, steps_before: int) -> Rehearsed:
+        """As `event`, for a part that goes on after so many steps of the same turn."""
+        event = self.event(False)
+        findings = tuple(replace(found, step=_later(found.step, steps_before)) for found in event.findings)
+        return replace(event, findings=findings)
+
+    def event(self, needs_approval: bool) -> Rehearsed:
+        """What the faces show of it."""
         rehearsal = self.rehearsal
         if rehearsal is None:
             return Rehearsed(self.turn, False, 0.0, 0.0, Pose())
         findings = tuple(
-            FindingSeen(
-                self.turn, found.severity, found.reason, _from_one(found.index, steps_before), found.t_s
-            )
+            FindingSeen(self.turn, found.severity, found.reason, tuple(i + 1 for i in found.index), found.t_s)
             for found in rehearsal.findings
         )
         stride = max(1, len(rehearsal.path) // DRAWN_POINTS)
@@ -74,10 +91,9 @@ class Planned:
         )
 
 
-def _from_one(index: tuple[int, ...], steps_before: int) -> tuple[int, ...]:
-    """The path of a step as people count."""
-    first = index[:1]
-    return (*(i + 1 + steps_before for i in first), *(i + 1 for i in index[1:]))
+def _later(step: tuple[int, ...], steps_before: int) -> tuple[int, ...]:
+    """The path of a step that comes after so many others."""
+    return (step[0] + steps_before, *step[1:]) if step else ()
 
 
 class Planner:
@@ -88,6 +104,16 @@ class Planner:
         self._world = world
         self._kernel = make_kernel(profile)
         self._routes = None if world.is_empty else GridRoutePlanner(world, profile)
+
+    @property
+    def world(self) -> World:
+        """What is known of the surroundings."""
+        return self._world
+
+    @property
+    def kernel(self) -> Kernel:
+        """The governor's own arithmetic, which rehearsals use, too."""
+        return self._kernel
 
     @property
     def allowed_area(self) -> Sequence[Point] | None:

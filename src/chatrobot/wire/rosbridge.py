@@ -44,6 +44,7 @@ ANSWER_S = 0.5
 QUEUE_BYTES = 65_536
 """With more than this on its way the other end does not read: what comes now is dropped."""
 MESSAGE_BYTES = 8_388_608
+_VELOCITIES = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
 _SIOCOUTQ = 0x5411
 
 
@@ -263,7 +264,9 @@ class RosbridgeWire:
 
     def _advertise_request(self, topic: str, form: RosForm) -> dict[str, Any]:
         request = {"op": "advertise", "id": _id("advertise", topic, form)}
-        return {**request, "topic": self.resolve(topic), "type": form.type_name}
+        # The bridge repeats its last second of messages to who comes late: of velocities only the very last.
+        depth = {"queue_size": 1} if form.type_name in _VELOCITIES else {}
+        return {**request, "topic": self.resolve(topic), "type": form.type_name, **depth}
 
     def _subscribe_request(self, topic: str, form: RosForm) -> dict[str, Any]:
         request = {"op": "subscribe", "id": _id("subscribe", topic, form)}

@@ -10,6 +10,7 @@ from chatrobot.core.events import (
     Event,
     Finished,
     Interpreted,
+    ProgramWritten,
     Progress,
     Rehearsed,
     Started,
@@ -25,7 +26,8 @@ TRAIL_LIMIT = 2000
 
 @dataclass
 class Ride:
-    """`path` is the predicted way of the last plan, `trail` what was driven of it, in `odom`."""
+    """`path` is the predicted way of the last plan, `trail` what was driven of it, in `odom`; `program` the last
+    one written, where no plan came after it."""
 
     pose: Pose = ORIGIN
     twist: Twist = ZERO_TWIST
@@ -38,6 +40,7 @@ class Ride:
     path: tuple[XY, ...] = ()
     trail: tuple[XY, ...] = ()
     plan_text: str = ""
+    program: ProgramWritten | None = None
     rehearsed: Rehearsed | None = None
     turn: int = 0
     _streamed: int = 0
@@ -53,7 +56,9 @@ class Ride:
         elif isinstance(event, Streamed):
             self._grow(event)
         elif isinstance(event, Interpreted) and event.plan_text:
-            self.plan_text = event.plan_text
+            self.plan_text, self.program = event.plan_text, None
+        elif isinstance(event, ProgramWritten):
+            self.program = event
         elif isinstance(event, Rehearsed):
             self.rehearsed = event
             path = tuple((x, y) for x, y, _ in event.path)
