@@ -184,7 +184,7 @@ def _connect_simulated(
     joint = SimulatedJoint(build, wire, clock, robot.step, guard, hub.connect(), profile.wiring.cmd_vel_topic)
     joint.next_event(SETTLE_S)
     authoring = _authoring(setup, profile, world, understanding)
-    session = Session(joint, understanding, on_event, setup.options, mind_of(setup, profile), authoring)
+    session = Session(joint, understanding, on_event, setup.options, authoring, mind_of(setup, profile))
 
     def close() -> None:
         session.close()
@@ -225,7 +225,7 @@ def _connect_real_time(
         trace.subscribe(TRUTH_TOPIC, Odometry, _tracer(one_at_a_time))
     authoring = _authoring(setup, profile, world, understanding)
     mind = mind_of(setup, profile)
-    session = Session(joint, understanding, one_at_a_time, setup.options, mind, authoring)
+    session = Session(joint, understanding, one_at_a_time, setup.options, authoring, mind)
 
     def close() -> None:
         session.close()
@@ -252,7 +252,7 @@ def _connect_wire(
     joint.wait_until_ready()
     authoring = _authoring(setup, profile, world, understanding)
     options = replace(setup.options, approve=approve)
-    session = Session(joint, understanding, on_event, options, mind_of(setup, profile), authoring)
+    session = Session(joint, understanding, on_event, options, authoring, mind_of(setup, profile))
     return Connection(session, profile, world, session.close)
 
 

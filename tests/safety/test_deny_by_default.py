@@ -31,6 +31,7 @@ GOOD: dict[str, dict[str, Any]] = {
         "longest_s": 10,
         "more": False,
     },
+    "look": {},
     "program": {
         "code": "pass\n",
         "name": "square",
@@ -42,7 +43,6 @@ GOOD: dict[str, dict[str, Any]] = {
         "rehearse_only": False,
         "term_s": 0.3,
     },
-    "look": {},
     "approve": {"yes": True},
     "stop": {"why": "x"},
     "emergency_stop": {"why": "x"},

@@ -321,8 +321,8 @@ _READERS: Mapping[str, Any] = {
     "Reason": _reason,
     "Reason | None": _reason,
     "tuple[int, ...]": tuple,
-    "tuple[str, ...]": tuple,
     "tuple[float | None, ...]": tuple,
+    "tuple[str, ...]": tuple,
     "tuple[FindingSeen, ...]": lambda value: tuple(event_from_json(item) for item in value),
     "tuple[tuple[float, float, float], ...]": lambda value: tuple(tuple(item) for item in value),
 }

@@ -103,7 +103,7 @@ class BaseNode:
         session_options = Options(interpreter=options.interpreter)
         mind = self._mind(profile)
         self._session = Session(
-            self._joint, understanding, self._hear_event, session_options, mind, authoring
+            self._joint, understanding, self._hear_event, session_options, authoring, mind
         )
         self._operators = Operators(lambda: self._session.is_idle, self._lose_operator)
 

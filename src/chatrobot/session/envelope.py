@@ -73,6 +73,7 @@ PAYLOADS: Mapping[str, Mapping[str, Callable[[object], bool]]] = {
         "term_s": _is_term,
         "longest_s": _is_term,
     },
+    "look": {},
     "program": {
         "code": _is_code,
         "name": _is_name,
@@ -84,7 +85,6 @@ PAYLOADS: Mapping[str, Mapping[str, Callable[[object], bool]]] = {
         "rehearse_only": _is_flag,
         "term_s": _is_term,
     },
-    "look": {},
     "approve": {"yes": _is_flag},
     "stop": {"why": _is_text},
     "emergency_stop": {"why": _is_text},

@@ -307,7 +307,7 @@ class Motion:
         if self._current is not job:
             return  # stopped or replaced meanwhile; its end has been told
         refusal = job.take(planned)
-        asks = needs_approval(job, planned, refusal)
+        asks = needs_approval(job, planned)
         for event in planned.events(asks):
             self._emit(event)
         if refusal is not None:
@@ -348,7 +348,7 @@ class Motion:
     def _on_part(self, job: Job, stream: Stream, planned: Planned) -> None:
         if not isinstance(self._run, Run) or self._run.job is not job:
             return
-        self._emit(planned.event(False, stream.steps))
+        self._emit(planned.part_event(stream.steps))
         if stream.accept(planned) is None:
             self._run.executor.expect(stream.duration_s)
         self._plan_part(job)

@@ -64,7 +64,7 @@ class PlannedProgram(Planned):
         )
         return (told, self.event(needs_approval))
 
-    def event(self, needs_approval: bool, steps_before: int = 0) -> Rehearsed:  # noqa: ARG002
+    def event(self, needs_approval: bool) -> Rehearsed:
         shown = self._shown
         findings = tuple(FindingSeen(self.turn, f.severity, f.reason, (), f.t_s) for f in shown.findings)
         stride = max(1, len(shown.path) // DRAWN_POINTS)

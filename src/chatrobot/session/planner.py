@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Event, FindingSeen, Rehearsed
@@ -62,15 +62,19 @@ class Planned:
         """All that is told of it."""
         return (self.event(needs_approval),)
 
-    def event(self, needs_approval: bool, steps_before: int = 0) -> Rehearsed:
-        """What the faces show of it. `steps_before`: it goes on after so many steps of the same turn."""
+    def part_event(self, steps_before: int) -> Rehearsed:
+        """As `event`, for a part that goes on after so many steps of the same turn."""
+        event = self.event(False)
+        findings = tuple(replace(found, step=_later(found.step, steps_before)) for found in event.findings)
+        return replace(event, findings=findings)
+
+    def event(self, needs_approval: bool) -> Rehearsed:
+        """What the faces show of it."""
         rehearsal = self.rehearsal
         if rehearsal is None:
             return Rehearsed(self.turn, False, 0.0, 0.0, Pose())
         findings = tuple(
-            FindingSeen(
-                self.turn, found.severity, found.reason, _from_one(found.index, steps_before), found.t_s
-            )
+            FindingSeen(self.turn, found.severity, found.reason, tuple(i + 1 for i in found.index), found.t_s)
             for found in rehearsal.findings
         )
         stride = max(1, len(rehearsal.path) // DRAWN_POINTS)
@@ -87,10 +91,9 @@ class Planned:
         )
 
 
-def _from_one(index: tuple[int, ...], steps_before: int) -> tuple[int, ...]:
-    """The path of a step as people count."""
-    first = index[:1]
-    return (*(i + 1 + steps_before for i in first), *(i + 1 for i in index[1:]))
+def _later(step: tuple[int, ...], steps_before: int) -> tuple[int, ...]:
+    """The path of a step that comes after so many others."""
+    return (step[0] + steps_before, *step[1:]) if step else ()
 
 
 class Planner:

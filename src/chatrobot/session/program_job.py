@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from chatrobot.core.reason import Reason
 from chatrobot.session.envelope import Envelope
 from chatrobot.session.job import Job
 from chatrobot.session.planner import Planned
@@ -47,8 +46,8 @@ def job_of(envelope: Envelope, epoch: int, now_s: float) -> Job:
     )
 
 
-def needs_approval(job: Job, planned: Planned, refusal: Reason | None) -> bool:
+def needs_approval(job: Job, planned: Planned) -> bool:
     """Whether what was planned waits for a yes."""
-    if refusal is not None or job.rehearse_only:
+    if job.refusal is not None or job.rehearse_only:
         return False
     return job.approve or (isinstance(job, ProgramJob) and job.ask_findings and planned.has_findings)

@@ -109,7 +109,7 @@ def correction(problem: str, done: list[str], measured: str) -> str:
     """What was wrong with a reply, what has been done of it, and where to go on."""
     said = one_line(problem, 400)
     if not done:
-        return f"Your reply was not used: {said}\nNothing of it was done. Reply with the whole plan, in plan text."
+        return f"Your reply was not used: {said}\nNothing of it was done. All of it again, in the form asked for."
     steps = "; ".join(done)
     return (
         f"Your reply was used up to a mistake: {said}\nDone: {one_line(steps, 600)} (measured: {measured}).\n"

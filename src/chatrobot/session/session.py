@@ -36,17 +36,17 @@ class Options:
     """How a session behaves.
 
     `while_moving` decides what a new instruction does to a running one: `queue` (pipes, programs) or `replace`
-    (a person at the keyboard). `approve` asks for a yes before each plan; `rehearse_only` moves nothing.
-    `interpreter`: who understands; with `auto` a model is asked what is not understood without it. Of programs,
+    (a person at the keyboard). `approve` asks for a yes before each plan; `rehearse_only` moves nothing. Of programs,
     `ask_findings` asks where rehearsal found something, `ask_new` before each that was written just now.
+    `interpreter`: who understands; with `auto` a model is asked what is not understood without it.
     """
 
     while_moving: Literal["queue", "replace"] = "queue"
     approve: bool = False
     rehearse_only: bool = False
-    interpreter: Interpreter = "auto"
     ask_findings: bool = True
     ask_new: bool = False
+    interpreter: Interpreter = "auto"
 
 
 _Kind = Literal["text", "plan", "program", "draft", "stop", "emergency_stop", "too_many"]
@@ -66,8 +66,8 @@ class Session:
 
     Args:
         on_event: hears every event, in order; it only reads.
-        mind: the language model to ask, None for none.
         authoring: writes and keeps programs; None where requests for one are driven as plans.
+        mind: the language model to ask, None for none.
     """
 
     def __init__(
@@ -76,8 +76,8 @@ class Session:
         understanding: Understanding,
         on_event: Callable[[Event], None],
         options: Options,
-        mind: Mind | None = None,
         authoring: Authoring | None = None,
+        mind: Mind | None = None,
     ) -> None:
         self._joint = joint
         self.understanding = understanding
@@ -373,7 +373,7 @@ class Session:
                 reply = self._programs.ending(event.turn, reply)
             plan_text = format_plan(meant.plan) if meant.plan is not None else ""
             self._thinking.note(text, plan_text, f"{event.outcome}: {measured(event)}")
-            self._conclude(event.turn, event.outcome, reply, event, event.reason)
+            self._conclude(event.turn, event.outcome, reply, event)
 
     def _conclude(
         self,
@@ -396,7 +396,7 @@ class Session:
                 finished.path_m,
                 finished.duration_s,
                 finished.paused_s,
-                reason,
+                reason or finished.reason,
             )
         self.results[turn] = result
         self._emit(result)

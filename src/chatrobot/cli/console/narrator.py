@@ -51,8 +51,8 @@ class Narrator:
     def __init__(self, words: Words) -> None:
         self._words = words
         self._plans: dict[int, Interpreted] = {}
-        self._programs: set[int] = set()
         self._streamed: dict[int, int] = {}
+        self._programs: set[int] = set()
 
     def tell(self, event: Event) -> Iterator[RenderableType]:
         """The lines to print for `event`; none for most."""
@@ -137,6 +137,14 @@ class Narrator:
             yield indented(Text(facts, "dim"))
             yield from self._findings(event)
 
+    def _streamed_step(self, event: Streamed) -> Iterator[RenderableType]:
+        """A step of a plan that is still coming in."""
+        if event.turn not in self._streamed:
+            yield Text("  ").append(self._words.say("plan"), "bold")
+        for line in event.plan_text.splitlines():
+            number = self._streamed[event.turn] = self._streamed.get(event.turn, 0) + 1
+            yield Text("  ").append(f"{number:>3}  ", "dim").append_text(_plan_line(line))
+
     def _program_written(self, event: ProgramWritten) -> Iterator[RenderableType]:
         self._programs.add(event.turn)
         language = self._words.language
@@ -153,14 +161,6 @@ class Narrator:
         values = {"speed": f"{event.top_speed_mps:.2f}", "rate": f"{event.top_rate_radps:.2f}"}
         yield indented(Text(say(self._words.language, "program_speeds", **values), "dim"))
         yield from (indented(Text(line, "red")) for line in event.problem.splitlines())
-
-    def _streamed_step(self, event: Streamed) -> Iterator[RenderableType]:
-        """A step of a plan that is still coming in."""
-        if event.turn not in self._streamed:
-            yield Text("  ").append(self._words.say("plan"), "bold")
-        for line in event.plan_text.splitlines():
-            number = self._streamed[event.turn] = self._streamed.get(event.turn, 0) + 1
-            yield Text("  ").append(f"{number:>3}  ", "dim").append_text(_plan_line(line))
 
     def _limited(self, event: Limited) -> Iterator[RenderableType]:
         asked, sent = self._twist(event.asked), self._twist(event.sent)
