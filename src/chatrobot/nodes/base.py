@@ -75,8 +75,8 @@ class BaseNode:
         self._session = Session(self._joint, understanding, self._hear_event, Options())
         self._operators = Operators(lambda: self._session.is_idle, self._lose_operator)
 
-    def run(self, is_leaving: Callable[[], bool]) -> None:
-        """Until `is_leaving`. Understands and pumps in the calling thread.
+    def run(self, is_leaving: Callable[[], bool], on_ready: Callable[[], None]) -> None:
+        """Until `is_leaving`; `on_ready` is called once it listens. Understands and pumps in the calling thread.
 
         Raises:
             JointError: the wire is gone.
@@ -91,6 +91,7 @@ class BaseNode:
         self._explain_parameters()
         gc.collect()
         gc.freeze()  # the words are many, and stay
+        on_ready()
         while not is_leaving():
             self._session.pump(PUMP_S)
             self._look_for_twins()
