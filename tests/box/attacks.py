@@ -53,7 +53,7 @@ def _network(name: str, source: str, ends: End = "refused") -> Attack:
 
 
 def _kernel(name: str, source: str) -> Attack:
-    return Attack(name, "the kernel", source, "dies", "box_forbidden")
+    return Attack(name, "the kernel", source + "; print('LEAK')", "dies", "box_forbidden")
 
 
 FILES = (
@@ -172,7 +172,7 @@ s.sendto(packet, ('127.0.0.1', world['udp']))
 )
 
 PROCESSES = (
-    Attack("forks", "processes", "import os; os.fork()", finding="box_tried_processes"),
+    Attack("forks", "processes", "import os; os.fork() and print('LEAK')", finding="box_tried_processes"),
     Attack(
         "forks like a bomb",
         "processes",
@@ -291,7 +291,7 @@ MEMORY_OF_OTHERS = (
     Attack(
         "traces another process",
         "memory of others",
-        "call('ptrace', 16, world['victim'], 0, 0)",
+        "call('ptrace', 16, world['victim'], 0, 0); print('LEAK')",
         "dies",
         "box_forbidden",
     ),
@@ -335,7 +335,7 @@ SHARED_MEMORY = (
     Attack(
         "makes System V memory",
         "shared memory",
-        "call('shmget', 0x1234, 4096, 0o1666)",
+        "call('shmctl', call('shmget', 0, 4096, 0o600), 0, 0); print('LEAK')",
         "dies",
         "box_forbidden",
     ),
@@ -434,6 +434,12 @@ USING_UP = (
         "x = []\nwhile True: x.append(bytearray(1 << 20))",
         reason="box_used_too_much_memory",
         finding="box_tried_memory",
+        limits=SMALL,
+    ),
+    Attack(
+        "reserves a gigabyte",
+        "using it up",
+        "import mmap; mmap.mmap(-1, 1 << 30); print('LEAK')",
         limits=SMALL,
     ),
     Attack(

@@ -38,15 +38,6 @@ def test_wrong_usage_names_what_is_allowed(chatrobot: Command, arguments: list[s
     assert done.out == ""
 
 
-@pytest.mark.parametrize("later", ["program"])
-def test_commands_of_later_versions_are_known_and_not_offered(chatrobot: Command, later: str) -> None:
-    done = chatrobot(later, "whatever", "--with", "anything")
-    assert done.code == 2
-    assert done.err.count("\n") == 1
-    assert "yet" in done.err
-    assert later not in COMMANDS
-
-
 def test_help_lists_every_command(chatrobot: Command) -> None:
     done = chatrobot("--help")
     assert done.code == 0

@@ -1,4 +1,4 @@
-"""A program that runs for real, in real time: it speaks at once, beats, hears its robot, and can be ended at any time."""
+"""A program that runs for real, in real time: it speaks at once, beats, hears its robot, and can be ended."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from chatrobot.core.errors import WireError
-from chatrobot.core.events import Event, Finished, Notice, Started
+from chatrobot.core.events import Event, Finished, Notice, ProgramLog, Started
 from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.nodes.foreign import Foreign
@@ -149,7 +149,7 @@ class ControlNode:
         envelope = Envelope.from_bytes(message.data.encode(errors="replace"))
         if envelope is None:
             self._foreign.hear(message.data)
-        elif envelope.word == "plan":
+        elif envelope.word in ("plan", "program"):
             self._hear_plan(envelope)
         elif envelope.word == "release" and not self._options.release:
             self._runner.notice(Reason("release_refused", {"source": envelope.source}))
@@ -194,6 +194,8 @@ def _log(event: Event) -> None:
         line = f"turn {event.turn}: started"
     elif isinstance(event, Finished):
         line = f"turn {event.turn}: {event.outcome}{_why(event.reason)}, {event.path_m:.2f} m"
+    elif isinstance(event, ProgramLog):
+        line = f"turn {event.turn}: | {event.text}"
     elif isinstance(event, Notice):
         line = f"notice{_why(event.reason)}"
     else:

@@ -33,6 +33,7 @@ from chatrobot.session.guard_link import GuardProcess
 from chatrobot.session.link import is_up, reach
 from chatrobot.session.motion import Motion
 from chatrobot.session.planner import Planner
+from chatrobot.session.program_host import ProgramHost
 from chatrobot.session.rivals import BEAT_S, Rivals
 from chatrobot.session.topics import STOP, USER_INPUT
 from chatrobot.sim.load import load_world
@@ -96,6 +97,7 @@ class MotionRunner:
         self._motions: list[str] = []
         self._wake = threading.Event()
         self._plans: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
+        self.programs = ProgramHost(self.profile, is_in_step=False)
         self._guard = GuardProcess(address, _as_others_name_it(self.wire, self.profile.wiring), RealClock())
         self.motion = Motion(
             self.profile,
@@ -106,6 +108,7 @@ class MotionRunner:
             emit,
             self._plans.put,
             releasers,
+            self.programs,
         )
         self._rivals = Rivals(self.wire, node, self.profile.wiring.cmd_vel_topic)
         if not self._guard.wait_until_alive(GUARD_S):
@@ -134,6 +137,7 @@ class MotionRunner:
             self._guard.goodbye()
             self.wire.close()
         finally:
+            self.programs.close()
             with contextlib.suppress(OSError):
                 stop_socket_path(os.getpid()).unlink()
 
