@@ -39,7 +39,8 @@ def begin(rig: NodeRig, *arguments: str, on: str = "dds") -> subprocess.Popen[st
 
 def end(doing: subprocess.Popen[str]) -> tuple[int, list[dict[str, object]]]:
     out, err = doing.communicate(timeout=PATIENCE_S)
-    assert out and "Traceback" not in err, err
+    assert out, err
+    assert "Traceback" not in err
     return doing.returncode, [json.loads(line) for line in out.splitlines()]
 
 
