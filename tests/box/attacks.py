@@ -241,7 +241,9 @@ SIGNALS = (
         finding="box_tried_signals",
     ),
     Attack("kills its host", "signals", "import os; os.kill(world['host'], 9)", finding="box_tried_signals"),
-    Attack("kills everybody", "signals", "import os; os.kill(-1, 9)", finding="box_tried_signals"),
+    Attack(
+        "kills everybody", "signals", "import os; os.kill(-1, 0); print('LEAK')", finding="box_tried_signals"
+    ),
     Attack("kills its process group", "signals", "import os; os.killpg(0, 9)", finding="box_tried_signals"),
     Attack("signals a thread of another", "signals", "call('tgkill', world['victim'], world['victim'], 9)"),
     Attack("signals by tkill", "signals", "call('tkill', world['victim'], 9)"),

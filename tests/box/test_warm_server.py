@@ -14,6 +14,7 @@ from pathlib import Path
 import psutil
 import pytest
 
+from chatrobot.box.layers import Layers
 from chatrobot.box.limits import BoxLimits
 from chatrobot.box.process import BoxedProcess
 from chatrobot.box.warm_server import WarmServer
@@ -231,8 +232,11 @@ def test_nothing_is_left_behind(server: WarmServer) -> None:
     assert wait_until(lambda: (descriptors(), threading.active_count()) <= before)
 
 
-def test_the_servers_death_is_the_end_of_its_children() -> None:
-    with WarmServer([INSIDE], ["box_entries"]) as server:
+@pytest.mark.parametrize(
+    "layers", [Layers(), Layers(False, False, False)], ids=["all walls", "no world of its own"]
+)
+def test_the_servers_death_is_the_end_of_its_children(layers: Layers) -> None:
+    with WarmServer([INSIDE], ["box_entries"], layers=layers) as server:
         server.start()
         process = launch_forever(server)
         assert server.process is not None

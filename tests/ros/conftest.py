@@ -26,6 +26,7 @@ TESTS = {
         ROS,
         "colcon build, every `ros2 run` of the tutorial, ros2 topic/node/param/service, diagnostics, Ctrl-C",
     ),
+    "test_death_on_ros.py": (ROS, "nodes that die or freeze on ROS, its latencies, the console --on ros"),
     "test_launch.py": ((*ROS, "launch_ros"), "ros2 launch of the simulated robot with its nodes"),
     "test_turtlesim.py": (
         (*ROS, "launch_ros", "turtlesim"),
