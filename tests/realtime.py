@@ -120,9 +120,10 @@ class RunningRobot:
 
     def _read(self) -> None:
         assert self.console.stdout is not None
-        for line in self.console.stdout:
-            with contextlib.suppress(ValueError):
-                self._lines.put(json.loads(line))
+        with contextlib.suppress(OSError):  # a test may close this end
+            for line in self.console.stdout:
+                with contextlib.suppress(ValueError):
+                    self._lines.put(json.loads(line))
 
     def _wait_for_file(self, pattern: str) -> Path:
         deadline_s = time.monotonic() + PATIENCE_S

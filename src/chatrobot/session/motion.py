@@ -41,7 +41,7 @@ LONGEST_TERM_S = 1.0
 TELEMETRY_S = 0.1
 ODOMETRY_WAIT_S = 2.0
 ODOMETRY_FRESH_S = 0.3
-_FAILURES = frozenset({"guard_lost", "bumped", "motion_froze"})
+_FAILURES = frozenset({"guard_lost", "bumped", "motion_froze", "wire_gone"})
 
 
 class Motion:

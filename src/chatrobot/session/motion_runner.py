@@ -94,6 +94,8 @@ class MotionRunner:
             self._plans.put,
             releasers,
         )
+        if isinstance(self.wire, _PatientWire):  # a robot that nobody reached meanwhile holds what it heard last
+            self.wire.on_gone = lambda: self.motion.halt(Reason("wire_gone"))
         self._rivals = Rivals(self.wire, node, self.profile.wiring.cmd_vel_topic)
         if not self._guard.wait_until_alive(CONNECT_S):
             raise WireError("the guard did not start")
@@ -215,14 +217,25 @@ class MotionRunner:
 
 
 class _PatientWire:
-    """A wire whose other end may return: what cannot be sent meanwhile is dropped, as on every other wire."""
+    """A wire whose other end may return: what cannot be sent meanwhile is dropped, as on every other wire.
+
+    `on_gone` is called once for each time that it goes, by whatever thread finds out.
+    """
 
     def __init__(self, wire: Wire) -> None:
         self._wire = wire
+        self._is_gone = False
+        self.on_gone: Callable[[], None] = lambda: None
 
     def publish(self, topic: str, message: Message) -> None:
-        with contextlib.suppress(WireError):
+        try:
             self._wire.publish(topic, message)
+        except WireError:
+            was_gone, self._is_gone = self._is_gone, True
+            if not was_gone:
+                self.on_gone()
+        else:
+            self._is_gone = False
 
     def subscribe(self, topic: str, kind: type[M], callback: Callable[[M], None]) -> None:
         self._wire.subscribe(topic, kind, callback)
