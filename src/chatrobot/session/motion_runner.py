@@ -94,7 +94,9 @@ class MotionRunner:
             self._plans.put,
             releasers,
         )
-        if isinstance(self.wire, _PatientWire):  # a robot that nobody reached meanwhile holds what it heard last
+        if isinstance(
+            self.wire, _PatientWire
+        ):  # a robot that nobody reached meanwhile holds what it heard last
             self.wire.on_gone = lambda: self.motion.halt(Reason("wire_gone"))
         self._rivals = Rivals(self.wire, node, self.profile.wiring.cmd_vel_topic)
         if not self._guard.wait_until_alive(CONNECT_S):
