@@ -20,7 +20,7 @@ else:
 
 ROOT = Path(__file__).parent.parent
 PYTHONS = ("3.10", "3.11", "3.12", "3.13", "3.14")
-BACKPORTS = ("exceptiongroup", "tomli")
+BACKPORTS = ("exceptiongroup", "tomli", "anthropic<2")
 """Needed before 3.11 only: pip judges markers by the Python it runs on, and would leave them out."""
 HEADER = """\
 # What continuous integration installs (pip install -c). Written by `make lock`; do not edit.

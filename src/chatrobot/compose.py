@@ -6,7 +6,6 @@ Console, web, MCP and the Python API all begin here; nothing below knows how it 
 from __future__ import annotations
 
 import subprocess
-import sys
 import threading
 import uuid
 from collections.abc import Callable
@@ -17,8 +16,10 @@ from typing import TYPE_CHECKING
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.errors import JointError, UsageError
 from chatrobot.core.events import Event, TruePose
+from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile, profile_argument
 from chatrobot.robots.profile import RobotProfile
+from chatrobot.session.child import spawn
 from chatrobot.session.joint import SimulatedJoint
 from chatrobot.session.session import Options, Session
 from chatrobot.session.understanding import Understanding
@@ -26,7 +27,7 @@ from chatrobot.sim.lies import SimLies
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import TRUTH_TOPIC, SimRobot
 from chatrobot.sim.world import World
-from chatrobot.wire.connect import wire_address
+from chatrobot.wire.connect import is_on_this_machine, wire_address
 from chatrobot.wire.messages import Odometry
 
 if TYPE_CHECKING:
@@ -81,6 +82,8 @@ def connect(setup: Setup, on_event: OnEvent) -> Connection:
     profile = load_profile(setup.robot, profile_dirs(setup.folder))
     if not on_wire:
         profile = replace(profile, approval="stream")
+    elif drives_on_alone(profile) and not is_on_this_machine(wire_address(setup.on)):
+        profile = slowed(profile)  # as Motion does: what is said of speeds must be true
     setup = replace(setup, world=setup.world or default_world(setup.on))
     world = load_world(setup.world)
     SimLies.parse(setup.sim)
@@ -194,14 +197,10 @@ def _connect_wire(
 
 def spawn_simulated_robot(setup: Setup, profile: str, wire_path: Path) -> subprocess.Popen[bytes]:
     """In a session of its own: Ctrl-C at the console must not kill the robot before it stands."""
-    return subprocess.Popen(
-        [
-            *(sys.executable, "-m", "chatrobot.sim", "--socket", str(wire_path)),
-            *("--profile", profile, "--world", setup.world, "--sim", setup.sim),
-        ],
-        start_new_session=True,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL,
+    return spawn(
+        "chatrobot.sim",
+        *("--socket", str(wire_path), "--profile", profile),
+        *("--world", setup.world, "--sim", setup.sim),
     )
 
 

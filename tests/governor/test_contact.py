@@ -122,7 +122,8 @@ def test_no_point_that_the_way_comes_near_is_passed_over(
     assert together <= alone + 1e-9
     for x, y in points:
         touches = any(
-            BOX.clearance_m(*map(np.array, zip(Pose(x, y).relative_to(ORIGIN.moved(twist, t))[:2])))[0] < -0.02
+            BOX.clearance_m(*map(np.array, zip(Pose(x, y).relative_to(ORIGIN.moved(twist, t))[:2])))[0]
+            < -0.02
             for t in np.linspace(0.0, horizon_s, 40).tolist()
         )
         outside = BOX.clearance_m(np.array([x]), np.array([y]))[0] > MARGIN_M

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from chatrobot.robots.load import ProfileEntry, list_profiles
-from chatrobot.robots.profile import Defaults, Lidar, Limits, Wiring
+from chatrobot.robots.profile import Calibration, Defaults, Lidar, Limits, Wiring
 
 DOCS = (Path(__file__).parents[2] / "docs" / "robots.md").read_text(encoding="utf-8")
 BUILT_IN = [entry for entry in list_profiles() if entry.origin == "built-in"]
@@ -27,6 +27,6 @@ def test_the_list_of_profiles_has_the_numbers_of_the_files(entry: ProfileEntry) 
     assert row in DOCS
 
 
-@pytest.mark.parametrize("part", [Limits, Defaults, Lidar, Wiring])
+@pytest.mark.parametrize("part", [Limits, Defaults, Lidar, Calibration, Wiring])
 def test_every_field_is_described(part: type) -> None:
     assert [field.name for field in dataclasses.fields(part) if f"`{field.name}`" not in DOCS] == []

@@ -9,6 +9,7 @@ import contextlib
 import json
 import socket
 import threading
+from collections.abc import Callable
 from typing import Any
 
 from websockets.exceptions import ConnectionClosed
@@ -26,6 +27,9 @@ class FakeRosbridge:
         self._advertised: dict[tuple[ServerConnection, str], str] = {}
         self._clients: set[ServerConnection] = set()
         self.requests: list[dict[str, Any]] = []
+        self.services: dict[tuple[str, str], dict[str, Any]] = {}
+        """What services answer, by name and the topic they are asked about."""
+        self._ears: list[tuple[str, Callable[[Any], None]]] = []
         self.paths: list[str] = []
         self.port = 0
         self.start()
@@ -63,6 +67,10 @@ class FakeRosbridge:
         with self._lock:
             self._route(topic, message)
 
+    def listen(self, topic: str, callback: Callable[[Any], None]) -> None:
+        """Hear what is published there, as somebody on the robot would."""
+        self._ears.append((topic, callback))
+
     def say_raw(self, text: str) -> None:
         """Send this text to every client."""
         with self._lock:
@@ -93,6 +101,9 @@ class FakeRosbridge:
 
     def _do(self, client: ServerConnection, request: dict[str, Any]) -> None:
         self.requests.append(request)
+        if request["op"] == "call_service":
+            self._answer(client, request)
+            return
         topic = request["topic"]
         if request["op"] == "publish":
             if self._advertised.get((client, topic)) == self._types[topic]:
@@ -107,7 +118,18 @@ class FakeRosbridge:
             problem = f"{topic} is {known}, not {request['type']}"
             client.send(json.dumps({"op": "status", "level": "error", "id": request["id"], "msg": problem}))
 
+    def _answer(self, client: ServerConnection, request: dict[str, Any]) -> None:
+        """As the real one does: a service that is not there is an error, and is answered at once."""
+        values = self.services.get((request["service"], request["args"].get("topic", "")))
+        answer = {"op": "service_response", "id": request["id"], "service": request["service"]}
+        client.send(
+            json.dumps({**answer, "values": values or "no such service", "result": values is not None})
+        )
+
     def _route(self, topic: str, message: Any) -> None:
+        for heard, callback in self._ears:
+            if heard == topic:
+                callback(message)
         text = json.dumps({"op": "publish", "topic": topic, "msg": message})
         for subscriber in tuple(self._subscribers.get(topic, ())):
             with contextlib.suppress(ConnectionClosed, OSError):

@@ -242,3 +242,46 @@ def test_a_battery_is_told_in_per_cent(robot: FakeRosbridge, connect: Connect) -
     robot.say("/battery", {"percentage": None})
     robot.say("/battery", {"percentage": 0.5})
     assert heard.next() == Number(50.0)
+
+
+def _rosapi(robot: FakeRosbridge) -> None:
+    """What the robot's rosapi would say of a robot that is driven by somebody else, too."""
+    topics = {"/cmd_vel": "geometry_msgs/msg/TwistStamped", "/odom_combined": "nav_msgs/msg/Odometry"}
+    robot.services["/rosapi/topics", ""] = {"topics": list(topics), "types": list(topics.values())}
+    publishers = {"/cmd_vel": ["/teleop", "/rosbridge_websocket"], "/odom_combined": ["/base"]}
+    subscribers = {"/cmd_vel": ["/base"], "/odom_combined": ["/rosbridge_websocket"]}
+    for topic in topics:
+        robot.services["/rosapi/publishers", topic] = {"publishers": publishers[topic]}
+        robot.services["/rosapi/subscribers", topic] = {"subscribers": subscribers[topic]}
+
+
+def test_where_rosapi_runs_the_others_are_known(robot: FakeRosbridge, connect: Connect) -> None:
+    _rosapi(robot)
+    wire = connect()
+    assert wire.publishers_of("cmd_vel") == ["/teleop"]
+    assert sorted(wire.survey()) == [
+        ("/cmd_vel", "geometry_msgs/msg/TwistStamped", "listens"),
+        ("/cmd_vel", "geometry_msgs/msg/TwistStamped", "publishes"),
+        ("/odom_combined", "nav_msgs/msg/Odometry", "publishes"),
+    ]
+
+
+def test_where_no_rosapi_runs_nobody_is_known(connect: Connect) -> None:
+    wire = connect()
+    assert (wire.survey(), wire.publishers_of("cmd_vel")) == ([], [])
+
+
+def test_velocities_of_the_type_that_the_robot_takes_are_sent(
+    robot: FakeRosbridge, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from chatrobot.session import link
+
+    monkeypatch.setattr(link, "SURVEY_S", 0.1)
+    _rosapi(robot)
+    reached = link.reach(f"rosbridge:{robot.url}", Wiring(), "test")
+    assert (reached.wiring.cmd_vel_type, reached.wiring.odom_topic) == ("TwistStamped", "/odom_combined")
+    assert [reason.code for reason in reached.said] == ["cmd_vel_type_found", "odom_found"]
+    reached.wire.publish("cmd_vel", ZERO)
+    assert robot.wait_for("publish", 1, PATIENCE_S)
+    assert robot.of("publish")[0]["msg"]["twist"]["linear"]["x"] == 0.0
+    reached.wire.close()

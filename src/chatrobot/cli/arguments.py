@@ -17,12 +17,16 @@ COMMANDS = {
     "plan": "understand and rehearse only; nothing moves",
     "stop": "stop whatever runs on this machine",
     "eval": "run a corpus of sayings and count correct, wrong and abstained",
+    "calibrate": "one metre and one turn: you measure, your profile gets the correction",
     "doctor": "what works here, and how to get the rest",
     "schema": "the JSON schema of plans",
     "sim": "run the simulated robot alone, for other programs to drive",
     "node": "one of the tutorial's three nodes: input, base or control",
+    "model": "set up, list and test language models",
+    "usage": "what language models have used and cost",
+    "fake-model": "a scripted stand-in for a language model, for tests and demonstrations",
 }
-LATER = ("model", "program", "usage", "fake-model")
+LATER = ("program",)
 """Commands of versions to come: known, so that they are not mistaken for something else."""
 
 DEFAULTS: dict[str, Any] = {
@@ -193,10 +197,45 @@ def _node(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="control: drive though another ChatRobot is on the same robot",
     )
+    parser.add_argument(
+        "--on-robot",
+        action="store_true",
+        help="control: this machine is the robot, so no network can part us from its base",
+    )
+
+
+def _model(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "action",
+        nargs="?",
+        default="setup",
+        choices=("setup", "list", "test", "use", "key"),
+        help="setup: with questions (the default); list: what there is; test: try one sentence; "
+        "use: keep a choice; key: put a provider's key into the keyring",
+    )
+    parser.add_argument(
+        "name", nargs="?", default="", metavar="PROVIDER[:NAME]", help="use none: keep that no model is used"
+    )
+    parser.add_argument("--delete", action="store_true", help="key: take it out of the keyring")
+
+
+def _usage(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--by", choices=("session", "model", "day"), default="session", help="what to add up")
+
+
+def _fake_model(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("script", metavar="SCRIPT.yaml", help="what it answers: docs/models.md has the form")
+    parser.add_argument("--port", type=int, default=8399, help="0: any that is free (default: 8399)")
+    parser.add_argument(
+        "--host", default="127.0.0.1", help="where to listen; beyond loopback a token is asked for"
+    )
 
 
 def _no_arguments(_: argparse.ArgumentParser) -> None:
     pass
 
 
-_ARGUMENTS = {"do": _do, "plan": _plan, "eval": _eval, "sim": _sim, "node": _node}
+_ARGUMENTS = {
+    "do": _do, "plan": _plan, "eval": _eval, "sim": _sim, "node": _node, "model": _model, "usage": _usage,
+    "fake-model": _fake_model,
+}  # fmt: skip

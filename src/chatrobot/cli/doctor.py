@@ -52,8 +52,8 @@ def _checks(args: argparse.Namespace) -> Iterator[Check]:
     yield _try("in real time", lambda: _in_real_time(args))
     yield _ros()
     yield _dds(args)
-    yield _model()
-    yield Check("written programs", "later", "this version runs none, so there is no sandbox to check")
+    yield _model(args)
+    yield _box()
 
 
 def _try(name: str, check: Callable[[], str]) -> Check:
@@ -139,9 +139,49 @@ def _dds(args: argparse.Namespace) -> Check:
     )
 
 
-def _model() -> Check:
-    wanted = os.environ.get("CHATROBOT_MODEL", "")
-    text = "this version understands English and Chinese offline, and uses no model"
-    return Check(
-        "language model", "later", f"{text} (CHATROBOT_MODEL={wanted} is not used)" if wanted else text
-    )
+def _model(args: argparse.Namespace) -> Check:
+    """What would be asked; it is not asked, that may cost: `chatrobot model test` does."""
+    from chatrobot.language.phrases import render_reason
+    from chatrobot.models.choice import resolve
+    from chatrobot.models.config import ModelConfig
+    from chatrobot.models.state import problem_with
+
+    config = ModelConfig(folder=config_folder(args))
+    try:
+        choice = resolve(args.model, config)
+    except ChatRobotError as error:
+        return Check("language model", "missing", str(error))
+    if choice is None:
+        text = "none is set up (chatrobot model does it); English and Chinese are understood without one"
+        return Check("language model", "later", text)
+    problem = problem_with(choice.name, config)
+    if problem is not None:
+        return Check("language model", "missing", f"{choice.name}: {render_reason(problem, 'en')}")
+    source = {"option": "--model", "environment": "CHATROBOT_MODEL", "stored": "chatrobot model use"}[
+        choice.source
+    ]
+    return Check("language model", "ok", f"{choice.name}, by {source}; chatrobot model test tries it")
+
+
+_MORE = {
+    "landlock": "Landlock: Linux 5.13 or later with lsm=landlock among the kernel's boot options",
+    "own user": "an own user: start it as an ordinary user, or in a container that has more users than root",
+    "namespaces": "an empty world: install bubblewrap, or allow user namespaces (in a container: its seccomp profile)",
+}
+"""How to get the walls that do not stand here."""
+
+
+def _box() -> Check:
+    """Build the box around nothing, and see which walls stand."""
+    from chatrobot.box.probe import probe
+
+    report = probe()
+    if report.refusal is not None:
+        missing = report.problems.get("seccomp") or str(dict(report.refusal.values))
+        return Check("box for programs", "missing", f"none, so programs are refused: {missing}")
+    walls = ", ".join(("filter", "limits", *(each for each in report.standing if each != "seccomp")))
+    wanting = [each for each in _MORE if each not in report.standing]
+    if "bubblewrap" in report.standing:
+        wanting.remove("namespaces")
+    more = "".join(f"; more with {_MORE[each]}" for each in wanting)
+    return Check("box for programs", "ok", f"{report.level}: {walls}{more}")

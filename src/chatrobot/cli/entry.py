@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 FAILED, USAGE, STOPPED = 1, 2, 5
 
-_MODULES = {"": "talk", "eval": "eval.command"}
+_MODULES = {"": "talk", "eval": "eval.command", "model": "model.command", "fake-model": "fake_model"}
 """Where a command's `run(args)` is, if not in the module of its name."""
 
 

@@ -25,7 +25,14 @@ def _run_control(args: argparse.Namespace) -> int:
     from chatrobot.nodes.control import ControlNode, ControlOptions
 
     node = ControlNode(
-        ControlOptions(_address(args), _profile(args), _world(args), args.allow_release, args.accept_others)
+        ControlOptions(
+            _address(args),
+            _profile(args),
+            _world(args),
+            args.allow_release,
+            args.accept_others,
+            args.on_robot,
+        )
     )
 
     def stop(why: str) -> None:

@@ -9,10 +9,13 @@ ChatRobotError                 something broke or was given to us broken
 │   └── UsageError             a command-line option or an API argument
 ├── WireError                  the publish/subscribe layer lost its other end
 ├── JointError                 Motion could not be started or does not answer
+├── BoxError                   the box for programs could not be built or has fallen; carries the Reason
 └── SafetyError                a rule of the safety design would be broken: never caught, always fatal
 """
 
 from __future__ import annotations
+
+from chatrobot.core.reason import Reason
 
 
 class ChatRobotError(Exception):
@@ -68,6 +71,18 @@ class WireError(ChatRobotError):
 
 class JointError(ChatRobotError):
     """Motion could not be started, or its process is gone."""
+
+
+class BoxError(ChatRobotError):
+    """Programs cannot be boxed in here, or their warm server is gone.
+
+    Args:
+        reason: what a person is told.
+    """
+
+    def __init__(self, reason: Reason) -> None:
+        self.reason = reason
+        super().__init__(f"{reason.code} {dict(reason.values)}")
 
 
 class SafetyError(ChatRobotError):

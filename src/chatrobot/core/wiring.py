@@ -13,7 +13,8 @@ class Wiring:
     Topics are ROS names, None where the robot has no such sensor. Their types: imu sensor_msgs/Imu, scan
     sensor_msgs/LaserScan, bumper std_msgs/Bool, battery sensor_msgs/BatteryState, camera sensor_msgs/Image;
     odometry as `odom_type` says. `base_timeout_s` is how long the base holds its last command; None means
-    for ever.
+    for ever. `namespace` is put before relative topics where the wire's address names none; it needs a wire
+    that has namespaces (DDS, ROS, rosbridge).
     """
 
     cmd_vel_topic: str = "cmd_vel"
@@ -26,3 +27,4 @@ class Wiring:
     battery_topic: str | None = None
     camera_topic: str | None = None
     base_timeout_s: float | None = None
+    namespace: str = ""

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from chatrobot.core.geometry import Pose, Twist, wrap_angle
 from chatrobot.core.reason import Reason
-from chatrobot.robots.profile import Limits
+from chatrobot.robots.profile import Calibration, Limits
 from chatrobot.wire.messages import Imu, Odometry
 
 STANDING_SPEED_MPS = 0.005
@@ -45,10 +45,14 @@ class Estimate:
 
 
 class PoseEstimator:
-    """Fuses odometry and gyro. Feed it messages as they come; read `estimate`, `fault`, `wheel_yaw_rad`."""
+    """Fuses odometry and gyro, corrected as a person measured.
 
-    def __init__(self, limits: Limits) -> None:
+    Feed it messages as they come; read `estimate`, `fault`, `wheel_yaw_rad`.
+    """
+
+    def __init__(self, limits: Limits, calibration: Calibration = Calibration()) -> None:  # noqa: B008
         self._limits = limits
+        self._distance_scale, self._turn_scale = calibration.distance_scale, calibration.turn_scale
         self._last: Odometry | None = None
         self._imu_at_s = -math.inf
         self._gyro_yaw = 0.0
@@ -94,7 +98,7 @@ class PoseEstimator:
 
     def _integrate(self, rate_radps: float, dt_s: float) -> None:
         if 0.0 < dt_s < IMU_SILENT_S:
-            self._gyro_rate = rate_radps - self._bias
+            self._gyro_rate = (rate_radps - self._bias) * self._turn_scale
             self._gyro_yaw += self._gyro_rate * dt_s
 
     def _settle_doubtful(self, still: bool) -> None:
@@ -139,8 +143,8 @@ class PoseEstimator:
         assert self.estimate is not None
         wheel_turn = wrap_angle(step.yaw_rad)
         self.wheel_yaw_rad += wheel_turn
-        turn = wheel_turn
-        rate = message.wz_radps
+        turn = wheel_turn * self._turn_scale
+        rate = message.wz_radps * self._turn_scale
         if self.has_gyro and message.stamp_s - self._imu_at_s < IMU_SILENT_S:
             # Odometry may come a sample before the gyro of the same moment: carry the heading on to its stamp.
             gyro_yaw = self._gyro_yaw + self._gyro_rate * (message.stamp_s - self._imu_at_s)
@@ -152,13 +156,16 @@ class PoseEstimator:
         # The wheels' chord is seen at half their own turn; put it at half of the turn that really happened.
         swing = (turn - wheel_turn) / 2.0
         cos, sin = math.cos(swing), math.sin(swing)
-        moved = Pose(cos * step.x_m - sin * step.y_m, sin * step.x_m + cos * step.y_m, turn)
+        scale = self._distance_scale
+        moved = Pose(
+            scale * (cos * step.x_m - sin * step.y_m), scale * (sin * step.x_m + cos * step.y_m), turn
+        )
         before = self.estimate
         self.estimate = Estimate(
             message.stamp_s,
             before.pose.compose(moved),
-            Twist(message.vx_mps, message.vy_mps, rate),
-            before.path_m + math.hypot(step.x_m, step.y_m),
+            Twist(scale * message.vx_mps, scale * message.vy_mps, rate),
+            before.path_m + scale * math.hypot(step.x_m, step.y_m),
         )
         self._history.append(self.estimate)
         self._note_standing(message)

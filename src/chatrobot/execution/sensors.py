@@ -21,7 +21,7 @@ class Sensors:
     def __init__(self, profile: RobotProfile, clock: Clock) -> None:
         self._profile = profile
         self._clock = clock
-        self.estimator = PoseEstimator(profile.limits)
+        self.estimator = PoseEstimator(profile.limits, profile.calibration)
         self.scan: LaserScan | None = None
         self.bumped = False
         self.battery_percent: float | None = None

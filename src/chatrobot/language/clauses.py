@@ -34,7 +34,15 @@ def read_frames(atoms: Sequence[Atom]) -> list[Frame]:
     drawing = any(atom.kind == "shape" for atom in atoms)
     for segment in _segments(atoms, drawing):
         _join(frames, segment)
+    loose = next((frame for frame in frames if _hangs_loose(frame)), None)
+    if loose is not None and not drawing:
+        raise Unclear("unclear_motion", loose.text)
     return frames
+
+
+def _hangs_loose(frame: Frame) -> bool:
+    """An amount that fitted nowhere: `bend right 30 degrees over a metre` is no bend and then a metre straight on."""
+    return frame.joined == "none" and frame.has_extent and not (frame.moves or frame.words or frame.flags)
 
 
 def _segments(atoms: Sequence[Atom], drawing: bool) -> list[Segment]:

@@ -38,7 +38,7 @@ def check_heeded(
     Raises:
         Unclear: naming it.
     """
-    if any(atom.kind in _TAKEN_BACK for atom in atoms):
+    if any(atom.kind in _TAKEN_BACK or (atom.kind, atom.value) == ("flag", "instead") for atom in atoms):
         return
     for i, atom in enumerate(atoms):
         changed = _changed(atom, atoms)

@@ -374,7 +374,14 @@ def _shared_units(atoms: list[Atom]) -> list[Atom]:
             and out[j].kind == "q"
             and out[j].value in ("length", "angle")
             and out[j].role
+            and not (out[j].value == "length" and _is_an_angle(out, i))
         ):
             factor = float(out[j].role)
             out[i] = quantity(out[j].value, out[i].number * factor, out[i].text, out[j].role)
     return out
+
+
+def _is_an_angle(atoms: Sequence[Atom], i: int) -> bool:
+    """`left 90, 50 cm`: a number like that at a side is degrees, whatever follows."""
+    sided = is_kind(atoms, i - 1, "dir", "left") or is_kind(atoms, i - 1, "dir", "right")
+    return sided and 15 <= atoms[i].number <= 720 and atoms[i].number % 15 == 0

@@ -208,10 +208,11 @@ def _fractions_of(atoms: Sequence[Atom]) -> list[Atom]:
         j = i + 1
         while j < len(atoms) and atoms[j].kind == "glue" and atoms[j].text in ("of", "the", "a"):
             j += 1
+        fraction = atom.kind == "q" and atom.value == "number" and 0 < atom.number < 1
         if (
-            atom.kind == "q" and atom.value == "number" and 0 < atom.number < 1 and j > i + 1
+            (fraction or is_kind(atoms, i, "q", "percent")) and any(a.text == "of" for a in atoms[i + 1 : j])
             and is_kind(atoms, j, "q") and atoms[j].value in ("length", "time", "turns", "angle")
-            and atoms[j].text.startswith(("a ", "an ", "one "))
+            and (not fraction or atoms[j].text.startswith(("a ", "an ", "one ")))
         ):  # fmt: skip
             out.append(
                 quantity(atoms[j].value, atom.number * atoms[j].number, f"{atom.text} of {atoms[j].text}")

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import json
+import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -25,6 +27,8 @@ from chatrobot.wire.messages import Flag, Text
 
 NODE = "chatrobot_base"
 PUMP_S = 0.1
+SWITCH_INTERVAL_S = 0.0005
+"""The wire's thread must get in between: what it hears may be a stop."""
 LOOK_S = 1.0
 
 
@@ -52,6 +56,7 @@ class BaseNode:
     """
 
     def __init__(self, options: BaseOptions, show: Callable[[str], None]) -> None:
+        sys.setswitchinterval(SWITCH_INTERVAL_S)
         self._options = options
         self._show = show
         profile = load_profile(options.profile)
@@ -78,6 +83,8 @@ class BaseNode:
         self._operators.start()
         self._wire.subscribe(USER_INPUT, Text, self._hear)
         self._explain_parameters()
+        gc.collect()
+        gc.freeze()  # the words are many, and stay
         while not is_leaving():
             self._session.pump(PUMP_S)
             self._look_for_twins()

@@ -8,6 +8,7 @@ from __future__ import annotations
 import contextlib
 import json
 import sys
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -29,13 +30,14 @@ BASE = "base"
 
 @dataclass(frozen=True)
 class ControlOptions:
-    """`release`: an emergency stop may be released over ROS. `accept_others`: see `MotionRunner`."""
+    """`release`: an emergency stop may be released over ROS. `accept_others`, `on_robot`: see `MotionRunner`."""
 
     wire: str
     profile: str
     world: str = "empty"
     release: bool = False
     accept_others: bool = False
+    on_robot: bool = False
 
 
 class ControlNode:
@@ -49,6 +51,7 @@ class ControlNode:
     def __init__(self, options: ControlOptions) -> None:
         self._options = options
         self._ours: set[int] = set()
+        self._untold: deque[Event] = deque()
         self._is_leaving = False
         self._runner = MotionRunner(
             options.wire,
@@ -57,6 +60,7 @@ class ControlNode:
             self._tell,
             node=NODE,
             accept_others=options.accept_others,
+            on_robot=options.on_robot,
             releasers=RELEASERS | {BASE} if options.release else RELEASERS,
         )
         self._foreign = Foreign(self._runner, lambda: bool(self._ours))
@@ -65,7 +69,7 @@ class ControlNode:
 
     def run(self, is_leaving: Callable[[], bool]) -> None:
         """Until `is_leaving`, and then until the robot stands."""
-        self._runner.run(lambda: is_leaving() and not self._runner.motion.is_busy, self._foreign.beat)
+        self._runner.run(lambda: is_leaving() and not self._runner.motion.is_busy, self._each_tick)
 
     def stop(self, why: str) -> None:
         """Zero, now, from any thread."""
@@ -103,6 +107,15 @@ class ControlNode:
             if event.turn == 0:
                 self._foreign.note_finished()
             self._ours.discard(event.turn)
+        self._untold.append(event)
+
+    def _each_tick(self) -> None:
+        """After the tick: telling takes longer than a velocity may wait."""
+        self._foreign.beat()
+        while self._untold:
+            self._publish(self._untold.popleft())
+
+    def _publish(self, event: Event) -> None:
         _log(event)
         text = Text(json.dumps(event.to_json(), separators=(",", ":"), ensure_ascii=False))
         with contextlib.suppress(

@@ -12,7 +12,17 @@ import sys
 from typing import Any
 
 from chatrobot.robots.fields import Range, Source, Table
-from chatrobot.robots.profile import Circle, Defaults, Lidar, Limits, Point, RobotProfile, Safety, Wiring
+from chatrobot.robots.profile import (
+    Calibration,
+    Circle,
+    Defaults,
+    Lidar,
+    Limits,
+    Point,
+    RobotProfile,
+    Safety,
+    Wiring,
+)
 from chatrobot.robots.rules import check
 
 if sys.version_info >= (3, 11):
@@ -54,6 +64,10 @@ CIRCLE_RANGES = {
     "y_m": Range(-1000.0, 1000.0, "m", with_low=True),
     "radius_m": Range(0.0, 1000.0, "m"),
 }
+CALIBRATION_RANGES = {
+    "distance_scale": Range(0.2, 5.0, "", with_low=True),
+    "turn_scale": Range(0.2, 5.0, "", with_low=True),
+}
 FENCE_RANGE = Range(-1000.0, 1000.0, "m", with_low=True)
 BLIND_RANGE = Range(0.0, 10.0, "m/s", with_low=True)
 PERCENT_RANGE = Range(0.0, 100.0, "%", with_low=True)
@@ -67,7 +81,18 @@ SOURCE_MEANING = "where the number comes from: a document, a measurement, or tha
 OPTIONAL_LIMITS = frozenset(
     {"min_turning_radius_m", "max_wheel_speed_mps", "wheel_reach_m", "jerk_mps3", "angular_jerk_radps3"}
 )
-_TOP = ("title", "kinematics", "approval", "footprint", "limits", "defaults", "lidar", "safety", "wiring")
+_TOP = (
+    "title",
+    "kinematics",
+    "approval",
+    "footprint",
+    "limits",
+    "defaults",
+    "lidar",
+    "safety",
+    "wiring",
+    "calibration",
+)
 _LINE = re.compile(r"at line (\d+)")
 
 
@@ -91,6 +116,7 @@ def parse_profile(text: str, name: str, file: str = "") -> RobotProfile:
         wiring=_wiring(top.table("wiring")) if "wiring" in top else Wiring(),
         lidar=_lidar(top.table("lidar")) if "lidar" in top else None,
         safety=_safety(top.table("safety")) if "safety" in top else Safety(),
+        calibration=_calibration(top.table("calibration")) if "calibration" in top else Calibration(),
         approval=_literal(top.choice("approval", ("plan", "stream"))) if "approval" in top else "plan",
         sources=sources,
     )
@@ -152,6 +178,12 @@ def _safety(table: Table) -> Safety:
     return Safety(**values)
 
 
+def _calibration(table: Table) -> Calibration:
+    table.only((*CALIBRATION_RANGES, "source"))
+    scales = {key: table.number(key, allowed) for key, allowed in CALIBRATION_RANGES.items()}
+    return Calibration(**scales, source=table.text("source", SOURCE_MEANING))
+
+
 def _fence(table: Table) -> Circle | tuple[Point, ...]:
     if table.is_table("fence"):
         circle = table.table("fence")
@@ -168,6 +200,8 @@ def _wiring(table: Table) -> Wiring:
             continue
         if key == "base_timeout_s":
             values[key] = None if table.is_text(key, FOREVER) else table.number(key, TIMEOUT_RANGE)
+        elif key == "namespace":
+            values[key] = table.topic(key).strip("/")
         elif key in WIRING_CHOICES:
             values[key] = table.choice(key, WIRING_CHOICES[key])
         else:

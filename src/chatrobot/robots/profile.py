@@ -92,6 +92,18 @@ class Safety:
 
 
 @dataclass(frozen=True)
+class Calibration:
+    """What a person measured on this very robot: what odometry tells times these is the truth.
+
+    `turn_scale` is for the gyro where there is one, otherwise for the wheels.
+    """
+
+    distance_scale: float = 1.0
+    turn_scale: float = 1.0
+    source: str = ""
+
+
+@dataclass(frozen=True)
 class RobotProfile:
     """One robot. `footprint` is a convex polygon around (0, 0), counter-clockwise, metres, robot frame.
 
@@ -109,6 +121,7 @@ class RobotProfile:
     wiring: Wiring = field(default_factory=Wiring)
     lidar: Lidar | None = None
     safety: Safety = field(default_factory=Safety)
+    calibration: Calibration = Calibration()
     approval: Literal["plan", "stream"] = "plan"
     sources: Mapping[str, str] = field(default_factory=dict)
 

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import socket
-import subprocess
-import sys
 from typing import Protocol
 
 from chatrobot.core.clock import Clock
 from chatrobot.guard.watch import BEAT, ECHO_LOST_S, GOODBYE, HANDSHAKE, TRIPPED, Watch
 from chatrobot.robots.profile import Wiring
+from chatrobot.session.child import spawn_with_line
 
 
 class GuardLink(Protocol):
@@ -43,22 +42,15 @@ class GuardProcess:
         self._clock = clock
         self._echo_at_s = float("-inf")
         self._tripped = False
-        ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
-        ours.setblocking(False)
-        self._line = ours
-        command = [
-            *(sys.executable, "-m", "chatrobot.guard", "--wire", wire_address),
+        self.process, self._line = spawn_with_line(
+            "chatrobot.guard",
+            *("--wire", wire_address),
             *("--topic", wiring.cmd_vel_topic, "--type", wiring.cmd_vel_type),
-            *("--odom", wiring.odom_topic, "--odom-type", wiring.odom_type, "--fd", str(theirs.fileno())),
-        ]
-        self.process = subprocess.Popen(
-            command,
-            pass_fds=[theirs.fileno()],
-            start_new_session=True,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,
+            *("--odom", wiring.odom_topic, "--odom-type", wiring.odom_type),
+            *("--namespace", wiring.namespace),
+            kind=socket.SOCK_STREAM,
         )
-        theirs.close()
+        self._line.setblocking(False)
 
     def handshake(self) -> None:
         self._tripped = False

@@ -27,6 +27,7 @@ from chatrobot.session.intake import Intake
 from chatrobot.session.job import Job
 from chatrobot.session.planner import Planned, Planner
 from chatrobot.session.run import Run, sensed_by
+from chatrobot.session.zeroing import Zeroing
 from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.messages import LaserScan
 from chatrobot.wire.wire import Wire
@@ -34,13 +35,9 @@ from chatrobot.wire.wire import Wire
 FROZEN_S = 0.12
 """A gap this long between two ticks of a moving robot means that this process stood still: the plan is over."""
 
-ZEROING_S = 2.0
-"""Zeros are repeated until the robot is seen standing, or this long where nobody can see it."""
-
 LONGEST_TERM_S = 1.0
 TELEMETRY_S = 0.1
 ODOMETRY_WAIT_S = 2.0
-ODOMETRY_FRESH_S = 0.3
 _FAILURES = frozenset({"guard_lost", "bumped", "motion_froze", "wire_gone"})
 
 
@@ -82,7 +79,7 @@ class Motion:
         self._intake = Intake()
         self._current: Job | None = None
         self._run: Run | None = None
-        self._zeroing_since_s: float | None = None
+        self.zeroing = Zeroing(self._sensors, self._send_zero, lambda reason: emit(Notice(0, reason)))
         self._last_tick_s: float | None = None
         self._suspended_s = clock.suspended_s()
         self._next_telemetry_s = 0.0
@@ -135,7 +132,7 @@ class Motion:
             or self._intake.jobs
             or self._inbox
             or unbooked_stop
-            or self._zeroing_since_s is not None
+            or (self.zeroing.is_active and self.zeroing.disobeyed is None)
         )
 
     @property
@@ -199,7 +196,8 @@ class Motion:
             self._inbox.popleft()()
         self._book_stop()
         self._drive(now_s)
-        self._keep_zeroing(now_s)
+        if self._run is None:
+            self.zeroing.tick(now_s)
         self._begin_next(now_s)
         self._tell(now_s)
 
@@ -252,7 +250,10 @@ class Motion:
 
     def _begin_next(self, now_s: float) -> None:
         jobs = self._intake.jobs
-        if self._current is not None or not jobs or self._zeroing_since_s is not None:
+        if self.zeroing.disobeyed is not None:
+            for job in self._intake.take_all():
+                self._finish_unmoved(job, "refused", self.zeroing.disobeyed)
+        if self._current is not None or not jobs or self.zeroing.is_active:
             return
         job = jobs[0]
         if self._is_waiting_for_odometry(job, now_s):
@@ -353,7 +354,7 @@ class Motion:
         if outcome != "completed":
             self.halt(reason or Reason("stopped"))
             self._seen_epoch = self._epoch.value
-            self._zeroing_since_s = self._clock.now_s()
+            self.zeroing.begin(self._clock.now_s())
         self._emit(run.finished(outcome, reason))
 
     def _finish_current(self, outcome: Outcome, reason: Reason | None) -> None:
@@ -385,7 +386,7 @@ class Motion:
         if self._seen_epoch == self._epoch.value:
             return
         self._seen_epoch = self._epoch.value
-        self._zeroing_since_s = self._clock.now_s()
+        self.zeroing.begin(self._clock.now_s())
         why = self._stop_reason
         if self._run is not None:
             self._end_run("failed" if why.code in _FAILURES else "stopped", why)
@@ -394,20 +395,11 @@ class Motion:
         for job in self._intake.take_void(self._epoch.value):
             self._finish_unmoved(job, "stopped", why)
 
-    def _keep_zeroing(self, now_s: float) -> None:
-        since_s = self._zeroing_since_s
-        if since_s is None:
-            return
-        estimate = self._sensors.estimate
-        seen_standing = (
-            estimate is not None
-            and estimate.is_standing
-            and estimate.stamp_s > since_s
-            and self._sensors.odometry_age_s() < ODOMETRY_FRESH_S
-        )
-        if seen_standing or now_s - since_s > ZEROING_S:
-            self._zeroing_since_s = None
-            return
+    def see_it_stand(self) -> None:
+        """Send zeros until it does: nobody knows what it has heard last."""
+        self.zeroing.begin(self._clock.now_s())
+
+    def _send_zero(self, now_s: float) -> None:
         self._transport.send(self._governor.govern(ZERO_TWIST, "", now_s).sent)
 
     def _notice_freeze(self, now_s: float) -> None:

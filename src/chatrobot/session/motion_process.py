@@ -22,22 +22,25 @@ OUTBOX_LIMIT = 200
 
 
 class Outbox:
-    """Events on their way to the other half. Never blocks: a frozen reader costs it telemetry, nothing else."""
+    """Events on their way to the other half. Never blocks: a frozen reader costs it telemetry, nothing else.
+
+    They are written down after the tick they belong to: that takes longer than a velocity may wait.
+    """
 
     def __init__(self, line: socket.socket) -> None:
         self._line = line
-        self._waiting: deque[bytes] = deque()
+        self._waiting: deque[Event] = deque()
 
     def put(self, event: Event) -> None:
         if isinstance(event, Telemetry) and len(self._waiting) > OUTBOX_LIMIT:
             return
-        self._waiting.append(json.dumps(event.to_json(), separators=(",", ":")).encode())
-        self.flush()
+        self._waiting.append(event)
 
     def flush(self) -> None:
         while self._waiting:
             try:
-                self._line.send(self._waiting[0], socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
+                packet = json.dumps(self._waiting[0].to_json(), separators=(",", ":")).encode()
+                self._line.send(packet, socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
             except OSError:
                 return  # full or gone: the reader's end of file tells which
             self._waiting.popleft()

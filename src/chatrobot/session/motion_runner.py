@@ -8,6 +8,7 @@ for `chatrobot stop`; and a watch for others who drive the same robot. The carri
 from __future__ import annotations
 
 import contextlib
+import gc
 import os
 import queue
 import socket
@@ -15,29 +16,30 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Collection
+from dataclasses import replace
 
 from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Notice
 from chatrobot.core.reason import Reason
-from chatrobot.core.wiring import Wiring
 from chatrobot.governor.governor import TICK_S
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
+from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import load_profile
 from chatrobot.session.envelope import Envelope
 from chatrobot.session.guard_link import GuardProcess
+from chatrobot.session.link import PatientWire, is_up, reach
 from chatrobot.session.motion import Motion
 from chatrobot.session.planner import Planner
 from chatrobot.session.rivals import BEAT_S, Rivals
 from chatrobot.session.topics import STOP, USER_INPUT
 from chatrobot.sim.load import load_world
-from chatrobot.wire.connect import Returning, advertise, comes_back, connect_wire
-from chatrobot.wire.messages import Flag, Message, Text, TwistMessage
+from chatrobot.wire.connect import is_on_this_machine
+from chatrobot.wire.messages import Flag, Text
 from chatrobot.wire.runtime_dir import stop_socket_path
-from chatrobot.wire.wire import M, Wire
 
-CONNECT_S = 20.0
+GUARD_S = 20.0
 LOOK_EVERY = 5
 """Who else is on the wire is looked up with every fifth beat: it costs a millisecond."""
 SWITCH_INTERVAL_S = 0.0005
@@ -54,6 +56,7 @@ class MotionRunner:
         emit: takes events; called on the control thread only.
         node: our name on the wire.
         accept_others: drive though another Motion is on the same robot.
+        on_robot: no network lies between this machine and the base, whatever the address looks like.
         releasers: the sources that may release an emergency stop.
 
     Raises:
@@ -70,17 +73,24 @@ class MotionRunner:
         *,
         node: str = "chatrobot_motion",
         accept_others: bool = False,
+        on_robot: bool = False,
         releasers: Collection[str] = RELEASERS,
     ) -> None:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         clock = RealClock()
-        self.profile = load_profile(profile)
+        given = load_profile(profile)
         known_world = load_world(world)
-        self.wire = _connect(address, self.profile.wiring, node)
+        self.wire, wiring, said = reach(address, given.wiring, node)
+        self.profile = replace(given, wiring=wiring)
+        if not on_robot and drives_on_alone(given) and not is_on_this_machine(address):
+            self.profile = slowed(self.profile)
+            said = [*said, Reason("drives_on_alone", {"speed_mps": self.profile.limits.max_speed_mps})]
         self._emit = emit
         self._accept_others = accept_others
+        self._was_up = True
         self._seen: list[str] = []
         self._named: list[str] = []
+        self._motions: list[str] = []
         self._wake = threading.Event()
         self._plans: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._guard = GuardProcess(address, self.profile.wiring, clock)
@@ -94,22 +104,23 @@ class MotionRunner:
             self._plans.put,
             releasers,
         )
-        if isinstance(
-            self.wire, _PatientWire
-        ):  # a robot that nobody reached meanwhile holds what it heard last
+        if isinstance(self.wire, PatientWire):  # a robot that nobody reaches holds what it heard last
             self.wire.on_gone = lambda: self.motion.halt(Reason("wire_gone"))
         self._rivals = Rivals(self.wire, node, self.profile.wiring.cmd_vel_topic)
-        if not self._guard.wait_until_alive(CONNECT_S):
+        if not self._guard.wait_until_alive(GUARD_S):
             raise WireError("the guard did not start")
         self.motion.start(self.wire)
         self.wire.subscribe(USER_INPUT, Text, self._hear_user_input)
         self.wire.subscribe(STOP, Flag, self._hear_stop)
+        for reason in said:
+            self.notice(reason)
         self._look_around()
 
     def run(self, has_left: Callable[[], bool], each_tick: Callable[[], None]) -> None:
         """The control loop, until `has_left`; then the guard is told goodbye."""
         for target in (self._plan, self._listen_for_stop, self._watch):
             threading.Thread(target=target, daemon=True).start()
+        _settle_memory()
         next_s = time.monotonic()
         try:
             while not has_left():
@@ -194,6 +205,7 @@ class MotionRunner:
         count = 0
         while True:
             with contextlib.suppress(WireError):  # gone: the control loop will see it, too
+                self._mind_link()
                 self._rivals.beat()
                 if count % LOOK_EVERY == 0:
                     self._look_around()
@@ -208,58 +220,30 @@ class MotionRunner:
             reason = Reason("not_alone", {"who": ", ".join(others)}) if others else Reason("alone_again")
             self._named = others
             self.notice(reason)
+        self.motion.zeroing.others = ", ".join(others)
+        self._motions = motions
         self.motion.obstruction = self._obstruction(motions)
 
+    def _mind_link(self) -> None:
+        """Wi-Fi is gone, or back: say so, and see the robot stand, which may have held its last command meanwhile."""
+        is_there = is_up(self.wire)
+        if is_there == self._was_up:
+            return
+        self._was_up = is_there
+        self.motion.obstruction = self._obstruction(self._motions)
+        self.notice(Reason("wire_back" if is_there else "wire_gone"))
+        if is_there:
+            self.motion.post(self.motion.see_it_stand)
+
     def _obstruction(self, motions: list[str]) -> Reason | None:
-        if isinstance(self.wire, Returning) and not self.wire.is_connected:
+        if not is_up(self.wire):
             return Reason("wire_gone")
         if motions and not self._accept_others:
             return Reason("another_motion", {"who": ", ".join(motions)})
         return None
 
 
-class _PatientWire:
-    """A wire whose other end may return: what cannot be sent meanwhile is dropped, as on every other wire.
-
-    `on_gone` is called once for each time that it goes, by whatever thread finds out.
-    """
-
-    def __init__(self, wire: Wire) -> None:
-        self._wire = wire
-        self._is_gone = False
-        self.on_gone: Callable[[], None] = lambda: None
-
-    def publish(self, topic: str, message: Message) -> None:
-        try:
-            self._wire.publish(topic, message)
-        except WireError:
-            was_gone, self._is_gone = self._is_gone, True
-            if not was_gone:
-                self.on_gone()
-        else:
-            self._is_gone = False
-
-    def subscribe(self, topic: str, kind: type[M], callback: Callable[[M], None]) -> None:
-        self._wire.subscribe(topic, kind, callback)
-
-    def close(self) -> None:
-        self._wire.close()
-
-    @property
-    def is_connected(self) -> bool:
-        return isinstance(self._wire, Returning) and self._wire.is_connected
-
-
-def _connect(address: str, wiring: Wiring, node: str) -> Wire:
-    """The robot's wire; it may still be starting."""
-    deadline_s = time.monotonic() + CONNECT_S
-    while True:
-        try:
-            wire = connect_wire(address, wiring, node)
-        except WireError:
-            if time.monotonic() > deadline_s:
-                raise
-            time.sleep(0.01)
-        else:
-            advertise(wire, wiring.cmd_vel_topic, TwistMessage)
-            return _PatientWire(wire) if comes_back(wire) else wire
+def _settle_memory() -> None:
+    """What start-up has made stays: the collector need not look through it while the robot moves."""
+    gc.collect()
+    gc.freeze()

@@ -194,15 +194,20 @@ class Session:
     def _understand(self, said: _Said) -> None:
         meant = self.understanding.interpret(said.text)
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
-        self._emit(Interpreted(said.turn, "offline", plan_text, meant.reply))
+        interpreted = Interpreted(said.turn, "offline", plan_text, meant.reply)
+        if meant.outcome == "plan":
+            self._send_plan(
+                said, meant, plan_text
+            )  # before it is told: telling takes longer than the way to Motion
+            self._emit(interpreted)
+            return
+        self._emit(interpreted)
         if meant.outcome == "stop":
             self.stop(said.text[:80])
             self._conclude(said.turn, "stopped", meant.reply)
-        elif meant.outcome != "plan":
+        else:
             self.understanding.note_unmoved(said.text, meant)
             self._conclude(said.turn, meant.outcome, meant.reply)
-        else:
-            self._send_plan(said, meant, plan_text)
 
     def _read_plan(self, said: _Said) -> None:
         try:

@@ -7,7 +7,6 @@ import json
 import queue
 import socket
 import subprocess
-import sys
 import threading
 import time
 from typing import Any
@@ -15,6 +14,7 @@ from typing import Any
 from chatrobot.core.errors import JointError
 from chatrobot.core.events import Event, event_from_json
 from chatrobot.governor.lease import LOCAL_BEAT_HZ, LOCAL_TERM_S
+from chatrobot.session.child import spawn_with_line
 from chatrobot.session.envelope import READY, Word
 from chatrobot.session.joint import Sender
 from chatrobot.wire.local import PACKET_BYTES
@@ -39,20 +39,11 @@ class SocketJoint:
         self._closed = threading.Event()
         self.is_lost = False
         self.beats = True
-        ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        self._line = ours
-        command = [
-            *(sys.executable, "-m", "chatrobot.session.motion_process", "--fd", str(theirs.fileno())),
+        self.process, self._line = spawn_with_line(
+            "chatrobot.session.motion_process",
             *("--profile", profile, "--world", world, "--wire", wire_path),
-        ]
-        self.process = subprocess.Popen(
-            command,
-            pass_fds=[theirs.fileno()],
-            start_new_session=True,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,
+            kind=socket.SOCK_SEQPACKET,
         )
-        theirs.close()
 
     def wait_until_ready(self) -> None:
         """Block until Motion has its robot and its guard; then begin to beat."""

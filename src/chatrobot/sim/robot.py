@@ -33,7 +33,8 @@ class SimRobot:
     """A robot in a world. It holds its last command for ever, or for the profile's `base_timeout_s`.
 
     Topics are the profile's. Stamps are seconds of `clock`, read once at the start: afterwards time passes by
-    `step` alone. Wheels that cannot move the robot spin on unless the lies say that they stall.
+    `step` alone. It begins at `start`, in the frame of the world and of its odometry. Wheels that cannot move
+    the robot spin on unless the lies say that they stall.
     """
 
     def __init__(
@@ -44,6 +45,7 @@ class SimRobot:
         *,
         wire: Wire,
         clock: Clock,
+        start: Pose = ORIGIN,
     ) -> None:
         self._wiring = profile.wiring
         self._lies = lies
@@ -53,18 +55,20 @@ class SimRobot:
         self._surroundings = Surroundings(profile.footprint, [obstacle.shape for obstacle in world.obstacles])
         self._added: dict[str, Obstacle] = {}
         self._odometry = WheelOdometry(lies)
+        self._odometry.pose = start
         self._gyro = Gyro(lies)
         self._lidar = SimLidar(profile.lidar, lies) if profile.lidar and profile.wiring.scan_topic else None
         self._start_s = self._now_s = clock.now_s()
         self._ticks = 0
         self._command_ends_s = math.inf
         self._late: deque[tuple[float, str, Message]] = deque()
-        self._pose = ORIGIN
-        self._yaw_at_tick_rad = 0.0
+        self._pose = start
+        self._yaw_at_tick_rad = start.yaw_rad
         self._twist = ZERO_TWIST
         self._travelled_m = 0.0
         self._in_contact = False
-        self._contact_pose = ORIGIN
+        self._contact_pose = start
+        self._measures = self._scans = True
         wire.subscribe(self._wiring.cmd_vel_topic, TwistMessage, self._on_command)
 
     @property
@@ -91,6 +95,13 @@ class SimRobot:
     def now_s(self) -> float:
         """The time it has been stepped to."""
         return self._now_s
+
+    def listen_to(self, *, sensors: bool, lidar: bool) -> None:
+        """Which sensors anybody hears; the others are spared. Without any, time passes in longer strides."""
+        if sensors and not self._measures:
+            self._ticks = int((self._now_s - self._start_s + _SLACK_S) / TICK_S)
+            self._yaw_at_tick_rad = self._pose.yaw_rad
+        self._measures, self._scans = sensors, sensors and lidar
 
     def add_obstacle(self, name: str, shape: Shape) -> None:
         """Something appears (a name that is there already is replaced); `shape` in the world's frame."""
@@ -129,7 +140,7 @@ class SimRobot:
             self._command_ends_s = self._now_s + self._wiring.base_timeout_s
 
     def _next_event_s(self) -> float:
-        tick_s = self._start_s + (self._ticks + 1) * TICK_S
+        tick_s = self._start_s + (self._ticks + 1) * TICK_S if self._measures else math.inf
         late_s = self._late[0][0] if self._late else math.inf
         return min(tick_s, late_s, self._command_ends_s)
 
@@ -141,7 +152,7 @@ class SimRobot:
             self._command_ends_s = math.inf
             self._base.command(ZERO_TWIST)
             anything = True
-        if self._start_s + (self._ticks + 1) * TICK_S <= due_s:
+        if self._measures and self._start_s + (self._ticks + 1) * TICK_S <= due_s:
             self._ticks += 1
             self._measure()
             anything = True
@@ -226,6 +237,7 @@ class SimRobot:
             self._wire.publish(TRUTH_TOPIC, Odometry(stamp_s, *self._pose, *self._twist))
         if (
             self._lidar is not None
+            and self._scans
             and self._wiring.scan_topic
             and self._ticks % self._lidar.period_ticks == 0
         ):

@@ -3,13 +3,15 @@
 local:PATH                  the processes of this machine (a bare path means the same)
 dds:  dds://42  dds://42/robot1         a ROS 2 domain, by default ROS_DOMAIN_ID's; a robot's namespace
 rosbridge:ws://host:9090  …#robot1      a robot's rosbridge; a robot's namespace
+
+A namespace in the address goes before the one in the robot's profile.
 """
 
 from __future__ import annotations
 
 import os
 import re
-from typing import Protocol, runtime_checkable
+from typing import Literal, NamedTuple, Protocol, runtime_checkable
 
 from chatrobot.core.errors import UsageError
 from chatrobot.core.wiring import Wiring
@@ -30,7 +32,33 @@ class Discovering(Protocol):
         self, topic: str, kind: type[Message], timeout_s: float, count: int = 1
     ) -> bool: ...
 
+
+@runtime_checkable
+class Knowing(Protocol):
+    """A wire that knows who publishes."""
+
     def publishers_of(self, topic: str) -> list[str]: ...
+
+
+class Endpoint(NamedTuple):
+    """Somebody else's end of a topic. `topic` is absolute (`/robot1/odom`), `type_name` is `package/msg/Name`."""
+
+    topic: str
+    type_name: str
+    role: Literal["publishes", "listens"]
+
+
+@runtime_checkable
+class Surveying(Protocol):
+    """A wire that can tell who else is on it."""
+
+    def survey(self) -> list[Endpoint]:
+        """The endpoints of others, as far as they have been discovered."""
+        ...
+
+    def full_name(self, topic: str) -> str:
+        """A topic as `survey` names it."""
+        ...
 
 
 def connect_wire(address: str, wiring: Wiring, node_name: str) -> Wire:
@@ -79,7 +107,7 @@ def wait_for_listener(wire: Wire, topic: str, kind: type[Message], timeout_s: fl
 
 def publishers_of(wire: Wire, topic: str) -> list[str]:
     """Who publishes on `topic` besides our own session, by name, where the wire can know."""
-    return wire.publishers_of(topic) if isinstance(wire, Discovering) else []
+    return wire.publishers_of(topic) if isinstance(wire, Knowing) else []
 
 
 def comes_back(wire: Wire) -> bool:
@@ -112,7 +140,11 @@ def is_on_this_machine(address: str) -> bool:
 
         discovery = discovery_from(os.environ)
         return discovery.range in ("LOCALHOST", "OFF") and not discovery.peers and not discovery.uri
-    return scheme != "rosbridge"
+    if scheme == "rosbridge" and separator:
+        from urllib.parse import urlsplit
+
+        return urlsplit(address.partition(":")[2]).hostname in ("localhost", "127.0.0.1", "::1")
+    return True
 
 
 def _connect_dds(address: str, wiring: Wiring, node_name: str) -> Wire:
@@ -133,7 +165,7 @@ def _connect_dds(address: str, wiring: Wiring, node_name: str) -> Wire:
     return DdsWire(
         wiring,
         node_name,
-        namespace=match["namespace"] or "",
+        namespace=match["namespace"] or wiring.namespace,
         discovery=discovery_from(os.environ, domain_id),
     )
 
@@ -147,4 +179,4 @@ def _connect_rosbridge(rest: str, wiring: Wiring) -> Wire:
             allowed="pip install 'chatrobot[rosbridge]'",
         ) from error
     url, _, namespace = rest.partition("#")
-    return RosbridgeWire(url, wiring, namespace=namespace)
+    return RosbridgeWire(url, wiring, namespace=namespace or wiring.namespace)

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import contextlib
 import fcntl
+import itertools
 import json
+import queue
 import socket
 import struct
 import threading
@@ -23,17 +25,22 @@ from websockets.sync.client import ClientConnection, connect
 
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.core.wiring import Wiring
+from chatrobot.wire.connect import Endpoint
 from chatrobot.wire.messages import Message
 from chatrobot.wire.ros_messages import RosForm, ros_form, stamped
+from chatrobot.wire.rosapi import RosApi
 from chatrobot.wire.stamps import StampTranslator, to_wall_s
 from chatrobot.wire.wire import M
 
-OPEN_TIMEOUT_S = 5.0
+OPEN_TIMEOUT_S = 3.0
 UNACKNOWLEDGED_S = 1.0
 """A connection whose data is not acknowledged for this long is given up: when Wi-Fi comes back, the velocities of
 ten seconds must not pour out of the kernel's queue."""
 PING_S = 1.0
-FIRST_RETRY_S, LAST_RETRY_S = 0.05, 5.0
+FIRST_RETRY_S, LAST_RETRY_S = 0.05, 1.0
+"""A robot whose base holds its last command waits for our zero all the while."""
+ANSWER_S = 0.5
+"""A service of the robot's answers within this time, or is taken not to be there."""
 QUEUE_BYTES = 65_536
 """With more than this on its way the other end does not read: what comes now is dropped."""
 MESSAGE_BYTES = 8_388_608
@@ -87,6 +94,9 @@ class RosbridgeWire:
         self._subscriptions: dict[tuple[str, type], _Subscription] = {}
         self._advertised: dict[tuple[str, type], RosForm] = {}
         self._refused: dict[str, str] = {}
+        self._rosapi = RosApi(self._call)
+        self._answers: dict[str, queue.SimpleQueue[dict[str, Any]]] = {}
+        self._calls = itertools.count(1)
         self._ended = threading.Event()
         self._connection: ClientConnection | None = None
         try:
@@ -104,7 +114,7 @@ class RosbridgeWire:
         timed = stamped(message)
         if timed is not None:
             message = timed._replace(stamp_s=to_wall_s(timed.stamp_s))
-        self._send({"op": "publish", "topic": self._name(topic), "msg": form.to_ros(message)})
+        self._send({"op": "publish", "topic": self.full_name(topic), "msg": form.to_ros(message)})
 
     def subscribe(self, topic: str, kind: type[M], callback: Callable[[M], None]) -> None:
         with self._lock:
@@ -133,6 +143,32 @@ class RosbridgeWire:
     def is_connected(self) -> bool:
         """Whether the robot is there now."""
         return self._connection is not None
+
+    def survey(self) -> list[Endpoint]:
+        """The endpoints of others, as the robot's `rosapi` tells them; none where it does not run."""
+        return self._rosapi.survey()
+
+    def publishers_of(self, topic: str) -> list[str]:
+        """The nodes that publish on `topic`, without the bridge itself, as far as `rosapi` tells."""
+        return self._rosapi.publishers_of(self.full_name(topic))
+
+    def full_name(self, topic: str) -> str:
+        """`cmd_vel` in namespace `robot1` is `/robot1/cmd_vel`."""
+        if topic.startswith("/"):
+            return topic
+        return f"/{self._namespace}/{topic}" if self._namespace else f"/{topic}"
+
+    def _call(self, service: str, arguments: dict[str, Any]) -> dict[str, Any] | None:
+        """What a service of the robot answers; None where there is none, or no answer."""
+        number = f"call:{next(self._calls)}"
+        answer = self._answers[number] = queue.SimpleQueue()
+        try:
+            self._send({"op": "call_service", "id": number, "service": service, "args": arguments})
+            return answer.get(timeout=ANSWER_S)
+        except (WireError, queue.Empty):
+            return None
+        finally:
+            del self._answers[number]
 
     def _advertise(self, topic: str, kind: type[Message]) -> RosForm:
         with self._lock:
@@ -212,25 +248,22 @@ class RosbridgeWire:
             operation = heard.op
             if operation == "publish":
                 for (topic, _), subscription in tuple(self._subscriptions.items()):
-                    if self._name(topic) == heard.topic and not self._ended.is_set():
+                    if self.full_name(topic) == heard.topic and not self._ended.is_set():
                         subscription.deliver(heard.msg)
+            elif operation == "service_response" and heard.id in self._answers:
+                self._answers[heard.id].put(vars(heard.values) if heard.result else {})
             elif operation == "status" and heard.level == "error":
                 self._refused[str(heard.id)] = str(heard.msg)
         except (ValueError, TypeError, AttributeError, RecursionError):
             return
 
-    def _name(self, topic: str) -> str:
-        if topic.startswith("/"):
-            return topic
-        return f"/{self._namespace}/{topic}" if self._namespace else f"/{topic}"
-
     def _advertise_request(self, topic: str, form: RosForm) -> dict[str, Any]:
         request = {"op": "advertise", "id": _id("advertise", topic, form)}
-        return {**request, "topic": self._name(topic), "type": form.type_name}
+        return {**request, "topic": self.full_name(topic), "type": form.type_name}
 
     def _subscribe_request(self, topic: str, form: RosForm) -> dict[str, Any]:
         request = {"op": "subscribe", "id": _id("subscribe", topic, form)}
-        return {**request, "topic": self._name(topic), "type": form.type_name, "throttle_rate": 0}
+        return {**request, "topic": self.full_name(topic), "type": form.type_name, "throttle_rate": 0}
 
 
 def _id(operation: str, topic: str, form: RosForm) -> str:

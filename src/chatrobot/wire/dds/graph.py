@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 import uuid
-from collections.abc import Iterable
-from typing import Any
+from collections.abc import Iterable, Iterator
+from typing import Any, Literal
 
 from cyclonedds.builtin import (
     BuiltinDataReader,
     BuiltinTopicDcpsParticipant,
     BuiltinTopicDcpsPublication,
+    BuiltinTopicDcpsSubscription,
 )
 from cyclonedds.core import InstanceState, Policy, Qos
 from cyclonedds.domain import DomainParticipant
@@ -19,6 +20,8 @@ from cyclonedds.pub import DataWriter
 from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
 
+from chatrobot.wire.connect import Endpoint
+from chatrobot.wire.dds.names import ros_topic_name, ros_type_name
 from chatrobot.wire.dds.ros_types import MALFORMED, RosTypes
 
 _INFO_TOPIC = "ros_discovery_info"
@@ -56,6 +59,7 @@ class Graph:
         self._nodes: dict[uuid.UUID, str] = {}
         self._participants = BuiltinDataReader(participant, BuiltinTopicDcpsParticipant)
         self._publications = BuiltinDataReader(participant, BuiltinTopicDcpsPublication)
+        self._subscriptions = BuiltinDataReader(participant, BuiltinTopicDcpsSubscription)
 
     def announce(self, readers: Iterable[uuid.UUID], writers: Iterable[uuid.UUID]) -> None:
         """Say which endpoints are our node's; ROS lists a node once it has heard this."""
@@ -82,6 +86,19 @@ class Graph:
                 if publication.topic_name == dds_topic and publication.participant_key in strangers
             }
         )
+
+    def endpoints(self) -> list[Endpoint]:
+        """The ROS topics' endpoints of all other participants."""
+        return [
+            *self._others(self._publications, "publishes"),
+            *self._others(self._subscriptions, "listens"),
+        ]
+
+    def _others(self, reader: Any, role: Literal["publishes", "listens"]) -> Iterator[Endpoint]:
+        for sample in _alive(reader):
+            topic, type_name = ros_topic_name(sample.topic_name), ros_type_name(sample.type_name)
+            if topic and type_name and sample.participant_key != self._guid:
+                yield Endpoint(topic, type_name, role)
 
     def _strangers(self) -> dict[uuid.UUID, str]:
         """The participants that are not of our session: GUID and process."""

@@ -14,6 +14,7 @@ from cyclonedds.internal import dds_infinity
 
 from chatrobot.core.errors import WireError
 from chatrobot.core.wiring import Wiring
+from chatrobot.wire.connect import Endpoint
 from chatrobot.wire.dds.discovery import Discovery, configuration, discovery_from, machine_addresses
 from chatrobot.wire.dds.endpoints import Port, Reader, Writer
 from chatrobot.wire.dds.fence import fence_in
@@ -115,6 +116,14 @@ class DdsWire:
         """Who publishes on `topic` besides the processes of our own session, by name."""
         graph = self._graph
         return [] if graph is None else graph.publishers_of(self._name(topic))
+
+    def survey(self) -> list[Endpoint]:
+        """The endpoints of other participants, found so far."""
+        graph = self._graph
+        return [] if graph is None else graph.endpoints()
+
+    def full_name(self, topic: str) -> str:
+        return "/" + self._name(topic).removeprefix("rt/")
 
     def close(self) -> None:
         with self._lock:

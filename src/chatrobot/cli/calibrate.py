@@ -1,0 +1,172 @@
+"""`chatrobot calibrate`: one metre and one turn; a person measures, and the profile gets the correction."""
+
+from __future__ import annotations
+
+import argparse
+import datetime
+import math
+import os
+import queue
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from chatrobot.cli.approver import Approver
+from chatrobot.cli.choices import setup_from
+from chatrobot.cli.conversation import Conversation
+from chatrobot.cli.entry import FAILED, STOPPED
+from chatrobot.cli.folders import profile_folders
+from chatrobot.cli.lines import LineReader
+from chatrobot.cli.printer import printer_for
+from chatrobot.core.errors import UsageError
+from chatrobot.core.events import Result
+from chatrobot.language.data_files import load_table
+from chatrobot.reflex import is_stop
+from chatrobot.robots.calibration import (
+    DEGREES,
+    METRES,
+    Measured,
+    corrected,
+    read_measure,
+    save_calibration,
+)
+from chatrobot.robots.load import load_profile
+from chatrobot.robots.profile import RobotProfile
+from chatrobot.session.session import Options
+
+_YES = ("y", "yes", "ok", "是", "好", "好的", "可以")
+_SKIP = ("skip", "跳过")
+
+
+def run(args: argparse.Namespace) -> int:
+    """0 where a correction was saved or none is needed, 1 where the robot or the measure is not right, 5 for a stop."""
+    if args.json:
+        raise UsageError("a person has to measure", where="--json", allowed="calibrate without it")
+    folders = profile_folders(args)
+    profile = load_profile(args.robot, folders)
+    setup = replace(setup_from(args, options=Options(), world="empty"), yes=True)
+    with Conversation(setup, printer_for(args), Approver(can_ask=False)) as conversation:
+        dialogue = Dialogue(conversation)
+        try:
+            return _calibrate(dialogue, profile, args.robot, folders[0])
+        except Left:
+            return STOPPED
+        except DoesNotFit:
+            dialogue.say("does_not_fit", robot=args.robot)
+            return FAILED
+
+
+class Left(Exception):  # noqa: N818
+    """The person has gone, or wants no more of it."""
+
+
+class DoesNotFit(Exception):  # noqa: N818
+    """The robot did not do what its profile says it can."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One motion to measure: its plan, its phrases, and how an answer is read."""
+
+    name: str
+    plan_text: str
+    units: dict[str, float]
+
+
+METRE = Trial("metre", "drive 1 m", METRES)
+TURN = Trial("turn", "turn left 360 deg", DEGREES)
+
+
+class Dialogue:
+    """Asks, and hears the answers; a stop word stops the robot at once, whenever it comes."""
+
+    def __init__(self, conversation: Conversation) -> None:
+        self.conversation = conversation
+        self._phrases = load_table(_language(), "calibrate")
+        self._lines: queue.SimpleQueue[str] = queue.SimpleQueue()
+        self._reader = LineReader(self._hear)
+        self._reader.start()
+
+    def say(self, code: str, **values: object) -> None:
+        print(self._phrases[code].format(**values), flush=True)
+
+    def ask(self, code: str, **values: object) -> str:
+        """The answer, in lower case.
+
+        Raises:
+            Left: there will be none.
+        """
+        print(self._phrases[code].format(**values), end=" ", flush=True)
+        while self._lines.empty():
+            if self.conversation.is_leaving or (self._reader.has_ended and self._lines.empty()):
+                raise Left
+            self.conversation.wait()
+        answer = self._lines.get()
+        if is_stop(answer):
+            raise Left
+        return answer.casefold()
+
+    def drive(self, plan_text: str) -> Result:
+        """Have it done, and see it through."""
+        session = self.conversation.session
+        turn = session.say_plan(plan_text)
+        while turn not in session.results:
+            self.conversation.step()
+        if self.conversation.is_leaving or session.results[turn].outcome == "stopped":
+            raise Left
+        return session.results[turn]
+
+    def _hear(self, line: str) -> None:
+        if is_stop(line):
+            self.conversation.stop(line)
+        self._lines.put(line)
+
+
+def _calibrate(dialogue: Dialogue, profile: RobotProfile, robot: str, folder: Path) -> int:
+    dialogue.say("begin", robot=profile.title)
+    metre = _measure(dialogue, METRE)
+    turn = _measure(dialogue, TURN) if profile.can_turn_on_the_spot else None
+    if turn is None and not profile.can_turn_on_the_spot:
+        dialogue.say("no_turn")
+    if metre is None and turn is None:
+        dialogue.say("nothing_measured")
+        return 0
+    for measured in (metre, turn):
+        if measured is not None and not measured.is_plausible:
+            dialogue.say("implausible", true=measured.true, seen=measured.seen, robot=robot)
+            return FAILED
+    source = "; ".join(
+        f"{measured.true:g} {unit} measured for {measured.seen:.4g}"
+        for measured, unit in ((metre, "m"), (turn, "degrees"))
+        if measured is not None
+    )
+    source = f"chatrobot calibrate, {datetime.date.today().isoformat()}: {source}"
+    calibration = corrected(profile.calibration, metre, turn, source)
+    file = save_calibration(robot, calibration, folder)
+    dialogue.say("saved", file=file, distance=calibration.distance_scale, turn=calibration.turn_scale)
+    return 0
+
+
+def _measure(dialogue: Dialogue, trial: Trial) -> Measured | None:
+    """What the person measured, and what odometry saw; None where they skip it."""
+    answer = dialogue.ask(f"{trial.name}_ready")
+    if answer not in _YES:
+        if answer in _SKIP:
+            return None
+        raise Left
+    result = dialogue.drive(trial.plan_text)
+    if result.outcome != "completed":
+        raise DoesNotFit
+    seen = result.path_m if trial is METRE else math.degrees(abs(result.turned_rad))
+    while True:
+        true = read_measure(dialogue.ask(f"{trial.name}_measure", seen=seen), trial.units)
+        if true is not None and true > 0.0:
+            return Measured(true, seen)
+        dialogue.say("no_number")
+
+
+def _language() -> str:
+    """Of the terminal: nobody has said anything yet."""
+    locale = next(
+        (os.environ[name] for name in ("LC_ALL", "LC_MESSAGES", "LANG") if os.environ.get(name)), ""
+    )
+    return "zh" if locale.startswith("zh") else "en"

@@ -1,0 +1,62 @@
+"""`chatrobot fake-model SCRIPT.yaml`: a scripted stand-in for a language model, until Ctrl-C."""
+
+from __future__ import annotations
+
+import argparse
+import secrets
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+from chatrobot.cli.entry import STOPPED
+from chatrobot.cli.json_lines import json_line
+from chatrobot.core.errors import UsageError
+from chatrobot.models.discovery import LOOPBACK
+from chatrobot.models.fake.script import load_script
+from chatrobot.models.fake.server import Call, FakeModel
+
+
+def run(args: argparse.Namespace) -> int:
+    """Until Ctrl-C. Beyond loopback callers need a token, which is printed."""
+    script = load_script(Path(args.script))
+    token = ""
+    if args.host not in LOOPBACK and not script.keys:
+        token = secrets.token_urlsafe(24)
+        script = replace(script, keys=(token,))
+    fake = FakeModel(script, host=args.host, port=args.port, on_call=_show_json if args.json else _show)
+    try:
+        fake.start()
+    except OSError as error:
+        raise UsageError(
+            f"cannot listen on {args.host}:{args.port}: {error.strerror}", allowed="--port 0"
+        ) from None
+    _tell(fake, token, script.models[0], as_json=args.json)
+    try:
+        fake.closing.wait()
+    except KeyboardInterrupt:
+        fake.stop()
+    return STOPPED
+
+
+def _tell(fake: FakeModel, token: str, model: str, *, as_json: bool) -> None:
+    if as_json:
+        sys.stdout.write(json_line({"event": "listening", "url": fake.url, "model": model}))
+        sys.stdout.flush()
+        return
+    print(f"a fake model listens on {fake.url}; it ends with Ctrl-C. To use it:")
+    print(f"  export OPENAI_BASE_URL={fake.url}/v1 OPENAI_API_KEY={token or 'any'}")
+    print(f"  chatrobot --model openai:{model}")
+    print("OpenAI (Chat Completions, Responses), Anthropic, Google and Ollama are understood.", flush=True)
+
+
+def _show(call: Call) -> None:
+    print(f"{call.path}  {' '.join(_said(call).split())[:100]}", flush=True)
+
+
+def _show_json(call: Call) -> None:
+    sys.stdout.write(json_line({"event": "call", "path": call.path, "said": _said(call)}))
+    sys.stdout.flush()
+
+
+def _said(call: Call) -> str:
+    return call.asked.said if call.asked is not None else ""

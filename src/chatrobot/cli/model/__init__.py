@@ -1,0 +1,1 @@
+"""`chatrobot model`: language models set up, listed, tested, chosen."""

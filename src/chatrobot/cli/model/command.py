@@ -1,0 +1,147 @@
+"""`chatrobot model [setup|list|test|use|key] [PROVIDER[:NAME]]`."""
+
+from __future__ import annotations
+
+import argparse
+import getpass
+import sys
+from urllib.parse import urlsplit
+
+from chatrobot.cli.folders import config_folder
+from chatrobot.core.errors import UsageError
+from chatrobot.language.phrases import render_reason
+from chatrobot.models.choice import resolve, store_choice
+from chatrobot.models.config import ModelConfig
+from chatrobot.models.discovery import find_local, listed_models
+from chatrobot.models.keys import KeyringError, delete_key, find_key, store_key, where_key_is
+from chatrobot.models.providers import Provider, providers, split_name
+from chatrobot.models.seam import ModelError
+from chatrobot.models.secret import Secret
+
+_SHOWN = 40
+NONE = "none"
+
+
+def run(args: argparse.Namespace) -> int:
+    """0 where it worked, 1 where the model did not answer."""
+    config = ModelConfig(folder=config_folder(args), session="model test")
+    try:
+        return _ACTIONS[args.action](args, config)
+    except ModelError as error:
+        raise UsageError(render_reason(error.reason, "en")) from None
+
+
+def _setup(args: argparse.Namespace, config: ModelConfig) -> int:
+    if not sys.stdin.isatty():
+        code = _list(args, config)
+        print("\nto choose: chatrobot model use PROVIDER:NAME")
+        return code
+    from chatrobot.cli.model.wizard import set_up
+
+    return set_up(config)
+
+
+def _list(args: argparse.Namespace, config: ModelConfig) -> int:
+    if args.name:
+        return _list_one(args.name.partition(":")[0], config)
+    choice = resolve(args.model, config)
+    print(f"in use: {choice.name} ({choice.source})" if choice else "in use: none")
+    servers = find_local(config)
+    print("\non this machine:" if servers else "\non this machine: no Ollama, llama.cpp or vLLM answers")
+    for server in servers:
+        for name in server.models[:_SHOWN]:
+            print(f"  {server.provider}:{name:<40} {server.address}")
+    print("\nproviders:")
+    for provider in providers().values():
+        example = f"{provider.name}:{provider.example}"
+        print(f"  {example:<34} {_key_state(provider, config):<34} {provider.title}")
+    return 0
+
+
+def _key_state(provider: Provider, config: ModelConfig) -> str:
+    where = where_key_is(provider, config)
+    if where:
+        return f"key: {where}"
+    if not provider.needs_key:
+        return "needs no key"
+    return f"no key ({provider.key_variables[0]})"
+
+
+def _list_one(name: str, config: ModelConfig) -> int:
+    provider = provider_named(name)
+    models = listed_models(provider, config, find_key(provider, config))
+    if models is None:
+        print(
+            f"{urlsplit(provider.address(config)).netloc or provider.name} does not list its models",
+            file=sys.stderr,
+        )
+        return 1
+    for model in models:
+        print(f"{provider.name}:{model}")
+    return 0
+
+
+def _test(args: argparse.Namespace, config: ModelConfig) -> int:
+    from chatrobot.cli.model.trial import try_model
+
+    choice = resolve(args.name or args.model, config)
+    if choice is None:
+        raise UsageError("no model is chosen", allowed="chatrobot model test PROVIDER:NAME")
+    return try_model(choice.name, config, as_json=args.json)
+
+
+def _use(args: argparse.Namespace, config: ModelConfig) -> int:
+    from chatrobot.cli.model.trial import try_model
+
+    if not args.name:
+        raise UsageError("which model?", allowed="chatrobot model use PROVIDER:NAME, or: use none")
+    assert config.folder is not None
+    if args.name == NONE:
+        store_choice("", config.folder)
+        print("no model is used any more; what is understood offline still works")
+        return 0
+    split_name(args.name)
+    path = store_choice(args.name, config.folder)
+    print(f"{args.name} is your model from now on ({path})")
+    return try_model(args.name, config, as_json=args.json)
+
+
+def _key(args: argparse.Namespace, config: ModelConfig) -> int:  # noqa: ARG001 - one form for all actions
+    provider = provider_named(args.name.partition(":")[0])
+    if not provider.key_variables:
+        raise UsageError(f"{provider.name} has no key")
+    try:
+        if args.delete:
+            delete_key(provider)
+            print(f"the key of {provider.name} is no longer in the keyring")
+            return 0
+        secret = read_secret(provider)
+        if not secret:
+            raise UsageError("no key was given")
+        store_key(provider, secret)
+    except KeyringError as error:
+        raise UsageError(str(error), allowed=f"export {provider.key_variables[0]}=…") from None
+    print(f"the key of {provider.name} is in the keyring")
+    return 0
+
+
+def read_secret(provider: Provider) -> Secret:
+    """A key typed without being shown, or the first line of standard input where that is a pipe."""
+    if not sys.stdin.isatty():
+        return Secret(sys.stdin.readline())
+    return Secret(getpass.getpass(f"key for {provider.title} (not shown; made at {provider.key_page}): "))
+
+
+def provider_named(name: str) -> Provider:
+    """The provider of that name.
+
+    Raises:
+        UsageError: there is none.
+    """
+    provider = providers().get(name.strip().lower())
+    if provider is None:
+        raise UsageError(f"there is no provider {name!r}", allowed=", ".join(providers()))
+    return provider
+
+
+_ACTIONS = {"setup": _setup, "list": _list, "test": _test, "use": _use, "key": _key}

@@ -1,0 +1,73 @@
+"""Which model is meant: `--model`, else CHATROBOT_MODEL, else what `chatrobot model use` stored, else none."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+from chatrobot.core.errors import InputError
+from chatrobot.models.config import ModelConfig
+
+FILE = "model.toml"
+VARIABLE = "CHATROBOT_MODEL"
+Source = Literal["option", "environment", "stored"]
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A model by name (`PROVIDER:NAME`) and who chose it."""
+
+    name: str
+    source: Source
+
+
+def resolve(option: str, config: ModelConfig) -> Choice | None:
+    """The model to use, or None where none is set up. `option` is what `--model` said, "" for nothing.
+
+    Raises:
+        InputError: the stored choice cannot be read.
+    """
+    if option.strip():
+        return Choice(option.strip(), "option")
+    if name := config.variable(VARIABLE):
+        return Choice(name, "environment")
+    stored = read_choice(config)
+    return Choice(stored, "stored") if stored else None
+
+
+def read_choice(config: ModelConfig) -> str:
+    """The stored choice, or "".
+
+    Raises:
+        InputError: the file cannot be read.
+    """
+    if config.folder is None:
+        return ""
+    path = config.folder / FILE
+    try:
+        return str(tomllib.loads(path.read_text(encoding="utf-8")).get("model", ""))
+    except FileNotFoundError:
+        return ""
+    except (OSError, ValueError) as error:
+        raise InputError(str(error), where=str(path), allowed='model = "PROVIDER:NAME"') from None
+
+
+def store_choice(name: str, folder: Path) -> Path:
+    """Keep it for later sessions; "" keeps that there is none. Returns the file.
+
+    Raises:
+        OSError: the folder cannot be written.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / FILE
+    quoted = name.replace("\\", "\\\\").replace('"', '\\"')
+    text = f'# The language model of new sessions. Keys are never kept here.\nmodel = "{quoted}"\n'
+    path.write_text(text, encoding="utf-8")
+    return path

@@ -1,0 +1,101 @@
+"""Model servers on this machine, found by asking the usual ports of loopback, all at once; and what a server lists."""
+
+from __future__ import annotations
+
+import http.client
+import json
+import threading
+from dataclasses import dataclass
+from typing import Any
+from urllib.parse import SplitResult, urlsplit
+
+from chatrobot.models.config import ModelConfig
+from chatrobot.models.providers import Provider, providers
+from chatrobot.models.secret import Secret
+
+PROBE_S = 0.4
+LIST_S = 10.0
+LOOPBACK = frozenset({"127.0.0.1", "localhost", "::1"})
+_LIST_BYTES = 5_000_000
+_LOCAL = ("ollama", "llamacpp", "vllm")
+_OTHER = "openai-compatible"
+_OTHER_ADDRESS = "http://127.0.0.1:1234/v1"
+"""Where LM Studio listens, unless OPENAI_BASE_URL names a place."""
+
+
+@dataclass(frozen=True)
+class LocalServer:
+    """A server that answered: the provider it is, its base URL and the models it lists."""
+
+    provider: str
+    address: str
+    models: tuple[str, ...]
+
+
+def find_local(config: ModelConfig, *, timeout_s: float = PROBE_S) -> list[LocalServer]:
+    """Every model server on loopback that answers in time, in the order of our table."""
+    places = [(name, providers()[name].address(config)) for name in _LOCAL if name in providers()]
+    places.append((_OTHER, providers()[_OTHER].address(config) or _OTHER_ADDRESS))
+    found: dict[int, LocalServer] = {}
+
+    def probe(index: int, provider: str, address: str) -> None:
+        models = _served(urlsplit(address), timeout_s)
+        if models:
+            found[index] = LocalServer(provider, address, models)
+
+    threads = [
+        threading.Thread(target=probe, args=(index, provider, address), daemon=True)
+        for index, (provider, address) in enumerate(places)
+        if urlsplit(address).hostname in LOOPBACK
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(2 * timeout_s)
+    return [found[index] for index in sorted(found)]
+
+
+def _served(address: SplitResult, timeout_s: float) -> tuple[str, ...]:
+    body = _get(address, "/models", {}, timeout_s)
+    return _names(body) if body is not None else ()
+
+
+def listed_models(provider: Provider, config: ModelConfig, secret: Secret | None) -> tuple[str, ...] | None:
+    """The models that a provider lists for this key, or None where it does not answer or refuses."""
+    address = urlsplit(provider.address(config))
+    key = secret.reveal() if secret else ""
+    if provider.wire == "anthropic":
+        return _listed(address, "/v1/models?limit=100", {"x-api-key": key, "anthropic-version": "2023-06-01"})
+    if provider.wire == "google":
+        return _listed(address, "/v1beta/models?pageSize=200", {"x-goog-api-key": key})
+    return _listed(address, "/models", {"Authorization": f"Bearer {key}"} if key else {})
+
+
+def _listed(address: SplitResult, path: str, headers: dict[str, str]) -> tuple[str, ...] | None:
+    body = _get(address, path, headers, LIST_S)
+    return _names(body) if body is not None else None
+
+
+def _names(body: Any) -> tuple[str, ...]:
+    """The names in a list of models, in anyone's form."""
+    rows = (body.get("data") or body.get("models") or []) if isinstance(body, dict) else []
+    names = [row.get("id") or row.get("name") for row in rows if isinstance(row, dict)]
+    return tuple(str(name).removeprefix("models/") for name in names if name)
+
+
+def _get(address: SplitResult, path: str, headers: dict[str, str], timeout_s: float) -> Any | None:
+    """The JSON at that path, or None. Follows no redirect."""
+    if not address.hostname:
+        return None
+    kind = http.client.HTTPSConnection if address.scheme == "https" else http.client.HTTPConnection
+    connection = kind(address.hostname, address.port, timeout=timeout_s)
+    try:
+        connection.request(
+            "GET", address.path.rstrip("/") + path, headers={"Accept": "application/json", **headers}
+        )
+        answer = connection.getresponse()
+        return json.loads(answer.read(_LIST_BYTES)) if answer.status == 200 else None
+    except (OSError, ValueError, http.client.HTTPException):
+        return None
+    finally:
+        connection.close()

@@ -1,0 +1,191 @@
+"""The script of a fake model, in YAML (docs/models.md describes it for users).
+
+model: fake                 # the name it lists
+keys: [sk-test]             # others are answered with 401; left out: anyone may ask
+tokens_per_s: 50            # for all replies; 0 or left out: at once
+replies:
+  - match: "go (\\d+)"       # a regular expression, looked for in what the user said last
+    text: "drive {1} m"     # {1} is the first group
+  - text: "turn left"       # without match: served once, in this order
+    times: 2                #   … or so many times
+  - error: {status: 429, retry_after_s: 20}
+"""
+
+from __future__ import annotations
+
+import re
+import threading
+from dataclasses import dataclass, field, fields
+from pathlib import Path
+from typing import Any
+
+from chatrobot.core.errors import InputError
+
+_TOKEN = re.compile(r"\s*\S{1,4}|\s+")
+_HUGE_PIECE = "na " * 1365
+"""4 kB: what a huge reply is made of."""
+_TOP = ("model", "models", "keys", "tokens_per_s", "first_piece_s", "replies", "otherwise")
+
+
+class ScriptError(InputError):
+    """A script of a fake model cannot be used."""
+
+
+@dataclass(frozen=True)
+class HttpError:
+    """An answer that is an error. `body` replaces the provider's usual form."""
+
+    status: int = 500
+    message: str = "the script says so"
+    code: str = ""
+    retry_after_s: float | None = None
+    body: str | None = None
+
+
+@dataclass(frozen=True)
+class ToolCall:
+    """A call of a tool that nobody offered."""
+
+    name: str
+    arguments: str = "{}"
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What one call gets. Counts are in tokens (about four characters), times in seconds."""
+
+    text: str = ""
+    match: re.Pattern[str] | None = None
+    times: int | None = None
+    tokens_per_s: float = 0.0
+    first_piece_s: float = 0.0
+    error: HttpError | None = None
+    cut_off_after: int | None = None
+    hang_after: int | None = None
+    refusal: str = ""
+    tool_calls: tuple[ToolCall, ...] = ()
+    huge_mb: float = 0.0
+    finish: str = "stop"
+    raw: str | None = None
+    content_type: str = "text/event-stream"
+    prompt_tokens: int | None = None
+    cached_tokens: int = 0
+    uncounted: bool = False
+
+    def tokens(self, said: str) -> list[str]:
+        """The reply to what was said, piece by piece; joined it is the text to the letter."""
+        text = self.text
+        found = self.match.search(said) if self.match is not None else None
+        for index, group in enumerate(found.groups() if found else (), start=1):
+            text = text.replace(f"{{{index}}}", group or "")
+        return _TOKEN.findall(text) + [_HUGE_PIECE] * int(self.huge_mb * 1e6 / len(_HUGE_PIECE))
+
+    @property
+    def reason(self) -> str:
+        """Why it ends, in OpenAI's words."""
+        if self.refusal:
+            return "content_filter"
+        return "tool_calls" if self.tool_calls else self.finish
+
+
+@dataclass
+class Script:
+    """Answers in order; locked, as calls may come at the same time."""
+
+    answers: tuple[Answer, ...]
+    models: tuple[str, ...] = ("fake",)
+    keys: tuple[str, ...] = ()
+    otherwise: Answer = field(
+        default_factory=lambda: Answer(
+            error=HttpError(500, "the script has no answer for this", "script_ended")
+        )
+    )
+    _served: dict[int, int] = field(default_factory=dict)
+    _lock: threading.Lock = field(default_factory=threading.Lock)
+
+    def answer(self, said: str) -> Answer:
+        """The first answer that fits and is not used up."""
+        with self._lock:
+            for index, answer in enumerate(self.answers):
+                limit = answer.times if answer.times is not None else None if answer.match else 1
+                if limit is not None and self._served.get(index, 0) >= limit:
+                    continue
+                if answer.match is None or answer.match.search(said):
+                    self._served[index] = self._served.get(index, 0) + 1
+                    return answer
+            return self.otherwise
+
+
+def load_script(path: Path) -> Script:
+    """Read a script.
+
+    Raises:
+        ScriptError: the file, what is wrong in it and what is allowed.
+    """
+    import yaml
+
+    try:
+        data = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ScriptError(error.strerror or "cannot be read", where=str(path)) from None
+    except (UnicodeDecodeError, yaml.YAMLError) as error:
+        raise ScriptError(" ".join(str(error).split()), where=str(path), allowed="a YAML file") from None
+    return read_script(data, where=str(path))
+
+
+def read_script(data: Any, where: str = "script") -> Script:
+    """A script from what YAML gave.
+
+    Raises:
+        ScriptError: what is wrong in it and what is allowed.
+    """
+    if isinstance(data, list):
+        data = {"replies": data}
+    if not isinstance(data, dict):
+        raise ScriptError("no script", where=where, allowed="replies: a list")
+    _known(data, _TOP, where)
+    usual = {key: data[key] for key in ("tokens_per_s", "first_piece_s") if key in data}
+    rows = data.get("replies", [])
+    if not isinstance(rows, list):
+        raise ScriptError("replies is no list", where=where, allowed="replies: [{text: …}, …]")
+    answers = tuple(
+        _answer(row, usual, f"{where}: reply {number}") for number, row in enumerate(rows, start=1)
+    )
+    models = data.get("models", [data.get("model", "fake")])
+    script = Script(answers, tuple(map(str, models)), tuple(map(str, data.get("keys", ()))))
+    if "otherwise" in data:
+        script.otherwise = _answer(data["otherwise"], usual, f"{where}: otherwise")
+    return script
+
+
+def _answer(row: Any, usual: dict[str, Any], where: str) -> Answer:
+    if isinstance(row, str):
+        row = {"text": row}
+    if not isinstance(row, dict):
+        raise ScriptError("neither a text nor a mapping", where=where, allowed="text: …")
+    _known(row, tuple(entry.name for entry in fields(Answer)), where)
+    values: dict[str, Any] = {**usual, **row}
+    try:
+        if "match" in values:
+            values["match"] = re.compile(str(values["match"]), re.IGNORECASE)
+        if "error" in values:
+            _known(values["error"], tuple(entry.name for entry in fields(HttpError)), f"{where}: error")
+            values["error"] = HttpError(**values["error"])
+        if "tool_calls" in values:
+            values["tool_calls"] = tuple(ToolCall(**call) for call in values["tool_calls"])
+        for name in ("tokens_per_s", "first_piece_s", "huge_mb"):
+            values[name] = float(values.get(name) or 0.0)
+        values["text"] = str(values.get("text", ""))
+        return Answer(**values)
+    except re.error as error:
+        raise ScriptError(f"match is no regular expression: {error}", where=where) from None
+    except (TypeError, ValueError) as error:
+        raise ScriptError(str(error), where=where) from None
+
+
+def _known(row: Any, names: tuple[str, ...], where: str) -> None:
+    if not isinstance(row, dict):
+        raise ScriptError("no mapping", where=where, allowed=", ".join(names))
+    for key in row:
+        if key not in names:
+            raise ScriptError(f"unknown: {key}", where=where, allowed=", ".join(names))

@@ -1,0 +1,192 @@
+"""`make_model("PROVIDER:NAME", config)`: a model behind the seam. Making one touches nothing; `warm` loads ahead."""
+
+from __future__ import annotations
+
+import asyncio
+import importlib
+import threading
+from collections.abc import Sequence
+from typing import Any
+
+from chatrobot.core.reason import Reason
+from chatrobot.models import background
+from chatrobot.models.config import ModelConfig
+from chatrobot.models.conversation import Conversation
+from chatrobot.models.failures import Place, reason_of
+from chatrobot.models.keys import find_key
+from chatrobot.models.prices import priced
+from chatrobot.models.providers import Provider, split_name
+from chatrobot.models.reply import Sink, StreamedReply
+from chatrobot.models.seam import CallLimits, Message, Model, ModelError, Reply, Usage
+from chatrobot.models.secret import PieceScrubber, Secret
+from chatrobot.models.usage_log import record
+
+EXTRA = "pip install 'chatrobot[models]'"
+_LIBRARY = {
+    "openai": "pydantic_ai.models.openai",
+    "openai-responses": "pydantic_ai.models.openai",
+    "anthropic": "pydantic_ai.models.anthropic",
+    "google": "pydantic_ai.models.google",
+}
+
+
+def make_model(name: str, config: ModelConfig | None = None) -> Model:
+    """The model that `PROVIDER:NAME` names. The key is looked for at the first call.
+
+    Raises:
+        ModelError: `model_unknown`, where no provider has that name.
+    """
+    config = config or ModelConfig()
+    provider, model = split_name(name)
+    if provider.make is not None:
+        return provider.make(model, config)
+    return LibraryModel(provider, model, config)
+
+
+def warm(model: Model, *, wait_s: float = 0.0) -> None:
+    """Begin to load what that model needs, in the background; wait so long for it. Its first call tells of errors."""
+    if isinstance(model, LibraryModel):
+        done = threading.Event()
+        background.start(model.get_ready(), lambda task: task.add_done_callback(lambda _: done.set()))
+        if wait_s:
+            done.wait(wait_s)
+
+
+def _load(provider: Provider) -> Any:
+    """The file that knows the library, once the library itself has been loaded.
+
+    Raises:
+        ModelError: `model_missing_extra`.
+    """
+    try:
+        importlib.import_module(_LIBRARY[provider.wire])
+        return importlib.import_module("chatrobot.models.library")
+    except ImportError:
+        raise ModelError(
+            Reason("model_missing_extra", {"command": EXTRA, "provider": provider.name})
+        ) from None
+
+
+class LibraryModel:
+    """A `Model` (see `seam`) on the model library."""
+
+    def __init__(self, provider: Provider, model: str, config: ModelConfig) -> None:
+        self._provider = provider
+        self._model = model
+        self._config = config
+        self._address = provider.address(config)
+        self._conversation = Conversation(config) if provider.wire == "openai-responses" else None
+        self._secret: Secret | None = None
+        self._built: Any = None
+
+    @property
+    def name(self) -> str:
+        return f"{self._provider.name}:{self._model}"
+
+    def ask(self, messages: Sequence[Message], limits: CallLimits) -> Reply:
+        """Begin a call; see `seam.Model`."""
+        messages = tuple(messages)
+
+        async def produce(sink: Sink) -> None:
+            await self._produce(messages, limits, sink)
+
+        return StreamedReply(
+            produce,
+            limits,
+            prompt_chars=sum(len(message.text) for message in messages),
+            price=lambda usage: priced(usage, self._provider.name, self._model, self._config.folder),
+            on_end=self._record,
+        )
+
+    def forget(self) -> None:
+        """Begin a new conversation where the server holds it."""
+        if self._conversation is not None:
+            self._conversation.forget()
+
+    async def get_ready(self) -> None:
+        """Do what the first call would do before it sends anything. In the background thread."""
+        try:
+            library = _load(self._provider)
+            await self._find_key()
+            if self._address:
+                self._build(library)
+        except Exception:  # noqa: BLE001 - the first call meets the same, and tells
+            return
+
+    async def _produce(self, messages: Sequence[Message], limits: CallLimits, sink: Sink) -> None:
+        library = _load(self._provider)
+        await self._find_key()
+        place = Place(self._provider, self._model, self._address, self._secret)
+        if not self._secret and self._provider.needs_key:
+            raise ModelError(place.reason("model_no_key"))
+        if not self._address:
+            raise ModelError(place.reason("model_no_address", variable=self._provider.base_url_variables[0]))
+        try:
+            self._build(library)
+            sink.begin()
+            try:
+                await self._stream(library, messages, limits, sink, place)
+            except Exception as error:
+                if self._conversation is None or not self._conversation.is_lost(error):
+                    raise
+                await self._stream(library, messages, limits, sink, place)
+        except ModelError:
+            raise
+        except Exception as error:  # noqa: BLE001 - a hostile reply may make the library raise anything
+            reason = reason_of(error, place)
+        else:
+            return
+        raise ModelError(reason)  # out here, so that no provider's error with its headers hangs on to it
+
+    async def _find_key(self) -> None:
+        if self._secret is None:
+            # A keyring may ask its user to unlock it: not in the thread that all calls share.
+            finding = asyncio.get_running_loop().run_in_executor(None, find_key, self._provider, self._config)
+            self._secret = await finding
+
+    def _build(self, library: Any) -> None:
+        if self._built is None:
+            self._built = library.build(self._provider, self._model, self._address, self._secret)
+
+    async def _stream(
+        self, library: Any, messages: Sequence[Message], limits: CallLimits, sink: Sink, place: Place
+    ) -> None:
+        request = library.Request(messages, limits)
+        if self._conversation is not None:
+            self._conversation.prepare(request, messages)
+        scrubber = PieceScrubber(self._secret)
+        has_text = False
+        try:
+            async for piece in library.stream(self._built, self._provider, request):
+                has_text = has_text or bool(piece.strip())
+                sink.put(scrubber.feed(piece))
+            sink.put(scrubber.rest())
+        finally:
+            if request.ending.usage is not None:
+                sink.count(request.ending.usage)
+        _judge(request.ending, place, limits, has_text=has_text)
+        if self._conversation is not None:
+            self._conversation.answered(request.ending.response_id)
+
+    def _record(self, usage: Usage) -> None:
+        record(self._config, self.name, usage)
+
+
+def _judge(ending: Any, place: Place, limits: CallLimits, *, has_text: bool) -> None:
+    """Whether what came is a whole reply.
+
+    Raises:
+        ModelError: it is not.
+    """
+    if ending.finish == "content_filter":
+        raise ModelError(place.reason("model_refused", said=ending.refusal))
+    if ending.finish == "length":
+        raise ModelError(place.reason("model_too_long", limit_tokens=limits.reply_tokens))
+    if ending.tool:
+        raise ModelError(place.reason("model_called_tool", tool=place.quote(ending.tool)[:60]))
+    if ending.finish == "error":
+        raise ModelError(place.reason("model_server_error", status=200))
+    if not ending.is_whole:
+        raise ModelError(place.reason("model_cut_off"))
+    if not has_text:
+        raise ModelError(place.reason("model_empty"))

@@ -1,0 +1,175 @@
+"""A reply under way: pieces cross from the background thread to whoever iterates; time limits and `cancel` live here.
+
+The limits are kept by the waiting side: they hold even if the background thread hangs in a name look-up.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import queue
+import time
+from collections.abc import Awaitable, Callable, Iterator
+from typing import Protocol
+
+from chatrobot.core.reason import Reason
+from chatrobot.models import background
+from chatrobot.models.seam import CallLimits, ModelError, Usage
+
+STARTUP_S = 60.0
+"""What loading the library and asking the keyring may take before a call's own time begins."""
+CHARS_PER_TOKEN = 4
+
+
+class Sink(Protocol):
+    """Where a call puts what it gets. Used in the background thread."""
+
+    def begin(self) -> None:
+        """The request goes out now: its time begins."""
+
+    def put(self, piece: str) -> None:
+        """One piece of text.
+
+        Raises:
+            ModelError: the reply is longer than allowed.
+        """
+
+    def count(self, usage: Usage) -> None:
+        """What the provider says the call has used."""
+
+
+class StreamedReply:
+    """A `Reply` (see `seam`) that `produce` fills from the background thread.
+
+    `prompt_chars` serves the estimate of
+    tokens where a provider counts none; `on_end` hears the usage once, in the background thread.
+    """
+
+    def __init__(
+        self,
+        produce: Callable[[Sink], Awaitable[None]],
+        limits: CallLimits,
+        *,
+        prompt_chars: int = 0,
+        price: Callable[[Usage], Usage] = lambda usage: usage,
+        on_end: Callable[[Usage], None] = lambda _: None,
+    ) -> None:
+        self._produce = produce
+        self._limits = limits
+        self._prompt_chars = prompt_chars
+        self._price = price
+        self._on_end = on_end
+        self._items: queue.SimpleQueue[str | ModelError | None] = queue.SimpleQueue()
+        self._asked_s = time.monotonic()
+        self._began_s: float | None = None
+        self._has_piece = False
+        self._chars = 0
+        self._usage: Usage | None = None
+        self._ended = self._cancelled = False
+        self._task: asyncio.Task[None] | None = None
+        background.start(self._run(), self._keep)
+
+    @property
+    def usage(self) -> Usage | None:
+        """What the call used, once it has ended; an estimate where the provider did not count."""
+        return (self._usage or self._estimate()) if self._ended else None
+
+    def __iter__(self) -> Iterator[str]:
+        """The pieces as they arrive; see `seam.Reply`."""
+        try:
+            while (item := self._next()) is not None:
+                if isinstance(item, ModelError):
+                    raise item
+                self._has_piece = True
+                yield item
+        finally:
+            self.cancel()
+
+    def cancel(self) -> None:
+        """End the call now, from any thread; the iteration ends without an error."""
+        if self._cancelled:
+            return
+        self._cancelled = True
+        self._items.put(None)
+        if not self._ended:
+            self._ended = True
+            background.soon(self._end_task)
+
+    def _next(self) -> str | ModelError | None:
+        if self._cancelled:
+            return None
+        while True:
+            try:
+                item = self._items.get(timeout=max(0.0, self._deadline_s() - time.monotonic()))
+            except queue.Empty:
+                if time.monotonic() < self._deadline_s():
+                    continue  # the request went out while we waited, and its own time counts now
+                return self._too_late()
+            if item == "":
+                continue
+            return None if self._cancelled else item
+
+    def _deadline_s(self) -> float:
+        if self._began_s is None:
+            return self._asked_s + STARTUP_S
+        total_s = self._began_s + self._limits.total_s
+        return total_s if self._has_piece else min(total_s, self._began_s + self._limits.first_piece_s)
+
+    def _too_late(self) -> ModelError:
+        if self._began_s is None:
+            return ModelError(Reason("model_timeout", {"limit_s": STARTUP_S}))
+        if not self._has_piece and self._limits.first_piece_s < self._limits.total_s:
+            return ModelError(Reason("model_first_piece_timeout", {"limit_s": self._limits.first_piece_s}))
+        return ModelError(Reason("model_timeout", {"limit_s": self._limits.total_s}))
+
+    def _keep(self, task: asyncio.Task[None]) -> None:
+        self._task = task
+        if self._cancelled:
+            task.cancel()
+
+    def _end_task(self) -> None:
+        if self._task is not None:
+            self._task.cancel()
+
+    async def _run(self) -> None:
+        end: ModelError | None = ModelError(
+            Reason("model_broken_reply", {"host": "?", "said": "?"})
+        )  # whatever else should be raised
+        try:
+            await self._produce(self)
+            end = None
+        except ModelError as error:
+            end = error
+        except asyncio.CancelledError:  # a call that was given up has used tokens, too
+            end = None
+            raise
+        finally:
+            was_answered = end is None or self._chars > 0 or self._usage is not None
+            self._usage = self._usage or (self._estimate() if was_answered else Usage())
+            if self._began_s is not None and was_answered:
+                self._on_end(self._usage)
+            self._ended = True
+            self._items.put(end)
+
+    # What follows is the `Sink`.
+
+    def begin(self) -> None:
+        if self._began_s is None:
+            self._began_s = time.monotonic()
+            self._items.put("")  # wakes the waiting side, whose time limit has changed
+
+    def put(self, piece: str) -> None:
+        if not piece:
+            return
+        room = self._limits.reply_chars - self._chars
+        self._chars += len(piece)
+        if room > 0:
+            self._items.put(piece[:room])
+        if self._chars > self._limits.reply_chars:
+            raise ModelError(Reason("model_too_long", {"limit_chars": self._limits.reply_chars}))
+
+    def count(self, usage: Usage) -> None:
+        self._usage = self._price(usage)
+
+    def _estimate(self) -> Usage:
+        prompt, reply = (-(-chars // CHARS_PER_TOKEN) for chars in (self._prompt_chars, self._chars))
+        return self._price(Usage(prompt_tokens=prompt, reply_tokens=reply, counted=False))

@@ -1,0 +1,1 @@
+"""Generated programs: extracted, checked, rehearsed, boxed in and kept."""

@@ -1,0 +1,197 @@
+"""What a boxed program does, as its host hears it. Read strictly: the program may say anything.
+
+Times are seconds since the program's start, by the program's own clock; a live program may lie about them, so the
+host goes by its own.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any, Literal, NamedTuple, Union
+
+from chatrobot.core.geometry import Twist
+from chatrobot.core.reason import Reason
+from chatrobot.programs.frames import PipeError
+
+SENSORS = ("odom", "scan", "imu", "battery", "bumper")
+LEVELS = ("DEBUG", "INFO", "WARN", "ERROR", "FATAL")
+LONGEST_TEXT = 16 * 1024
+LONGEST_NAME = 512
+LATEST_S = 1e6
+
+
+class Ready(NamedTuple):
+    """The program is about to begin."""
+
+    t_s: float
+
+
+class TwistAsked(NamedTuple):
+    """It published a velocity for the robot; `planar` is false where it had parts that no ground robot has."""
+
+    t_s: float
+    twist: Twist
+    planar: bool
+
+
+class TopicNoticed(NamedTuple):
+    """It publishes on or listens to a topic (resolved, after remaps) of a type like `geometry_msgs/msg/Twist`."""
+
+    t_s: float
+    direction: Literal["publishes", "listens"]
+    topic: str
+    type_name: str
+
+
+class Listens(NamedTuple):
+    """It wants what a sensor of the robot says, and keeps the last `depth`."""
+
+    t_s: float
+    sensor: str
+    depth: int
+
+
+class Log(NamedTuple):
+    """A line of a ROS logger."""
+
+    t_s: float
+    level: str
+    name: str
+    text: str
+
+
+class Output(NamedTuple):
+    """What it printed."""
+
+    t_s: float
+    stream: Literal["stdout", "stderr"]
+    text: str
+
+
+class AsksTime(NamedTuple):
+    """On virtual time: it waits until `until_s`, or, with `wakes`, until its robot says something before."""
+
+    t_s: float
+    until_s: float
+    wakes: bool
+
+
+class Beat(NamedTuple):
+    """A live program is not frozen."""
+
+    t_s: float
+
+
+class Ended(NamedTuple):
+    """It is over: it `returned`, called `exit`, or came to the `horizon` (`stuck`: waiting for ever for nothing)."""
+
+    t_s: float
+    how: Literal["returned", "exit", "horizon", "stuck"]
+    exit_code: int
+
+
+class Raised(NamedTuple):
+    """It is over by an exception. `line` is the program's own line, 0 where there is none."""
+
+    t_s: float
+    type_name: str
+    message: str
+    traceback: str
+    line: int
+
+
+class Died(NamedTuple):
+    """It is gone without a word, or it broke the protocol; `log` is the last that its process wrote."""
+
+    reason: Reason
+    log: str
+
+
+ProgramEvent = Union[
+    Ready, TwistAsked, TopicNoticed, Listens, Log, Output, AsksTime, Beat, Ended, Raised, Died
+]
+ENDS = (Ended, Raised, Died)
+
+
+def read_event(frame: list[Any]) -> ProgramEvent:
+    """Raises PipeError for whatever is not exactly one of the words."""
+    reader = _READERS.get(frame[0])
+    if reader is None:
+        raise PipeError(f"an unknown word: {frame[0][:40]!r}")
+    kind, fields = reader
+    if len(frame) - 1 != len(fields):
+        raise PipeError(f"{frame[0]}: {len(frame) - 1} values")
+    return kind(*[read(value) for read, value in zip(fields, frame[1:])])
+
+
+def _seconds(value: Any) -> float:
+    if type(value) is not int or not 0 <= value <= LATEST_S * 1e9:
+        raise PipeError("not a time")
+    return value * 1e-9
+
+
+def _number(value: Any) -> float:
+    """Infinity and NaN are numbers here: the governor refuses them."""
+    if type(value) is int and abs(value) > 2**53:
+        return math.inf
+    if type(value) not in (int, float):
+        raise PipeError("not a number")
+    return float(value)
+
+
+def _flag(value: Any) -> bool:
+    if type(value) is not bool:
+        raise PipeError("not a flag")
+    return value
+
+
+def _count(value: Any) -> int:
+    if type(value) is not int or not 0 <= value <= 1_000_000:
+        raise PipeError("not a count")
+    return value
+
+
+def _code(value: Any) -> int:
+    if type(value) is not int:
+        raise PipeError("not an exit code")
+    return value & 0xFF
+
+
+def _name(value: Any) -> str:
+    if type(value) is not str or len(value) > LONGEST_NAME:
+        raise PipeError("not a name")
+    return value
+
+
+def _text(value: Any) -> str:
+    if type(value) is not str:
+        raise PipeError("not a text")
+    return value[:LONGEST_TEXT]
+
+
+def _one_of(*allowed: str) -> Callable[[Any], str]:
+    def read(value: Any) -> str:
+        if type(value) is not str or value not in allowed:
+            raise PipeError(f"not one of {allowed}")
+        return value
+
+    return read
+
+
+def _twist_asked(t_s: float, vx: float, vy: float, wz: float, planar: bool) -> TwistAsked:
+    return TwistAsked(t_s, Twist(vx, vy, wz), planar)
+
+
+_READERS: Mapping[str, tuple[Callable[..., ProgramEvent], tuple[Callable[[Any], Any], ...]]] = {
+    "ready": (Ready, (_seconds,)),
+    "twist": (_twist_asked, (_seconds, _number, _number, _number, _flag)),
+    "topic": (TopicNoticed, (_seconds, _one_of("publishes", "listens"), _name, _name)),
+    "listens": (Listens, (_seconds, _one_of(*SENSORS), _count)),
+    "log": (Log, (_seconds, _one_of(*LEVELS), _name, _text)),
+    "out": (Output, (_seconds, _one_of("stdout", "stderr"), _text)),
+    "until": (AsksTime, (_seconds, _seconds, _flag)),
+    "beat": (Beat, (_seconds,)),
+    "ended": (Ended, (_seconds, _one_of("returned", "exit", "horizon", "stuck"), _code)),
+    "raised": (Raised, (_seconds, _name, _text, _text, _count)),
+}

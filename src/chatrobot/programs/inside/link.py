@@ -1,0 +1,127 @@
+"""The program's end of the pipe: what it asks of its robot goes out, what its robot says comes in."""
+
+from __future__ import annotations
+
+import os
+import socket
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from chatrobot.programs.frames import LARGEST_FROM_HOST, FrameReader, encode
+from chatrobot.programs.inside.thrift import Thrift
+from chatrobot.programs.settings import ProgramSettings
+
+Listener = Callable[[list[Any]], None]
+"""Takes what a sensor says: its stamp (seconds since the program's start) and its numbers."""
+
+LONGEST_TEXT = 8 * 1024
+SAME_TWIST_NS = 20_000_000
+"""A velocity repeated within a control period is no news."""
+
+
+class Link:
+    """What both kinds of time share. `wanted` counts the threads that wait for what sensors may say."""
+
+    def __init__(self, channel: socket.socket, settings: ProgramSettings) -> None:
+        self.settings = settings
+        self.wanted = 0
+        self._channel = channel
+        self._reader = FrameReader(LARGEST_FROM_HOST)
+        self._listeners: dict[str, list[Listener]] = {}
+        self._depths: dict[str, int] = {}
+        self._last_twist: tuple[float, ...] = ()
+        self._last_twist_ns = 0
+        self._thrift = Thrift()
+
+    # --- each kind of time has its own ---
+
+    def now_ns(self) -> int:
+        """Since the program's start. Costs nothing."""
+        raise NotImplementedError
+
+    def look(self) -> int:
+        """`now_ns` for a program that asks what time it is, or whether something has happened."""
+        raise NotImplementedError
+
+    def send(self, word: str, *values: Any) -> None:
+        """A word, with the time put first."""
+        raise NotImplementedError
+
+    # --- what names stand on ---
+
+    def wall_ns(self) -> int:
+        """ROS time, which is system time."""
+        return self.settings.start_ns + self.look()
+
+    def twist(self, vx_mps: float, vy_mps: float, wz_radps: float, planar: bool) -> None:
+        twist, now_ns = (vx_mps, vy_mps, wz_radps), self.look()
+        if twist == self._last_twist and now_ns - self._last_twist_ns < SAME_TWIST_NS:
+            return
+        self._last_twist, self._last_twist_ns = twist, now_ns
+        self.send("twist", *twist, planar)
+
+    def listen(self, sensor: str, depth: int, listener: Listener) -> None:
+        """Have `listener` called with what that sensor of the robot says from now on."""
+        self._listeners.setdefault(sensor, []).append(listener)
+        if depth > self._depths.get(sensor, 0):
+            self._depths[sensor] = depth
+            self.send("listens", sensor, min(depth, 1000))
+
+    def unlisten(self, sensor: str, listener: Listener) -> None:
+        self._listeners[sensor].remove(listener)
+
+    def log(self, level: str, name: str, text: str) -> None:
+        self._say("log", (level, name[:200]), text)
+
+    def output(self, stream: str, text: str) -> None:
+        self._say("out", (stream,), text)
+
+    @contextmanager
+    def waiting(self) -> Iterator[None]:
+        """Around a wait that what sensors say may end."""
+        self.wanted += 1
+        try:
+            yield
+        finally:
+            self.wanted -= 1
+
+    # --- inner ---
+
+    def _say(self, word: str, values: tuple[str, ...], text: str) -> None:
+        for line in self._thrift.passes(text[:LONGEST_TEXT], self.now_ns()):
+            self.send(word, *values, line)
+
+    @property
+    def _is_listening(self) -> bool:
+        return any(self._listeners.values())
+
+    def _encoded(self, word: str, values: tuple[Any, ...]) -> bytes:
+        return encode(word, self.now_ns(), *values)
+
+    def _read(self) -> list[list[Any]]:
+        """The frames that came; waits for some. Without a host there is nothing to run for."""
+        while True:
+            data = self._channel.recv(65536)
+            if not data:
+                os._exit(0)
+            frames = list(self._reader.feed(data))
+            if frames:
+                return frames
+
+    def _deliver(self, messages: list[list[Any]]) -> None:
+        for sensor, *values in messages:
+            for listener in tuple(self._listeners.get(sensor, ())):
+                listener(values)
+
+
+_current: list[Link] = []
+
+
+def set_link(link: Link) -> None:
+    _current[:] = [link]
+
+
+def get_link() -> Link:
+    """The one of this process."""
+    return _current[0]

@@ -1,0 +1,179 @@
+"""Puts virtual time in the place of real time: in `time`, `datetime`, `threading`, `queue`, `select` and `asyncio`.
+
+Called once, in the box, before the program is compiled: its own imports (`from time import sleep`) then find what
+stands here.
+"""
+
+from __future__ import annotations
+
+import _thread
+import concurrent.futures.thread
+import datetime
+import queue
+import sched
+import select
+import threading
+import time
+import timeit
+from collections.abc import Callable
+from typing import Any, cast
+
+from chatrobot.programs.inside.scheduler import Scheduler
+from chatrobot.programs.inside.virtual_lock import GLANCE, VirtualLock
+
+UPTIME_NS = 1_000_000_000_000
+"""What the monotonic clocks say at the start."""
+
+
+def install(scheduler: Scheduler, start_ns: int) -> None:
+    """From here on this process lives on virtual time, which begins at the wall clock's `start_ns`."""
+    VirtualLock.scheduler = scheduler
+    _install_clocks(scheduler, start_ns)
+    _install_dates(scheduler, start_ns)
+    _install_locks(scheduler)
+    _install_threads(scheduler)
+    _install_select(scheduler)
+
+
+def _install_clocks(scheduler: Scheduler, start_ns: int) -> None:
+    look = scheduler.look
+
+    def time_ns() -> int:
+        return start_ns + look()
+
+    def monotonic_ns() -> int:
+        return UPTIME_NS + look()
+
+    def seconds(clock_ns: Callable[[], int]) -> Callable[[], float]:
+        return lambda: clock_ns() * 1e-9
+
+    def sleep(secs: float, /) -> None:
+        if secs < 0:
+            raise ValueError("sleep length must be non-negative")
+        scheduler.sleep_until(scheduler.now_ns + int(secs * 1e9))
+
+    def of(real: Callable[..., Any]) -> Callable[..., Any]:
+        """A calendar function whose missing argument means now."""
+        return lambda secs=None: real(time_ns() * 1e-9 if secs is None else secs)
+
+    real_strftime, real_asctime, localtime = time.strftime, time.asctime, of(time.localtime)
+    now = dict.fromkeys(("monotonic", "perf_counter", "process_time", "thread_time"), monotonic_ns)
+    for name, clock_ns in {**now, "time": time_ns}.items():
+        setattr(time, f"{name}_ns", clock_ns)
+        setattr(time, name, seconds(clock_ns))
+    replacements: dict[str, Callable[..., Any]] = {
+        "sleep": sleep,
+        "localtime": localtime,
+        "gmtime": of(time.gmtime),
+        "ctime": of(time.ctime),
+        "strftime": lambda form, t=None: real_strftime(form, localtime() if t is None else t),
+        "asctime": lambda t=None: real_asctime(localtime() if t is None else t),
+        "clock_gettime_ns": lambda clock: time_ns() if clock == time.CLOCK_REALTIME else monotonic_ns(),
+    }
+    replacements["clock_gettime"] = lambda clock: replacements["clock_gettime_ns"](clock) * 1e-9
+    for name, function in replacements.items():
+        setattr(time, name, function)
+    timeit.default_timer = time.perf_counter
+    for module, name in ((threading, "_time"), (queue, "time"), (sched, "_time")):
+        setattr(module, name, time.monotonic)
+
+
+def _install_dates(scheduler: Scheduler, start_ns: int) -> None:
+    class VirtualDatetime(datetime.datetime):
+        @classmethod
+        def now(cls, tz: datetime.tzinfo | None = None) -> VirtualDatetime:
+            return cls.fromtimestamp((start_ns + scheduler.look()) * 1e-9, tz)
+
+        @classmethod
+        def today(cls) -> VirtualDatetime:
+            return cls.now()
+
+        @classmethod
+        def utcnow(cls) -> VirtualDatetime:
+            return cls.now(datetime.timezone.utc).replace(tzinfo=None)
+
+    class VirtualDate(datetime.date):
+        @classmethod
+        def today(cls) -> VirtualDate:
+            return cls.fromtimestamp((start_ns + scheduler.look()) * 1e-9)
+
+    for kind, name in ((VirtualDatetime, "datetime"), (VirtualDate, "date")):
+        kind.__name__ = kind.__qualname__ = name
+        kind.__module__ = "datetime"
+        setattr(datetime, name, kind)
+
+
+def _install_locks(scheduler: Scheduler) -> None:
+    module = cast(Any, threading)
+    module._allocate_lock = module.Lock = _thread.allocate_lock = VirtualLock  # type: ignore[assignment]
+    module.RLock = module._PyRLock
+    queue.SimpleQueue = queue._PySimpleQueue  # type: ignore[attr-defined,misc]
+    # Made at import, by the real lock.
+    cast(Any, concurrent.futures.thread)._global_shutdown_lock = VirtualLock()
+
+    def is_set(event: Any) -> bool:
+        scheduler.look(weight=GLANCE)
+        return bool(event._flag)
+
+    cast(Any, threading.Event).is_set = is_set
+
+
+def _install_threads(scheduler: Scheduler) -> None:
+    def starter(real: Callable[..., Any]) -> Callable[..., Any]:
+        def start(function: Callable[..., Any], *args: Any, **kwargs: Any) -> Any:
+            task = scheduler.add()
+            thread = getattr(function, "__self__", None)
+            if isinstance(thread, threading.Thread):
+                thread._virtual_task = task  # type: ignore[attr-defined]
+
+            def begin(*inner: Any, **named: Any) -> None:
+                task.baton.acquire()
+                try:
+                    function(*inner, **named)
+                finally:
+                    scheduler.leave(task)
+
+            return real(begin, *args, **kwargs)
+
+        return start
+
+    def join(thread: Any, timeout: float | None = None) -> None:
+        task = getattr(thread, "_virtual_task", None)
+        if task is None:
+            raise RuntimeError("cannot join thread before it is started")
+        if task is scheduler.current:
+            raise RuntimeError("cannot join current thread")
+        scheduler.join(task, None if timeout is None else scheduler.now_ns + int(timeout * 1e9))
+
+    def is_alive(thread: Any) -> bool:
+        scheduler.look(weight=GLANCE)
+        task = getattr(thread, "_virtual_task", None)
+        return thread is threading.main_thread() if task is None else not task.finished
+
+    for module in (threading, _thread):
+        for name in (
+            "_start_new_thread",
+            "_start_joinable_thread",
+            "start_new_thread",
+            "start_joinable_thread",
+        ):
+            real = getattr(module, name, None)
+            if real is not None:
+                setattr(module, name, starter(real))
+    cast(Any, threading.Thread).join = join
+    cast(Any, threading.Thread).is_alive = is_alive
+
+
+def _install_select(scheduler: Scheduler) -> None:
+    """In the box there is nothing to read from: a select is a wait."""
+
+    def wait(
+        _r: Any, _w: Any, _x: Any, timeout: float | None = None
+    ) -> tuple[list[Any], list[Any], list[Any]]:
+        if timeout is None:
+            scheduler.block(None)
+        else:
+            scheduler.sleep_until(scheduler.now_ns + int(timeout * 1e9))
+        return [], [], []
+
+    cast(Any, select).select = wait

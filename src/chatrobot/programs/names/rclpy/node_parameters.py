@@ -1,0 +1,198 @@
+"""The part of `rclpy.node.Node` that keeps its parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from chatrobot.programs.names.rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
+from chatrobot.programs.names.rclpy.exceptions import (
+    InvalidParameterException,
+    InvalidParameterTypeException,
+    InvalidParameterValueException,
+    ParameterAlreadyDeclaredException,
+    ParameterImmutableException,
+    ParameterNotDeclaredException,
+    ParameterUninitializedException,
+)
+from chatrobot.programs.names.rclpy.parameter import Parameter
+
+_NOT_SET = Parameter.Type.NOT_SET
+Result = Any
+
+
+class NodeParameters:
+    """Declares, reads and sets; types are static unless a descriptor says otherwise."""
+
+    def __init__(self, overrides: Mapping[str, Any], allow_undeclared: bool, declare_overrides: bool) -> None:
+        self._parameters: dict[str, Parameter] = {}
+        self._descriptors: dict[str, Any] = {}
+        self._overrides = dict(overrides)
+        self._allow_undeclared = allow_undeclared
+        self._on_set: list[Callable[[list[Parameter]], Result]] = []
+        self._post_set: list[Callable[[list[Parameter]], None]] = []
+        self.declare_parameter("use_sim_time", False)
+        if declare_overrides:
+            for name, value in overrides.items():
+                if name not in self._parameters:
+                    self.declare_parameter(name, value)
+
+    def declare_parameter(
+        self, name: str, value: Any = None, descriptor: Any = None, ignore_override: bool = False
+    ) -> Parameter:
+        if not isinstance(name, str):
+            raise TypeError("First element must be a string")
+        if not name or name.startswith(".") or name.endswith("."):
+            raise InvalidParameterException(name)
+        if name in self._parameters:
+            raise ParameterAlreadyDeclaredException(name)
+        descriptor = ParameterDescriptor() if descriptor is None else descriptor
+        kind, value = _typed(value)
+        if not ignore_override and name in self._overrides:
+            override = self._overrides[name]
+            value = float(override) if kind is Parameter.Type.DOUBLE and type(override) is int else override
+        descriptor.name = name
+        parameter = Parameter(name, value=value)
+        if (
+            value is not None
+            and kind is not _NOT_SET
+            and not descriptor.dynamic_typing
+            and not kind.check(value)
+        ):
+            raise InvalidParameterTypeException(parameter, kind.name)
+        descriptor.type = (kind if kind is not _NOT_SET else parameter.type_).value
+        problem = _out_of_range(descriptor, value)
+        if problem:
+            raise InvalidParameterValueException(name, value, problem)
+        result = self._ask_callbacks([parameter])
+        if not result.successful:
+            raise InvalidParameterValueException(name, value, result.reason)
+        self._parameters[name], self._descriptors[name] = parameter, descriptor
+        return parameter
+
+    def declare_parameters(
+        self, namespace: str, parameters: Sequence[Sequence[Any]], ignore_override: bool = False
+    ) -> list[Parameter]:
+        prefix = f"{namespace}." if namespace else ""
+        for entry in parameters:
+            if not isinstance(entry, Sequence) or isinstance(entry, str):
+                raise TypeError(f"Each parameter must be a tuple, got {entry!r}")
+        declared = []
+        for name, *rest in parameters:
+            value, descriptor = [*rest, None, None][:2]
+            declared.append(self.declare_parameter(f"{prefix}{name}", value, descriptor, ignore_override))
+        return declared
+
+    def undeclare_parameter(self, name: str) -> None:
+        if name not in self._parameters:
+            raise ParameterNotDeclaredException(name)
+        if self._descriptors[name].read_only:
+            raise ParameterImmutableException(name)
+        del self._parameters[name], self._descriptors[name]
+
+    def has_parameter(self, name: str) -> bool:
+        return name in self._parameters
+
+    def get_parameter(self, name: str) -> Parameter:
+        if name in self._parameters:
+            parameter = self._parameters[name]
+            if parameter.type_ is _NOT_SET and self._descriptors[name].type != 0:
+                raise ParameterUninitializedException(name)
+            return parameter
+        if self._allow_undeclared:
+            return Parameter(name, _NOT_SET, None)
+        raise ParameterNotDeclaredException(name)
+
+    def get_parameters(self, names: Sequence[str]) -> list[Parameter]:
+        if not all(isinstance(name, str) for name in names):
+            raise TypeError("All names must be instances of type str")
+        return [self.get_parameter(name) for name in names]
+
+    def get_parameter_or(self, name: str, alternative_value: Parameter | None = None) -> Parameter:
+        default = Parameter(name, _NOT_SET) if alternative_value is None else alternative_value
+        found = self._parameters.get(name)
+        return default if found is None or found.type_ is _NOT_SET else found
+
+    def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
+        start = f"{prefix}." if prefix else ""
+        return {name[len(start) :]: p for name, p in self._parameters.items() if name.startswith(start)}
+
+    def get_parameter_types(self, names: Sequence[str]) -> list[Parameter.Type]:
+        return [self.get_parameter_type(name) for name in names]
+
+    def get_parameter_type(self, name: str) -> Parameter.Type:
+        return self.get_parameter(name).type_
+
+    def describe_parameter(self, name: str) -> Any:
+        if name not in self._descriptors:
+            raise ParameterNotDeclaredException(name)
+        return self._descriptors[name]
+
+    def describe_parameters(self, names: Sequence[str]) -> list[Any]:
+        return [self.describe_parameter(name) for name in names]
+
+    def set_parameters(self, parameter_list: Sequence[Parameter]) -> list[Result]:
+        return [self.set_parameters_atomically([parameter]) for parameter in parameter_list]
+
+    def set_parameters_atomically(self, parameter_list: Sequence[Parameter]) -> Result:
+        parameters = list(parameter_list)
+        if not all(isinstance(parameter, Parameter) for parameter in parameters):
+            raise TypeError(f"parameter must be instance of type '{Parameter!r}'")
+        unknown = [parameter.name for parameter in parameters if parameter.name not in self._parameters]
+        if unknown and not self._allow_undeclared:
+            raise ParameterNotDeclaredException(unknown)
+        for parameter in parameters:
+            problem = self._problem(parameter)
+            if problem:
+                return SetParametersResult(successful=False, reason=problem)
+        result = self._ask_callbacks(parameters)
+        if result.successful:
+            for parameter in parameters:
+                self._parameters[parameter.name] = parameter
+                self._descriptors.setdefault(parameter.name, ParameterDescriptor(name=parameter.name))
+            for callback in self._post_set:
+                callback(parameters)
+        return result
+
+    def _problem(self, parameter: Parameter) -> str:
+        descriptor = self._descriptors.get(parameter.name)
+        if descriptor is None:
+            return ""
+        if descriptor.read_only:
+            return "Trying to set a read-only parameter."
+        expected = Parameter.Type(descriptor.type)
+        if not descriptor.dynamic_typing and expected is not _NOT_SET and not expected.check(parameter.value):
+            return f"Wrong parameter type, expected '{expected}' got '{parameter.type_}'"
+        return _out_of_range(descriptor, parameter.value)
+
+    def _ask_callbacks(self, parameters: list[Parameter]) -> Result:
+        for callback in self._on_set:
+            result = callback(parameters)
+            if not result.successful:
+                return result
+        return SetParametersResult(successful=True)
+
+    def add_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], Result]) -> None:
+        self._on_set.insert(0, callback)
+
+    def remove_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], Result]) -> None:
+        self._on_set.remove(callback)
+
+    def add_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], None]) -> None:
+        self._post_set.insert(0, callback)
+
+
+def _typed(value: Any) -> tuple[Parameter.Type, Any]:
+    """The type a declaration fixes, and its value: it may name a type instead of a value."""
+    if isinstance(value, Parameter.Type):
+        return value, None
+    return Parameter.Type.from_parameter_value(value), value
+
+
+def _out_of_range(descriptor: Any, value: Any) -> str:
+    for bounds in (*descriptor.floating_point_range, *descriptor.integer_range):
+        if isinstance(value, (int, float)) and not bounds.from_value <= value <= bounds.to_value:
+            return (
+                f"Parameter {descriptor.name} out of range Min: {bounds.from_value}, Max: {bounds.to_value}"
+            )
+    return ""

@@ -1,0 +1,55 @@
+"""What a program is started with."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from typing import Any, Literal
+
+from chatrobot.core.wiring import Wiring
+
+Mode = Literal["virtual", "live"]
+
+
+@dataclass(frozen=True)
+class ProgramSettings:
+    """All that goes into the box besides the code that is there anyway.
+
+    `topics` maps what the robot has (cmd_vel, odom, scan, imu, battery, bumper) to resolved ROS names (`/cmd_vel`).
+    `remaps` maps names as ROS's remapping does (`/turtle1/cmd_vel` to `/cmd_vel`), `params` are parameter overrides.
+    `start_ns` is the wall clock at the program's start on virtual time, `horizon_s` where virtual time ends.
+    """
+
+    source: str
+    name: str = "program"
+    mode: Mode = "virtual"
+    topics: Mapping[str, str] = field(default_factory=dict)
+    odom_type: str = "Odometry"
+    remaps: Mapping[str, str] = field(default_factory=dict)
+    params: Mapping[str, Any] = field(default_factory=dict)
+    args: tuple[str, ...] = ()
+    start_ns: int = 1_800_000_000_000_000_000
+    horizon_s: float = math.inf
+
+    def to_bytes(self) -> bytes:
+        return json.dumps(asdict(self)).encode()
+
+    @classmethod
+    def from_bytes(cls, data: bytes) -> ProgramSettings:
+        values = json.loads(data)
+        return cls(**{**values, "args": tuple(values["args"])})
+
+
+def robot_topics(wiring: Wiring) -> dict[str, str]:
+    """The topics of one robot by what they are, resolved."""
+    names = {
+        "cmd_vel": wiring.cmd_vel_topic,
+        "odom": wiring.odom_topic,
+        "scan": wiring.scan_topic,
+        "imu": wiring.imu_topic,
+        "battery": wiring.battery_topic,
+        "bumper": wiring.bumper_topic,
+    }
+    return {key: f"/{name.lstrip('/')}" for key, name in names.items() if name}

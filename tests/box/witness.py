@@ -1,0 +1,102 @@
+"""What stands outside of the box and must not notice anything."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import secrets
+import socket
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+
+class Witness:
+    """Files, sockets and a process that an attack could reach if it got out.
+
+    Args:
+        folder: an empty folder, which anybody may write.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.word = "secret-" + secrets.token_hex(8)
+        self._folder = folder
+        for each in (folder, *folder.parents[:-1]):
+            with contextlib.suppress(PermissionError):
+                each.chmod(0o777 if each == folder else each.stat().st_mode | 0o055)
+        (folder / "secret").write_text(self.word)
+        (folder / "writable").write_text("as it was")
+        (folder / "writable").chmod(0o666)
+        self._tcp = _listening(socket.AF_INET, socket.SOCK_STREAM, ("127.0.0.1", 0))
+        self._udp = _listening(socket.AF_INET, socket.SOCK_DGRAM, ("127.0.0.1", 0))
+        self._unix = _listening(socket.AF_UNIX, socket.SOCK_STREAM, str(folder / "unix"))
+        self._datagram = _listening(socket.AF_UNIX, socket.SOCK_DGRAM, str(folder / "datagram"))
+        self._abstract = _listening(socket.AF_UNIX, socket.SOCK_STREAM, "\0chatrobot-" + secrets.token_hex(4))
+        self._victim = subprocess.Popen([sys.executable, "-S", "-c", "import time; time.sleep(600)"])
+        self.world: dict[str, Any] = {
+            "folder": str(folder),
+            "secret": str(folder / "secret"),
+            "writable": str(folder / "writable"),
+            "tcp": self._tcp.getsockname()[1],
+            "udp": self._udp.getsockname()[1],
+            "unix": str(folder / "unix"),
+            "unix_datagram": str(folder / "datagram"),
+            "abstract": self._abstract.getsockname().decode(),
+            "victim": self._victim.pid,
+            "host": os.getpid(),
+            "shm": "chatrobot-" + secrets.token_hex(4),
+        }
+        self._before = self._look()
+
+    def effects(self) -> list[str]:
+        """What has changed outside since the beginning. Empty is good."""
+        now = self._look()
+        return [
+            f"{name}: {self._before[name]} became {now[name]}"
+            for name in now
+            if now[name] != self._before[name]
+        ]
+
+    def close(self) -> None:
+        self._victim.kill()
+        self._victim.wait()
+        for each in (self._tcp, self._udp, self._unix, self._datagram, self._abstract):
+            each.close()
+
+    def _look(self) -> dict[str, Any]:
+        sockets = (self._tcp, self._udp, self._unix, self._datagram, self._abstract)
+        writable = self._folder / "writable"
+        there = writable.exists()
+        return {
+            "names in the folder": sorted(each.name for each in self._folder.iterdir()),
+            "the writable file": writable.read_text() if there else None,
+            "its rights and times": (writable.stat().st_mode, writable.stat().st_mtime) if there else None,
+            "what arrived": [_arrived(each) for each in sockets],
+            "the victim": (self._victim.poll(), os.getpriority(os.PRIO_PROCESS, self._victim.pid)),
+            "shared memory": sorted(path.name for path in Path("/dev/shm").glob("chatrobot-*")),
+            "System V": Path("/proc/sysvipc/shm").read_text() if Path("/proc/sysvipc/shm").exists() else "",
+            "name of the machine": socket.gethostname(),
+            "clock": round(time.time() - time.monotonic(), 1),
+        }
+
+
+def _listening(family: int, kind: int, address: Any) -> socket.socket:
+    made = socket.socket(family, kind)
+    made.bind(address)
+    if kind == socket.SOCK_STREAM:
+        made.listen()
+    made.setblocking(False)
+    return made
+
+
+def _arrived(listening: socket.socket) -> bool:
+    try:
+        if listening.type == socket.SOCK_STREAM:
+            listening.accept()[0].close()
+        else:
+            listening.recv(100)
+    except BlockingIOError:
+        return False
+    return True

@@ -1,0 +1,102 @@
+"""`chatrobot calibrate` at a terminal, with a simulated robot that lies: the person measures what it really did."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pexpect
+import pytest
+
+from chatrobot.robots.load import load_profile
+from tests.cli.running import Command
+from tests.cli.test_terminal import Terminal, code
+
+SLIPS = ["--fast", "--sim", "slip=0.05,noise=on,seed=3"]
+PROFILE = Path("config/chatrobot/robots/wheeltec_mini_mec.toml")
+
+
+@pytest.fixture
+def terminal(tmp_path: Path) -> Iterator[Terminal]:
+    made = Terminal(tmp_path)
+    yield made
+    made.close()
+
+
+def seen(child: pexpect.spawn[str], pattern: str) -> float:
+    child.expect(pattern)
+    match = child.match
+    assert isinstance(match, re.Match)
+    return float(match[1])
+
+
+def test_a_metre_and_a_turn_correct_what_odometry_says(terminal: Terminal, tmp_path: Path) -> None:
+    child = terminal("calibrate", *SLIPS)
+    child.expect("Drive one metre.*leave")
+    child.sendline("y")
+    metre = seen(child, r"Odometry says ([\d.]+) m")
+    child.sendline("a lot")
+    child.expect("no length")
+    child.sendline(f"{metre * 95:.2f} cm")
+    child.expect("Turn once.*leave")
+    child.sendline("y")
+    turn = seen(child, r"It counted ([\d.]+)°")
+    child.sendline(f"{turn}")
+    child.expect("Saved in")
+    assert code(child) == 0
+    calibration = load_profile(str(tmp_path / PROFILE)).calibration
+    assert calibration.distance_scale == pytest.approx(0.95, abs=0.002)
+    assert calibration.turn_scale == pytest.approx(1.0, abs=0.002)
+
+    trace = Command(tmp_path)("do", "forward 1 m", *SLIPS, "--world", "empty", "--json", "--trace")
+    assert trace.named("pose")[-1]["x_m"] == pytest.approx(1.0, abs=0.01)
+
+
+def test_what_is_far_off_is_said_and_not_saved(terminal: Terminal, tmp_path: Path) -> None:
+    child = terminal("calibrate", "--fast")
+    child.expect("Drive one metre.*leave")
+    child.sendline("y")
+    child.expect("How far")
+    child.sendline("3")
+    child.expect("Turn once.*leave")
+    child.sendline("skip")
+    child.expect("right profile")
+    assert code(child) == 1
+    assert not (tmp_path / PROFILE).exists()
+
+
+def test_a_robot_that_does_not_fit_its_profile_is_noticed(terminal: Terminal, tmp_path: Path) -> None:
+    child = terminal("calibrate", "--fast", "--sim", "odom_wrong=reversed")
+    child.expect("Drive one metre.*leave")
+    child.sendline("y")
+    child.expect("other way")
+    child.expect("does not do what the profile wheeltec_mini_mec says")
+    assert code(child) == 1
+    assert not (tmp_path / PROFILE).exists()
+
+
+def test_whoever_says_no_moves_nothing(terminal: Terminal, tmp_path: Path) -> None:
+    child = terminal("calibrate", "--fast")
+    child.expect("Drive one metre.*leave")
+    child.sendline("no")
+    assert code(child) == 5
+    assert not (tmp_path / PROFILE).exists()
+
+
+@pytest.mark.realtime
+def test_stop_stops_it_while_it_drives(terminal: Terminal, tmp_path: Path) -> None:
+    child = terminal("calibrate")
+    child.expect("Drive one metre.*leave")
+    child.sendline("y")
+    child.expect("0.[1-5]")
+    child.sendline("stop")
+    child.expect("Stopped")
+    assert code(child) == 5
+    assert not (tmp_path / PROFILE).exists()
+
+
+def test_it_needs_a_person(tmp_path: Path) -> None:
+    done = Command(tmp_path)("calibrate", "--json")
+    assert (done.code, "measure" in done.err) == (2, True)
+    assert "calibrate" in Command(tmp_path)("calibrate", "--help").out

@@ -1,0 +1,1 @@
+"""Models over real HTTP, against the scripted server."""

@@ -1,0 +1,7 @@
+#: -
+#: raises RuntimeError
+
+import rclpy
+
+rclpy.init()
+rclpy.init()
