@@ -27,6 +27,7 @@ from tests.realtime import RunningRobot
 TIMES = 20
 PROMISE_S = 0.25
 UNDER_WAY_S = 0.3
+TRIES = 5
 FROZEN_S = 0.5
 """How long a robot's end, or a Motion, is frozen before it thaws."""
 
@@ -52,9 +53,13 @@ class LocalRig:
         self.robot = RunningRobot(folder)
 
     def drive(self) -> None:
-        said_s = self.robot.say("forward 100 m at 0.3 m/s")
-        self.robot.ear.wait_for_motion(said_s)
-        time.sleep(UNDER_WAY_S)
+        for _ in range(TRIES):
+            said_s = self.robot.say("forward 100 m at 0.3 m/s")
+            self.robot.ear.wait_for_motion(said_s)
+            time.sleep(UNDER_WAY_S)
+            if any(self.robot.ear.velocities[-1][1]):
+                return
+        raise AssertionError("it does not keep on driving: this machine is too busy to measure anything")
 
     def pids(self, whom: str) -> list[int]:
         if whom == "console":
@@ -84,9 +89,13 @@ class DdsRig:
         self.rig = NodeRig(folder)
 
     def drive(self) -> None:
-        said_s = self.rig.nodes["input"].say("forward 100 m at 0.3 m/s")
-        self.rig.wait_for_motion(said_s)
-        time.sleep(UNDER_WAY_S)
+        for _ in range(TRIES):
+            said_s = self.rig.nodes["input"].say("forward 100 m at 0.3 m/s")
+            self.rig.wait_for_motion(said_s)
+            time.sleep(UNDER_WAY_S)
+            if any(self.rig.velocities.all[-1][1]):
+                return
+        raise AssertionError("it does not keep on driving: this machine is too busy to measure anything")
 
     def pids(self, whom: str) -> list[int]:
         if whom == "guard":
@@ -241,10 +250,11 @@ def main(arguments: list[str]) -> int:
     )
     parser.add_argument("--times", type=int, default=TIMES)
     parser.add_argument("--only", default="", help="only blows whose name holds this")
+    parser.add_argument("--skip", type=int, default=0, help="leave out so many of the first")
     options = parser.parse_args(arguments)
     worst_of_all = 0.0
     print(f"{'':40s} {'median':>9s} {'worst':>9s}   of {options.times}")
-    for blow in BLOWS:
+    for blow in BLOWS[options.skip :]:
         if options.only not in blow.name:
             continue
         times = sorted(blow.once() for _ in range(options.times))

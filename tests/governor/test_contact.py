@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
@@ -105,6 +105,7 @@ def test_points_pass_by_as_the_exact_motion_says(vx: float, vy: float, wz: float
         assert (seen_x[row, 0], seen_y[row, 0]) == pytest.approx(expected[:2], abs=1e-6)
 
 
+@settings(deadline=None, max_examples=60)
 @given(
     st.lists(st.tuples(st.floats(-1.5, 1.5), st.floats(-1.5, 1.5)), min_size=1, max_size=12),
     st.floats(-0.5, 0.5),
