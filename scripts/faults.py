@@ -252,6 +252,8 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--only", default="", help="only blows whose name holds this")
     parser.add_argument("--skip", type=int, default=0, help="leave out so many of the first")
     options = parser.parse_args(arguments)
+    for name in ("SIGINT", "SIGHUP"):  # started in the background they are ignored, and stay so in all children
+        signal.signal(getattr(signal, name), signal.SIG_DFL)
     worst_of_all = 0.0
     print(f"{'':40s} {'median':>9s} {'worst':>9s}   of {options.times}")
     for blow in BLOWS[options.skip :]:
