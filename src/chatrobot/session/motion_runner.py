@@ -21,6 +21,7 @@ from dataclasses import replace
 from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Notice
+from chatrobot.core.memory_pressure import MOTION, prefer
 from chatrobot.core.reason import Reason
 from chatrobot.governor.governor import TICK_S
 from chatrobot.governor.priority import RELEASERS
@@ -77,6 +78,7 @@ class MotionRunner:
         releasers: Collection[str] = RELEASERS,
     ) -> None:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
+        prefer(MOTION)
         clock = RealClock()
         given = load_profile(profile)
         known_world = load_world(world)

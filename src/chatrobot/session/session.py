@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from chatrobot.core.errors import JointError, PlanTextError
-from chatrobot.core.events import Event, Finished, Interpreted, Outcome, Remembered, Result, Telemetry
+from chatrobot.core.events import Event, Finished, Interpreted, Notice, Outcome, Remembered, Result, Telemetry
+from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
@@ -248,6 +249,9 @@ class Session:
 
     def _conclude(self, turn: int, outcome: Outcome, reply: str, finished: Finished | None = None) -> None:
         pose = self.understanding.pose
+        unkept = self.understanding.places.take_unkept()
+        if unkept:
+            self._emit(Notice(turn, Reason("places_not_kept", {"why": unkept})))
         result = Result(turn, outcome, reply, pose)
         if finished is not None:
             result = Result(
