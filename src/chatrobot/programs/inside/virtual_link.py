@@ -12,7 +12,7 @@ from typing import Any, NoReturn
 
 from chatrobot.programs.inside.link import Link
 from chatrobot.programs.inside.scheduler import Scheduler
-from chatrobot.programs.settings import ProgramSettings
+from chatrobot.programs.settings import LATEST_S, ProgramSettings
 
 SEND_AT_BYTES = 16 * 1024
 NEVER_NS = 2**62
@@ -30,7 +30,7 @@ class VirtualLink(Link):
         super().__init__(channel, settings)
         self.due_ns = NEVER_NS
         self._outbox = bytearray()
-        self.scheduler = Scheduler(self, int(settings.horizon_s * 1e9))
+        self.scheduler = Scheduler(self, int(min(settings.horizon_s, LATEST_S) * 1e9))
 
     def now_ns(self) -> int:
         return self.scheduler.now_ns
