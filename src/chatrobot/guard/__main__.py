@@ -14,6 +14,7 @@ import time
 
 from chatrobot.core.clock import awake_or_not_s
 from chatrobot.core.errors import WireError
+from chatrobot.core.memory_pressure import GUARD, prefer
 from chatrobot.core.wiring import Wiring
 from chatrobot.guard.watch import BEAT_S, GOODBYE, TRIPPED, Watch
 from chatrobot.wire.connect import advertise, comes_back, connect_wire
@@ -117,12 +118,6 @@ class Guard:
         return False
 
 
-def _die_last() -> None:
-    """Ask the kernel to take others first when memory runs out; only root may, and nothing hangs on it."""
-    with contextlib.suppress(OSError), open("/proc/self/oom_score_adj", "w", encoding="ascii") as score:
-        score.write("-900")
-
-
 def _wiring(options: dict[str, str]) -> Wiring:
     return Wiring(
         cmd_vel_topic=options["--topic"],
@@ -136,7 +131,7 @@ def main(arguments: list[str]) -> int:
     options = dict(zip(arguments[::2], arguments[1::2]))
     for name in ("SIGINT", "SIGTSTP", "SIGHUP", "SIGTTIN", "SIGTTOU", "SIGPIPE", "SIGTERM"):
         signal.signal(getattr(signal, name), signal.SIG_IGN)
-    _die_last()
+    prefer(*GUARD)
     line = socket.socket(fileno=int(options["--fd"]))
     try:
         wiring = _wiring(options)
