@@ -21,7 +21,7 @@ from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
 from chatrobot.session.authoring import Authoring
 from chatrobot.session.draft import Draft
 from chatrobot.session.joint import Joint
-from chatrobot.session.model_turn import Ended
+from chatrobot.session.model_terms import Ended
 from chatrobot.session.observations import measured
 from chatrobot.session.program_turns import Hooks, ProgramTurns
 from chatrobot.session.thinking import Interpreter, Mind, Thinking
