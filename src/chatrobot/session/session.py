@@ -304,6 +304,8 @@ class Session:
             approve=options.approve,
             rehearse_only=options.rehearse_only,
         )
+        if self._is_void_turn(said.turn):
+            self._thinking.cancel()  # a stop came while it was being understood
 
     def _conclude_model_turn(self, turn: int, text: str, ended: Ended) -> None:
         reply = self.understanding.note_model_turn(text, ended, self._options.rehearse_only)
