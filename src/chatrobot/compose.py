@@ -144,7 +144,14 @@ def _authoring(
     def routes() -> RoutePlanner | None:
         return None if world.is_empty else GridRoutePlanner(world, profile)
 
-    return Authoring(profile, Library(setup.folder), understanding.interpret, routes=routes)
+    return Authoring(
+        profile,
+        Library(setup.folder),
+        understanding.interpret,
+        model=setup.model,
+        prefers_model=setup.options.interpreter == "model",
+        routes=routes,
+    )
 
 
 # --- simulated time: one process, one thread ---

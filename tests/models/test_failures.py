@@ -16,6 +16,12 @@ from tests.models.rig import KEY, WIRES, Got, model_at, serving
 
 TEXT = "drive 1 m\nturn left\ndrive 2 m\nturn left\n"
 REPLIES: list[dict[str, Any]] = [
+    {"match": "limit", "error": {"status": 429}},
+    {
+        "match": "forbidden",
+        "error": {"status": 403, "body": "<html><h1>Forbidden</h1>You shall not pass</html>"},
+    },
+    {"match": "unauthorised", "error": {"status": 401, "body": ""}},
     {"match": "rate", "error": {"status": 429, "retry_after_s": 20, "message": "slow down"}},
     {
         "match": "credit",
@@ -134,6 +140,18 @@ def test_a_rate_limit_says_for_how_long(models: dict[str, Any]) -> None:
         assert got.values["retry_after_s"] == 20
         assert got.error is not None
         assert "20" in render_reason(got.error.reason, "en")
+
+
+def test_a_rate_limit_without_a_time_suggests_one(models: dict[str, Any]) -> None:
+    got = Got(models["openai"], "limit")
+    assert got.values["retry_after_s"] == 30
+    assert_told(got)
+
+
+def test_an_error_page_is_quoted_without_its_tags(models: dict[str, Any]) -> None:
+    got = Got(models["openai"], "forbidden")
+    assert (got.code, got.values["said"]) == ("model_wrong_key", "Forbidden You shall not pass")
+    assert Got(models["openai"], "unauthorised").values["said"]
 
 
 @pytest.mark.parametrize("provider", WIRES)

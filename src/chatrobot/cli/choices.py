@@ -29,7 +29,7 @@ def setup_from(
 
     Args:
         named_model: only a model that is named on this very command line counts.
-        programs: see `Setup`.
+        programs: who asks for a program gets one (see `Setup`).
 
     Raises:
         UsageError: what was chosen does not exist.

@@ -27,6 +27,7 @@ def open_citizen(args: argparse.Namespace, address: str, ros_args: list[str]) ->
         "config_dir": args.config_dir or "",
         "allow_release": args.allow_release,
         "accept_others": args.accept_others,
+        "on_robot": args.on_robot,
     }
     domain_id, namespace = domain_and_namespace(address)
     citizen = Citizen(

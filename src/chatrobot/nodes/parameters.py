@@ -45,6 +45,9 @@ CONTROL = (
     *_ROBOT,
     Parameter("allow_release", False, "An emergency stop may be released over ROS; offers ~/release."),
     Parameter("accept_others", False, "Drive though another ChatRobot is on the same robot."),
+    Parameter(
+        "on_robot", False, "This machine is the robot's own: no network lies between control and base."
+    ),
 )
 INPUT: tuple[Parameter, ...] = ()
 PARAMETERS = {"input": INPUT, "base": BASE, "control": CONTROL}

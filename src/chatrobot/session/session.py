@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from chatrobot.core.errors import JointError, PlanTextError
-from chatrobot.core.events import Event, Finished, Interpreted, Outcome, Remembered, Result, Telemetry
+from chatrobot.core.events import Event, Finished, Interpreted, Notice, Outcome, Remembered, Result, Telemetry
 from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.plan.text import format_plan, parse_plan
@@ -346,14 +346,16 @@ class Session:
         return turn <= self._void_turn
 
     def _send_program(self, turn: int, payload: dict[str, Any]) -> None:
-        is_new = payload.pop("is_new")
+        options = self._options
+        asks_new = payload.pop("is_new") and options.ask_new
+        asks_remap = payload.pop("is_led_elsewhere") and options.ask_findings
         self._joint.send(
             "program",
             turn,
-            mode=self._options.while_moving,
-            approve=self._options.approve or (is_new and self._options.ask_new),
-            ask_findings=self._options.ask_findings,
-            rehearse_only=self._options.rehearse_only,
+            mode=options.while_moving,
+            approve=options.approve or asks_new or asks_remap,
+            ask_findings=options.ask_findings,
+            rehearse_only=options.rehearse_only,
             **payload,
         )
 
@@ -385,6 +387,9 @@ class Session:
     ) -> None:
         self._in_flight.pop(turn, None)
         pose = self.understanding.pose
+        unkept = self.understanding.places.take_unkept()
+        if unkept:
+            self._emit(Notice(turn, Reason("places_not_kept", {"why": unkept})))
         result = Result(turn, outcome, reply, pose, reason=reason)
         if finished is not None:
             result = Result(
