@@ -91,8 +91,8 @@ def _run_base(args: argparse.Namespace, citizen: Citizen | None, connect: Connec
     with SignalWatch(node.stop) as watch:
         if citizen is not None:
             node.introduce(citizen)
-        _say(f"base understands for {args.robot} on {_place(args)}: user_input → chatgpt_node")
-        node.run(lambda: watch.is_leaving)
+        ready = f"base understands for {args.robot} on {_place(args)}: user_input → chatgpt_node"
+        node.run(lambda: watch.is_leaving, lambda: _say(ready))
     return STOPPED
 
 

@@ -115,8 +115,8 @@ class BaseNode:
         streams = profile.approval == "stream" and profile.can_turn_on_the_spot
         return Mind(options.model, replace(options.model_options, streams=streams), profile)
 
-    def run(self, is_leaving: Callable[[], bool]) -> None:
-        """Until `is_leaving`. Understands and pumps in the calling thread.
+    def run(self, is_leaving: Callable[[], bool], on_ready: Callable[[], None]) -> None:
+        """Until `is_leaving`; `on_ready` is called once it listens. Understands and pumps in the calling thread.
 
         Raises:
             JointError: the wire is gone.
@@ -132,6 +132,7 @@ class BaseNode:
         self._explain_parameters()
         gc.collect()
         gc.freeze()  # the words are many, and stay
+        on_ready()
         while not is_leaving():
             self._session.pump(PUMP_S)
             self._look_for_twins()

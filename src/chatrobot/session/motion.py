@@ -14,6 +14,7 @@ from chatrobot.core.events import Event, Looked, Notice, Outcome, Started, Telem
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose
 from chatrobot.core.governed import StopEpoch
 from chatrobot.core.reason import Reason
+from chatrobot.core.wiring import RELAY_TOPIC
 from chatrobot.execution.lookahead import nearest_m
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
@@ -29,12 +30,13 @@ from chatrobot.session.planner import Planned, Planner
 from chatrobot.session.program_box import NoBox, ProgramBox
 from chatrobot.session.program_job import ProgramJob, job_of, needs_approval
 from chatrobot.session.program_run import LiveProgram, ProgramRun
+from chatrobot.session.relay import Relay
 from chatrobot.session.run import Run, sensed_by
 from chatrobot.session.sectors import sectors_m
 from chatrobot.session.stream import Stream
 from chatrobot.session.zeroing import Zeroing
 from chatrobot.transports.transport import WireTransport
-from chatrobot.wire.messages import LaserScan
+from chatrobot.wire.messages import LaserScan, TwistMessage
 from chatrobot.wire.wire import Wire
 
 FROZEN_S = 0.12
@@ -88,6 +90,14 @@ class Motion:
         self._current: Job | None = None
         self._run: Run | ProgramRun | None = None
         self.zeroing = Zeroing(self._sensors, self._send_zero, lambda reason: emit(Notice(0, reason)))
+        self._relay = Relay(
+            clock,
+            self._governor,
+            self._transport,
+            self._sensors,
+            lambda: self.zeroing.begin(clock.now_s()),
+            lambda reason: emit(Notice(0, reason)),
+        )
         self._last_tick_s: float | None = None
         self._suspended_s = clock.suspended_s()
         self._next_telemetry_s = 0.0
@@ -130,6 +140,7 @@ class Motion:
         """Listen to the robot and shake hands with the guard."""
         self._sensors.attach(wire)
         self._programs.attach(wire)
+        wire.subscribe(RELAY_TOPIC, TwistMessage, self._relay.hear)
         self._guard.handshake()
 
     @property
@@ -217,6 +228,7 @@ class Motion:
         self._drive(now_s)
         if self._run is None:
             self.zeroing.tick(now_s)
+        self._relay.tick(now_s, self._is_free())
         self._begin_next(now_s)
         self._tell(now_s)
 
@@ -275,7 +287,7 @@ class Motion:
         if self.zeroing.disobeyed is not None:
             for job in self._intake.take_all():
                 self._finish_unmoved(job, "refused", self.zeroing.disobeyed)
-        if self._current is not None or not jobs or self.zeroing.is_active:
+        if self._current is not None or not jobs or self.zeroing.is_active or self._relay.is_driving:
             return
         job = jobs[0]
         if self._is_waiting_for_odometry(job, now_s):
@@ -403,16 +415,24 @@ class Motion:
         self._drive(now_s)
 
     def _blocker(self, job: Job, now_s: float) -> Reason | None:
+        """Why it may not move just now."""
+        barrier = self._barrier()
+        if barrier is None and not self._governor.leases.is_valid(job.lease, now_s):
+            return Reason("lease_lapsed", {"source": self._governor.leases.source_of(job.lease)})
+        return barrier
+
+    def _barrier(self) -> Reason | None:
         """Why nothing may move just now."""
         if self._governor.latched is not None:
             return self._governor.latched
         if self.obstruction is not None:
             return self.obstruction
-        if not self._guard.is_alive():
-            return Reason("guard_lost")
-        if not self._governor.leases.is_valid(job.lease, now_s):
-            return Reason("lease_lapsed", {"source": self._governor.leases.source_of(job.lease)})
-        return None
+        return None if self._guard.is_alive() else Reason("guard_lost")
+
+    def _is_free(self) -> bool:
+        """Nothing of ours drives, waits or stops the robot, and nothing keeps it from moving."""
+        is_taken = self._current or self._intake.jobs or self.zeroing.is_active or self._sensors.bumped
+        return not is_taken and self._barrier() is None
 
     # --- a running plan --------------------------------------------------------------------------------------
 
@@ -504,7 +524,8 @@ class Motion:
         gap_s = suspended_s + (now_s - self._last_tick_s if self._last_tick_s is not None else 0.0)
         tripped = self._guard.was_tripped()
         slept = suspended_s > FROZEN_S and self._current is not None
-        if slept or (self._run is not None and (gap_s > FROZEN_S or tripped)):
+        is_driven = self._run is not None or self._relay.is_driving
+        if slept or (is_driven and (gap_s > FROZEN_S or tripped)):
             self.halt(Reason("motion_froze", {"gap_s": round(gap_s, 2)}))
         if tripped or gap_s > FROZEN_S:
             self._guard.handshake()

@@ -30,12 +30,21 @@ class Places:
         self._robot = robot
         self._epoch = epoch
         self._kept: dict[str, dict[str, object]] = self._load()
+        self._unkept = ""
 
     def add(self, name: str, pose: Pose) -> None:
         """Remember `pose` under `name`; an older place of that name is replaced."""
         tidy = one_line(name, MAX_PLACE_CHARS)
         self._kept[tidy] = {"x_m": pose.x_m, "y_m": pose.y_m, "yaw_rad": pose.yaw_rad, "epoch": self._epoch}
-        self._save()
+        try:
+            self._save()
+        except OSError as error:  # a full disk is no reason to stop a robot
+            self._unkept = error.strerror or str(error)
+
+    def take_unkept(self) -> str:
+        """Why the last place is remembered for this session only; said once, empty where it was kept."""
+        unkept, self._unkept = self._unkept, ""
+        return unkept
 
     def all(self) -> Mapping[str, Place]:
         """Every place by name."""

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from chatrobot.core.errors import JointError, PlanTextError
-from chatrobot.core.events import Event, Finished, Interpreted, Outcome, Remembered, Result, Telemetry
+from chatrobot.core.events import Event, Finished, Interpreted, Notice, Outcome, Remembered, Result, Telemetry
 from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.plan.text import format_plan, parse_plan
@@ -385,6 +385,9 @@ class Session:
     ) -> None:
         self._in_flight.pop(turn, None)
         pose = self.understanding.pose
+        unkept = self.understanding.places.take_unkept()
+        if unkept:
+            self._emit(Notice(turn, Reason("places_not_kept", {"why": unkept})))
         result = Result(turn, outcome, reply, pose, reason=reason)
         if finished is not None:
             result = Result(
