@@ -10,7 +10,7 @@ from collections import deque
 from collections.abc import Callable, Collection
 
 from chatrobot.core.clock import Clock
-from chatrobot.core.events import Event, Notice, Outcome, Started, Telemetry
+from chatrobot.core.events import Event, Looked, Notice, Outcome, Started, Telemetry
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose
 from chatrobot.core.governed import StopEpoch
 from chatrobot.core.reason import Reason
@@ -32,6 +32,8 @@ from chatrobot.session.program_job import ProgramJob, job_of, needs_approval
 from chatrobot.session.program_run import LiveProgram, ProgramRun
 from chatrobot.session.relay import Relay
 from chatrobot.session.run import Run, sensed_by
+from chatrobot.session.sectors import sectors_m
+from chatrobot.session.stream import Stream
 from chatrobot.session.zeroing import Zeroing
 from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.messages import LaserScan, TwistMessage
@@ -190,6 +192,8 @@ class Motion:
             self._governor.leases.open(envelope.lease, envelope.source, term_s, now_s)
         elif envelope.word in ("plan", "program"):
             self._accept(envelope, epoch)
+        elif envelope.word == "look":
+            self._emit(Looked(envelope.turn, sectors_m(self._profile, self._sensors.scan)))
         elif envelope.word == "approve":
             if priority_of(envelope.source) >= Priority.PLAN:  # a person's word, not an agent's
                 self._approve(envelope.turn, bool(envelope.payload.get("yes")))
@@ -241,6 +245,9 @@ class Motion:
     # --- plans -----------------------------------------------------------------------------------------------
 
     def _accept(self, envelope: Envelope, epoch: int) -> None:
+        if envelope.payload.get("mode") == "extend":
+            self._extend(envelope)
+            return
         job = job_of(envelope, epoch, self._clock.now_s())
         declined = self._give_way(job)
         if declined is None and envelope.payload.get("mode") == "replace":
@@ -311,8 +318,7 @@ class Motion:
     def _on_planned(self, job: Job, planned: Planned) -> None:
         if self._current is not job:
             return  # stopped or replaced meanwhile; its end has been told
-        job.planned = planned
-        refusal = job.refusal
+        refusal = job.take(planned)
         asks = needs_approval(job, planned)
         for event in planned.events(asks):
             self._emit(event)
@@ -324,6 +330,40 @@ class Motion:
             job.approval = Approval(self._clock.now_s(), job.start)
         else:
             self._launch(job)
+            self._plan_part(job)
+
+    def _extend(self, envelope: Envelope) -> None:
+        """The next part of a plan that came with `more`; worth nothing once that plan has ended."""
+        jobs = [self._current, *self._intake.jobs] if self._current is not None else self._intake.jobs
+        for job in jobs:
+            if job.stream is not None and (job.turn, job.lease) == (envelope.turn, envelope.lease):
+                job.stream.add(str(envelope.payload.get("plan_text", "")), bool(envelope.payload.get("more")))
+                self._plan_part(job)
+                return
+
+    def _plan_part(self, job: Job) -> None:
+        """Rehearse the next part, if the one before it has been."""
+        stream = job.stream
+        if self._run is None or self._run.job is not job or stream is None or stream.walk is None:
+            return
+        text, start = stream.take(), stream.walk.end
+        if text is None:
+            return
+        plan_text = text
+
+        def plan() -> None:
+            planned = self._planner.plan(job.turn, plan_text, start, job.start)
+            self.post(lambda: self._on_part(job, stream, planned))
+
+        self._background(plan)
+
+    def _on_part(self, job: Job, stream: Stream, planned: Planned) -> None:
+        if not isinstance(self._run, Run) or self._run.job is not job:
+            return
+        self._emit(planned.part_event(stream.steps))
+        if stream.accept(planned) is None:
+            self._run.executor.expect(stream.duration_s)
+        self._plan_part(job)
 
     def _approve(self, turn: int, yes: bool) -> None:
         job = self._current
@@ -422,6 +462,9 @@ class Motion:
             self.halt(reason or Reason("stopped"))
             self._seen_epoch = self._epoch.value
             self.zeroing.begin(self._clock.now_s())
+        stream = run.job.stream
+        if outcome == "completed" and stream is not None and stream.refusal is not None:
+            outcome, reason = "refused", stream.refusal  # what came before it has been done
         self._emit(run.finished(outcome, reason))
 
     def _finish_current(self, outcome: Outcome, reason: Reason | None) -> None:
