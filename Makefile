@@ -2,7 +2,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: help setup run test lint bench pictures lock clean faults fuzz coverage mutants
+.PHONY: help setup run test lint bench pictures lock clean faults fuzz coverage mutants try-llamacpp
 
 help:
 	@echo "make setup   .venv with everything in it        make run    talk to the simulated robot"
@@ -13,6 +13,7 @@ help:
 	@echo "make fuzz    a million sequences of 50 nasty commands at the governor: FUZZ='--sequences 1000 --seed 2'"
 	@echo "make coverage   every branch of governor, reflex and the guard's rule, or it fails"
 	@echo "make mutants    change the safety code in every way a tool can think of; the tests must notice"
+	@echo "make try-llamacpp   build llama.cpp, make a tiny random model, let it drive the simulated robot"
 	@echo "make clean   remove .venv and what tools left"
 
 setup:
@@ -26,11 +27,11 @@ lint: setup
 	$(BIN)/ruff format --check src tests examples scripts bench
 	$(BIN)/mypy
 
-# Real processes in real time come after the rest, one by one: beside other work their figures mean nothing. What fails
-# is tried once more: a busy machine may hold a process up once, but a promise that is broken twice is broken.
+# Real processes in real time come after the rest, two at a time: they mostly wait. What fails is tried once more with
+# nothing beside it: a busy machine may hold a process up once, but a promise that is broken alone too is broken.
 test: lint
 	$(BIN)/pytest -m "not realtime" -n 2
-	$(BIN)/pytest -m realtime || $(BIN)/pytest -m realtime --last-failed --last-failed-no-failures none
+	$(BIN)/pytest -m realtime -n 2 --dist loadfile || $(BIN)/pytest -m realtime --last-failed --last-failed-no-failures none
 
 bench: setup
 	@for file in bench/[a-z]*.py; do \
@@ -60,8 +61,14 @@ mutants: setup
 pictures: setup
 	$(BIN)/python scripts/make_pictures.py
 
+# Builds for about five minutes the first time.
+try-llamacpp: setup
+	test -d .venv-llamacpp || $(PYTHON) -m venv .venv-llamacpp
+	.venv-llamacpp/bin/python -m pip install --quiet --disable-pip-version-check 'llama-cpp-python[server]' gguf
+	$(BIN)/python -m scripts.try_llamacpp .venv-llamacpp/bin/python
+
 lock: setup
 	$(BIN)/python scripts/lock.py
 
 clean:
-	rm -rf mutants .coverage .venv .mypy_cache .ruff_cache .pytest_cache .hypothesis build dist
+	rm -rf mutants .coverage .venv .venv-llamacpp .mypy_cache .ruff_cache .pytest_cache .hypothesis build dist

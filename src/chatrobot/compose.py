@@ -16,9 +16,12 @@ from typing import TYPE_CHECKING
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.errors import JointError, UsageError
 from chatrobot.core.events import Event, TruePose
+from chatrobot.plan.context import RoutePlanner
+from chatrobot.programs.library import Library
 from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile, profile_argument
 from chatrobot.robots.profile import RobotProfile
+from chatrobot.session.authoring import Authoring
 from chatrobot.session.child import spawn
 from chatrobot.session.joint import SimulatedJoint
 from chatrobot.session.session import Options, Session
@@ -46,7 +49,8 @@ class Setup:
 
     `on` is auto, sim, or a robot's wire (`wire_address`). `world`: "" is what fits, the furnished home for the
     simulated robot and nothing known for any other. `sim` holds the lies of the simulated robot (`slip=0.03,…`).
-    `yes`: plans of a real robot need no approval. `folder` is where places, programs and history live; None keeps
+    `yes`: plans of a real robot need no approval. `programs`: who asks for a program gets one written, rehearsed and
+    run; else its motion is driven as a plan. `folder` is where places, programs and history live; None keeps
     nothing.
     """
 
@@ -57,6 +61,7 @@ class Setup:
     fast: bool = False
     trace: bool = False
     yes: bool = False
+    programs: bool = False
     folder: Path | None = None
     options: Options = field(default_factory=Options)
 
@@ -105,6 +110,20 @@ def profile_dirs(folder: Path | None) -> tuple[Path, ...]:
     return (folder / "robots",) if folder is not None else ()
 
 
+def _authoring(
+    setup: Setup, profile: RobotProfile, world: World, understanding: Understanding
+) -> Authoring | None:
+    """Who writes programs and keeps them; nobody where requests for them are driven as plans."""
+    if not setup.programs:
+        return None
+    from chatrobot.plan.route import GridRoutePlanner
+
+    def routes() -> RoutePlanner | None:
+        return None if world.is_empty else GridRoutePlanner(world, profile)
+
+    return Authoring(profile, Library(setup.folder), understanding.interpret, routes=routes)
+
+
 # --- simulated time: one process, one thread ---
 
 
@@ -114,6 +133,7 @@ def _connect_simulated(
     from chatrobot.session.guard_link import SimulatedGuard
     from chatrobot.session.motion import Motion
     from chatrobot.session.planner import Planner
+    from chatrobot.session.program_host import ProgramHost
     from chatrobot.wire.memory import MemoryHub
 
     clock = VirtualClock()
@@ -125,15 +145,23 @@ def _connect_simulated(
         hub.connect().subscribe(TRUTH_TOPIC, Odometry, _tracer(on_event))
     wire = hub.connect()
     guard = SimulatedGuard(clock)
+    programs = ProgramHost(profile, is_in_step=True)
 
     def build(emit: OnEvent) -> Motion:
         planner = Planner(profile, world)
-        return Motion(profile, wire, clock, planner, guard, emit, lambda job: job())
+        return Motion(profile, wire, clock, planner, guard, emit, lambda job: job(), programs=programs)
 
     joint = SimulatedJoint(build, wire, clock, robot.step, guard, hub.connect(), profile.wiring.cmd_vel_topic)
     joint.next_event(SETTLE_S)
-    session = Session(joint, understanding, on_event, setup.options)
-    return Connection(session, profile, world, session.close)
+    session = Session(
+        joint, understanding, on_event, setup.options, _authoring(setup, profile, world, understanding)
+    )
+
+    def close() -> None:
+        session.close()
+        programs.close()
+
+    return Connection(session, profile, world, close)
 
 
 # --- real time: the simulated robot, Motion and the guard are processes ---
@@ -166,7 +194,8 @@ def _connect_real_time(
     trace = LocalWire(wire_path) if setup.trace else None
     if trace is not None:
         trace.subscribe(TRUTH_TOPIC, Odometry, _tracer(one_at_a_time))
-    session = Session(joint, understanding, one_at_a_time, setup.options)
+    authoring = _authoring(setup, profile, world, understanding)
+    session = Session(joint, understanding, one_at_a_time, setup.options, authoring)
 
     def close() -> None:
         session.close()
@@ -191,7 +220,8 @@ def _connect_wire(
     approve = setup.options.approve or (profile.approval == "plan" and not setup.yes)
     joint = SocketJoint(address, profile_argument(setup.robot, profile_dirs(setup.folder)), setup.world)
     joint.wait_until_ready()
-    session = Session(joint, understanding, on_event, replace(setup.options, approve=approve))
+    authoring = _authoring(setup, profile, world, understanding)
+    session = Session(joint, understanding, on_event, replace(setup.options, approve=approve), authoring)
     return Connection(session, profile, world, session.close)
 
 

@@ -11,7 +11,7 @@ from typing import Literal
 
 from chatrobot.box.limits import BoxLimits
 
-End = Literal["refused", "dies", "runs", "crashes"]
+End = Literal["refused", "dies", "runs", "crashes", "fails"]
 Family = Literal[
     "files", "network", "processes", "signals", "memory of others", "the kernel", "machine code",
     "shared memory", "using it up", "the box itself",
@@ -30,7 +30,7 @@ class Attack:
     Args:
         name: says it in words, and is the test's name.
         ends: refused: an exception inside (exit code 1); dies: killed by the filter; runs: to its end, without an
-            effect; crashes: by a signal of its own making.
+            effect; crashes: by a signal of its own making, or of a limit's; fails: in whatever way this Python does.
         reason: the code of the reason in the report, if it is ended by a limit.
         finding: what the report says it tried, if it says so.
     """
@@ -53,7 +53,7 @@ def _network(name: str, source: str, ends: End = "refused") -> Attack:
 
 
 def _kernel(name: str, source: str) -> Attack:
-    return Attack(name, "the kernel", source, "dies", "box_forbidden")
+    return Attack(name, "the kernel", source + "; print('LEAK')", "dies", "box_forbidden")
 
 
 FILES = (
@@ -172,7 +172,7 @@ s.sendto(packet, ('127.0.0.1', world['udp']))
 )
 
 PROCESSES = (
-    Attack("forks", "processes", "import os; os.fork()", finding="box_tried_processes"),
+    Attack("forks", "processes", "import os; os.fork() and print('LEAK')", finding="box_tried_processes"),
     Attack(
         "forks like a bomb",
         "processes",
@@ -241,7 +241,9 @@ SIGNALS = (
         finding="box_tried_signals",
     ),
     Attack("kills its host", "signals", "import os; os.kill(world['host'], 9)", finding="box_tried_signals"),
-    Attack("kills everybody", "signals", "import os; os.kill(-1, 9)", finding="box_tried_signals"),
+    Attack(
+        "kills everybody", "signals", "import os; os.kill(-1, 0); print('LEAK')", finding="box_tried_signals"
+    ),
     Attack("kills its process group", "signals", "import os; os.killpg(0, 9)", finding="box_tried_signals"),
     Attack("signals a thread of another", "signals", "call('tgkill', world['victim'], world['victim'], 9)"),
     Attack("signals by tkill", "signals", "call('tkill', world['victim'], 9)"),
@@ -291,7 +293,7 @@ MEMORY_OF_OTHERS = (
     Attack(
         "traces another process",
         "memory of others",
-        "call('ptrace', 16, world['victim'], 0, 0)",
+        "call('ptrace', 16, world['victim'], 0, 0); print('LEAK')",
         "dies",
         "box_forbidden",
     ),
@@ -335,7 +337,7 @@ SHARED_MEMORY = (
     Attack(
         "makes System V memory",
         "shared memory",
-        "call('shmget', 0x1234, 4096, 0o1666)",
+        "call('shmctl', call('shmget', 0, 4096, 0o600), 0, 0); print('LEAK')",
         "dies",
         "box_forbidden",
     ),
@@ -437,6 +439,12 @@ USING_UP = (
         limits=SMALL,
     ),
     Attack(
+        "reserves a gigabyte",
+        "using it up",
+        "import mmap; mmap.mmap(-1, 1 << 30); print('LEAK')",
+        limits=SMALL,
+    ),
+    Attack(
         "takes all memory at once",
         "using it up",
         "bytearray(1 << 40)",
@@ -507,8 +515,7 @@ class A:
     def __repr__(self): return repr([self])
 repr(A())
 """,
-        "crashes",
-        "box_crashed",
+        "fails",
         limits=SMALL,
     ),
     Attack(

@@ -79,6 +79,8 @@ def test_attack(server: WarmServer, witness: Witness, attack: Attack) -> None:
         assert report.exit_code == 0, (report, logs)
     elif attack.ends == "dies":
         assert report.signal == signal.SIGSYS, (report, logs)
+    elif attack.ends == "fails":
+        assert report.exit_code != 0, (report, logs)
     else:
         assert report.signal is not None, (report, logs)
     if attack.reason:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import contextlib
 import os
+import resource
 import secrets
 import socket
 import subprocess
-import sys
 import time
 from pathlib import Path
 from typing import Any
@@ -34,7 +34,7 @@ class Witness:
         self._unix = _listening(socket.AF_UNIX, socket.SOCK_STREAM, str(folder / "unix"))
         self._datagram = _listening(socket.AF_UNIX, socket.SOCK_DGRAM, str(folder / "datagram"))
         self._abstract = _listening(socket.AF_UNIX, socket.SOCK_STREAM, "\0chatrobot-" + secrets.token_hex(4))
-        self._victim = subprocess.Popen([sys.executable, "-S", "-c", "import time; time.sleep(600)"])
+        self._victim = subprocess.Popen(["sleep", "600"])
         self.world: dict[str, Any] = {
             "folder": str(folder),
             "secret": str(folder / "secret"),
@@ -59,6 +59,21 @@ class Witness:
             if now[name] != self._before[name]
         ]
 
+    def restore(self) -> None:
+        """As at the beginning, after an attack that had effects."""
+        writable = self._folder / "writable"
+        for each in self._folder.iterdir():
+            if each.name not in ("secret", "writable", "unix", "datagram"):
+                each.unlink() if not each.is_dir() else each.rmdir()
+        writable.unlink(missing_ok=True)
+        writable.write_text("as it was")
+        writable.chmod(0o666)
+        self._victim.kill()
+        self._victim.wait()
+        self._victim = subprocess.Popen(["sleep", "600"])
+        self.world["victim"] = self._victim.pid
+        self._before = self._look()
+
     def close(self) -> None:
         self._victim.kill()
         self._victim.wait()
@@ -74,12 +89,18 @@ class Witness:
             "the writable file": writable.read_text() if there else None,
             "its rights and times": (writable.stat().st_mode, writable.stat().st_mtime) if there else None,
             "what arrived": [_arrived(each) for each in sockets],
-            "the victim": (self._victim.poll(), os.getpriority(os.PRIO_PROCESS, self._victim.pid)),
+            "the victim": self._look_at_the_victim(),
             "shared memory": sorted(path.name for path in Path("/dev/shm").glob("chatrobot-*")),
             "System V": Path("/proc/sysvipc/shm").read_text() if Path("/proc/sysvipc/shm").exists() else "",
             "name of the machine": socket.gethostname(),
             "clock": round(time.time() - time.monotonic(), 1),
         }
+
+    def _look_at_the_victim(self) -> tuple[int, ...] | str:
+        if self._victim.poll() is not None:
+            return "dead"
+        pid = self._victim.pid
+        return os.getpriority(os.PRIO_PROCESS, pid), *resource.prlimit(pid, resource.RLIMIT_NOFILE)
 
 
 def _listening(family: int, kind: int, address: Any) -> socket.socket:

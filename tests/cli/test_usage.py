@@ -19,7 +19,7 @@ from tests.cli.running import Command
         (["do", "hi", "--interpreter", "psychic"], "auto"),
         (["do", "hi", "--interpreter", "model"], "not built in yet"),
         (["do", "hi", "--model", "openai:gpt"], "not built in yet"),
-        (["do", "hi", "--on", "ros"], "sim"),
+        (["do", "hi", "--on", "mars"], "sim"),
         (["do", "hi", "--fast", "--robot", "r2d2"], "wheeltec_mini_mec"),
         (["do", "hi", "--fast", "--world", "mars"], "home"),
         (["do", "hi", "--fast", "--sim", "slip=lots"], "share"),
@@ -36,15 +36,6 @@ def test_wrong_usage_names_what_is_allowed(chatrobot: Command, arguments: list[s
     assert done.code == 2
     assert said in done.err
     assert done.out == ""
-
-
-@pytest.mark.parametrize("later", ["program"])
-def test_commands_of_later_versions_are_known_and_not_offered(chatrobot: Command, later: str) -> None:
-    done = chatrobot(later, "whatever", "--with", "anything")
-    assert done.code == 2
-    assert done.err.count("\n") == 1
-    assert "yet" in done.err
-    assert later not in COMMANDS
 
 
 def test_help_lists_every_command(chatrobot: Command) -> None:

@@ -12,6 +12,9 @@ from chatrobot.core.events import (
     FindingSeen,
     Finished,
     Limited,
+    ProgramLog,
+    ProgramRehearsed,
+    ProgramWritten,
     Rehearsed,
     event_from_json,
 )
@@ -28,6 +31,17 @@ EVENTS: list[Event] = [
         (FindingSeen(1, "note", Reason("limited", {"asked_mps": 2.0}), (1, 2), 0.5),),
         ((0.0, 0.0, 0.0), (1.0, 0.0, 0.5)),
     ),
+    ProgramWritten(
+        1,
+        "square",
+        "model",
+        "pass\n",
+        version=2,
+        diff="-x",
+        marks=(FindingSeen(1, "warn", Reason("no_init"), (3,)),),
+    ),
+    ProgramRehearsed(1, "square", "raised", 0.2, 1.0, False, "ValueError", 7, ("[INFO] hello",)),
+    ProgramLog(1, 0.5, "INFO", "hello"),
     Limited(2, "speed", Twist(99.0, 0.0, 0.0), Twist(1.0, 0.0, 0.0)),
     Finished(3, "stopped", Reason("stopped"), Pose(), Pose(0.5, 0.0, 0.0), 0.0, 0.5, 2.0, 0.0),
     Finished(3, "completed", None, Pose(), Pose(0.5, 0.0, 0.0), 0.0, 0.5, 2.0, 0.0),
@@ -40,7 +54,7 @@ def test_an_event_survives_the_joint(event: Event) -> None:
 
 
 def test_numbers_carry_their_units_in_their_keys() -> None:
-    assert EVENTS[1].to_json()["sent"] == {"vx_mps": 1.0, "vy_mps": 0.0, "wz_radps": 0.0}
+    assert EVENTS[4].to_json()["sent"] == {"vx_mps": 1.0, "vy_mps": 0.0, "wz_radps": 0.0}
 
 
 @pytest.mark.parametrize(

@@ -38,8 +38,44 @@ def test_a_failed_turn_goes_on_from_the_last_good_one() -> None:
         model = model_at("openai-responses", fake.url)
         Got(model, "one")
         assert Got(model, "break").code == "model_cut_off"
-        Got(model, "two")
+        Got(model, "one", "answer to one", "two")
         assert fake.calls[2].body["previous_response_id"] == fake.calls[1].body["previous_response_id"]
+
+
+def test_an_answer_that_was_given_up_is_told_with_what_it_answered() -> None:
+    """A plan that goes wrong in its second line is cancelled there; the server has kept nothing of it."""
+    with serving([{"match": "^two$", "text": "bad plan\n" * 30, "tokens_per_s": 50}, *ECHO]) as fake:
+        model = model_at("openai-responses", fake.url)
+        Got(model, "one")
+        reply = model.ask([Message("user", text) for text in ("one", "two")], CallLimits())
+        assert next(iter(reply))
+        reply.cancel()
+        Got(model, "one", "answer to one", "two", "bad plan", "that is no plan")
+        asked = fake.calls[-1].asked
+        assert asked is not None
+        assert [text for _, text in asked.turns] == [
+            "one", "answer to one", "two", "bad plan", "that is no plan",
+        ]  # fmt: skip
+
+
+def test_where_it_cannot_be_told_what_the_server_knows_it_is_told_everything() -> None:
+    with serving([{"match": "break", "text": "a b c d e f", "cut_off_after": 2}, *ECHO]) as fake:
+        model = model_at("openai-responses", fake.url)
+        Got(model, "one")
+        Got(model, "break")
+        Got(model, "one, in other words", "answer to one", "break", "a b", "go on")
+        assert "previous_response_id" not in fake.calls[-1].body
+        assert len(fake.calls[-1].body["input"]) == 5
+
+
+def test_the_same_words_twice_are_said_twice() -> None:
+    with serving(ECHO) as fake:
+        model = model_at("openai-responses", fake.url)
+        for _ in range(2):
+            Got(model, "go")
+        asked = fake.calls[-1].asked
+        assert asked is not None
+        assert [text for _, text in asked.turns] == ["go", "answer to go", "go"]
 
 
 def test_what_the_server_has_forgotten_is_told_it_again() -> None:

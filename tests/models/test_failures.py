@@ -16,6 +16,12 @@ from tests.models.rig import KEY, WIRES, Got, model_at, serving
 
 TEXT = "drive 1 m\nturn left\ndrive 2 m\nturn left\n"
 REPLIES: list[dict[str, Any]] = [
+    {"match": "limit", "error": {"status": 429}},
+    {
+        "match": "forbidden",
+        "error": {"status": 403, "body": "<html><h1>Forbidden</h1>You shall not pass</html>"},
+    },
+    {"match": "unauthorised", "error": {"status": 401, "body": ""}},
     {"match": "rate", "error": {"status": 429, "retry_after_s": 20, "message": "slow down"}},
     {
         "match": "credit",
@@ -112,6 +118,16 @@ def test_what_came_before_the_end_is_valid(provider: str, models: dict[str, Any]
         assert not got.usage.counted or got.usage.reply_tokens
 
 
+def test_a_stream_that_ends_in_good_order_but_without_its_end_was_cut_off() -> None:
+    chunk = '{"id": "x", "object": "chat.completion.chunk", "created": 1, "model": "fake", "choices": [%s]}'
+    piece = (
+        chunk % '{"index": 0, "delta": {"role": "assistant", "content": "drive 1 m"}, "finish_reason": null}'
+    )
+    with serving([{"match": "", "raw": f"data: {piece}\n\n"}]) as fake:
+        got = Got(model_at("openai", fake.url), "go")
+    assert (got.text, got.code) == ("drive 1 m", "model_cut_off")
+
+
 def test_a_tool_call_beside_a_text_is_an_error_after_the_text(models: dict[str, Any]) -> None:
     got = Got(models["openai"], "text and tools")
     assert (got.text, got.code) == (TEXT, "model_called_tool")
@@ -124,6 +140,18 @@ def test_a_rate_limit_says_for_how_long(models: dict[str, Any]) -> None:
         assert got.values["retry_after_s"] == 20
         assert got.error is not None
         assert "20" in render_reason(got.error.reason, "en")
+
+
+def test_a_rate_limit_without_a_time_suggests_one(models: dict[str, Any]) -> None:
+    got = Got(models["openai"], "limit")
+    assert got.values["retry_after_s"] == 30
+    assert_told(got)
+
+
+def test_an_error_page_is_quoted_without_its_tags(models: dict[str, Any]) -> None:
+    got = Got(models["openai"], "forbidden")
+    assert (got.code, got.values["said"]) == ("model_wrong_key", "Forbidden You shall not pass")
+    assert Got(models["openai"], "unauthorised").values["said"]
 
 
 @pytest.mark.parametrize("provider", WIRES)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 
+from chatrobot.models import providers as table
 from chatrobot.models.config import ModelConfig
 from chatrobot.models.fake.server import FakeModel
 from chatrobot.models.make import make_model
@@ -104,6 +105,23 @@ def test_a_third_party_adds_a_provider_in_one_place(monkeypatch: pytest.MonkeyPa
     register(Provider("mine", "my own", needs_key=False, key_variables=("MINE",), base_url=f"{fake.url}/v1"))
     got = Got(make_model("mine:fake", ModelConfig(environ={"MINE": KEY}, keyring=False)), "go 3")
     assert got.text == "drive 3 m"
+
+
+def test_an_installed_package_adds_a_provider(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Entry:
+        def load(self) -> Provider:
+            return Provider("theirs", "a package of theirs", needs_key=False)
+
+    monkeypatch.setattr(
+        "importlib.metadata.entry_points", lambda group: [Entry()] if "chatrobot" in group else []
+    )
+    table._installed.cache_clear()
+    try:
+        assert split_name("theirs:x")[0].title == "a package of theirs"
+    finally:
+        monkeypatch.undo()
+        table._installed.cache_clear()
+    assert "theirs" not in providers()
 
 
 def test_a_third_party_brings_a_model_of_its_own(monkeypatch: pytest.MonkeyPatch, fake: FakeModel) -> None:

@@ -34,7 +34,9 @@ from chatrobot.wire.messages import Flag, Odometry, Text, TwistMessage
 PATIENCE_S = 30.0
 WORDS: dict[str, tuple[str, ...]] = {"base": (), "control": (), "input": ()}
 _STRANGER = Path(__file__).with_name("stranger.py")
-_domains = itertools.count(random.Random(os.getpid()).randrange(1, 90))
+_WORKER = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
+_domains = itertools.count(random.Random(os.getpid()).randrange(1, 20) + 45 * (_WORKER % 2))
+"""Domains of this run's own, and of this worker's where two run side by side."""
 
 
 class Heard:

@@ -30,6 +30,17 @@ GOOD: dict[str, dict[str, Any]] = {
         "term_s": 0.3,
         "longest_s": 10,
     },
+    "program": {
+        "code": "pass\n",
+        "name": "square",
+        "remap": {},
+        "mode": "queue",
+        "approve": False,
+        "ask_findings": True,
+        "strict": True,
+        "rehearse_only": False,
+        "term_s": 0.3,
+    },
     "approve": {"yes": True},
     "stop": {"why": "x"},
     "emergency_stop": {"why": "x"},
@@ -45,6 +56,11 @@ ALLOWED: dict[str, list[Any]] = {
     "term_s": [1, 10**400, 0.5],
     "longest_s": [1, 10**400, 0.5],
     "plan_text": ["", "x", "queue", "now"],
+    "code": ["", "x", "queue", "now"],
+    "name": ["", "x", "queue", "now"],
+    "remap": [{}],
+    "ask_findings": [True, False],
+    "strict": [True, False],
     "why": ["", "x", "queue", "now"],
     "mode": ["queue"],
     "approve": [True, False],
@@ -172,6 +188,20 @@ def test_words_beyond_the_limits_are_refused_however_they_are_put(tmp_path: Path
         send_plan(rig, turn, text)
         assert finished(rig, turn).outcome == "refused"
     assert not any(any(velocity) for velocity in rig.velocities)
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("code", "x" * 60_001),
+        ("name", "x" * 61),
+        ("remap", {"a": 1}),
+        ("remap", {"a": "x" * 201}),
+        ("remap", {str(number): "x" for number in range(9)}),
+    ],
+)
+def test_a_program_that_is_too_large_is_refused(field: str, value: Any) -> None:
+    assert Envelope.from_bytes(packet("program", {**GOOD["program"], field: value})) is None
 
 
 def test_an_unlisted_mode_is_refused() -> None:

@@ -34,4 +34,6 @@ def _near(sent: Any, arrived: Any) -> bool:
         return len(sent) == len(arrived) and all(map(_near, sent, arrived))
     if isinstance(sent, float) and math.isfinite(sent):
         return bool(arrived == pytest.approx(sent, rel=1e-6, abs=1e-9))
+    if isinstance(sent, float) and math.isnan(sent):
+        return math.isnan(arrived)
     return bool(sent == arrived)

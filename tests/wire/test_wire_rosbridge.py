@@ -266,6 +266,15 @@ def test_where_rosapi_runs_the_others_are_known(robot: FakeRosbridge, connect: C
     ]
 
 
+def test_the_guard_is_told_the_topics_with_their_namespace(robot: FakeRosbridge) -> None:
+    from chatrobot.session import link
+    from chatrobot.wire.connect import connect_wire, resolved
+
+    reached = link.reach(connect_wire, f"rosbridge:{robot.url}", Wiring(namespace="robot1"), "test")
+    assert resolved(reached.wire, "cmd_vel") == "/robot1/cmd_vel"
+    reached.wire.close()
+
+
 def test_where_no_rosapi_runs_nobody_is_known(connect: Connect) -> None:
     wire = connect()
     assert (wire.survey(), wire.publishers_of("cmd_vel")) == ([], [])
@@ -275,10 +284,11 @@ def test_velocities_of_the_type_that_the_robot_takes_are_sent(
     robot: FakeRosbridge, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from chatrobot.session import link
+    from chatrobot.wire.connect import connect_wire
 
     monkeypatch.setattr(link, "SURVEY_S", 0.1)
     _rosapi(robot)
-    reached = link.reach(f"rosbridge:{robot.url}", Wiring(), "test")
+    reached = link.reach(connect_wire, f"rosbridge:{robot.url}", Wiring(), "test")
     assert (reached.wiring.cmd_vel_type, reached.wiring.odom_topic) == ("TwistStamped", "/odom_combined")
     assert [reason.code for reason in reached.said] == ["cmd_vel_type_found", "odom_found"]
     reached.wire.publish("cmd_vel", ZERO)

@@ -35,7 +35,7 @@ class Inbox(Generic[M]):
         self._queue: queue.Queue[M] = queue.Queue()
         wire.subscribe(topic, kind, self._queue.put)
         heard = threading.Event()
-        sync_topic = f"sync/{topic}/{id(self)}"
+        sync_topic = f"sync/{topic.strip('/')}/n{id(self)}"  # ROS's names do not begin with a digit
         wire.subscribe(sync_topic, Flag, lambda _: heard.set())
         wire.publish(sync_topic, Flag(True))
         assert heard.wait(PATIENCE_S)

@@ -13,7 +13,7 @@ class BoxLimits:
 
     Args:
         memory_bytes: address space beyond what the warm server had; more is a MemoryError inside.
-        cpu_s: processor time, whole seconds; then it is killed.
+        cpu_s: processor time, whole seconds; then it is killed. The default lasts hours for a program that waits.
         wall_s: time on the clock from launch to the end; None for no limit (a program that drives for an hour).
         threads: threads at once, its first included; more is a RuntimeError inside.
         log_bytes: what is kept of its output; the rest is counted and dropped.
@@ -22,7 +22,7 @@ class BoxLimits:
     """
 
     memory_bytes: int = 256 << 20
-    cpu_s: int = 60
+    cpu_s: int = 600
     wall_s: float | None = None
     threads: int = 64
     log_bytes: int = 256 << 10

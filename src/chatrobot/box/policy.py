@@ -38,7 +38,7 @@ _MAP_ANONYMOUS, _MAP_HUGE = 0x20, 0x40000
 _AF_UNIX, _SOCK_KIND, _SOCK_STREAM, _MSG_OOB = 1, 0xF, 1, 1
 _SOL_SOCKET, _SOCKET_OPTIONS = 1, (3, 4, 7, 8, 30, 38, 39)
 """SO_TYPE, SO_ERROR, SO_SNDBUF, SO_RCVBUF, SO_ACCEPTCONN, SO_PROTOCOL, SO_DOMAIN."""
-_O_NOTIFICATION_PIPE = 0x80
+_O_NOTIFICATION_PIPE, _CLOSE_RANGE_CLOEXEC = 0x80, 4
 _DUPLICATE, _GET_FLAGS, _SET_FLAGS, _GET_STATUS, _SET_STATUS, _DUPLICATE_CLOEXEC = 0, 1, 2, 3, 4, 1030
 _FCNTLS = (_DUPLICATE, _GET_FLAGS, _SET_FLAGS, _GET_STATUS, _SET_STATUS, _DUPLICATE_CLOEXEC)
 _IS_A_TERMINAL, _BLOCKING, _WAITING_BYTES, _NO_CLOEXEC, _CLOEXEC = 0x5401, 0x5421, 0x541B, 0x5450, 0x5451
@@ -67,6 +67,7 @@ RULES = (
     Rule(("recvfrom",), when=((Masked(3, _MSG_OOB, 0),),)),
     # What Python asks to know a socket; not its peer's process (SO_PEERPIDFD), which would be a descriptor of the host.
     Rule(("getsockopt",), when=tuple((Is(1, _SOL_SOCKET), Is(2, option)) for option in _SOCKET_OPTIONS)),
+    Rule(("close_range",), when=_one_of(2, (0, _CLOSE_RANGE_CLOEXEC))),
     Rule(("pipe2",), when=((Masked(1, _O_NOTIFICATION_PIPE, 0),),)),
     Rule(("socketpair",), when=((Is(0, _AF_UNIX), Masked(1, _SOCK_KIND, _SOCK_STREAM)),)),
     # Not F_SETOWN and F_SETSIG, with which the kernel sends signals on its behalf.

@@ -22,7 +22,7 @@ rt_sigaction 13 134; rt_sigprocmask 14 135; rt_sigreturn 15 139; rt_sigpending 1
 rt_sigtimedwait 128 137; sigaltstack 131 132; pause 34 -; restart_syscall 219 128
 poll 7 -; ppoll 271 73; select 23 -; pselect6 270 72; epoll_create 213 -; epoll_create1 291 20; epoll_ctl 233 21
 epoll_wait 232 -; epoll_pwait 281 22; epoll_pwait2 441 441; eventfd2 290 19; pipe 22 -; pipe2 293 59
-dup 32 23; dup2 33 -; dup3 292 24; fcntl 72 25; ioctl 16 29
+dup 32 23; dup2 33 -; dup3 292 24; close_range 436 436; fcntl 72 25; ioctl 16 29
 sendto 44 206; recvfrom 45 207; shutdown 48 210; getsockopt 55 209; getsockname 51 204; getpeername 52 205
 socketpair 53 199; getrandom 318 278; exit 60 93; exit_group 231 94
 clone 56 220; clone3 435 435; tgkill 234 131; kill 62 129; prlimit64 302 261; getrlimit 97 163

@@ -10,6 +10,7 @@ import sys
 import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from importlib.util import find_spec
 from pathlib import Path
 from types import TracebackType
 
@@ -241,7 +242,11 @@ def _clean_environment() -> dict[str, str]:
 
 def _site_folders() -> list[str]:
     """Where installed packages are: `-S` leaves them out, and a program may want numpy."""
-    return [folder for folder in sys.path if folder.rstrip("/").endswith(("site-packages", "dist-packages"))]
+    folders = [each for each in sys.path if each.rstrip("/").endswith(("site-packages", "dist-packages"))]
+    numpy = find_spec("numpy")
+    if numpy is not None and numpy.origin is not None:
+        folders.append(str(Path(numpy.origin).parents[1]))
+    return list(dict.fromkeys(folders))
 
 
 def _tasks_of_this_user() -> int:

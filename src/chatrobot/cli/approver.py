@@ -19,6 +19,8 @@ class Approver:
         others_answer: whoever reads our events answers; see `talk`.
     """
 
+    prompt = "Do it? [y/N] "
+
     def __init__(self, *, can_ask: bool, others_answer: bool = False) -> None:
         self._can_ask = can_ask
         self._others_answer = others_answer
@@ -44,7 +46,7 @@ class Approver:
             self._ask(session)
         elif not self._others_answer:
             print(
-                "chatrobot: --approve needs a terminal to ask at; --yes does each plan unasked",
+                "chatrobot: this wants a yes, and there is no terminal to ask at; --yes does it unasked",
                 file=sys.stderr,
             )
             self.give(session, False)
@@ -57,7 +59,11 @@ class Approver:
 
     def _ask(self, session: Session) -> None:
         if not self._has_asked:
-            print("Do it? [y/N] ", end="", file=sys.stderr, flush=True)
+            print(self.prompt, end="", file=sys.stderr, flush=True)
             self._has_asked = True
         if select.select([sys.stdin], [], [], 0.0)[0]:
-            self.give(session, sys.stdin.readline().strip().casefold() in _YES)
+            self.take(session, sys.stdin.readline().strip().casefold())
+
+    def take(self, session: Session, answer: str) -> None:
+        """What the person typed, in lower case."""
+        self.give(session, answer in _YES)

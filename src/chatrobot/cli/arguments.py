@@ -19,6 +19,7 @@ COMMANDS = {
     "eval": "run a corpus of sayings and count correct, wrong and abstained",
     "calibrate": "one metre and one turn: you measure, your profile gets the correction",
     "doctor": "what works here, and how to get the rest",
+    "program": "programs that move the robot: new, list, show, run, edit, rename, remove, export",
     "schema": "the JSON schema of plans",
     "sim": "run the simulated robot alone, for other programs to drive",
     "node": "one of the tutorial's three nodes: input, base or control",
@@ -26,9 +27,6 @@ COMMANDS = {
     "usage": "what language models have used and cost",
     "fake-model": "a scripted stand-in for a language model, for tests and demonstrations",
 }
-LATER = ("program",)
-"""Commands of versions to come: known, so that they are not mistaken for something else."""
-
 DEFAULTS: dict[str, Any] = {
     "on": "auto", "robot": DEFAULT_ROBOT, "interpreter": "auto", "model": "", "fast": False, "json": False,
     "trace": False, "sim": "", "world": "", "approve": False, "yes": False, "config_dir": None,
@@ -59,12 +57,9 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     Raises:
         UsageError: what is wrong, and what is allowed.
     """
+    arguments, ros_args = split_ros_args(arguments)
     parser, options = _parsers()
     word = _first_word(arguments, options)
-    if word in LATER:
-        raise UsageError(
-            f"this version does not have `chatrobot {word}` yet", allowed="chatrobot --help lists what it has"
-        )
     if word is not None and word not in COMMANDS:
         raise UsageError(
             f"there is no command {word!r}",
@@ -72,10 +67,28 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         )
     parsed = parser.parse_args(list(arguments))
     parsed.command = parsed.command or ""
+    if ros_args and parsed.command not in ("node", "sim"):
+        raise UsageError("--ros-args is for nodes", allowed="chatrobot node … or chatrobot sim … --on ros")
+    parsed.ros_args = ros_args
     for name, value in DEFAULTS.items():
         if not hasattr(parsed, name):
             setattr(parsed, name, value)
     return parsed
+
+
+def split_ros_args(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
+    """The arguments without, and those between each `--ros-args` and `--` or the end, as ROS has it."""
+    ours: list[str] = []
+    theirs: list[str] = []
+    taking = ours
+    for argument in arguments:
+        if argument == "--ros-args":
+            taking = theirs
+        elif argument == "--" and taking is theirs:
+            taking = ours
+        else:
+            taking.append(argument)
+    return ours, theirs
 
 
 def _first_word(arguments: Sequence[str], options: _Parser) -> str | None:
@@ -123,7 +136,7 @@ def _options() -> _Parser:
     add(
         "--on",
         metavar="WHERE",
-        help="which robot: sim (the default), dds[://DOMAIN[/NAMESPACE]] or rosbridge[:ws://HOST:9090]",
+        help="which robot: sim (the default), dds or ros[://DOMAIN[/NAMESPACE]], or rosbridge[:ws://HOST:9090]",
     )
     add(
         "--robot",
@@ -168,6 +181,7 @@ def _sim(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--socket", metavar="PATH", help="where its wire is served (default: the runtime folder)"
     )
+    _ros_args(parser)
 
 
 def _node(parser: argparse.ArgumentParser) -> None:
@@ -177,9 +191,6 @@ def _node(parser: argparse.ArgumentParser) -> None:
         help="input: lines typed → user_input; base: user_input → chatgpt_node; control: chatgpt_node → cmd_vel",
     )
     parser.add_argument(
-        "--ros-args", action="store_true", help="accepted before -p, so that lines written for ros2 run work"
-    )
-    parser.add_argument(
         "-p",
         dest="parameters",
         action="append",
@@ -187,6 +198,7 @@ def _node(parser: argparse.ArgumentParser) -> None:
         metavar="NAME:=VALUE",
         help="base: generate_code:=True or revChatGPT:=True, the tutorial's parameters",
     )
+    _ros_args(parser)
     parser.add_argument(
         "--allow-release",
         action="store_true",
@@ -231,11 +243,53 @@ def _fake_model(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def _program(parser: argparse.ArgumentParser) -> None:
+    actions = parser.add_subparsers(dest="action", metavar="ACTION", required=True, title="actions")
+    for name, (text, takes) in PROGRAM_ACTIONS.items():
+        action = actions.add_parser(
+            name,
+            help=text,
+            description=f"{text[0].upper()}{text[1:]}.",
+            parents=[_options()],
+            allow_abbrev=False,
+        )
+        for argument, meaning in takes.items():
+            action.add_argument(argument.casefold(), metavar=argument, help=meaning)
+        if name == "new":
+            action.add_argument("--name", dest="called", default="", metavar="NAME", help="what to call it")
+        if name == "edit":
+            action.add_argument(
+                "--file", default="", metavar="FILE.py", help="take this source, ask no editor"
+            )
+
+
+PROGRAM_ACTIONS: dict[str, tuple[str, dict[str, str]]] = {
+    "new": ("write a program, rehearse it, run it and keep it", {"TEXT": "what it is to do"}),
+    "list": ("the programs that are kept", {}),
+    "show": ("one program: its source, where it comes from, how it went", {"NAME": "which"}),
+    "run": ("rehearse a program in today's world, and run it", {"NAME": "a kept program, or FILE.py"}),
+    "edit": ("change a program's source in your editor", {"NAME": "which"}),
+    "rename": ("give a program another name", {"NAME": "which", "TO": "its new name"}),
+    "remove": ("forget a program", {"NAME": "which"}),
+    "export": ("write a program as a ROS 2 workspace", {"NAME": "which", "DIR": "a new or empty folder"}),
+}
+
+
+def _ros_args(parser: argparse.ArgumentParser) -> None:
+    """For the help text alone: `split_ros_args` has taken them."""
+    parser.add_argument(
+        "--ros-args",
+        nargs=argparse.REMAINDER,
+        metavar="…",
+        help="with --on ros what every ROS node takes: -p NAME:=VALUE, -r FROM:=TO, --params-file FILE",
+    )
+
+
 def _no_arguments(_: argparse.ArgumentParser) -> None:
     pass
 
 
 _ARGUMENTS = {
     "do": _do, "plan": _plan, "eval": _eval, "sim": _sim, "node": _node, "model": _model, "usage": _usage,
-    "fake-model": _fake_model,
+    "fake-model": _fake_model, "program": _program,
 }  # fmt: skip

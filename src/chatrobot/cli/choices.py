@@ -10,8 +10,12 @@ from chatrobot.core.errors import UsageError
 from chatrobot.session.session import Options
 
 
-def setup_from(args: argparse.Namespace, *, options: Options | None = None, world: str = "") -> Setup:
+def setup_from(
+    args: argparse.Namespace, *, options: Options | None = None, world: str = "", programs: bool = False
+) -> Setup:
     """What a person chose. `world` is the one where nothing is said; "" for the one that fits the robot.
+
+    `programs`: see `Setup`.
 
     Raises:
         UsageError: this version cannot do what was chosen.
@@ -30,6 +34,7 @@ def setup_from(args: argparse.Namespace, *, options: Options | None = None, worl
         fast=args.fast,
         trace=args.trace,
         yes=args.yes,
+        programs=programs,
         folder=config_folder(args),
-        options=options or Options(approve=args.approve and not args.yes),
+        options=options or Options(approve=args.approve and not args.yes, ask_findings=not args.yes),
     )

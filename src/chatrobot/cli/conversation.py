@@ -100,7 +100,10 @@ class Conversation:
 
     def do(self, text: str) -> None:
         """One turn, seen through to its result."""
-        turn = self.session.say(text)
+        self.see_through(self.session.say(text))
+
+    def see_through(self, turn: int) -> None:
+        """Let things happen until that turn has its result."""
         while turn not in self.session.results:
             self.step()
 

@@ -15,7 +15,7 @@ def run(args: argparse.Namespace) -> int:
     """The exit code of the last turn."""
     printer = printer_for(args)
     approver = Approver(can_ask=sys.stdin.isatty())
-    with Conversation(setup_from(args), printer, approver) as conversation:
+    with Conversation(setup_from(args, programs=True), printer, approver) as conversation:
         for text in args.texts:
             if conversation.is_leaving:
                 break

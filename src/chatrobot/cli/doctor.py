@@ -50,7 +50,7 @@ def _checks(args: argparse.Namespace) -> Iterator[Check]:
     yield _try("settings folder", lambda: _settings(args))
     yield _try("simulated robot", lambda: _simulated_robot(args))
     yield _try("in real time", lambda: _in_real_time(args))
-    yield _ros()
+    yield _ros(args)
     yield _dds(args)
     yield _model(args)
     yield _box()
@@ -99,28 +99,52 @@ def _ignore(_: Event) -> None:
     """Only the result counts here."""
 
 
-def _ros() -> Check:
+def _ros(args: argparse.Namespace) -> Check:
+    """What is sourced here, and who is there in a moment's listening."""
     from importlib.util import find_spec
 
+    from chatrobot.wire.ros.environment import HOW_TO_GET_IT, reaches_this_machine_alone
+
     distribution = os.environ.get("ROS_DISTRO", "")
-    found = (
-        f"ROS 2 {distribution} is here"
-        if find_spec("rclpy") is not None
-        else "no ROS 2 here, and none is needed"
-    )
-    return Check("ROS 2", "later", f"{found}: this version drives robots over --on dds and --on rosbridge")
+    if find_spec("rclpy") is None:
+        here = (
+            f"{distribution} is sourced, but not for this Python" if distribution else "not here, nor needed"
+        )
+        return Check("ROS 2", "later", f"{here}; for --on ros {HOW_TO_GET_IT}")
+    try:
+        from rclpy.utilities import get_rmw_implementation_identifier
+
+        middleware = get_rmw_implementation_identifier()
+        seen = _who_is_on("ros:", args)
+    except (ChatRobotError, ImportError, RuntimeError) as error:
+        return Check("ROS 2", "later", f"{distribution} does not work with this Python: {error}")
+    reach = "this machine" if reaches_this_machine_alone(os.environ) else "the whole network"
+    return Check("ROS 2", "ok", f"{distribution} with {middleware}; {_domain()}, {reach}, {seen}")
 
 
 def _dds(args: argparse.Namespace) -> Check:
     """Who is there in a moment's listening."""
-    from chatrobot.robots.load import load_profile
-    from chatrobot.wire.connect import connect_wire, is_on_this_machine, publishers_of
+    from chatrobot.wire.connect import is_on_this_machine
 
-    wiring = load_profile(args.robot, profile_folders(args)).wiring
     try:
-        wire = connect_wire("dds:", wiring, "chatrobot_doctor")
+        seen = _who_is_on("dds:", args)
     except (ChatRobotError, OSError) as error:
         return Check("DDS", "later", str(error))
+    reach = "this machine" if is_on_this_machine("dds:") else "the whole network"
+    return Check("DDS", "ok", f"works; {_domain()}, {reach}, {seen}")
+
+
+def _domain() -> str:
+    return f"on domain {os.environ.get('ROS_DOMAIN_ID', '').strip() or '0'}"
+
+
+def _who_is_on(address: str, args: argparse.Namespace) -> str:
+    """Who tells the robot's odometry there, and who sends velocities."""
+    from chatrobot.robots.load import load_profile
+    from chatrobot.wire.connect import connect_wire, publishers_of
+
+    wiring = load_profile(args.robot, profile_folders(args)).wiring
+    wire = connect_wire(address, wiring, "chatrobot_doctor")
     ends_s = time.monotonic() + DISCOVERY_S
     robots: list[str] = []
     while not robots and time.monotonic() < ends_s:
@@ -128,15 +152,8 @@ def _dds(args: argparse.Namespace) -> Check:
         robots = publishers_of(wire, wiring.odom_topic) if wiring.odom_topic else []
     drivers = publishers_of(wire, wiring.cmd_vel_topic)
     wire.close()
-    reach = "this machine" if is_on_this_machine("dds:") else "the whole network"
-    domain = os.environ.get("ROS_DOMAIN_ID", "").strip() or "0"
-    text = f"works; on domain {domain}, {reach}, "
-    text += (
-        f"{', '.join(robots)} tells {wiring.odom_topic}" if robots else f"nobody tells {wiring.odom_topic}"
-    )
-    return Check(
-        "DDS", "ok", text + (f"; {', '.join(drivers)} sends {wiring.cmd_vel_topic}" if drivers else "")
-    )
+    text = f"{', '.join(robots)} tells {wiring.odom_topic}" if robots else f"nobody tells {wiring.odom_topic}"
+    return text + (f"; {', '.join(drivers)} sends {wiring.cmd_vel_topic}" if drivers else "")
 
 
 def _model(args: argparse.Namespace) -> Check:

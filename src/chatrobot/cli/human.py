@@ -10,6 +10,9 @@ from chatrobot.core.events import (
     Interpreted,
     Limited,
     Notice,
+    ProgramLog,
+    ProgramRehearsed,
+    ProgramWritten,
     Progress,
     Rehearsed,
     Remembered,
@@ -20,7 +23,7 @@ from chatrobot.core.events import (
 )
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.language.interpretation import LanguageCode
-from chatrobot.language.phrases import render_reason
+from chatrobot.language.phrases import render_reason, say
 
 _CLEAR_LINE = "\r\x1b[K"
 _MARKS = {"refuse": "✗", "warn": "!", "note": "·"}
@@ -89,9 +92,36 @@ class HumanPrinter:
             self._line(f"  · {_twist(event.asked)} → {_twist(event.sent)}")
         elif isinstance(event, Notice):
             self._line(f"  ! {event.text or render_reason(event.reason, language)}")
+        elif isinstance(event, ProgramWritten):
+            self._show_program(event, language)
+        elif isinstance(event, ProgramRehearsed):
+            self._show_program_rehearsed(event, language)
+        elif isinstance(event, ProgramLog):
+            self._line(f"  | {event.text}")
         elif isinstance(event, TruePose):
             yaw_deg = math.degrees(event.yaw_rad)
             self._line(f"  {event.t_s:8.2f} s  x {event.x_m:.3f} m  y {event.y_m:.3f} m  {yaw_deg:.1f}°")
+
+    def _show_program(self, event: ProgramWritten, language: LanguageCode) -> None:
+        from chatrobot.cli.program_text import marked_only, marks_of, numbered
+
+        by = say(language, f"written_by_{event.by}")
+        self._line(say(language, "program_shown", name=event.program, by=by, version=event.version))
+        marks = marks_of(event.marks)
+        if event.diff:
+            lines = [f"  {line}" for line in event.diff.splitlines()[2:]]
+            lines += marked_only(event.source, marks, language)
+        else:
+            shown = numbered if event.is_new else marked_only
+            lines = list(shown(event.source, marks, language))
+        for line in lines:
+            self._line(line)
+
+    def _show_program_rehearsed(self, event: ProgramRehearsed, language: LanguageCode) -> None:
+        values = {"speed": f"{event.top_speed_mps:.2f}", "rate": f"{event.top_rate_radps:.2f}"}
+        self._line(f"  ≈ {say(language, 'program_speeds', **values)}")
+        for line in event.problem.splitlines():
+            self._line(f"    {line}")
 
     def _line(self, text: str) -> None:
         clear = _CLEAR_LINE if self._has_status else ""

@@ -5,10 +5,15 @@ from __future__ import annotations
 import argparse
 import contextlib
 import sys
+from typing import TYPE_CHECKING
 
 from chatrobot.cli.entry import STOPPED
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.core.errors import UsageError, WireError
+from chatrobot.wire.connect import Connect, connect_wire
+
+if TYPE_CHECKING:
+    from chatrobot.nodes.citizen import Citizen
 
 _PARAMETERS = ("generate_code", "revChatGPT")
 _VALUES = {"true": True, "false": False}
@@ -18,10 +23,21 @@ def run(args: argparse.Namespace) -> int:
     """0 where its input has ended, 5 where it was asked to end."""
     if args.fast or args.trace or args.sim:
         raise UsageError("a node drives a robot on a wire", allowed="leave out --fast, --trace and --sim")
-    return {"input": _run_input, "base": _run_base, "control": _run_control}[args.which](args)
+    ros_args = [*args.ros_args, *(word for given in args.parameters for word in ("-p", given))]
+    if _address(args).startswith("ros:"):
+        from chatrobot.cli.ros_node import open_citizen
+
+        citizen = open_citizen(args, _address(args), ros_args)
+        connect: Connect = citizen.connect
+    else:
+        citizen, connect = None, connect_wire
+        vars(args).update(_parameters(ros_args))
+    return {"input": _run_input, "base": _run_base, "control": _run_control}[args.which](
+        args, citizen, connect
+    )
 
 
-def _run_control(args: argparse.Namespace) -> int:
+def _run_control(args: argparse.Namespace, citizen: Citizen | None, connect: Connect) -> int:
     from chatrobot.nodes.control import ControlNode, ControlOptions
 
     node = ControlNode(
@@ -32,7 +48,8 @@ def _run_control(args: argparse.Namespace) -> int:
             args.allow_release,
             args.accept_others,
             args.on_robot,
-        )
+        ),
+        connect,
     )
 
     def stop(why: str) -> None:
@@ -45,42 +62,44 @@ def _run_control(args: argparse.Namespace) -> int:
         return watch.is_leaving
 
     with SignalWatch(stop) as watch:
-        _say(
-            f"control drives {args.robot} on {_address(args)}: chatgpt_node → cmd_vel; Ctrl-C stops and ends"
-        )
+        if citizen is not None:
+            node.introduce(citizen)
+        _say(f"control drives {args.robot} on {_place(args)}: chatgpt_node → cmd_vel; Ctrl-C stops and ends")
         node.run(is_leaving)
     return STOPPED
 
 
-def _run_base(args: argparse.Namespace) -> int:
+def _run_base(args: argparse.Namespace, citizen: Citizen | None, connect: Connect) -> int:
     from chatrobot.cli.folders import config_folder
     from chatrobot.nodes.base import BaseNode, BaseOptions
 
-    parameters = _parameters(args.parameters)
     node = BaseNode(
         BaseOptions(
             _address(args),
             _profile(args),
             _world(args),
             config_folder(args),
-            parameters["generate_code"],
-            parameters["revChatGPT"],
+            args.generate_code,
+            args.revChatGPT,
         ),
         _say,
+        connect,
     )
     with SignalWatch(node.stop) as watch:
-        _say(f"base understands for {args.robot} on {_address(args)}: user_input → chatgpt_node")
+        if citizen is not None:
+            node.introduce(citizen)
+        _say(f"base understands for {args.robot} on {_place(args)}: user_input → chatgpt_node")
         node.run(lambda: watch.is_leaving)
     return STOPPED
 
 
-def _run_input(args: argparse.Namespace) -> int:
+def _run_input(args: argparse.Namespace, _: Citizen | None, connect: Connect) -> int:
     from chatrobot.cli.lines import LineReader
     from chatrobot.language.phrases import say
     from chatrobot.nodes.input import InputNode
     from chatrobot.robots.load import load_profile
 
-    node = InputNode(_address(args), load_profile(_profile(args)).wiring, _say)
+    node = InputNode(_address(args), load_profile(_profile(args)).wiring, _say, connect)
 
     def on_line(line: str) -> None:
         if not node.say(line):
@@ -88,7 +107,7 @@ def _run_input(args: argparse.Namespace) -> int:
 
     reader = LineReader(on_line)
     with SignalWatch(lambda _: node.stop()) as watch:
-        _say(f"input on {_address(args)}: each line goes to user_input")
+        _say(f"input on {_place(args)}: each line goes to user_input")
         reader.start()
         while not (watch.is_leaving or reader.has_ended):
             reader.wait(0.1)
@@ -102,6 +121,11 @@ def _address(args: argparse.Namespace) -> str:
     return wire_address("dds" if args.on == "auto" else args.on)
 
 
+def _place(args: argparse.Namespace) -> str:
+    """The address as a person would say it."""
+    return _address(args).rstrip(":")
+
+
 def _profile(args: argparse.Namespace) -> str:
     from chatrobot.cli.folders import profile_folders
     from chatrobot.robots.load import profile_argument
@@ -113,14 +137,16 @@ def _world(args: argparse.Namespace) -> str:
     return args.world or "empty"
 
 
-def _parameters(given: list[str]) -> dict[str, bool]:
-    """The values of `-p NAME:=VALUE`, by name."""
+def _parameters(ros_args: list[str]) -> dict[str, bool]:
+    """The values of `-p NAME:=VALUE`, by name, for a node that is none of ROS's."""
     values = dict.fromkeys(_PARAMETERS, False)
-    for parameter in given:
+    words = iter(ros_args)
+    for word in words:
+        parameter = next(words, "") if word in ("-p", "--param") else word
         name, _, value = parameter.partition(":=")
-        if name not in values or value.lower() not in _VALUES:
+        if word == parameter or name not in values or value.lower() not in _VALUES:
             raise UsageError(
-                f"{parameter!r} is no parameter of this node",
+                f"{parameter!r} is no parameter of this node without --on ros",
                 where="-p",
                 allowed="generate_code:=True, revChatGPT:=True",
             )

@@ -12,7 +12,7 @@ from types import FrameType
 
 from chatrobot.cli.entry import USAGE
 from chatrobot.cli.folders import profile_folders
-from chatrobot.core.errors import JointError
+from chatrobot.core.errors import JointError, UsageError
 from chatrobot.robots.load import profile_argument
 from chatrobot.wire.connect import wire_address
 from chatrobot.wire.runtime_dir import runtime_dir
@@ -24,6 +24,8 @@ def run(args: argparse.Namespace) -> int:
     address = "" if args.on in ("auto", "sim") else wire_address(args.on)
     if address.startswith("local:"):
         path, address = address.partition(":")[2], ""
+    if args.ros_args and not address.startswith("ros:"):
+        raise UsageError("only a ROS node takes these", where="--ros-args", allowed="with --on ros")
     robot = subprocess.Popen(
         [
             *(
@@ -35,6 +37,7 @@ def run(args: argparse.Namespace) -> int:
             ),
             *("--world", args.world or "home", "--sim", args.sim),
             *(("--on", address) if address else ("--socket", path)),
+            *(("--ros-args", *args.ros_args) if args.ros_args else ()),
         ],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,

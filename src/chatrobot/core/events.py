@@ -71,6 +71,54 @@ class Rehearsed(Event):
 
 
 @dataclass(frozen=True)
+class ProgramWritten(Event):
+    """A program was written, or found under its name. `marks` have the line they are about in `step`.
+
+    `by` is who wrote this version, `version` counts from 1, `diff` is what changed since the one before; `is_new`
+    where it was written in this turn.
+    """
+
+    name: ClassVar[str] = "program_written"
+    program: str
+    by: Literal["offline", "model", "person"]
+    source: str
+    description: str = ""
+    version: int = 1
+    diff: str = ""
+    is_new: bool = False
+    marks: tuple[FindingSeen, ...] = ()
+
+
+@dataclass(frozen=True)
+class ProgramRehearsed(Event):
+    """What the program did in its box on virtual time, besides what `rehearsed` tells, which follows.
+
+    `ended` says how: it `returned`, called `exit`, `raised`, `died`, was `stuck` waiting for nothing, or still ran at
+    the `horizon`. `problem` is its traceback or the like, `line` where in the program that was, 0 for nowhere.
+    """
+
+    name: ClassVar[str] = "program_rehearsed"
+    program: str
+    ended: str
+    top_speed_mps: float
+    top_rate_radps: float
+    stands_at_end: bool
+    problem: str = ""
+    line: int = 0
+    log: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class ProgramLog(Event):
+    """What a running program logged or printed, `t_s` after its start."""
+
+    name: ClassVar[str] = "program_log"
+    t_s: float
+    level: str
+    text: str
+
+
+@dataclass(frozen=True)
 class Started(Event):
     """The robot begins to act on this turn."""
 
@@ -236,6 +284,7 @@ _READERS: Mapping[str, Any] = {
     "Reason": _reason,
     "Reason | None": _reason,
     "tuple[int, ...]": tuple,
+    "tuple[str, ...]": tuple,
     "tuple[FindingSeen, ...]": lambda value: tuple(event_from_json(item) for item in value),
     "tuple[tuple[float, float, float], ...]": lambda value: tuple(tuple(item) for item in value),
 }
@@ -244,6 +293,6 @@ EVENT_TYPES: Mapping[str, type[Event]] = {
     kind.name: kind
     for kind in (
         Interpreted, FindingSeen, Rehearsed, Started, Progress, Telemetry, TruePose, Limited, Said, Remembered,
-        Notice, Finished, Result,
+        Notice, Finished, Result, ProgramWritten, ProgramRehearsed, ProgramLog,
     )
 }  # fmt: skip

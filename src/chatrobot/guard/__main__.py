@@ -118,7 +118,6 @@ def _wiring(options: dict[str, str]) -> Wiring:
         cmd_vel_type="TwistStamped" if options.get("--type") == "TwistStamped" else "Twist",
         odom_topic=options.get("--odom", ""),
         odom_type="turtlesim/Pose" if options.get("--odom-type") == "turtlesim/Pose" else "Odometry",
-        namespace=options.get("--namespace", ""),
     )
 
 

@@ -1,35 +1,130 @@
-"""The tutorial's two requests for a program: the motion they ask for, exactly as told, or an honest word."""
+"""Requests for a program: what it is to do, and how it is to be; and programs that are asked for by name.
+
+The tutorial's two requests are read as they stand, with their numbers; any other one leaves a sentence that the
+interpreter reads like every other.
+"""
 
 from __future__ import annotations
 
+import math
 import re
+from collections.abc import Iterable
+from dataclasses import dataclass
 from functools import lru_cache
 
+from chatrobot.core.reason import Reason
 from chatrobot.language.data_files import LANGUAGES, load_table
+from chatrobot.language.normalise import normalise
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import RawTwist, Repeat, Step
 
+Patterns = dict[str, re.Pattern[str]]
+
+DEFAULT_REST_S = 1.0
+LONGEST_REST_S = 60.0
+_CORNER_DEG = 90.0
+_CORNER_SLACK_DEG = 3.0
+_NAME_WORDS = 4
+_NAME_CHARS = 30
+
+
+@dataclass(frozen=True)
+class ProgramRequest:
+    """What somebody wants written.
+
+    `body` is the motion in the person's words, without those around it; `steps` the same where it was told in the
+    tutorial's numbers. `promises` are what the request says and its numbers do not give.
+    """
+
+    text: str
+    body: str
+    name: str
+    steps: tuple[Step, ...] = ()
+    topic: str = ""
+    uses_sleep: bool = False
+    rest_s: float = DEFAULT_REST_S
+    promises: tuple[Reason, ...] = ()
+
+
+@dataclass(frozen=True)
+class _Tables:
+    """The tables of one language, compiled."""
+
+    patterns: Patterns
+    wording: Patterns
+    names: Patterns
+    plain: dict[str, str]
+
 
 @lru_cache(maxsize=1)
-def _patterns() -> tuple[dict[str, re.Pattern[str]], ...]:
-    tables = [load_table(language, "programs") for language in LANGUAGES]
-    return tuple({name: re.compile(pattern, re.S) for name, pattern in t["patterns"].items()} for t in tables)
+def _tables() -> tuple[_Tables, ...]:
+    def compiled(table: dict[str, str]) -> Patterns:
+        return {name: re.compile(pattern, re.S | re.I) for name, pattern in table.items()}
+
+    loaded = [load_table(language, "programs") for language in LANGUAGES]
+    return tuple(
+        _Tables(compiled(t["patterns"]), compiled(t["wording"]), compiled(t["names"]), dict(t["plain"]))
+        for t in loaded
+    )
 
 
 def read_program_request(text: str) -> list[Step] | None:
     """The steps that a request for a program describes; None where `text` asks for no program.
 
     Raises:
-        Unclear: for a program whose motion is not told in full: writing programs takes a model.
+        Unclear: for a program whose motion is not told in the tutorial's numbers.
     """
     text = " ".join(text.split())
-    for patterns in _patterns():
-        if patterns["request"].search(text):
-            return _motion(text, patterns)
+    for tables in _tables():
+        if tables.patterns["request"].search(text):
+            steps = _motion(text, tables.patterns)
+            if steps is None:
+                raise Unclear("program")
+            return steps
     return None
 
 
-def _motion(text: str, patterns: dict[str, re.Pattern[str]]) -> list[Step]:
+def read_request(text: str, *, is_asked_for: bool = False) -> ProgramRequest | None:
+    """What program `text` asks for; None where it asks for none. `is_asked_for`: it was said otherwise that it does."""
+    plain = " ".join(normalise(text).split())
+    found = next((t for t in _tables() if t.patterns["request"].search(plain)), None)
+    if found is None and not is_asked_for:
+        return None
+    tables = found or _tables()[0]
+    steps = _motion(plain, tables.patterns) or []
+    body = _body(plain, tables) if found is not None else plain
+    rest = tables.wording["rest"].search(plain)
+    topic = tables.wording["topic"].search(text)
+    return ProgramRequest(
+        text=text,
+        body=body,
+        name=_name(text, plain, body, tables),
+        steps=tuple(steps),
+        topic=topic[1] if topic else "",
+        uses_sleep=bool(tables.wording["sleep"].search(plain)),
+        rest_s=min(float(rest[1]), LONGEST_REST_S) if rest else DEFAULT_REST_S,
+        promises=_promises(steps, plain, tables.patterns),
+    )
+
+
+def read_program_name(text: str, names: Iterable[str]) -> str | None:
+    """Which of the kept programs `text` asks to run ("do the square dance again"); None where it asks for none."""
+    plain = " ".join(normalise(text).split())
+    known = {_key(name): name for name in names}
+    for tables in _tables():
+        for pattern in ("again", "again_weak"):
+            found = tables.wording[pattern].match(plain)
+            if found is not None and _key(found["name"]) in known:
+                return known[_key(found["name"])]
+    return None
+
+
+def _key(name: str) -> str:
+    return " ".join(re.sub(r"[^\w ]+", " ", normalise(name).replace("_", " ")).split())
+
+
+def _motion(text: str, patterns: Patterns) -> list[Step] | None:
+    """The motion as the tutorial tells it, in numbers."""
     square = patterns["square"].search(text)
     if square:
         found = [patterns[name].search(text) for name in ("linear", "drive_time", "angular", "turn_time")]
@@ -39,4 +134,52 @@ def _motion(text: str, patterns: dict[str, re.Pattern[str]]) -> list[Step]:
     rotation = patterns["rotation"].search(text)
     if rotation and not square:
         return [RawTwist(0.0, 0.0, float(rotation[1]), float(rotation[2]))]
-    raise Unclear("program")
+    return None
+
+
+def _promises(steps: list[Step], text: str, patterns: Patterns) -> tuple[Reason, ...]:
+    """1.0 rad/s for 2 s is 115 degrees: no corner of a square. Done as told, and said."""
+    if not steps or not patterns["square"].search(text) or not isinstance(steps[0], Repeat):
+        return ()
+    turn = steps[0].steps[-1]
+    assert isinstance(turn, RawTwist)
+    turned_deg = math.degrees(abs(turn.wz_radps) * turn.duration_s)
+    if abs(turned_deg - _CORNER_DEG) <= _CORNER_SLACK_DEG:
+        return ()
+    right_s = math.radians(_CORNER_DEG) / abs(turn.wz_radps)
+    values = {
+        "rate_radps": abs(turn.wz_radps),
+        "time_s": turn.duration_s,
+        "turned_deg": turned_deg,
+        "corner_deg": _CORNER_DEG,
+        "right_s": right_s,
+    }
+    return (Reason("promise_corner", values),)
+
+
+def _body(plain: str, tables: _Tables) -> str:
+    """The motion's own words: what asks for a program and what says how it is to look are left out."""
+    rest = plain
+    for _ in range(2):  # "code for a ROS 2 node that …" names it twice
+        found = tables.wording["lead"].match(rest)
+        if found is None:
+            break
+        rest = rest[found.end() :]
+    sentences = [part for part in re.split(r"(?<=[.;!?])\s+(?:\d+ ?[.,、)] ?)?|(?<=[。；])", rest) if part]
+    kept = [part for part in sentences if not tables.wording["aside"].search(part)]
+    words = " ".join(kept).strip(" ,.;:，。；：")
+    for third, order in tables.plain.items():
+        words = re.sub(rf"\b{third}\b", order, words)
+    return re.sub(r"\b(?:called|named) [\"“'][^\"”']*[\"”'] ?", "", words)
+
+
+def _name(text: str, plain: str, body: str, tables: _Tables) -> str:
+    named = tables.wording["named"].search(text)
+    if named:
+        return named[1].strip()
+    for name, pattern in tables.names.items():
+        if pattern.search(plain):
+            return name
+    first = re.split(r"\d|\b(?:and|then|until|for|at)\b|[,.;:!?]", body, maxsplit=1)[0]
+    words = re.findall(r"[^\W\d_]+", first)
+    return " ".join(words[:_NAME_WORDS])[:_NAME_CHARS].strip() or "program"

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import importlib
+import sys
 import threading
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 from chatrobot.core.reason import Reason
@@ -22,6 +25,7 @@ from chatrobot.models.secret import PieceScrubber, Secret
 from chatrobot.models.usage_log import record
 
 EXTRA = "pip install 'chatrobot[models]'"
+SWITCH_S = 0.0005
 _LIBRARY = {
     "openai": "pydantic_ai.models.openai",
     "openai-responses": "pydantic_ai.models.openai",
@@ -59,12 +63,32 @@ def _load(provider: Provider) -> Any:
         ModelError: `model_missing_extra`.
     """
     try:
-        importlib.import_module(_LIBRARY[provider.wire])
-        return importlib.import_module("chatrobot.models.library")
+        with _quiet_import():
+            importlib.import_module(_LIBRARY[provider.wire])
+            return importlib.import_module("chatrobot.models.library")
     except ImportError:
         raise ModelError(
             Reason("model_missing_extra", {"command": EXTRA, "provider": provider.name})
         ) from None
+
+
+@contextmanager
+def _quiet_import() -> Iterator[None]:
+    """Import without holding other threads up: a stop word may be typed meanwhile.
+
+    Collecting garbage among a million new objects keeps the interpreter for a tenth of a second at a time, and there
+    is none among modules.
+    """
+    interval_s, was_collecting = sys.getswitchinterval(), gc.isenabled()
+    gc.disable()
+    sys.setswitchinterval(SWITCH_S)
+    try:
+        yield
+    finally:
+        sys.setswitchinterval(interval_s)
+        if was_collecting:
+            gc.freeze()
+            gc.enable()
 
 
 class LibraryModel:

@@ -7,23 +7,43 @@ import gc
 import json
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from chatrobot.core.errors import JointError, WireError
-from chatrobot.core.events import Event, Finished, Interpreted, Notice, Result
+from chatrobot.core.events import (
+    Event,
+    FindingSeen,
+    Finished,
+    Interpreted,
+    Notice,
+    ProgramWritten,
+    Rehearsed,
+    Result,
+)
+from chatrobot.language.consent import read_consent
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.nodes.operator import Operators
+from chatrobot.plan.context import RoutePlanner
+from chatrobot.plan.route import GridRoutePlanner
+from chatrobot.programs.library import Library
 from chatrobot.reflex import is_release
 from chatrobot.robots.load import load_profile
+from chatrobot.robots.profile import RobotProfile
+from chatrobot.session.authoring import Authoring
 from chatrobot.session.session import Options, Session
 from chatrobot.session.topic_joint import TopicJoint
 from chatrobot.session.topics import CHATGPT_NODE, EVENTS, OPERATOR, REPLY, STOP, USER_INPUT
 from chatrobot.session.understanding import Understanding
 from chatrobot.sim.load import load_world
-from chatrobot.wire.connect import advertise, connect_wire, is_on_this_machine, publishers_of
+from chatrobot.sim.world import World
+from chatrobot.wire.connect import Connect, advertise, connect_wire, is_on_this_machine, publishers_of
 from chatrobot.wire.messages import Flag, Text
+
+if TYPE_CHECKING:
+    from chatrobot.nodes.citizen import Citizen, Diagnosis
 
 NODE = "chatrobot_base"
 PUMP_S = 0.1
@@ -55,18 +75,23 @@ class BaseNode:
         InputError: the profile or the world cannot be used.
     """
 
-    def __init__(self, options: BaseOptions, show: Callable[[str], None]) -> None:
+    def __init__(
+        self, options: BaseOptions, show: Callable[[str], None], connect: Connect = connect_wire
+    ) -> None:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         self._options = options
         self._show = show
         profile = load_profile(options.profile)
-        understanding = Understanding(profile, load_world(options.world), options.folder)
+        world = load_world(options.world)
+        understanding = Understanding(profile, world, options.folder)
         understanding.interpret("forward 1 m")  # reads the tables now, not with the first instruction
-        self._wire = connect_wire(options.wire, profile.wiring, NODE)
+        self._wire = connect(options.wire, profile.wiring, NODE)
         self._joint = TopicJoint(self._wire, "base", is_on_this_machine=is_on_this_machine(options.wire))
         self._next_look_s = 0.0
         self._has_twin = False
-        self._session = Session(self._joint, understanding, self._hear_event, Options())
+        self._asked_turn: int | None = None
+        authoring = self._authoring(profile, world, understanding) if options.generate_code else None
+        self._session = Session(self._joint, understanding, self._hear_event, Options(), authoring)
         self._operators = Operators(lambda: self._session.is_idle, self._lose_operator)
 
     def run(self, is_leaving: Callable[[], bool]) -> None:
@@ -95,7 +120,27 @@ class BaseNode:
         """Stop the robot and drop what waits; from any thread."""
         self._session.stop(why)
 
+    def introduce(self, citizen: Citizen) -> None:
+        """Offer to ROS what a node of it offers."""
+        citizen.serve("~/stop", self._serve_stop)
+        citizen.diagnose(self._options.profile, self._diagnose)
+
     # --- the wire's thread ---
+
+    def _serve_stop(self) -> tuple[bool, str]:
+        try:
+            self._session.stop("~/stop")
+        except JointError as error:
+            return False, str(error)
+        return True, "stopped"
+
+    def _diagnose(self) -> Diagnosis:
+        from chatrobot.nodes.citizen import Diagnosis
+
+        values = {"interpreter": "offline", "profile": self._options.profile}
+        if not self._joint.has_control:
+            return Diagnosis("warn", "no_control", values)
+        return Diagnosis("ok", "ready", values)
 
     def _hear(self, message: Text) -> None:
         if message.data.strip():
@@ -104,7 +149,15 @@ class BaseNode:
                     self._session.release()  # control decides, and says what it did
                 else:
                     self._operators.hear_text(message.data)
-                    self._session.say(message.data)
+                    self._say_or_answer(message.data)
+
+    def _say_or_answer(self, text: str) -> None:
+        turn, yes = self._asked_turn, read_consent(text)
+        if turn is not None and yes is not None:
+            self._asked_turn = None
+            self._session.approve(turn, yes)
+        else:
+            self._session.say(text)
 
     def _lose_operator(self) -> None:
         with contextlib.suppress(JointError):
@@ -120,7 +173,7 @@ class BaseNode:
     def _explain_parameters(self) -> None:
         language = self._session.understanding.language
         if self._options.generate_code:
-            self._say(say(language, "generate_code_later"))
+            self._say(say(language, "generate_code_on"))
         if self._options.rev_chatgpt:
             self._say(say(language, "revchatgpt_gone"))
 
@@ -137,14 +190,33 @@ class BaseNode:
 
     def _hear_event(self, event: Event) -> None:
         language = self._session.understanding.language
-        if isinstance(event, (Interpreted, Result)):
+        if isinstance(event, (Interpreted, ProgramWritten, Result)):
             self._publish(EVENTS, json.dumps(event.to_json(), separators=(",", ":"), ensure_ascii=False))
         if (isinstance(event, Interpreted) and event.plan_text) or isinstance(event, Result):
             self._say(event.reply)
         elif isinstance(event, Notice):
             self._say(event.text or render_reason(event.reason, language))
+        elif isinstance(event, ProgramWritten):
+            self._say_written(event, language)
+        elif isinstance(event, Rehearsed) and event.needs_approval:
+            self._asked_turn = event.turn
+            self._say(" ".join([*_sentences(event.findings, language), say(language, "ask_program")]))
+        elif isinstance(event, Finished) and event.turn == self._asked_turn:
+            self._asked_turn = None
         elif isinstance(event, Finished) and event.turn == 0 and event.reason is not None:
             self._say(render_reason(event.reason, language))
+
+    def _say_written(self, event: ProgramWritten, language: str) -> None:
+        """Its source goes to whoever shows it on the events' topic; here it is named, with what is risky in it."""
+        by = say(language, f"written_by_{event.by}")
+        shown = say(language, "program_shown", name=event.program, by=by, version=event.version)
+        self._say(" ".join([shown, *_sentences(event.marks, language)]))
+
+    def _authoring(self, profile: RobotProfile, world: World, understanding: Understanding) -> Authoring:
+        def routes() -> RoutePlanner | None:
+            return None if world.is_empty else GridRoutePlanner(world, profile)
+
+        return Authoring(profile, Library(self._options.folder), understanding.interpret, routes=routes)
 
     def _say(self, text: str) -> None:
         if text:
@@ -154,3 +226,7 @@ class BaseNode:
     def _publish(self, topic: str, text: str) -> None:
         with contextlib.suppress(WireError):  # gone: the joint tells
             self._wire.publish(topic, Text(text))
+
+
+def _sentences(findings: Iterable[FindingSeen], language: str) -> list[str]:
+    return [render_reason(finding.reason, language) for finding in findings]

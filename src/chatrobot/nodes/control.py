@@ -8,24 +8,33 @@ from __future__ import annotations
 import contextlib
 import json
 import sys
+import time
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from chatrobot.core.errors import WireError
-from chatrobot.core.events import Event, Finished, Notice, Started
+from chatrobot.core.events import Event, Finished, Notice, ProgramLog, Started
 from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.nodes.foreign import Foreign
-from chatrobot.session.envelope import Envelope
+from chatrobot.session.envelope import Envelope, Word
 from chatrobot.session.motion_runner import MotionRunner
 from chatrobot.session.topics import CHATGPT_NODE, EVENTS
-from chatrobot.wire.connect import advertise
+from chatrobot.wire.connect import Connect, advertise, connect_wire
 from chatrobot.wire.messages import Text
+
+if TYPE_CHECKING:
+    from chatrobot.nodes.citizen import Citizen, Diagnosis
 
 NODE = "chatrobot_control"
 BASE = "base"
 """The source that `base` speaks as: what a person typed on `user_input`."""
+SERVICE = "service"
+RELEASE_S = 0.5
+LEAVE_S = 5.0
+ODOMETRY_LATE_S = 1.0
 
 
 @dataclass(frozen=True)
@@ -48,7 +57,7 @@ class ControlNode:
         InputError: the profile or the world cannot be used.
     """
 
-    def __init__(self, options: ControlOptions) -> None:
+    def __init__(self, options: ControlOptions, connect: Connect = connect_wire) -> None:
         self._options = options
         self._ours: set[int] = set()
         self._untold: deque[Event] = deque()
@@ -62,18 +71,37 @@ class ControlNode:
             accept_others=options.accept_others,
             on_robot=options.on_robot,
             releasers=RELEASERS | {BASE} if options.release else RELEASERS,
+            connect=connect,
         )
         self._foreign = Foreign(self._runner, lambda: bool(self._ours))
         advertise(self._runner.wire, EVENTS, Text)
         self._runner.wire.subscribe(CHATGPT_NODE, Text, self._hear)
 
     def run(self, is_leaving: Callable[[], bool]) -> None:
-        """Until `is_leaving`, and then until the robot stands."""
-        self._runner.run(lambda: is_leaving() and not self._runner.motion.is_busy, self._each_tick)
+        """Until `is_leaving`, and then until the robot stands; in a simulation that stands still not for ever."""
+        leaving_since_s: float | None = None
+
+        def has_left() -> bool:
+            nonlocal leaving_since_s
+            if not is_leaving():
+                return False
+            now_s = time.monotonic()
+            leaving_since_s = now_s if leaving_since_s is None else leaving_since_s
+            return not self._runner.motion.is_busy or now_s - leaving_since_s > LEAVE_S
+
+        self._runner.run(has_left, self._each_tick)
 
     def stop(self, why: str) -> None:
         """Zero, now, from any thread."""
         self._runner.halt("control", why)
+
+    def introduce(self, citizen: Citizen) -> None:
+        """Offer to ROS what a node of it offers."""
+        citizen.serve("~/stop", self._serve_stop)
+        citizen.serve("~/emergency_stop", self._serve_emergency_stop)
+        if self._options.release:
+            citizen.serve("~/release", self._serve_release)
+        citizen.diagnose(self._options.profile, self._diagnose)
 
     def leave(self) -> None:
         """Take no more plans. From any thread."""
@@ -81,11 +109,47 @@ class ControlNode:
 
     # --- the wire's thread ---
 
+    def _serve_stop(self) -> tuple[bool, str]:
+        self._runner.halt(SERVICE, "~/stop")
+        return True, "stopped"
+
+    def _serve_emergency_stop(self) -> tuple[bool, str]:
+        self._runner.receive(self._service_envelope("emergency_stop", SERVICE))
+        return True, "stopped; nothing moves until it is released"
+
+    def _serve_release(self) -> tuple[bool, str]:
+        # Who started this node with allow_release has given the right of the local console to this service.
+        self._runner.receive(self._service_envelope("release", "console"))
+        ends_s = time.monotonic() + RELEASE_S
+        while self._runner.motion.latched is not None:
+            if time.monotonic() > ends_s:
+                return False, "not released"
+            time.sleep(0.005)
+        return True, "released"
+
+    def _service_envelope(self, word: Word, source: str) -> Envelope:
+        return Envelope(word, source, SERVICE, time.monotonic_ns())
+
+    def _diagnose(self) -> Diagnosis:
+        from chatrobot.nodes.citizen import Diagnosis
+
+        motion = self._runner.motion
+        barred = motion.latched or motion.obstruction
+        values: dict[str, object] = {
+            "moving": motion.is_busy,
+            **{f"{name}_age_s": round(age_s, 2) for name, age_s in motion.sensors.ages_s().items()},
+        }
+        if barred is not None:
+            return Diagnosis("error" if motion.latched else "warn", barred.code, {**values, **barred.values})
+        if motion.sensors.has_odometry and motion.sensors.odometry_age_s() > ODOMETRY_LATE_S:
+            return Diagnosis("warn", "no_odometry", values)
+        return Diagnosis("ok", "driving" if motion.is_busy else "ready", values)
+
     def _hear(self, message: Text) -> None:
         envelope = Envelope.from_bytes(message.data.encode(errors="replace"))
         if envelope is None:
             self._foreign.hear(message.data)
-        elif envelope.word == "plan":
+        elif envelope.word in ("plan", "program"):
             self._hear_plan(envelope)
         elif envelope.word == "release" and not self._options.release:
             self._runner.notice(Reason("release_refused", {"source": envelope.source}))
@@ -130,6 +194,8 @@ def _log(event: Event) -> None:
         line = f"turn {event.turn}: started"
     elif isinstance(event, Finished):
         line = f"turn {event.turn}: {event.outcome}{_why(event.reason)}, {event.path_m:.2f} m"
+    elif isinstance(event, ProgramLog):
+        line = f"turn {event.turn}: | {event.text}"
     elif isinstance(event, Notice):
         line = f"notice{_why(event.reason)}"
     else:

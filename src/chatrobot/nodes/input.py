@@ -9,7 +9,7 @@ from chatrobot.core.wiring import Wiring
 from chatrobot.nodes.operator import OperatorBeat
 from chatrobot.reflex import is_stop
 from chatrobot.session.topics import REPLY, STOP, USER_INPUT
-from chatrobot.wire.connect import advertise, connect_wire, is_on_this_machine, wait_for_listener
+from chatrobot.wire.connect import Connect, advertise, connect_wire, is_on_this_machine, wait_for_listener
 from chatrobot.wire.messages import Flag, Text
 
 NODE = "chatrobot_input"
@@ -32,8 +32,10 @@ class InputNode:
         WireError: nobody answers on that wire.
     """
 
-    def __init__(self, address: str, wiring: Wiring, show: Callable[[str], None]) -> None:
-        self._wire = connect_wire(address, wiring, NODE)
+    def __init__(
+        self, address: str, wiring: Wiring, show: Callable[[str], None], connect: Connect = connect_wire
+    ) -> None:
+        self._wire = connect(address, wiring, NODE)
         self._has_met = False
         advertise(self._wire, USER_INPUT, Text)
         advertise(self._wire, STOP, Flag)

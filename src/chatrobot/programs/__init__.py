@@ -1,1 +1,1 @@
-"""Generated programs: extracted, checked, rehearsed, boxed in and kept."""
+"""Programs for the robot: taken out of replies, written, read through, run in the box, kept and exported."""

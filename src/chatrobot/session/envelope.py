@@ -12,6 +12,7 @@ Word = Literal[
     "hello",  # opens the lease: {"term_s": …}
     "beat",  # keeps it; any word that names its term opens it for a Motion that came after the hello
     "plan",  # {"plan_text", "mode": queue|replace|append, "approve": bool, "rehearse_only": bool, "longest_s": …}
+    "program",  # {"code", "name", "remap": {from: to}, "mode", "approve", "ask_findings", "strict", "rehearse_only"}
     "approve",  # {"yes": bool} answers a Rehearsed event that needs approval
     "stop",  # {"why": …}; makes void what belongs to this turn and those before
     "emergency_stop",
@@ -33,6 +34,30 @@ def _is_term(value: object) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool) and 0.0 < value < math.inf
 
 
+MAX_CODE_CHARS = 60_000
+"""Of a program in an envelope: a thousand lines and more, and it still fits into one packet."""
+_MAX_NAME_CHARS = 60
+_MAX_REMAPS, _MAX_TOPIC_CHARS = 8, 200
+
+
+def _is_code(value: object) -> bool:
+    return isinstance(value, str) and len(value) <= MAX_CODE_CHARS
+
+
+def _is_name(value: object) -> bool:
+    return isinstance(value, str) and len(value) <= _MAX_NAME_CHARS
+
+
+def _is_remap(value: object) -> bool:
+    return (
+        isinstance(value, dict)
+        and len(value) <= _MAX_REMAPS
+        and all(
+            isinstance(name, str) and len(name) <= _MAX_TOPIC_CHARS for pair in value.items() for name in pair
+        )
+    )
+
+
 PAYLOADS: Mapping[str, Mapping[str, Callable[[object], bool]]] = {
     "hello": {"term_s": _is_term},
     "beat": {"term_s": _is_term},
@@ -43,6 +68,17 @@ PAYLOADS: Mapping[str, Mapping[str, Callable[[object], bool]]] = {
         "rehearse_only": _is_flag,
         "term_s": _is_term,
         "longest_s": _is_term,
+    },
+    "program": {
+        "code": _is_code,
+        "name": _is_name,
+        "remap": _is_remap,
+        "mode": lambda value: value in MODES,
+        "approve": _is_flag,
+        "ask_findings": _is_flag,
+        "strict": _is_flag,
+        "rehearse_only": _is_flag,
+        "term_s": _is_term,
     },
     "approve": {"yes": _is_flag},
     "stop": {"why": _is_text},

@@ -47,7 +47,6 @@ class GuardProcess:
             *("--wire", wire_address),
             *("--topic", wiring.cmd_vel_topic, "--type", wiring.cmd_vel_type),
             *("--odom", wiring.odom_topic, "--odom-type", wiring.odom_type),
-            *("--namespace", wiring.namespace),
             kind=socket.SOCK_STREAM,
         )
         self._line.setblocking(False)

@@ -10,7 +10,15 @@ from chatrobot.core.errors import WireError
 from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import Wiring
 from chatrobot.session.discovered import fit, is_complete
-from chatrobot.wire.connect import Returning, Surveying, advertise, comes_back, connect_wire, publishers_of
+from chatrobot.wire.connect import (
+    Connect,
+    Returning,
+    Surveying,
+    advertise,
+    comes_back,
+    publishers_of,
+    resolved,
+)
 from chatrobot.wire.messages import Message, TwistMessage
 from chatrobot.wire.wire import M, Wire
 
@@ -51,6 +59,9 @@ class PatientWire:
     def is_connected(self) -> bool:
         return is_up(self._wire)
 
+    def resolve(self, topic: str) -> str:
+        return resolved(self._wire, topic)
+
     def publishers_of(self, topic: str) -> list[str]:
         return publishers_of(self._wire, topic)
 
@@ -68,26 +79,23 @@ class Reached(NamedTuple):
     said: list[Reason]
 
 
-def reach(address: str, wiring: Wiring, node: str) -> Reached:
+def reach(connect: Connect, address: str, wiring: Wiring, node: str) -> Reached:
     """The robot's wire; it may still be starting.
 
     Raises:
         WireError: nobody answers for `CONNECT_S`.
     """
-    wire = _connect_patiently(address, wiring, node)
+    wire = _connect_patiently(connect, address, wiring, node)
     fitted, said = _survey(wire, wiring)
-    if fitted != wiring:
-        wire.close()
-        wire = _connect_patiently(address, fitted, node)
     advertise(wire, fitted.cmd_vel_topic, TwistMessage)
     return Reached(PatientWire(wire) if comes_back(wire) else wire, fitted, said)
 
 
-def _connect_patiently(address: str, wiring: Wiring, node: str) -> Wire:
+def _connect_patiently(connect: Connect, address: str, wiring: Wiring, node: str) -> Wire:
     deadline_s = time.monotonic() + CONNECT_S
     while True:
         try:
-            return connect_wire(address, wiring, node)
+            return connect(address, wiring, node)
         except WireError:
             if time.monotonic() > deadline_s:
                 raise
@@ -100,7 +108,9 @@ def _survey(wire: Wire, wiring: Wiring) -> tuple[Wiring, list[Reason]]:
         return wiring, []
     deadline_s = time.monotonic() + SURVEY_S
     while time.monotonic() < deadline_s:
-        if is_complete(wiring, wire.survey(), wire.full_name):
+        if is_complete(wiring, wire.survey(), wire.resolve):
             return wiring, []
         time.sleep(LOOK_S)
-    return fit(wiring, wire.survey(), wire.full_name)
+    fitted, said = fit(wiring, wire.survey(), wire.resolve)
+    wire.rewire(fitted)
+    return fitted, said

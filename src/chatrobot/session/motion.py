@@ -26,6 +26,9 @@ from chatrobot.session.guard_link import GuardLink
 from chatrobot.session.intake import Intake
 from chatrobot.session.job import Job
 from chatrobot.session.planner import Planned, Planner
+from chatrobot.session.program_box import NoBox, ProgramBox
+from chatrobot.session.program_job import ProgramJob, job_of, needs_approval
+from chatrobot.session.program_run import LiveProgram, ProgramRun
 from chatrobot.session.run import Run, sensed_by
 from chatrobot.session.zeroing import Zeroing
 from chatrobot.transports.transport import WireTransport
@@ -47,6 +50,7 @@ class Motion:
     Args:
         planner: makes `Planned` from plan text: parsed, lowered, rehearsed.
         background: runs a function off the control thread, then posts; a simulation runs it at once.
+        programs: where programs are rehearsed and run; None refuses them.
         emit: takes events; called on the control thread only.
         releasers: the sources that may release an emergency stop.
     """
@@ -61,6 +65,7 @@ class Motion:
         emit: Callable[[Event], None],
         background: Callable[[Callable[[], None]], None],
         releasers: Collection[str] = RELEASERS,
+        programs: ProgramBox | None = None,
     ) -> None:
         self._profile = profile
         self._clock = clock
@@ -68,6 +73,7 @@ class Motion:
         self._guard = guard
         self._emit = emit
         self._background = background
+        self._programs = programs or NoBox()
         self._epoch = StopEpoch()
         self._seen_epoch = 0
         self._stop_reason = Reason("stopped")
@@ -78,7 +84,7 @@ class Motion:
         self._inbox: deque[Callable[[], None]] = deque()
         self._intake = Intake()
         self._current: Job | None = None
-        self._run: Run | None = None
+        self._run: Run | ProgramRun | None = None
         self.zeroing = Zeroing(self._sensors, self._send_zero, lambda reason: emit(Notice(0, reason)))
         self._last_tick_s: float | None = None
         self._suspended_s = clock.suspended_s()
@@ -121,6 +127,7 @@ class Motion:
     def start(self, wire: Wire) -> None:
         """Listen to the robot and shake hands with the guard."""
         self._sensors.attach(wire)
+        self._programs.attach(wire)
         self._guard.handshake()
 
     @property
@@ -141,6 +148,11 @@ class Motion:
         return self._epoch.value
 
     @property
+    def latched(self) -> Reason | None:
+        """The emergency stop that has not been released."""
+        return self._governor.latched
+
+    @property
     def has_left(self) -> bool:
         """Every source has gone, and all is done."""
         return bool(self._leaving) and not self.is_busy
@@ -152,7 +164,10 @@ class Motion:
     def _handle(self, envelope: Envelope, epoch: int) -> None:
         """One envelope, received in that stop epoch. Stops have been heard already; here they are only booked."""
         if self._intake.is_old(envelope):
-            if envelope.word == "plan":  # overtaken by a later word, most likely a stop: its turn ends here
+            if envelope.word in (
+                "plan",
+                "program",
+            ):  # overtaken by a later word, most likely a stop: its turn ends here
                 self._finish_unmoved(
                     Job.of(envelope, epoch, self._clock.now_s()), "stopped", self._stop_reason
                 )
@@ -162,7 +177,7 @@ class Motion:
         if envelope.word == "hello" or self._opens_lease(envelope):
             term_s = min(seconds(envelope.payload.get("term_s"), LOCAL_TERM_S), LONGEST_TERM_S)
             self._governor.leases.open(envelope.lease, envelope.source, term_s, now_s)
-        elif envelope.word == "plan":
+        elif envelope.word in ("plan", "program"):
             self._accept(envelope, epoch)
         elif envelope.word == "approve":
             if priority_of(envelope.source) >= Priority.PLAN:  # a person's word, not an agent's
@@ -214,7 +229,7 @@ class Motion:
     # --- plans -----------------------------------------------------------------------------------------------
 
     def _accept(self, envelope: Envelope, epoch: int) -> None:
-        job = Job.of(envelope, epoch, self._clock.now_s())
+        job = job_of(envelope, epoch, self._clock.now_s())
         declined = self._give_way(job)
         if declined is None and envelope.payload.get("mode") == "replace":
             self._replace(Reason("replaced"))
@@ -244,7 +259,7 @@ class Motion:
         for job in self._intake.take_all():
             self._finish_unmoved(job, "stopped", why)
         if self._run is not None:
-            self._run.executor.ramp_down(why)
+            self._run.ramp_down(why)
         elif self._current is not None:
             self._finish_current("stopped", why)
 
@@ -263,7 +278,10 @@ class Motion:
         job.start = self._pose()
 
         def plan() -> None:
-            planned = self._planner.plan(job.turn, job.plan_text, job.start)
+            if isinstance(job, ProgramJob):
+                planned = self._programs.rehearse(job, self._planner)
+            else:
+                planned = self._planner.plan(job.turn, job.plan_text, job.start)
             self.post(lambda: self._on_planned(job, planned))
 
         self._background(plan)
@@ -283,13 +301,14 @@ class Motion:
             return  # stopped or replaced meanwhile; its end has been told
         job.planned = planned
         refusal = job.refusal
-        needs_approval = job.approve and refusal is None and not job.rehearse_only
-        self._emit(planned.event(needs_approval))
+        asks = needs_approval(job, planned)
+        for event in planned.events(asks):
+            self._emit(event)
         if refusal is not None:
             self._finish_current("refused", refusal)
         elif job.rehearse_only:
             self._finish_current("completed", None)
-        elif needs_approval:
+        elif asks:
             job.approval = Approval(self._clock.now_s(), job.start)
         else:
             self._launch(job)
@@ -312,7 +331,34 @@ class Motion:
         if blocker is not None:
             self._finish_current("refused", blocker)
             return
+        if isinstance(job, ProgramJob):
+            self._launch_program(job)
+            return
         self._run = Run(job, self._profile, self._sensors, self._governor, self._transport, self._emit, now_s)
+        self._emit(Started(job.turn, job.start))
+        self._drive(now_s)
+
+    def _launch_program(self, job: ProgramJob) -> None:
+        """Start it in its box, off this thread; it runs from the moment it is there."""
+
+        def launch() -> None:
+            program = self._programs.launch(job)
+            self.post(lambda: self._on_launched(job, program))
+
+        self._background(launch)
+
+    def _on_launched(self, job: ProgramJob, program: LiveProgram | Reason) -> None:
+        if self._current is not job or isinstance(program, Reason):
+            if not isinstance(program, Reason):
+                program.close()  # stopped meanwhile
+            elif self._current is job:
+                self._governor.end(job.lease)
+                self._finish_current("refused", program)
+            return
+        now_s = self._clock.now_s()
+        self._run = ProgramRun(
+            job, program, self._profile, self._sensors, self._governor, self._transport, self._emit, now_s
+        )
         self._emit(Started(job.turn, job.start))
         self._drive(now_s)
 
@@ -343,13 +389,14 @@ class Motion:
             self._book_stop()
             return
         run.tick(now_s)
-        if run.executor.is_done:
-            self._end_run(run.executor.outcome, run.executor.reason)
+        if run.is_done:
+            self._end_run(run.outcome, run.reason)
 
     def _end_run(self, outcome: Outcome, reason: Reason | None) -> None:
         run = self._run
         assert run is not None
         self._current = self._run = None
+        run.close()
         self._governor.end(run.job.lease)
         if outcome != "completed":
             self.halt(reason or Reason("stopped"))

@@ -23,6 +23,7 @@ from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Notice
 from chatrobot.core.memory_pressure import MOTION, prefer
 from chatrobot.core.reason import Reason
+from chatrobot.core.wiring import Wiring
 from chatrobot.governor.governor import TICK_S
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
@@ -33,12 +34,14 @@ from chatrobot.session.guard_link import GuardProcess
 from chatrobot.session.link import PatientWire, is_up, reach
 from chatrobot.session.motion import Motion
 from chatrobot.session.planner import Planner
+from chatrobot.session.program_host import ProgramHost
 from chatrobot.session.rivals import BEAT_S, Rivals
 from chatrobot.session.topics import STOP, USER_INPUT
 from chatrobot.sim.load import load_world
-from chatrobot.wire.connect import is_on_this_machine
+from chatrobot.wire.connect import Connect, clock_of, connect_wire, is_on_this_machine, resolved
 from chatrobot.wire.messages import Flag, Text
 from chatrobot.wire.runtime_dir import stop_socket_path
+from chatrobot.wire.wire import Wire
 
 GUARD_S = 20.0
 LOOK_EVERY = 5
@@ -59,6 +62,7 @@ class MotionRunner:
         accept_others: drive though another Motion is on the same robot.
         on_robot: no network lies between this machine and the base, whatever the address looks like.
         releasers: the sources that may release an emergency stop.
+        connect: how our end of the wire is made; the guard has one of its own, at `address`.
 
     Raises:
         WireError: there is no robot, or the guard does not start.
@@ -76,13 +80,13 @@ class MotionRunner:
         accept_others: bool = False,
         on_robot: bool = False,
         releasers: Collection[str] = RELEASERS,
+        connect: Connect = connect_wire,
     ) -> None:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         prefer(MOTION)
-        clock = RealClock()
         given = load_profile(profile)
         known_world = load_world(world)
-        self.wire, wiring, said = reach(address, given.wiring, node)
+        self.wire, wiring, said = reach(connect, address, given.wiring, node)
         self.profile = replace(given, wiring=wiring)
         if not on_robot and drives_on_alone(given) and not is_on_this_machine(address):
             self.profile = slowed(self.profile)
@@ -95,16 +99,18 @@ class MotionRunner:
         self._motions: list[str] = []
         self._wake = threading.Event()
         self._plans: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
-        self._guard = GuardProcess(address, self.profile.wiring, clock)
+        self.programs = ProgramHost(self.profile, is_in_step=False)
+        self._guard = GuardProcess(address, _as_others_name_it(self.wire, self.profile.wiring), RealClock())
         self.motion = Motion(
             self.profile,
             self.wire,
-            clock,
+            clock_of(self.wire),
             Planner(self.profile, known_world),
             self._guard,
             emit,
             self._plans.put,
             releasers,
+            self.programs,
         )
         if isinstance(self.wire, PatientWire):  # a robot that nobody reaches holds what it heard last
             self.wire.on_gone = lambda: self.motion.halt(Reason("wire_gone"))
@@ -135,6 +141,7 @@ class MotionRunner:
             self._guard.goodbye()
             self.wire.close()
         finally:
+            self.programs.close()
             with contextlib.suppress(OSError):
                 stop_socket_path(os.getpid()).unlink()
 
@@ -249,3 +256,9 @@ def _settle_memory() -> None:
     """What start-up has made stays: the collector need not look through it while the robot moves."""
     gc.collect()
     gc.freeze()
+
+
+def _as_others_name_it(wire: Wire, wiring: Wiring) -> Wiring:
+    """The guard is another end of the wire, which knows nothing of our namespace and remappings."""
+    cmd_vel_topic, odom_topic = resolved(wire, wiring.cmd_vel_topic), resolved(wire, wiring.odom_topic)
+    return replace(wiring, cmd_vel_topic=cmd_vel_topic, odom_topic=odom_topic)

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from chatrobot.core.errors import PlanTextError
-from chatrobot.core.events import FindingSeen, Rehearsed
+from chatrobot.core.events import Event, FindingSeen, Rehearsed
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
-from chatrobot.governor.kernel import make_kernel
+from chatrobot.governor.kernel import Kernel, make_kernel
 from chatrobot.plan.lowering import CoreWalk
 from chatrobot.plan.rehearsal import Rehearsal, rehearse
 from chatrobot.plan.route import GridRoutePlanner
@@ -44,10 +44,23 @@ class Planned:
     def duration_s(self) -> float:
         return self.rehearsal.duration_s if self.rehearsal is not None else 0.0
 
+    @property
+    def length_m(self) -> float:
+        return self.rehearsal.length_m if self.rehearsal is not None else 0.0
+
+    @property
+    def has_findings(self) -> bool:
+        """Something that a person should look at before it runs."""
+        return False
+
     def walk(self) -> CoreWalk:
         """The very motions that were rehearsed."""
         assert self.rehearsal is not None
         return self.rehearsal.walk()
+
+    def events(self, needs_approval: bool) -> tuple[Event, ...]:
+        """All that is told of it."""
+        return (self.event(needs_approval),)
 
     def event(self, needs_approval: bool) -> Rehearsed:
         """What the faces show of it."""
@@ -80,6 +93,16 @@ class Planner:
         self._world = world
         self._kernel = make_kernel(profile)
         self._routes = None if world.is_empty else GridRoutePlanner(world, profile)
+
+    @property
+    def world(self) -> World:
+        """What is known of the surroundings."""
+        return self._world
+
+    @property
+    def kernel(self) -> Kernel:
+        """The governor's own arithmetic, which rehearsals use, too."""
+        return self._kernel
 
     @property
     def allowed_area(self) -> Sequence[Point] | None:

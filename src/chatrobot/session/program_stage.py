@@ -17,6 +17,7 @@ from chatrobot.governor.rule import Sensed
 from chatrobot.programs.held_twist import HeldTwist
 from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.session.run import WORTH_TELLING_MPS, WORTH_TELLING_RADPS
+from chatrobot.session.soft_zero import softened
 from chatrobot.sim.lies import HONEST
 from chatrobot.sim.robot import SimRobot
 from chatrobot.sim.world import EMPTY_WORLD, World
@@ -60,6 +61,7 @@ class ProgramStage:
         self._minds_place = profile.safety.fence is not None or bool(area)
         self._held = HeldTwist(profile.wiring.base_timeout_s)
         self._is_steady = True
+        self._sent, self._governed_s = ZERO_TWIST, 0.0
         self._ticks = 0
         self._boxes: dict[str, deque[Sequence[Any]]] = {}
         self._newest: dict[str, Sequence[Any]] = {}
@@ -131,10 +133,12 @@ class ProgramStage:
 
     def _govern(self) -> None:
         now_s = self.now_s
-        asked = self._held.at(now_s)
+        held = self._held.at(now_s)
+        asked = softened(held, self._sent, self._profile.limits, min(now_s - self._governed_s, TICK_S))
         verdict = self._governor.govern(asked, LEASE, now_s, self.robot.true_pose, self._sensed)
         self._transport.send(verdict.sent)
-        self._is_steady = verdict.sent.twist == verdict.allowed and not self._minds_place
+        self._sent, self._governed_s = verdict.sent.twist, now_s
+        self._is_steady = asked == held and verdict.sent.twist == verdict.allowed and not self._minds_place
         self._note(verdict)
 
     def _note(self, verdict: Verdict) -> None:

@@ -46,6 +46,13 @@ def sensed_by(sensors: Sensors) -> Sensed:
     return Sensed(sensors.ages_s(), sensors.battery_percent)
 
 
+def is_worth_telling(verdict: Verdict) -> bool:
+    """More than a trifle of what was asked is not allowed."""
+    lost = abs(verdict.asked.speed_mps - verdict.allowed.speed_mps)
+    lost_turn = abs(verdict.asked.wz_radps - verdict.allowed.wz_radps)
+    return lost >= WORTH_TELLING_MPS or lost_turn >= WORTH_TELLING_RADPS
+
+
 class Run:
     """Drives the plan of `job`, which has been rehearsed. `tick` until `executor.is_done`, or until it is stopped."""
 
@@ -83,6 +90,25 @@ class Run:
         self._stopwatch.count(verdict.sent.twist.is_zero, now_s)
         self._tell(verdict)
 
+    @property
+    def is_done(self) -> bool:
+        return self.executor.is_done
+
+    @property
+    def outcome(self) -> Outcome:
+        return self.executor.outcome
+
+    @property
+    def reason(self) -> Reason | None:
+        return self.executor.reason
+
+    def ramp_down(self, why: Reason) -> None:
+        """A controlled stop."""
+        self.executor.ramp_down(why)
+
+    def close(self) -> None:
+        """Nothing is left behind."""
+
     def progress(self, now_s: float) -> Progress:
         return self.executor.progress(self.job.turn, now_s)
 
@@ -109,9 +135,7 @@ class Run:
 
     def _tell(self, verdict: Verdict) -> None:
         """Say once a step and rule that something was limited; ramps are no news."""
-        lost = abs(verdict.asked.speed_mps - verdict.allowed.speed_mps)
-        lost_turn = abs(verdict.asked.wz_radps - verdict.allowed.wz_radps)
-        if lost < WORTH_TELLING_MPS and lost_turn < WORTH_TELLING_RADPS:
+        if not is_worth_telling(verdict):
             return
         key = (self.executor.step, verdict.rule)
         if verdict.action == "limited" and verdict.rule != "acceleration" and key not in self._told:

@@ -9,7 +9,7 @@ import threading
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 from chatrobot.core.errors import JointError, PlanTextError
 from chatrobot.core.events import Event, Finished, Interpreted, Notice, Outcome, Remembered, Result, Telemetry
@@ -17,7 +17,10 @@ from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
+from chatrobot.session.authoring import Authoring
+from chatrobot.session.draft import Draft
 from chatrobot.session.joint import Joint
+from chatrobot.session.program_turns import Hooks, ProgramTurns
 from chatrobot.session.understanding import Understanding
 
 QUEUE_LIMIT = 10
@@ -29,16 +32,19 @@ class Options:
     """How a session behaves.
 
     `while_moving` decides what a new instruction does to a running one: `queue` (pipes, programs) or `replace`
-    (a person at the keyboard). `approve` asks for a yes before each plan; `rehearse_only` moves nothing.
+    (a person at the keyboard). `approve` asks for a yes before each plan; `rehearse_only` moves nothing. Of programs,
+    `ask_findings` asks where rehearsal found something, `ask_new` before each that was written just now.
     """
 
     while_moving: Literal["queue", "replace"] = "queue"
     approve: bool = False
     rehearse_only: bool = False
+    ask_findings: bool = True
+    ask_new: bool = False
 
 
-_Kind = Literal["text", "plan", "stop", "emergency_stop", "too_many"]
-_WAITING: tuple[_Kind, ...] = ("text", "plan")
+_Kind = Literal["text", "plan", "program", "draft", "stop", "emergency_stop", "too_many"]
+_WAITING: tuple[_Kind, ...] = ("text", "plan", "program", "draft")
 
 
 @dataclass(frozen=True)
@@ -53,10 +59,16 @@ class Session:
 
     Args:
         on_event: hears every event, in order; it only reads.
+        authoring: writes and keeps programs; None where requests for one are driven as plans.
     """
 
     def __init__(
-        self, joint: Joint, understanding: Understanding, on_event: Callable[[Event], None], options: Options
+        self,
+        joint: Joint,
+        understanding: Understanding,
+        on_event: Callable[[Event], None],
+        options: Options,
+        authoring: Authoring | None = None,
     ) -> None:
         self._joint = joint
         self.understanding = understanding
@@ -68,6 +80,10 @@ class Session:
         self._void_turn = 0
         self._lock = threading.Lock()
         self.results: dict[int, Result] = {}
+        self._asked: dict[int, Draft | str] = {}
+        self.authoring = authoring
+        hooks = Hooks(self._emit, self._conclude, self._track, self._send_program, self._is_void_turn)
+        self._programs = ProgramTurns(authoring, understanding, hooks) if authoring is not None else None
 
     # --- from any thread ---
 
@@ -87,10 +103,25 @@ class Session:
         """Take in a plan that a person or a program wrote itself; the number of its turn."""
         return self._take_in(plan_text, "plan")
 
-    def _take_in(self, text: str, kind: _Kind) -> int:
+    def say_program(self, text: str, name: str = "") -> int:
+        """Take in what a program is to do, asked for as one; the number of its turn."""
+        return self._take_in(text, "program", name)
+
+    def say_draft(self, draft: Draft) -> int:
+        """Take in a program that is there; the number of its turn."""
+        return self._take_in(draft.program.name, "draft", draft)
+
+    def say_source(self, name: str, source: str) -> int:
+        """Take in what a person made of the program of that name; where that one is kept, it is kept so."""
+        assert self.authoring is not None
+        return self.say_draft(self.authoring.edited(name, source))
+
+    def _take_in(self, text: str, kind: _Kind, program: Draft | str = "") -> int:
         with self._lock:
             self._turns += 1
             turn = self._turns
+            if program:
+                self._asked[turn] = program
             if kind in _WAITING and self._count_waiting() >= QUEUE_LIMIT and self.is_moving:
                 kind = "too_many"
             self._texts.append(_Said(turn, text, kind))
@@ -101,6 +132,8 @@ class Session:
         """Stop the robot and drop what was said before this moment."""
         self._void_turn = self._turns  # no lock: a stop waits for nothing
         self._joint.send("stop", self._void_turn, why=why)
+        if self.authoring is not None:
+            self.authoring.cancel()
 
     def emergency_stop(self, why: str = "") -> None:
         """Stop the robot and keep it stopped until `release`."""
@@ -187,12 +220,25 @@ class Session:
                 self._understand(said)
             elif said.kind == "plan":
                 self._read_plan(said)
+            elif said.kind in ("program", "draft"):
+                self._begin_program(said)
             else:
                 code = "stopped_now" if said.kind == "stop" else "emergency_stopped"
                 self._emit(Interpreted(said.turn, "reflex", "", ""))
                 self._conclude(said.turn, "stopped", self.understanding.say(code, said.text))
 
+    def _begin_program(self, said: _Said) -> None:
+        asked = self._asked.pop(said.turn, "")
+        if self._programs is None:
+            self._conclude(said.turn, "refused", self.understanding.say("no_programs_here", said.text))
+        elif isinstance(asked, Draft):
+            self._programs.run(said.turn, said.text, asked)
+        else:
+            self._programs.begin(said.turn, said.text, is_asked_for=True, name=asked)
+
     def _understand(self, said: _Said) -> None:
+        if self._programs is not None and self._programs.begin(said.turn, said.text):
+            return
         meant = self.understanding.interpret(said.text)
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         interpreted = Interpreted(said.turn, "offline", plan_text, meant.reply)
@@ -236,18 +282,41 @@ class Session:
             rehearse_only=self._options.rehearse_only,
         )
 
+    def _track(self, turn: int, text: str, meant: Interpretation) -> None:
+        self._in_flight[turn] = (text, meant)
+
+    def _is_void_turn(self, turn: int) -> bool:
+        return turn <= self._void_turn
+
+    def _send_program(self, turn: int, payload: dict[str, Any]) -> None:
+        is_new = payload.pop("is_new")
+        self._joint.send(
+            "program",
+            turn,
+            mode=self._options.while_moving,
+            approve=self._options.approve or (is_new and self._options.ask_new),
+            ask_findings=self._options.ask_findings,
+            rehearse_only=self._options.rehearse_only,
+            **payload,
+        )
+
     def _hear(self, event: Event) -> None:
         if isinstance(event, Telemetry):
             self.understanding.note_telemetry(event)
         elif isinstance(event, Remembered):
             self.understanding.note_place(event)
         self._emit(event)
+        if self._programs is not None and self._programs.hear(event):
+            return  # the next version of a program is on its way
         if isinstance(event, Finished) and event.turn in self._in_flight:
             text, meant = self._in_flight.pop(event.turn)
             reply = self.understanding.note_finished(text, meant, event, self._options.rehearse_only)
+            if self._programs is not None:
+                reply = self._programs.ending(event.turn, reply)
             self._conclude(event.turn, event.outcome, reply, event)
 
     def _conclude(self, turn: int, outcome: Outcome, reply: str, finished: Finished | None = None) -> None:
+        self._in_flight.pop(turn, None)
         pose = self.understanding.pose
         unkept = self.understanding.places.take_unkept()
         if unkept:

@@ -10,7 +10,16 @@ import time
 from typing import Any
 
 from chatrobot.core.errors import JointError, WireError
-from chatrobot.core.events import Event, Finished, Interpreted, Outcome, Result, Telemetry, event_from_json
+from chatrobot.core.events import (
+    Event,
+    Finished,
+    Interpreted,
+    Outcome,
+    ProgramWritten,
+    Result,
+    Telemetry,
+    event_from_json,
+)
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.core.reason import Reason
 from chatrobot.governor.lease import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S
@@ -69,8 +78,13 @@ class TopicJoint:
         """Never for good: a control node may come again."""
         return False
 
+    @property
+    def has_control(self) -> bool:
+        """Whether a control node is there that hears us."""
+        return self._present() is not None
+
     def send(self, word: Word, turn: int = 0, **payload: Any) -> None:
-        if word == "plan":
+        if word in ("plan", "program"):
             control = self._find_control()
             if control is None:
                 self._conclude(turn, "failed", Reason("no_control"))
@@ -123,7 +137,7 @@ class TopicJoint:
             event = event_from_json(json.loads(message.data))
         except (ValueError, AttributeError, RecursionError):
             return  # whoever wrote that is none of ours
-        if isinstance(event, (Interpreted, Result)):
+        if isinstance(event, (Interpreted, ProgramWritten, Result)):
             return  # a base's own, ours among them
         if isinstance(event, Telemetry):
             self._pose = event.pose

@@ -20,6 +20,8 @@ from chatrobot.sim.tf import FieldsPublisher, TransformPublisher
 from chatrobot.wire.local import LocalHub
 from chatrobot.wire.messages import TwistMessage
 
+NODE = "chatrobot_sim"
+
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Exit code 0 after an orderly end, 2 where the options are wrong, 1 where it could not start."""
@@ -43,8 +45,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--on",
         default="local",
-        help="local (the default), dds, dds://DOMAIN/NAMESPACE or rosbridge:ws://HOST:9090",
+        help="local (the default), dds or ros, dds://DOMAIN/NAMESPACE or rosbridge:ws://HOST:9090",
     )
+    parser.add_argument("--ros-args", nargs=argparse.REMAINDER, default=[], help="with --on ros; the last")
     parser.add_argument("--socket", default="", help="where its wire is served; with --on local alone")
     parser.add_argument("--ready-fd", type=int, default=1, help="where it writes `ready` once it listens")
     return parser
@@ -80,14 +83,17 @@ def _open_wire(options: argparse.Namespace, profile: RobotProfile) -> LocalHub |
         if not options.socket:
             raise UsageError("a simulated robot on a local wire needs --socket", where="--socket")
         return LocalHub(options.socket)
-    address = "dds:" if options.on == "dds" else options.on
-    if not address.startswith(("dds:", "rosbridge:")):
+    address = f"{options.on}:" if options.on in ("dds", "ros") else options.on
+    if not address.startswith(("dds:", "ros:", "rosbridge:")):
         raise UsageError(
-            f"{options.on!r} is no wire", where="--on", allowed="local, dds or rosbridge:ws://host:9090"
+            f"{options.on!r} is no wire", where="--on", allowed="local, dds, ros or rosbridge:ws://host:9090"
         )
-    from chatrobot.wire.connect import connect_wire
+    from chatrobot.wire.connect import connect_ros, connect_wire
 
-    wire = connect_wire(address, profile.wiring, "chatrobot_sim")
+    if address.startswith("ros:"):
+        wire = connect_ros(address, profile.wiring, NODE, options.ros_args)
+    else:
+        wire = connect_wire(address, profile.wiring, NODE)
     if isinstance(wire, FieldsPublisher):
         return MarshalledWire(wire, TransformPublisher(wire, profile).after)
     return MarshalledWire(wire)

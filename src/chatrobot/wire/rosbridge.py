@@ -44,6 +44,7 @@ ANSWER_S = 0.5
 QUEUE_BYTES = 65_536
 """With more than this on its way the other end does not read: what comes now is dropped."""
 MESSAGE_BYTES = 8_388_608
+_VELOCITIES = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
 _SIOCOUTQ = 0x5411
 
 
@@ -114,7 +115,7 @@ class RosbridgeWire:
         timed = stamped(message)
         if timed is not None:
             message = timed._replace(stamp_s=to_wall_s(timed.stamp_s))
-        self._send({"op": "publish", "topic": self.full_name(topic), "msg": form.to_ros(message)})
+        self._send({"op": "publish", "topic": self.resolve(topic), "msg": form.to_ros(message)})
 
     def subscribe(self, topic: str, kind: type[M], callback: Callable[[M], None]) -> None:
         with self._lock:
@@ -144,15 +145,19 @@ class RosbridgeWire:
         """Whether the robot is there now."""
         return self._connection is not None
 
+    def rewire(self, wiring: Wiring) -> None:
+        """Take the robot to be wired like this; before anything is published or listened to."""
+        self._wiring = wiring
+
     def survey(self) -> list[Endpoint]:
         """The endpoints of others, as the robot's `rosapi` tells them; none where it does not run."""
         return self._rosapi.survey()
 
     def publishers_of(self, topic: str) -> list[str]:
         """The nodes that publish on `topic`, without the bridge itself, as far as `rosapi` tells."""
-        return self._rosapi.publishers_of(self.full_name(topic))
+        return self._rosapi.publishers_of(self.resolve(topic))
 
-    def full_name(self, topic: str) -> str:
+    def resolve(self, topic: str) -> str:
         """`cmd_vel` in namespace `robot1` is `/robot1/cmd_vel`."""
         if topic.startswith("/"):
             return topic
@@ -248,7 +253,7 @@ class RosbridgeWire:
             operation = heard.op
             if operation == "publish":
                 for (topic, _), subscription in tuple(self._subscriptions.items()):
-                    if self.full_name(topic) == heard.topic and not self._ended.is_set():
+                    if self.resolve(topic) == heard.topic and not self._ended.is_set():
                         subscription.deliver(heard.msg)
             elif operation == "service_response" and heard.id in self._answers:
                 self._answers[heard.id].put(vars(heard.values) if heard.result else {})
@@ -259,11 +264,13 @@ class RosbridgeWire:
 
     def _advertise_request(self, topic: str, form: RosForm) -> dict[str, Any]:
         request = {"op": "advertise", "id": _id("advertise", topic, form)}
-        return {**request, "topic": self.full_name(topic), "type": form.type_name}
+        # The bridge repeats its last second of messages to who comes late: of velocities only the very last.
+        depth = {"queue_size": 1} if form.type_name in _VELOCITIES else {}
+        return {**request, "topic": self.resolve(topic), "type": form.type_name, **depth}
 
     def _subscribe_request(self, topic: str, form: RosForm) -> dict[str, Any]:
         request = {"op": "subscribe", "id": _id("subscribe", topic, form)}
-        return {**request, "topic": self.full_name(topic), "type": form.type_name, "throttle_rate": 0}
+        return {**request, "topic": self.resolve(topic), "type": form.type_name, "throttle_rate": 0}
 
 
 def _id(operation: str, topic: str, form: RosForm) -> str:

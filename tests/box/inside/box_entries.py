@@ -15,6 +15,7 @@ _NUMBERS = {
     "tgkill": (234, 131), "tkill": (200, 130), "rt_sigqueueinfo": (129, 138), "pidfd_send_signal": (424, 424),
     "pidfd_open": (434, 434), "prctl": (157, 167), "ptrace": (101, 117), "process_vm_readv": (310, 270),
     "process_vm_writev": (311, 271), "pidfd_getfd": (438, 438), "shmget": (29, 194), "mq_open": (240, 180),
+    "shmctl": (31, 195),
     "unshare": (272, 97), "chroot": (161, 51), "mount": (165, 40), "pivot_root": (155, 41), "setns": (308, 268),
     "keyctl": (250, 219), "personality": (135, 92), "kexec_load": (246, 104), "init_module": (175, 105),
     "bpf": (321, 280), "perf_event_open": (298, 241), "userfaultfd": (323, 282), "io_uring_setup": (425, 425),

@@ -108,6 +108,15 @@ def _save_plan(talk: Talk, argument: str) -> None:
     talk.tell("saved", file=path)
 
 
+def _program(talk: Talk, argument: str) -> None:
+    """A new program, or without words the list of those that are kept."""
+    if argument:
+        talk.attempt(lambda: talk.session.say_program(argument))
+        return
+    names = talk.session.authoring.library.names() if talk.session.authoring is not None else ()
+    talk.tell("programs_kept", names=", ".join(names)) if names else talk.tell("no_programs_kept")
+
+
 def _map(talk: Talk, argument: str) -> None:
     if argument.casefold() in ("big", "大"):
         talk.face.print(big_map(talk.ride, talk.connection.world, talk.face.width))
@@ -141,6 +150,7 @@ COMMANDS = (
     Command("places", _places),
     Command("plan", _plan),
     Command("save-plan", _save_plan, takes="FILE"),
+    Command("program", _program, takes="[TEXT]"),
     Command("undo", _undo),
     Command("map", _map, takes="[big]"),
     Command("stop", _stop, at_once=True),

@@ -10,6 +10,7 @@ from rich.text import Text
 
 from chatrobot.cli.console.lines import indented, marked
 from chatrobot.cli.console.words import Words
+from chatrobot.cli.program_text import marked_only, marks_of, numbered
 from chatrobot.core.events import (
     Event,
     FindingSeen,
@@ -17,13 +18,16 @@ from chatrobot.core.events import (
     Limited,
     Notice,
     Outcome,
+    ProgramLog,
+    ProgramRehearsed,
+    ProgramWritten,
     Rehearsed,
     Remembered,
     Result,
     Said,
 )
 from chatrobot.core.geometry import Twist
-from chatrobot.language.phrases import render_reason
+from chatrobot.language.phrases import render_reason, say
 
 PLAN_LINES = 16
 """A longer plan is shown in part; `/plan` shows it whole."""
@@ -46,6 +50,7 @@ class Narrator:
     def __init__(self, words: Words) -> None:
         self._words = words
         self._plans: dict[int, Interpreted] = {}
+        self._programs: set[int] = set()
 
     def tell(self, event: Event) -> Iterator[RenderableType]:
         """The lines to print for `event`; none for most."""
@@ -54,6 +59,12 @@ class Narrator:
                 return self._interpreted(event)
             case Rehearsed():
                 return self._rehearsed(event)
+            case ProgramWritten():
+                return self._program_written(event)
+            case ProgramRehearsed():
+                return self._program_rehearsed(event)
+            case ProgramLog():
+                return iter((indented(Text(f"| {event.text}", "dim")),))
             case Limited():
                 return self._limited(event)
             case Said():
@@ -112,6 +123,30 @@ class Narrator:
         understood = self._plans.pop(event.turn, None)
         if understood is not None:
             yield from self.plan(understood.plan_text, event, PLAN_LINES)
+        elif event.turn in self._programs:
+            self._programs.discard(event.turn)
+            facts = self._words.say(
+                "plan_facts", length=f"{event.length_m:.2f}", duration=f"{event.duration_s:.1f}"
+            )
+            yield indented(Text(facts, "dim"))
+            yield from self._findings(event)
+
+    def _program_written(self, event: ProgramWritten) -> Iterator[RenderableType]:
+        self._programs.add(event.turn)
+        language = self._words.language
+        by = say(language, f"written_by_{event.by}")
+        head = say(language, "program_shown", name=event.program, by=by, version=event.version)
+        yield indented(Text(head, "bold"))
+        marks = marks_of(event.marks)
+        if event.diff:
+            yield from (indented(Text(line)) for line in event.diff.splitlines()[2:])
+        shown = numbered if event.is_new and not event.diff else marked_only
+        yield from (Text(line) for line in shown(event.source, marks, language))
+
+    def _program_rehearsed(self, event: ProgramRehearsed) -> Iterator[RenderableType]:
+        values = {"speed": f"{event.top_speed_mps:.2f}", "rate": f"{event.top_rate_radps:.2f}"}
+        yield indented(Text(say(self._words.language, "program_speeds", **values), "dim"))
+        yield from (indented(Text(line, "red")) for line in event.problem.splitlines())
 
     def _limited(self, event: Limited) -> Iterator[RenderableType]:
         asked, sent = self._twist(event.asked), self._twist(event.sent)

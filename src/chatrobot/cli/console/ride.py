@@ -6,7 +6,16 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from chatrobot.core.events import Event, Finished, Interpreted, Progress, Rehearsed, Started, Telemetry
+from chatrobot.core.events import (
+    Event,
+    Finished,
+    Interpreted,
+    ProgramWritten,
+    Progress,
+    Rehearsed,
+    Started,
+    Telemetry,
+)
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 
 XY = tuple[float, float]
@@ -16,7 +25,8 @@ TRAIL_LIMIT = 2000
 
 @dataclass
 class Ride:
-    """`path` is the predicted way of the last plan, `trail` what was driven of it, in `odom`."""
+    """`path` is the predicted way of the last plan, `trail` what was driven of it, in `odom`; `program` the last
+    one written, where no plan came after it."""
 
     pose: Pose = ORIGIN
     twist: Twist = ZERO_TWIST
@@ -29,6 +39,7 @@ class Ride:
     path: tuple[XY, ...] = ()
     trail: tuple[XY, ...] = ()
     plan_text: str = ""
+    program: ProgramWritten | None = None
     rehearsed: Rehearsed | None = None
     turn: int = 0
 
@@ -41,7 +52,9 @@ class Ride:
         elif isinstance(event, Progress):
             self.step, self.of, self.fraction = event.step, event.of, event.fraction
         elif isinstance(event, Interpreted) and event.plan_text:
-            self.plan_text = event.plan_text
+            self.plan_text, self.program = event.plan_text, None
+        elif isinstance(event, ProgramWritten):
+            self.program = event
         elif isinstance(event, Rehearsed):
             self.rehearsed = event
             self.path = tuple((x, y) for x, y, _ in event.path)

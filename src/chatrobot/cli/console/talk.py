@@ -24,6 +24,7 @@ from chatrobot.compose import Connection
 from chatrobot.core.clock import Clock
 from chatrobot.core.errors import JointError
 from chatrobot.core.events import Event, Finished, Interpreted, Rehearsed, Result, Started, Telemetry
+from chatrobot.programs.check import MAX_SOURCE_CHARS
 from chatrobot.reflex import is_emergency_stop
 
 TWICE_S = 1.5
@@ -105,14 +106,18 @@ class Talk:
         elif text and not self._answer(text):
             self._say(text)
 
-    def take_edited(self, plan_text: str) -> None:
-        """The plan that `Face.edit` was asked for."""
-        text = clean(plan_text).strip()
-        if len(plan_text) > LONGEST_CHARS:
+    def take_edited(self, edited: str) -> None:
+        """The plan or the program that `Face.edit` was asked for."""
+        program = self.ride.program
+        text = edited.rstrip() if program is not None else clean(edited).strip()
+        if len(edited) > (LONGEST_CHARS if program is None else MAX_SOURCE_CHARS):
             self.tell("line_too_long", limit=LONGEST_CHARS)
         elif text:
             with self._order:
-                self.attempt(lambda: self.session.say_plan(text))
+                if program is not None:
+                    self.attempt(lambda: self.session.say_source(program.program, f"{text}\n"))
+                else:
+                    self.attempt(lambda: self.session.say_plan(text))
                 self._echo(self.words.say("edited"))
 
     def interrupt(self) -> None:
@@ -169,7 +174,8 @@ class Talk:
         self._echo(text)
         if word in EDIT:
             self._muted.add(asked.turn)
-            self.face.edit(self.ride.plan_text)
+            program = self.ride.program
+            self.face.edit(program.source if program is not None else self.ride.plan_text)
         self.attempt(lambda: self.session.approve(asked.turn, word in YES))
         return True
 

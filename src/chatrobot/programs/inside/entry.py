@@ -16,6 +16,7 @@ from typing import NoReturn
 
 from chatrobot.programs.inside import event_loop, top_level, virtual_time
 from chatrobot.programs.inside.complaint import complaint
+from chatrobot.programs.inside.complaint import preload as preload_complaint
 from chatrobot.programs.inside.link import set_link
 from chatrobot.programs.inside.live_link import LiveLink
 from chatrobot.programs.inside.output import PipeStream
@@ -28,6 +29,7 @@ AnyLink = VirtualLink | LiveLink
 def preload() -> None:
     """For the warm server, before it forks."""
     top_level.preload()
+    preload_complaint()
 
 
 def run(channel: socket.socket, payload: bytes) -> None:
@@ -45,6 +47,7 @@ def run(channel: socket.socket, payload: bytes) -> None:
     event_loop.install()
     sys.stdout, sys.stderr = PipeStream(link, "stdout"), PipeStream(link, "stderr")
     sys.stdin = io.StringIO("")
+    threading.excepthook = _tell_of_thread
     link.send("ready")
     _end(link, *_run(settings))
 
@@ -86,6 +89,13 @@ def _compiled(source: str, file_name: str) -> CodeType:
     ):
         tree.body += ast.parse("main()").body
     return compile(tree, file_name, "exec")
+
+
+def _tell_of_thread(args: threading.ExceptHookArgs) -> None:
+    """A thread that raises is over, and the program goes on."""
+    if args.exc_value is not None and args.exc_type is not SystemExit:
+        name = args.thread.name if args.thread is not None else "?"
+        print(f"Exception in thread {name}:\n{complaint(args.exc_value)[2]}", file=sys.stderr, end="")
 
 
 def _exit_code(end: SystemExit) -> int:

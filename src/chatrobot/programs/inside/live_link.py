@@ -22,8 +22,8 @@ class LiveLink(Link):
         self._sending = threading.Lock()
 
     def start(self) -> None:
-        for work in (self._beat, self._take_in):
-            threading.Thread(target=work, daemon=True).start()
+        for name, work in (("beat", self._beat), ("take in", self._take_in)):
+            threading.Thread(target=work, name=name, daemon=True).start()
 
     def now_ns(self) -> int:
         return time.monotonic_ns() - self._began_ns

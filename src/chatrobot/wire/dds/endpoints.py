@@ -58,7 +58,7 @@ class Writer:
             Policy.Reliability.Reliable(0),
             Policy.History.KeepLast(_WRITE_DEPTH),
             Policy.Durability.Volatile,
-            _typehash(types, name),
+            types.typehash(name),
         )
         self._participant = participant
         self._writer: DataWriter[Any] = DataWriter(participant, topic, qos)
@@ -121,7 +121,7 @@ class Reader:
             Policy.Durability.Volatile,
             # Other programs may name a message's fields as they like: ROS matches by the type's name.
             Policy.TypeConsistency.AllowTypeCoercion(True, True, True, False, False),
-            _typehash(types, name),
+            types.typehash(name),
         )
         self._reader: DataReader[Any] = DataReader(participant, topic, qos)
         self.condition = ReadCondition(self._reader, _ANY)
@@ -150,8 +150,3 @@ class Reader:
             return message
         clock = self._clocks.setdefault(sample.sample_info.publication_handle, StampTranslator())
         return timed._replace(stamp_s=clock.local_s(timed.stamp_s, received_s))
-
-
-def _typehash(types: RosTypes, name: str) -> Any:
-    """Without it every ROS process that meets us warns."""
-    return Policy.Userdata(f"typehash={types.hash_of(name)};".encode())

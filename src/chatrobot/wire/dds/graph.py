@@ -54,8 +54,9 @@ class Graph:
         self._name, self._namespace = name, namespace
         self._guid = participant.get_guid()
         topic = Topic(participant, _INFO_TOPIC, types.topic_type(_INFO_TYPE))
-        self._writer = DataWriter(participant, topic, Qos(*_INFO_QOS, Policy.History.KeepLast(1)))
-        self._infos = DataReader(participant, topic, Qos(*_INFO_QOS, Policy.History.KeepAll))
+        typehash = types.typehash(_INFO_TYPE)
+        self._writer = DataWriter(participant, topic, Qos(*_INFO_QOS, Policy.History.KeepLast(1), typehash))
+        self._infos = DataReader(participant, topic, Qos(*_INFO_QOS, Policy.History.KeepAll, typehash))
         self._nodes: dict[uuid.UUID, str] = {}
         self._participants = BuiltinDataReader(participant, BuiltinTopicDcpsParticipant)
         self._publications = BuiltinDataReader(participant, BuiltinTopicDcpsPublication)

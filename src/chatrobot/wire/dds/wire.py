@@ -117,12 +117,16 @@ class DdsWire:
         graph = self._graph
         return [] if graph is None else graph.publishers_of(self._name(topic))
 
+    def rewire(self, wiring: Wiring) -> None:
+        """Take the robot to be wired like this; before anything is published or listened to."""
+        self._wiring = wiring
+
     def survey(self) -> list[Endpoint]:
         """The endpoints of other participants, found so far."""
         graph = self._graph
         return [] if graph is None else graph.endpoints()
 
-    def full_name(self, topic: str) -> str:
+    def resolve(self, topic: str) -> str:
         return "/" + self._name(topic).removeprefix("rt/")
 
     def close(self) -> None:

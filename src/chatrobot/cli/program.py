@@ -1,0 +1,200 @@
+"""`chatrobot program ACTION …`: programs written, kept, shown, run, exported."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+from chatrobot.cli.choices import setup_from
+from chatrobot.cli.conversation import Conversation
+from chatrobot.cli.editor import edited_text
+from chatrobot.cli.folders import config_folder, profile_folders
+from chatrobot.cli.json_lines import json_line
+from chatrobot.cli.printer import printer_for
+from chatrobot.cli.program_approver import ProgramApprover
+from chatrobot.core.errors import UsageError
+from chatrobot.programs.library import KeptProgram, Library
+from chatrobot.session.session import Options
+
+_READ_BYTES = 1_000_000
+
+
+def run(args: argparse.Namespace) -> int:
+    """The exit code of the last turn, or 0 where nothing was to be driven.
+
+    Raises:
+        InputError: there is no such program, file or folder.
+    """
+    return _ACTIONS[args.action](args)
+
+
+def _library(args: argparse.Namespace) -> Library:
+    return Library(config_folder(args))
+
+
+# --- those that drive ---
+
+
+def _new(args: argparse.Namespace) -> int:
+    return _drive(args, lambda conversation: conversation.session.say_program(args.text, args.called))
+
+
+def _run(args: argparse.Namespace) -> int:
+    path = Path(args.name).expanduser()
+    if path.suffix == ".py":
+        source = _read(path)
+        return _drive(args, lambda conversation: _say_file(conversation, path, source))
+    program = _library(args).get(args.name)
+    return _drive(args, lambda conversation: _say_kept(conversation, program))
+
+
+def _say_file(conversation: Conversation, path: Path, source: str) -> int:
+    authoring = conversation.session.authoring
+    assert authoring is not None
+    return conversation.session.say_draft(authoring.draft_of_file(path, source))
+
+
+def _say_kept(conversation: Conversation, program: KeptProgram) -> int:
+    authoring = conversation.session.authoring
+    assert authoring is not None
+    return conversation.session.say_draft(authoring.draft_of(program))
+
+
+def _read(path: Path) -> str:
+    with path.open("rb") as file:
+        data = file.read(_READ_BYTES)
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise UsageError("it is no text in UTF-8", where=str(path)) from error
+
+
+def _drive(args: argparse.Namespace, say: Callable[[Conversation], int]) -> int:
+    printer = printer_for(args)
+    can_ask = sys.stdin.isatty() and not args.json
+    is_new = args.action == "new"
+    options = Options(
+        approve=args.approve and not args.yes,
+        ask_findings=not args.yes,
+        ask_new=is_new and can_ask and not args.yes,
+    )
+    approver = ProgramApprover(can_ask=can_ask)
+    with Conversation(setup_from(args, options=options, programs=True), printer, approver) as conversation:
+        conversation.see_through(say(conversation))
+        while (edited := approver.edited()) is not None and not conversation.is_leaving:
+            conversation.see_through(conversation.session.say_source(*edited))
+    return conversation.exit_code
+
+
+# --- those that do not ---
+
+
+def _list(args: argparse.Namespace) -> int:
+    programs = _library(args).all()
+    for program in programs:
+        if args.json:
+            print(json_line({"event": "program", **_about(program)}), end="")
+        else:
+            print(f"{program.name:<24}{_summary(program)}")
+    if not programs and not args.json:
+        print('No programs are kept yet: chatrobot program new "…"')
+    return 0
+
+
+def _about(program: KeptProgram) -> dict[str, object]:
+    provenance = program.provenance
+    return {
+        "name": program.name,
+        "description": program.description,
+        "sentence": provenance.sentence,
+        "by": provenance.by,
+        "model": provenance.model,
+        "date": provenance.date,
+        "versions": provenance.versions,
+        "rehearsal": dict(program.rehearsal),
+        "runs": [vars(run) for run in program.runs],
+    }
+
+
+def _summary(program: KeptProgram) -> str:
+    parts = [program.provenance.model or program.provenance.by]
+    if program.rehearsal:
+        parts.append(f"{program.rehearsal['duration_s']:.1f} s, {program.rehearsal['length_m']:.2f} m")
+    if program.runs:
+        parts.append(f"runs: {len(program.runs)}, last {program.runs[-1].outcome}")
+    return "  ".join(parts)
+
+
+def _show(args: argparse.Namespace) -> int:
+    from chatrobot.cli.program_text import numbered
+    from chatrobot.programs.check import check
+    from chatrobot.robots.load import load_profile
+
+    program = _library(args).get(args.name)
+    if args.json:
+        print(json_line({"event": "program", **_about(program), "source": program.source}), end="")
+        return 0
+    profile = load_profile(args.robot, profile_folders(args))
+    print(f"{program.name}  ({_summary(program)})")
+    if program.provenance.sentence:
+        print(f"asked for: {' '.join(program.provenance.sentence.split())}")
+    if program.description:
+        print(program.description)
+    for run in program.runs:
+        print(f"run {run.date}: {run.outcome}, {run.path_m:.2f} m, {run.duration_s:.1f} s")
+    print()
+    for line in numbered(program.source, check(program.source, profile).marks, "en"):
+        print(line)
+    return 0
+
+
+def _edit(args: argparse.Namespace) -> int:
+    library = _library(args)
+    program = library.get(args.name)
+    source = _read(Path(args.file).expanduser()) if args.file else edited_text(program.source, ".py")
+    if source == program.source:
+        print("Nothing was changed.")
+        return 0
+    library.edit(program.name, source)
+    print(f"“{program.name}” is changed; it is rehearsed anew when it runs.")
+    return 0
+
+
+def _rename(args: argparse.Namespace) -> int:
+    _library(args).rename(args.name, args.to)
+    print(f"“{args.name}” is now “{args.to}”.")
+    return 0
+
+
+def _remove(args: argparse.Namespace) -> int:
+    library = _library(args)
+    name = library.get(args.name).name
+    library.remove(name)
+    print(f"“{name}” is gone.")
+    return 0
+
+
+def _export(args: argparse.Namespace) -> int:
+    from chatrobot.programs.export import export, workspace
+
+    program = _library(args).get(args.name)
+    folder = export(replace(program), Path(args.dir).expanduser())
+    for path in sorted(workspace(program)):
+        print(f"{args.dir}/{path}")
+    print(f"To build and run it where ROS 2 is: {folder}/build_run.sh")
+    return 0
+
+
+_ACTIONS: dict[str, Callable[[argparse.Namespace], int]] = {
+    "new": _new,
+    "list": _list,
+    "show": _show,
+    "run": _run,
+    "edit": _edit,
+    "rename": _rename,
+    "remove": _remove,
+    "export": _export,
+}

@@ -1,0 +1,43 @@
+"""A node of ours under `--on ros`: ROS's parameters take the place of what stood on the command line."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from chatrobot.nodes.parameters import PARAMETERS, Value
+from chatrobot.wire.connect import domain_and_namespace, require_ros
+
+if TYPE_CHECKING:
+    from chatrobot.nodes.citizen import Citizen
+
+
+def open_citizen(args: argparse.Namespace, address: str, ros_args: list[str]) -> Citizen:
+    """The node, with its parameters written into `args`. Command-line options are their defaults.
+
+    Raises:
+        UsageError: ROS is not here, or what it was given cannot be used.
+    """
+    require_ros()
+    from chatrobot.nodes.citizen import Citizen
+
+    given: dict[str, Value] = {
+        "robot": args.robot,
+        "world": args.world or "empty",
+        "config_dir": args.config_dir or "",
+        "allow_release": args.allow_release,
+        "accept_others": args.accept_others,
+        "on_robot": args.on_robot,
+    }
+    domain_id, namespace = domain_and_namespace(address)
+    citizen = Citizen(
+        f"chatrobot_{args.which}",
+        PARAMETERS[args.which],
+        given,
+        ros_args,
+        namespace=namespace,
+        domain_id=domain_id,
+    )
+    vars(args).update(citizen.values)
+    args.config_dir = args.config_dir or None
+    return citizen

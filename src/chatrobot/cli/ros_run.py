@@ -1,0 +1,27 @@
+"""What `ros2 run` starts: the nodes and the simulated robot, `--on ros`."""
+
+from __future__ import annotations
+
+import sys
+
+from chatrobot.cli.entry import main
+
+
+def input_node() -> int:
+    return _run("node", "input")
+
+
+def base_node() -> int:
+    return _run("node", "base")
+
+
+def control_node() -> int:
+    return _run("node", "control")
+
+
+def simulated_robot() -> int:
+    return _run("sim")
+
+
+def _run(*command: str) -> int:
+    return main([*command, "--on", "ros", *sys.argv[1:]])

@@ -1,0 +1,53 @@
+"""What the nodes can be told as ROS parameters: declared, described and bounded in one place.
+
+`ros/chatrobot/params/params.yaml` lists the same for people; a test compares.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Union
+
+Value = Union[bool, float, str]
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One parameter. Read when the node starts, and read-only from then on: a robot is not changed under way.
+
+    Attributes:
+        default: also says the type.
+        bounds: lowest and highest value of a number.
+    """
+
+    name: str
+    default: Value
+    description: str
+    bounds: tuple[float, float] | None = None
+
+
+_ROBOT = (
+    Parameter(
+        "robot", "wheeltec_mini_mec", "The robot's profile: a built-in name, or the path of a .toml file."
+    ),
+    Parameter(
+        "world", "empty", "What is known of the surroundings: empty, home, or the path of a world file."
+    ),
+    Parameter("diagnostics_period_s", 1.0, "Seconds between two messages on /diagnostics.", (0.1, 60.0)),
+)
+BASE = (
+    Parameter("generate_code", False, "The tutorial's: have requests for programs answered by a program."),
+    Parameter("revChatGPT", False, "The tutorial's: that service no longer exists, so it changes nothing."),
+    *_ROBOT,
+    Parameter("config_dir", "", "Where places and robot profiles live; empty for the user's own folder."),
+)
+CONTROL = (
+    *_ROBOT,
+    Parameter("allow_release", False, "An emergency stop may be released over ROS; offers ~/release."),
+    Parameter("accept_others", False, "Drive though another ChatRobot is on the same robot."),
+    Parameter(
+        "on_robot", False, "This machine is the robot's own: no network lies between control and base."
+    ),
+)
+INPUT: tuple[Parameter, ...] = ()
+PARAMETERS = {"input": INPUT, "base": BASE, "control": CONTROL}

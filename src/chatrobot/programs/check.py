@@ -1,0 +1,229 @@
+"""What can be seen by reading a program: syntax, imports, risky lines, another robot's topic. Advice, never the fence.
+
+What contains a program is the box, whatever this file overlooks.
+"""
+
+from __future__ import annotations
+
+import ast
+import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from chatrobot.core.reason import Reason, Value
+from chatrobot.robots.profile import RobotProfile
+
+Values = Mapping[str, Value]
+Severity = Literal["refuse", "warn", "note"]
+
+MAX_SOURCE_CHARS = 60_000
+
+ROBOT_MODULES = frozenset(
+    {
+        "rclpy", "rclpy.node", "rclpy.qos", "rclpy.duration", "rclpy.time", "rclpy.clock", "rclpy.executors",
+        "rclpy.callback_groups", "rclpy.parameter", "rclpy.logging", "rclpy.signals", "rclpy.timer",
+        "rclpy.publisher", "rclpy.subscription", "rclpy.exceptions", "rclpy.task", "rclpy.utilities",
+        "geometry_msgs.msg", "std_msgs.msg", "sensor_msgs.msg", "nav_msgs.msg", "std_srvs.srv",
+        "builtin_interfaces.msg", "rcl_interfaces.msg", "turtlesim.msg", "tf_transformations",
+    }
+)  # fmt: skip
+"""What stands in the box for ROS 2."""
+
+FORBIDDEN_MODULES = frozenset(
+    {
+        "socket", "socketserver", "ssl", "http", "urllib", "ftplib", "smtplib", "poplib", "imaplib", "telnetlib",
+        "xmlrpc", "subprocess", "multiprocessing", "ctypes", "_ctypes", "cffi", "shutil", "pickle", "cPickle",
+        "marshal", "shelve", "dbm", "sqlite3", "pty", "fcntl", "mmap", "importlib", "imp", "runpy", "webbrowser",
+        "requests", "httpx", "aiohttp", "paramiko", "cyclonedds", "zenoh", "roslibpy", "serial", "smbus", "pexpect",
+        "psutil",
+    }
+)  # fmt: skip
+"""Nothing of these is of use to a robot's program, and all of them reach out of it."""
+
+_RISKY_CALLS = {
+    "eval": "runs_text", "exec": "runs_text", "compile": "runs_text", "__import__": "runs_text",
+    "open": "touches_files", "os.system": "runs_commands", "os.popen": "runs_commands", "os.fork": "runs_commands",
+    "os.kill": "runs_commands", "os._exit": "leaves_at_once", "sys.settrace": "looks_inside",
+    "os.remove": "touches_files", "os.unlink": "touches_files", "os.rename": "touches_files",
+    "os.open": "touches_files", "os.write": "touches_files", "signal.signal": "takes_signals",
+}  # fmt: skip
+_RISKY_PREFIXES = {"os.exec": "runs_commands", "os.spawn": "runs_commands", "subprocess.": "runs_commands"}
+_INSIDES = frozenset(
+    {"__subclasses__", "__globals__", "__builtins__", "__code__", "__closure__", "f_back", "f_globals", "gi_frame",
+     "tb_frame", "__mro__", "__bases__", "__reduce__", "_getframe"}
+)  # fmt: skip
+_TWISTS = frozenset({"Twist", "TwistStamped"})
+_FIELDS = {
+    ("linear", "x"),
+    ("linear", "y"),
+    ("linear", "z"),
+    ("angular", "x"),
+    ("angular", "y"),
+    ("angular", "z"),
+}
+
+
+@dataclass(frozen=True)
+class Mark:
+    """One line that a person should look at. `line` counts from 1; 0 is the program as a whole."""
+
+    severity: Severity
+    line: int
+    reason: Reason
+
+
+@dataclass(frozen=True)
+class Checked:
+    """What reading the program shows. `remap` leads other topics for velocities to the robot's own, if agreed to."""
+
+    marks: tuple[Mark, ...]
+    remap: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def refusal(self) -> Mark | None:
+        """Why it cannot run at all."""
+        return next((mark for mark in self.marks if mark.severity == "refuse"), None)
+
+
+def check(source: str, profile: RobotProfile) -> Checked:
+    """Read `source` for a robot of that profile. Never raises, whatever the source; nothing of it is run."""
+    if len(source) > MAX_SOURCE_CHARS:
+        values = {"characters": len(source), "limit": MAX_SOURCE_CHARS}
+        return Checked((Mark("refuse", 0, Reason("program_too_long", values)),))
+    try:
+        tree = ast.parse(source)
+    except SyntaxError as error:
+        return Checked((_syntax(error),))
+    except (ValueError, RecursionError, MemoryError):
+        return Checked((Mark("refuse", 0, Reason("program_unreadable")),))
+    reader = _Reader(tree, profile)
+    found = {(mark.line, str(mark.reason)): mark for mark in reader.marks()}
+    return Checked(tuple(found[key] for key in sorted(found)), tuple(sorted(reader.remap.items())))
+
+
+def _syntax(error: SyntaxError) -> Mark:
+    line = error.lineno or 0
+    return Mark("refuse", line, Reason("program_syntax", {"line": line, "problem": str(error.msg)}))
+
+
+class _Reader:
+    """One look through the tree."""
+
+    def __init__(self, tree: ast.Module, profile: RobotProfile) -> None:
+        self._tree = tree
+        self._profile = profile
+        self.remap: dict[str, str] = {}
+
+    def marks(self) -> Iterator[Mark]:
+        for node in ast.walk(self._tree):
+            if isinstance(node, ast.Import):
+                for alias in node.names:
+                    yield from self._import(alias.name, (), node.lineno)
+            elif isinstance(node, ast.ImportFrom):
+                names = tuple(alias.name for alias in node.names)
+                yield from self._import(("." * node.level) + (node.module or ""), names, node.lineno)
+            elif isinstance(node, ast.Call):
+                yield from self._call(node)
+            elif isinstance(node, ast.Attribute) and node.attr in _INSIDES:
+                yield Mark("warn", node.lineno, Reason("looks_inside", {"what": node.attr}))
+            elif isinstance(node, ast.Assign):
+                yield from self._assignment(node)
+            elif isinstance(node, ast.While):
+                yield from self._loop(node)
+            elif isinstance(node, ast.ExceptHandler) and node.type is None:
+                yield Mark("note", node.lineno, Reason("catches_everything"))
+        yield from self._whole()
+
+    def _import(self, module: str, names: tuple[str, ...], line: int) -> Iterator[Mark]:
+        root = module.split(".")[0]
+        if module.startswith(".") or root in FORBIDDEN_MODULES:
+            yield Mark("refuse", line, Reason("import_forbidden", {"module": module, "line": line}))
+        elif root in _ROBOT_ROOTS:
+            known = module in ROBOT_MODULES or module in _ROBOT_ROOTS
+            if not known:
+                yield Mark("refuse", line, Reason("import_unknown", {"module": module, "line": line}))
+        elif root not in sys.stdlib_module_names and root not in ("numpy",):
+            yield Mark("refuse", line, Reason("import_unknown", {"module": module, "line": line}))
+        elif root == "os" and set(names) & {"system", "popen", "fork"}:
+            yield Mark("warn", line, Reason("runs_commands", {"what": module}))
+
+    def _call(self, node: ast.Call) -> Iterator[Mark]:
+        name = ast.unparse(node.func) if isinstance(node.func, (ast.Name, ast.Attribute)) else ""
+        code = _RISKY_CALLS.get(name) or next(
+            (code for prefix, code in _RISKY_PREFIXES.items() if name.startswith(prefix)), None
+        )
+        if code is not None:
+            yield Mark("warn", node.lineno, Reason(code, {"what": name}))
+        elif name.endswith(".create_publisher") and len(node.args) >= 2:
+            yield from self._publisher(node)
+
+    def _publisher(self, node: ast.Call) -> Iterator[Mark]:
+        kind, topic = ast.unparse(node.args[0]).split(".")[-1], _text(node.args[1])
+        if kind not in _TWISTS or topic is None:
+            return
+        wiring = self._profile.wiring
+        if topic.strip("/") != wiring.cmd_vel_topic.strip("/"):
+            self.remap[topic] = wiring.cmd_vel_topic
+            values: Values = {"topic": topic, "robot_topic": wiring.cmd_vel_topic, "line": node.lineno}
+            yield Mark("warn", node.lineno, Reason("other_topic", values))
+        if kind != wiring.cmd_vel_type:
+            differs: Values = {"type": kind, "robot_type": wiring.cmd_vel_type, "line": node.lineno}
+            yield Mark("note", node.lineno, Reason("other_type", differs))
+
+    def _assignment(self, node: ast.Assign) -> Iterator[Mark]:
+        value = _number(node.value)
+        if value is None:
+            return
+        for target in node.targets:
+            field = _velocity_field(target)
+            if field is None:
+                continue
+            if isinstance(value, int):
+                whole: Values = {"field": ".".join(field), "value": value, "line": node.lineno}
+                yield Mark("warn", node.lineno, Reason("float_field", whole))
+            limits = self._profile.limits
+            most = {("linear", "x"): limits.max_speed_mps, ("linear", "y"): limits.max_sideways_mps,
+                    ("angular", "z"): limits.max_rate_radps}.get(field)  # fmt: skip
+            if most is not None and abs(value) > most:
+                said: Values = {"field": ".".join(field), "value": value, "max": most, "line": node.lineno}
+                yield Mark("warn", node.lineno, Reason("beyond_limit", said))
+
+    def _loop(self, node: ast.While) -> Iterator[Mark]:
+        is_endless = isinstance(node.test, ast.Constant) and bool(node.test.value)
+        leaves = any(isinstance(inner, (ast.Break, ast.Return, ast.Raise)) for inner in ast.walk(node))
+        if is_endless and not leaves:
+            yield Mark("note", node.lineno, Reason("endless_loop", {"line": node.lineno}))
+
+    def _whole(self) -> Iterator[Mark]:
+        called = {ast.unparse(node.func) for node in ast.walk(self._tree) if isinstance(node, ast.Call)}
+        publishes = any(name.endswith(".publish") for name in called)
+        if not publishes:
+            yield Mark("note", 0, Reason("publishes_nothing"))
+        has_init = any(name.split(".")[-1] in ("init", "Context") for name in called)
+        if publishes and not has_init:
+            yield Mark("warn", 0, Reason("no_init"))
+
+
+_ROBOT_ROOTS = frozenset(module.split(".")[0] for module in ROBOT_MODULES)
+
+
+def _text(node: ast.expr) -> str | None:
+    return node.value if isinstance(node, ast.Constant) and isinstance(node.value, str) else None
+
+
+def _number(node: ast.expr) -> float | int | None:
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, (ast.USub, ast.UAdd)):
+        inner = _number(node.operand)
+        return None if inner is None else -inner if isinstance(node.op, ast.USub) else inner
+    if isinstance(node, ast.Constant) and isinstance(node.value, (int, float)):
+        return None if isinstance(node.value, bool) else node.value
+    return None
+
+
+def _velocity_field(target: ast.expr) -> tuple[str, str] | None:
+    """(linear, x) for `twist.linear.x`."""
+    if isinstance(target, ast.Attribute) and isinstance(target.value, ast.Attribute):
+        field = (target.value.attr, target.attr)
+        return field if field in _FIELDS else None
+    return None

@@ -1,0 +1,43 @@
+"""Where Motion has programs rehearsed and run: in the box, or nowhere.
+
+All methods but `attach` are called from Motion's background thread, where nothing that moves waits for them.
+"""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from chatrobot.core.reason import Reason
+from chatrobot.session.planner import Planned, Planner
+from chatrobot.session.program_job import ProgramJob
+from chatrobot.session.program_run import LiveProgram
+from chatrobot.wire.wire import Wire
+
+
+class ProgramBox(Protocol):
+    """What Motion needs of it."""
+
+    def attach(self, wire: Wire) -> None:
+        """Hear the robot's sensors, for programs that listen to them."""
+        ...
+
+    def rehearse(self, job: ProgramJob, planner: Planner) -> Planned:
+        """Run it on virtual time, in the world that is known, from where the job starts."""
+        ...
+
+    def launch(self, job: ProgramJob) -> LiveProgram | Reason:
+        """Start it; why it cannot be."""
+        ...
+
+
+class NoBox:
+    """Nowhere: every program is refused."""
+
+    def attach(self, wire: Wire) -> None:
+        """There is nothing to hear for."""
+
+    def rehearse(self, job: ProgramJob, planner: Planner) -> Planned:  # noqa: ARG002
+        return Planned(job.turn, None, Reason("no_programs_here"))
+
+    def launch(self, job: ProgramJob) -> LiveProgram | Reason:  # noqa: ARG002
+        return Reason("no_programs_here")

@@ -1,0 +1,186 @@
+"""One program under way in its box: what it asks goes through the governor at 50 Hz, and the end is measured.
+
+Its last velocity is held while it beats, for as long as the profile says that the base would hold it. Whatever ends
+it (its own end, an exception, a kill, silence), the robot is brought to stand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Protocol
+
+from chatrobot.core.events import Event, Finished, Limited, Outcome, ProgramLog, Progress
+from chatrobot.core.geometry import ZERO_TWIST, Twist
+from chatrobot.core.reason import Reason
+from chatrobot.execution.sensors import Sensors
+from chatrobot.governor.governor import Governor, Verdict
+from chatrobot.governor.lease import TERM_S
+from chatrobot.programs.events import Died, Ended, Log, Output, ProgramEvent, Raised, TwistAsked
+from chatrobot.programs.held_twist import HeldTwist
+from chatrobot.programs.raised import raised_reason
+from chatrobot.robots.profile import RobotProfile
+from chatrobot.session.program_job import ProgramJob
+from chatrobot.session.run import Stopwatch, is_worth_telling, sensed_by
+from chatrobot.session.soft_zero import softened
+from chatrobot.transports.transport import Transport
+
+SETTLE_S = 1.0
+"""A robot that is told to stand is waited for no longer than this."""
+STARTING_S = 3.0
+"""A program that says nothing for so long after its launch is not coming."""
+LOG_LINES = 500
+"""More of what a program logs is not told; it may go on for an hour."""
+
+
+class LiveProgram(Protocol):
+    """A program that is running: `BoxedProgram` in real time, or in step with a simulation."""
+
+    def poll_until(self, now_s: float) -> Sequence[ProgramEvent]:
+        """What it did up to `now_s` after its launch. Never blocks on a real clock."""
+        ...
+
+    def close(self) -> None:
+        """End it now, if it still runs."""
+        ...
+
+
+class ProgramRun:
+    """Drives by the program of `job`, which has been rehearsed and launched. `tick` until `is_done`, or a stop."""
+
+    def __init__(
+        self,
+        job: ProgramJob,
+        program: LiveProgram,
+        profile: RobotProfile,
+        sensors: Sensors,
+        governor: Governor,
+        transport: Transport,
+        emit: Callable[[Event], None],
+        now_s: float,
+    ) -> None:
+        self.job = job
+        self.is_done = False
+        self.outcome: Outcome = "completed"
+        self.reason: Reason | None = None
+        self._program = program
+        self._sensors = sensors
+        self._governor = governor
+        self._transport = transport
+        self._emit = emit
+        self._stopwatch = Stopwatch(now_s)
+        self._start_path_m = sensors.estimate.path_m if sensors.estimate is not None else 0.0
+        self._began_s = self._now_s = now_s
+        self._heard_s = now_s + STARTING_S - TERM_S
+        self._sent = ZERO_TWIST
+        self._limits = profile.limits
+        self._held = HeldTwist(profile.wiring.base_timeout_s)
+        self._ended_s: float | None = None
+        self._logged = 0
+        self._told: set[tuple[str, Twist]] = set()
+
+    def tick(self, now_s: float) -> None:
+        """One period: what the program asks, as far as the governor allows it."""
+        since_s, self._now_s = self._now_s, now_s
+        if self._ended_s is None:
+            for event in self._program.poll_until(now_s - self._began_s):
+                self._hear(event, now_s)
+            self._notice_silence(now_s)
+        asked = self._held.at(now_s) if self._ended_s is None else ZERO_TWIST
+        if self.outcome == "completed":
+            asked = softened(asked, self._sent, self._limits, now_s - since_s)
+        estimate = self._sensors.estimate
+        pose = estimate.pose if estimate is not None else None
+        verdict = self._governor.govern(asked, self.job.lease, now_s, pose, sensed_by(self._sensors))
+        self._transport.send(verdict.sent)
+        self._sent = verdict.sent.twist
+        self._stopwatch.count(verdict.sent.twist.is_zero, now_s)
+        self._tell(verdict)
+        if self._ended_s is not None and verdict.sent.twist.is_zero:
+            standing = estimate is None or estimate.is_standing
+            self.is_done = standing or now_s - self._ended_s > SETTLE_S
+
+    def ramp_down(self, why: Reason) -> None:
+        """A controlled stop: the program is ended, the robot brought to stand."""
+        self._end("stopped", why)
+
+    def close(self) -> None:
+        """The program is not to run on, whatever ended this run."""
+        self._program.close()
+
+    def progress(self, now_s: float) -> Progress:
+        """By the duration that was rehearsed."""
+        estimate = self._sensors.estimate
+        assert estimate is not None
+        assert self.job.planned is not None
+        expected_s = self.job.planned.duration_s
+        fraction = min(1.0, (now_s - self._began_s) / expected_s) if expected_s > 0.0 else 1.0
+        return Progress(self.job.turn, 1, 1, fraction, estimate.pose, estimate.twist)
+
+    def finished(self, outcome: Outcome, reason: Reason | None) -> Finished:
+        """The end, as odometry measured it."""
+        start, estimate = self.job.start, self._sensors.estimate
+        pose = estimate.pose if estimate is not None else start
+        planned = self.job.planned
+        return Finished(
+            self.job.turn,
+            outcome,
+            reason,
+            start=start,
+            pose=pose,
+            turned_rad=pose.yaw_rad - start.yaw_rad,
+            path_m=(estimate.path_m - self._start_path_m) if estimate is not None else 0.0,
+            duration_s=self._stopwatch.moving_s,
+            paused_s=self._stopwatch.paused_s,
+            planned_m=planned.length_m if planned is not None else 0.0,
+            planned_turn_rad=pose.yaw_rad - start.yaw_rad,
+            steps_done=1 if outcome == "completed" else 0,
+            steps=1,
+            measured=self._sensors.has_odometry,
+        )
+
+    # --- what it says ---
+
+    def _hear(self, event: ProgramEvent, now_s: float) -> None:
+        self._heard_s = max(self._heard_s, now_s)
+        if isinstance(event, TwistAsked):
+            self._held.publish(event.twist, now_s)
+        elif isinstance(event, Log):
+            self._log(now_s, event.level, f"[{event.name}] {event.text}")
+        elif isinstance(event, Output):
+            for line in event.text.splitlines():
+                self._log(now_s, event.stream, line)
+        elif isinstance(event, Ended):
+            code = event.exit_code
+            reason = Reason("program_exit_code", {"code": code}) if code else None
+            self._end("failed" if code else "completed", reason)
+        elif isinstance(event, Raised):
+            self._log(now_s, "traceback", event.traceback)
+            self._end("failed", raised_reason(event))
+        elif isinstance(event, Died):
+            self._end("failed", event.reason)
+
+    def _end(self, outcome: Outcome, reason: Reason | None) -> None:
+        if self._ended_s is None:
+            self.outcome, self.reason = outcome, reason
+            self._ended_s = self._now_s
+            self._program.close()
+
+    def _notice_silence(self, now_s: float) -> None:
+        if self._ended_s is None and now_s - self._heard_s > TERM_S:
+            self._end("failed", Reason("program_silent"))
+
+    # --- telling ---
+
+    def _log(self, now_s: float, level: str, text: str) -> None:
+        self._logged += 1
+        if self._logged <= LOG_LINES:
+            self._emit(ProgramLog(self.job.turn, round(now_s - self._began_s, 3), level, text))
+
+    def _tell(self, verdict: Verdict) -> None:
+        """Say once for each velocity and rule that something was limited; ramps are no news."""
+        key = (verdict.rule, verdict.asked)
+        if verdict.action != "limited" or verdict.rule == "acceleration" or key in self._told:
+            return
+        if is_worth_telling(verdict) and len(self._told) < LOG_LINES:
+            self._told.add(key)
+            self._emit(Limited(self.job.turn, verdict.rule, verdict.asked, verdict.allowed, verdict.reason))

@@ -1,0 +1,176 @@
+"""The turns of a session that are about a program: begun, rehearsed, sent back to be mended, run, kept."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from chatrobot.core.events import (
+    Event,
+    Finished,
+    Interpreted,
+    Outcome,
+    ProgramRehearsed,
+    Rehearsed,
+    Started,
+)
+from chatrobot.core.reason import Reason
+from chatrobot.language.interpretation import Interpretation, LanguageCode
+from chatrobot.language.normalise import has_chinese
+from chatrobot.language.phrases import render_reason
+from chatrobot.session.authoring import MOST_REPAIRS, Authoring, NotWrittenError, Rehearsal
+from chatrobot.session.draft import Draft
+from chatrobot.session.understanding import Understanding
+
+MENDABLE = frozenset(
+    {
+        "program_syntax", "program_unreadable", "program_too_long", "import_forbidden", "import_unknown",
+        "program_import", "program_forbidden", "program_raised", "program_exit_code",
+        "program_waits_for_ever", "program_never_stops", "program_moves_nothing", "program_not_finite",
+        "program_other_topic", "program_topic_silent", "program_too_busy", "program_vanished", "limited",
+        "would_collide", "leaves_area", "leaves_fence",
+    }
+)  # fmt: skip
+"""What a model is asked to mend."""
+
+
+@dataclass(frozen=True)
+class Hooks:
+    """What a program's turn needs of its session.
+
+    Args:
+        emit: shows an event.
+        conclude: ends a turn that did not move.
+        track: this turn is now Motion's; its `finished` ends it.
+        send: a `program` envelope with that payload.
+        is_void: a stop came after that turn was said.
+    """
+
+    emit: Callable[[Event], None]
+    conclude: Callable[[int, Outcome, str], None]
+    track: Callable[[int, str, Interpretation], None]
+    send: Callable[[int, dict[str, object]], None]
+    is_void: Callable[[int], bool]
+
+
+@dataclass
+class _Turn:
+    draft: Draft
+    rehearsal: Rehearsal = field(default_factory=Rehearsal)
+    has_started: bool = False
+
+
+class ProgramTurns:
+    """Used by the session's pumping thread."""
+
+    def __init__(self, authoring: Authoring, understanding: Understanding, hooks: Hooks) -> None:
+        self.authoring = authoring
+        self._understanding = understanding
+        self._hooks = hooks
+        self._turns: dict[int, _Turn] = {}
+
+    def begin(self, turn: int, text: str, *, is_asked_for: bool = False, name: str = "") -> bool:
+        """Take the turn if it is about a program; `name` is what it is to be called.
+
+        Blocks while a model writes; a stop ends that.
+        """
+        draft = None if is_asked_for else self.authoring.kept(text)
+        if draft is not None:
+            self.run(turn, text, draft)
+            return True
+        request = self.authoring.request(text, is_asked_for=is_asked_for)
+        if request is None:
+            return False
+        request = replace(request, name=name or request.name)
+        language: LanguageCode = "zh" if has_chinese(text) else "en"
+        try:
+            draft = self.authoring.write(request, self._understanding.pose, language)
+        except NotWrittenError as refusal:
+            self._hooks.emit(Interpreted(turn, "offline", "", refusal.reply))
+            meant = Interpretation(_MEANT.get(refusal.outcome, "refused"), refusal.reply, language)
+            self._understanding.note_unmoved(text, meant)
+            self._hooks.conclude(turn, refusal.outcome, refusal.reply)
+            return True
+        self.run(turn, text, draft)
+        return True
+
+    def run(self, turn: int, text: str, draft: Draft) -> None:
+        """Have Motion rehearse and run it, as soon as it can be read at all."""
+        code = "program_new" if draft.is_new else "program_kept"
+        reply = self._understanding.say(code, text, name=draft.program.name)
+        self._hooks.emit(Interpreted(turn, "model" if draft.by_model else "offline", "", reply))
+        self._turns[turn] = about = _Turn(draft)
+        self._hooks.track(turn, text, Interpretation("plan", reply, self._understanding.language))
+        self._send(turn, about)
+
+    def hear(self, event: Event) -> bool:
+        """Take in Motion's event; True where Motion is done with the turn, and we are not."""
+        about = self._turns.get(event.turn)
+        if about is None:
+            return False
+        if isinstance(event, ProgramRehearsed):
+            about.rehearsal.program = event
+        elif isinstance(event, Rehearsed):
+            about.rehearsal.path = event
+            self.authoring.note_rehearsal(about.draft, about.rehearsal)
+        elif isinstance(event, Started):
+            about.has_started = True
+        elif isinstance(event, Finished) and about.has_started:
+            self.authoring.note_run(about.draft, event)
+        elif isinstance(event, Finished):
+            return self._send_mended(event, about)
+        return False
+
+    def ending(self, turn: int, reply: str) -> str:
+        """The reply at the end of a program's turn: what was promised and cannot be is said again."""
+        about = self._turns.pop(turn, None)
+        if about is None or not about.has_started:
+            return reply
+        language = self._understanding.language
+        return " ".join([reply, *(render_reason(promise, language) for promise in about.draft.promises)])
+
+    def _send_mended(self, event: Finished, about: _Turn) -> bool:
+        reason = event.reason
+        if reason is None or reason.code not in MENDABLE or self._hooks.is_void(event.turn):
+            return False
+        problem = about.rehearsal.program.problem if about.rehearsal.program is not None else ""
+        if not self._mend(about, reason, problem):
+            return False
+        self._send(event.turn, about)
+        return True
+
+    def _send(self, turn: int, about: _Turn) -> None:
+        """Show this version and hand it to Motion; one that cannot even be read is mended first, or ends the turn."""
+        self._hooks.emit(about.draft.event(turn))
+        while (refusal := about.draft.checked.refusal) is not None:
+            if not self._mend(about, refusal.reason, ""):
+                del self._turns[turn]
+                reply = render_reason(refusal.reason, self._understanding.language)
+                self._hooks.conclude(turn, "refused", reply)
+                return
+            self._hooks.emit(about.draft.event(turn))
+        self.authoring.keep(about.draft)
+        draft = about.draft
+        payload = {
+            "code": draft.program.source,
+            "name": draft.program.name,
+            "remap": dict(draft.program.remap),
+            "is_new": draft.is_new,
+            "strict": draft.by_model and draft.version <= MOST_REPAIRS,
+        }
+        self._hooks.send(turn, payload)
+
+    def _mend(self, about: _Turn, problem: Reason, details: str) -> bool:
+        """Have the model write the next version; False where there is none."""
+        try:
+            draft = self.authoring.mend(about.draft, problem, details, self._understanding.language)
+        except NotWrittenError:
+            return False  # what was wrong is told all the same
+        if draft is None:
+            return False
+        about.draft, about.rehearsal = draft, Rehearsal()
+        return True
+
+
+_MEANT: Mapping[str, Any] = {"unclear": "unclear", "answered": "answered"}

@@ -1,0 +1,115 @@
+"""One ROS 2 node: a context of its own, so that nothing else in the process matters to it, and a thread that delivers.
+
+rclpy's own signal handlers stay off: they close the context while a zero still has to go out. Who wants Ctrl-C to
+end it stops the robot first, and then calls `close`.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Sequence
+from typing import Any
+
+import rclpy
+from rclpy.context import Context
+from rclpy.exceptions import InvalidNamespaceException, InvalidNodeNameException
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
+
+from chatrobot.core.errors import UsageError, WireError
+
+JOIN_S = 5.0
+
+
+class RosNode:
+    """See the module. Callbacks come on its thread.
+
+    Args:
+        name: of the node; `-r __node:=…` in `ros_args` goes before it.
+        namespace: without or with a leading slash; `-r __ns:=…` goes before it.
+        ros_args: what stood behind `--ros-args`.
+        domain_id: None for ROS_DOMAIN_ID's.
+
+    Raises:
+        UsageError: the arguments or names cannot be used.
+        WireError: ROS cannot be opened here.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        *,
+        namespace: str = "",
+        ros_args: Sequence[str] = (),
+        domain_id: int | None = None,
+    ) -> None:
+        self.context = Context()
+        arguments = ["chatrobot", "--ros-args", *ros_args] if ros_args else None
+        try:
+            rclpy.init(
+                args=arguments,
+                context=self.context,
+                domain_id=domain_id,
+                signal_handler_options=SignalHandlerOptions.NO,
+            )
+            self.handle: Any = rclpy.create_node(
+                name, context=self.context, namespace=namespace.strip("/") or None
+            )
+        except (InvalidNodeNameException, InvalidNamespaceException) as error:
+            rclpy.try_shutdown(context=self.context)
+            raise UsageError(str(error), where=name) from error
+        except RuntimeError as error:
+            rclpy.try_shutdown(context=self.context)
+            if ros_args:
+                raise UsageError(f"ROS cannot use these: {error}", where="--ros-args") from error
+            raise WireError(f"ROS cannot be opened: {error}") from error
+        self._executor = SingleThreadedExecutor(context=self.context)
+        self._executor.add_node(self.handle)
+        self._leaving = Future()
+        self._closed = False
+        self._thread = threading.Thread(target=self._deliver, name="ros", daemon=True)
+        self._thread.start()
+
+    @property
+    def is_closed(self) -> bool:
+        return self._closed
+
+    @property
+    def has_own_time(self) -> bool:
+        """Whether `use_sim_time` is set: time is what `/clock` says."""
+        return bool(self.handle.get_parameter("use_sim_time").value)
+
+    def now_s(self) -> float:
+        """ROS's time: that of the wall, or of a simulation; the latter is zero until `/clock` has been heard."""
+        nanoseconds: int = self.handle.get_clock().now().nanoseconds
+        return nanoseconds * 1e-9
+
+    def wait_for_time(self, timeout_s: float) -> bool:
+        """Block until there is a time; False where nobody tells it."""
+        ends_s = time.monotonic() + timeout_s
+        while self.now_s() <= 0.0:
+            if time.monotonic() > ends_s:
+                return False
+            time.sleep(0.02)
+        return True
+
+    def close(self) -> None:
+        """Leave; from any thread, its own too. Closing twice does no harm."""
+        if not self._closed:
+            self._closed = True
+            self._leaving.set_result(None)
+        if self._thread is not threading.current_thread():
+            self._thread.join(JOIN_S)
+
+    def _deliver(self) -> None:
+        try:
+            self._executor.spin_until_future_complete(self._leaving)
+        except ExternalShutdownException:
+            pass  # somebody has closed the context: publishing says so from now on
+        finally:
+            self._closed = True
+            self._executor.shutdown()
+            self.handle.destroy_node()
+            rclpy.try_shutdown(context=self.context)

@@ -1,0 +1,258 @@
+"""Under ROS our nodes are what ROS expects: parameters, services, diagnostics, names. rclpy is a fake here."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "wire"))
+import fake_rclpy
+
+from chatrobot.cli import node as command
+from chatrobot.cli.arguments import parse, split_ros_args
+from chatrobot.core.clock import VirtualClock
+from chatrobot.core.errors import UsageError, WireError
+from chatrobot.nodes.parameters import PARAMETERS
+from chatrobot.session import motion_runner
+from chatrobot.session.guard_link import SimulatedGuard
+from chatrobot.wire.messages import Text, TwistMessage
+
+PARAMS_FILE = Path(__file__).parents[2] / "ros" / "chatrobot" / "params" / "params.yaml"
+PATIENCE_S = 10.0
+
+
+@pytest.fixture
+def ros(monkeypatch: pytest.MonkeyPatch) -> fake_rclpy.Ros:
+    return fake_rclpy.install(monkeypatch)
+
+
+class _Guard(SimulatedGuard):
+    """In place of the guard's process, which has no fake of ROS."""
+
+    def __init__(self, address: str, wiring: Any) -> None:
+        super().__init__(VirtualClock())
+        self.halts = address, wiring.cmd_vel_topic, wiring.odom_topic
+
+    def wait_until_alive(self, _timeout_s: float) -> bool:
+        return True
+
+
+@pytest.fixture
+def guards(monkeypatch: pytest.MonkeyPatch) -> list[_Guard]:
+    made: list[_Guard] = []
+
+    def make(address: str, wiring: Any, _clock: Any) -> _Guard:
+        made.append(_Guard(address, wiring))
+        return made[-1]
+
+    monkeypatch.setattr(motion_runner, "GuardProcess", make)
+    return made
+
+
+class _Watch:
+    """In place of the signals': this is not the main thread."""
+
+    leaving = threading.Event()
+
+    def __init__(self, stop: Callable[[str], None]) -> None:
+        self._stop = stop
+
+    def __enter__(self) -> _Watch:
+        return self
+
+    def __exit__(self, *_: object) -> None: ...
+
+    @property
+    def is_leaving(self) -> bool:
+        return self.leaving.is_set()
+
+
+@contextmanager
+def running(monkeypatch: pytest.MonkeyPatch, ros: fake_rclpy.Ros, *arguments: str) -> Iterator[None]:
+    """`chatrobot node …` in a thread, once its services are there."""
+    monkeypatch.setattr(command, "SignalWatch", _Watch)
+    monkeypatch.setattr(_Watch, "leaving", threading.Event())
+    known = len(ros.nodes)
+    thread = threading.Thread(target=command.run, args=(parse(["node", "--on", "ros", *arguments]),))
+    thread.start()
+    try:
+        for _ in range(round(PATIENCE_S / 0.01)):
+            if len(ros.nodes) > known and ros.nodes[-1].timers:
+                break
+            assert thread.is_alive()
+            threading.Event().wait(0.01)
+        yield
+    finally:
+        _Watch.leaving.set()
+        thread.join(PATIENCE_S)
+        assert not thread.is_alive()
+    assert len(ros.nodes) == known, "the node is still there"
+
+
+@pytest.fixture
+def ear(ros: fake_rclpy.Ros) -> Iterator[Any]:  # noqa: ARG001
+    from chatrobot.core.wiring import Wiring
+    from chatrobot.wire.connect import connect_wire
+
+    wire = connect_wire("ros:", Wiring(), "ear")
+    yield wire
+    wire.close()
+
+
+def test_control_offers_its_services_and_stops_at_once(
+    monkeypatch: pytest.MonkeyPatch, ros: fake_rclpy.Ros, guards: list[_Guard], ear: Any
+) -> None:
+    zero_came = threading.Event()
+    ear.subscribe("cmd_vel", TwistMessage, lambda twist: any(twist) or zero_came.set())
+    with running(monkeypatch, ros, "control"):
+        assert set(ros.nodes[-1].services) == {"/chatrobot_control/stop", "/chatrobot_control/emergency_stop"}
+        answer = ros.call("/chatrobot_control/stop")
+        assert (answer.success, answer.message) == (True, "stopped")
+        assert zero_came.wait(PATIENCE_S)
+    assert guards[0].halts == ("ros:", "/cmd_vel", "/odom")
+
+
+def test_an_emergency_stop_is_released_over_ros_only_where_that_was_switched_on(
+    monkeypatch: pytest.MonkeyPatch, ros: fake_rclpy.Ros, guards: list[_Guard], ear: Any
+) -> None:
+    events: list[str] = []
+    ear.subscribe("chatrobot/events", Text, lambda message: events.append(message.data))
+    with running(monkeypatch, ros, "control", "--ros-args", "-p", "allow_release:=true"):
+        assert not ros.call("/chatrobot_control/release").message.startswith("not")
+        assert ros.call("/chatrobot_control/emergency_stop").success
+        assert ros.call("/chatrobot_control/release").message == "released"
+    assert guards
+
+
+def test_namespace_remapping_and_name_reach_the_guard_and_the_graph(
+    monkeypatch: pytest.MonkeyPatch, ros: fake_rclpy.Ros, guards: list[_Guard]
+) -> None:
+    words = [
+        "-r",
+        "__ns:=/robot1",
+        "-r",
+        "cmd_vel:=/base/go",
+        "-r",
+        "__node:=driver",
+        "-p",
+        "robot:=originbot",
+    ]
+    with running(monkeypatch, ros, "control", "--ros-args", *words):
+        node = ros.nodes[-1]
+        assert f"{node.namespace}/{node.name}" == "/robot1/driver"
+        assert "/robot1/driver/stop" in node.services
+    assert guards[0].halts == ("ros:", "/base/go", "/robot1/odom")
+
+
+def test_diagnostics_tell_how_a_node_is(
+    monkeypatch: pytest.MonkeyPatch, ros: fake_rclpy.Ros, ear: Any
+) -> None:
+    from chatrobot.wire.ros.convert import message_class
+
+    heard: list[Any] = []
+    came = threading.Event()
+    qos = fake_rclpy.SimpleNamespace(reliability=fake_rclpy.Option.RELIABLE)
+    ear.node.handle.create_subscription(
+        message_class("diagnostic_msgs/msg/DiagnosticArray"),
+        "/diagnostics",
+        lambda message: (heard.append(message), came.set()),
+        qos,
+    )
+    with running(monkeypatch, ros, "base", "--ros-args", "-p", "diagnostics_period_s:=0.1"):
+        assert came.wait(PATIENCE_S)
+    (status,) = heard[0].status
+    assert (status.name, status.message, status.level) == ("/chatrobot_base", "no_control", b"\1")
+    assert {value.key for value in status.values} >= {"profile"}
+
+
+def test_the_command_line_is_the_default_and_ros_s_parameters_go_before_it(
+    monkeypatch: pytest.MonkeyPatch, ros: fake_rclpy.Ros
+) -> None:
+    words = ("base", "--robot", "turtlesim", "--world", "home", "-p", "generate_code:=True")
+    with running(monkeypatch, ros, *words, "--ros-args", "-p", "robot:=originbot"):
+        values = ros.parameters("chatrobot_base")
+    assert values == {
+        "use_sim_time": False,
+        "generate_code": True,
+        "revChatGPT": False,
+        "robot": "originbot",
+        "world": "home",
+        "diagnostics_period_s": 1.0,
+        "config_dir": "",
+    }
+
+
+@pytest.mark.parametrize("given", ["diagnostics_period_s:=0.01", "generate_code:=perhaps", "robot:=1.0"])
+def test_a_parameter_out_of_range_or_of_another_type_is_refused(ros: fake_rclpy.Ros, given: str) -> None:
+    with pytest.raises(UsageError, match=given.partition(":")[0]):
+        command.run(parse(["node", "base", "--on", "ros", "--ros-args", "-p", given]))
+    assert not ros.nodes
+
+
+def test_without_a_clock_a_node_that_follows_simulated_time_does_not_start(
+    monkeypatch: pytest.MonkeyPatch, ros: fake_rclpy.Ros
+) -> None:
+    monkeypatch.setattr(import_module("chatrobot.nodes.citizen"), "SIMULATED_TIME_S", 0.05)
+    with pytest.raises(WireError, match="/clock"):
+        command.run(parse(["node", "base", "--on", "ros", "--ros-args", "-p", "use_sim_time:=true"]))
+    assert not ros.nodes
+
+
+def test_every_parameter_is_described_and_stands_in_the_file_with_its_default(ros: fake_rclpy.Ros) -> None:
+    text = PARAMS_FILE.read_text(encoding="utf-8")
+    listed = yaml.safe_load(text)
+    assert set(listed) == {f"/**/chatrobot_{name}" for name, known in PARAMETERS.items() if known}
+    for name, known in PARAMETERS.items():
+        if known:
+            values = listed[f"/**/chatrobot_{name}"]["ros__parameters"]
+            assert values.pop("use_sim_time") is False
+            assert values == {parameter.name: parameter.default for parameter in known}
+            for parameter in known:
+                bounds = f" ({parameter.bounds[0]} to {parameter.bounds[1]})" if parameter.bounds else ""
+                assert f"# {parameter.description}{bounds}\n" in text
+    assert not ros.nodes
+
+
+def test_ros_s_arguments_end_at_two_dashes() -> None:
+    words = [
+        "node",
+        "base",
+        "--ros-args",
+        "-r",
+        "a:=b",
+        "--",
+        "--robot",
+        "turtlesim",
+        "--ros-args",
+        "-p",
+        "c:=1",
+    ]
+    assert split_ros_args(words) == (["node", "base", "--robot", "turtlesim"], ["-r", "a:=b", "-p", "c:=1"])
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["node", "base", "--on", "dds", "--ros-args", "-r", "a:=b"],
+        ["sim", "--ros-args", "-r", "a:=b"],
+    ],
+)
+def test_ros_s_arguments_need_ros(arguments: list[str]) -> None:
+    from chatrobot.cli import sim
+
+    args = parse(arguments)
+    with pytest.raises(UsageError):
+        (command if args.command == "node" else sim).run(args)
+
+
+def test_ros_s_arguments_are_for_nodes() -> None:
+    with pytest.raises(UsageError):
+        parse(["do", "hi", "--ros-args", "-r", "a:=b"])

@@ -1,0 +1,224 @@
+"""Real ROS 2 for tests: the ament packages built with colcon, and processes started with `ros2 run` and `ros2 launch`.
+
+Where it is missing the tests of this folder are left out, and pytest's summary says so (conftest.py).
+"""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+import os
+import queue
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+PACKAGES = Path(__file__).parents[2] / "ros"
+SOURCE = Path(__file__).parents[2] / "src"
+PATIENCE_S = 60.0
+ROBOT = "wheeltec_mini_mec"
+_domains = itertools.cycle(range(91, 100))
+"""Where the tests of DDS do not go: both may run on one machine."""
+
+
+def next_domain() -> str:
+    return str(next(_domains))
+
+
+class Heard:
+    """Messages of one topic with the monotonic time they came."""
+
+    def __init__(self) -> None:
+        self._changed = threading.Condition()
+        self.all: list[tuple[float, Any]] = []
+
+    def __call__(self, message: Any) -> None:
+        now_s = time.monotonic()
+        with self._changed:
+            self.all.append((now_s, message))
+            self._changed.notify_all()
+
+    def since(self, since_s: float) -> list[tuple[float, Any]]:
+        return [entry for entry in tuple(self.all) if entry[0] >= since_s]
+
+    def wait_for(
+        self, wanted: Callable[[Any], bool], since_s: float = 0.0, timeout_s: float = PATIENCE_S
+    ) -> tuple[float, Any]:
+        """The first wanted message since then."""
+        ends_s = time.monotonic() + timeout_s
+        with self._changed:
+            while True:
+                for at_s, message in self.all:
+                    if at_s >= since_s and wanted(message):
+                        return at_s, message
+                if not self._changed.wait(max(0.0, ends_s - time.monotonic())):
+                    raise AssertionError(f"it did not come; last heard: {self.all[-3:]}")
+
+
+class Process:
+    """A process in a session of its own whose output is read."""
+
+    def __init__(self, arguments: list[str], environment: Mapping[str, str]) -> None:
+        self.process = subprocess.Popen(
+            arguments,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            env=dict(environment),
+            start_new_session=True,
+            text=True,
+        )
+        self.lines: list[str] = []
+        self._queue: queue.SimpleQueue[str | None] = queue.SimpleQueue()
+        threading.Thread(target=self._read, daemon=True).start()
+
+    def wait_for_line(self, part: str, timeout_s: float = PATIENCE_S) -> str:
+        ends_s = time.monotonic() + timeout_s
+        while True:
+            try:
+                line = self._queue.get(timeout=max(0.0, ends_s - time.monotonic()))
+            except queue.Empty:
+                line = None
+            assert line is not None, f"{part!r} was not said: {self.lines}"
+            if part in line:
+                return line
+
+    def say(self, line: str) -> float:
+        assert self.process.stdin is not None
+        now_s = time.monotonic()
+        self.process.stdin.write(f"{line}\n")
+        self.process.stdin.flush()
+        return now_s
+
+    def interrupt(self) -> float:
+        """Ctrl-C: to the whole group, as a terminal does it."""
+        now_s = time.monotonic()
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self.process.pid, signal.SIGINT)
+        return now_s
+
+    def end(self) -> int:
+        """Ctrl-C, and see that it has ended; its exit code."""
+        if self.process.poll() is None:
+            self.interrupt()
+        try:
+            return self.process.wait(20.0)
+        except subprocess.TimeoutExpired:
+            os.killpg(self.process.pid, signal.SIGKILL)
+            self.process.wait()
+            raise
+
+    def _read(self) -> None:
+        assert self.process.stdout is not None
+        for line in self.process.stdout:
+            self.lines.append(line.rstrip())
+            self._queue.put(line)
+        self._queue.put(None)
+
+
+class Workspace:
+    """A colcon workspace with our two packages, built, and its environment."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        (folder / "src").mkdir()
+        (folder / "src" / "chatrobot_ros").symlink_to(PACKAGES)
+        # As in a virtual environment: this Python runs colcon, and so stands in the executables' first line.
+        self.build = subprocess.run(
+            [sys.executable, "-m", "colcon", "build"],
+            cwd=folder,
+            capture_output=True,
+            text=True,
+            timeout=300,
+            env=os.environ,
+        )
+        assert self.build.returncode == 0, self.build.stdout + self.build.stderr
+        sourced = subprocess.run(
+            ["bash", "-c", "source install/local_setup.bash && env -0"],
+            cwd=folder,
+            capture_output=True,
+            check=True,
+            env=os.environ,
+        )
+        pairs = (entry.decode().partition("=") for entry in sourced.stdout.split(b"\0") if entry)
+        self.environment = {name: value for name, _, value in pairs}
+
+    def environment_for(self, folder: Path, domain: str, reach: str = "LOCALHOST") -> dict[str, str]:
+        python_path = os.pathsep.join([str(SOURCE), self.environment.get("PYTHONPATH", "")])
+        folder.chmod(0o700)
+        return {
+            **self.environment,
+            "PYTHONPATH": python_path,
+            "PYTHONUNBUFFERED": "1",
+            "QT_QPA_PLATFORM": "offscreen",
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": reach,
+            "ROS_DOMAIN_ID": domain,
+            "XDG_CONFIG_HOME": str(folder / "config"),
+            "XDG_RUNTIME_DIR": str(folder),
+        }
+
+
+class Rig:
+    """One domain: processes started by their ROS names, and an ear that is a ROS node itself."""
+
+    def __init__(self, workspace: Workspace, folder: Path, robot: str, ear_args: Sequence[str]) -> None:
+        from chatrobot.robots.load import load_profile
+        from chatrobot.wire.connect import connect_ros
+
+        self.domain = next_domain()
+        self.environment = workspace.environment_for(folder, self.domain)
+        self._processes: list[Process] = []
+        self.wiring = load_profile(robot).wiring
+        with _environment_variable("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST"):
+            self.ear: Any = connect_ros(f"ros://{self.domain}", self.wiring, "ear", ear_args)
+
+    def hear(self, topic: str, kind: Any) -> Heard:
+        heard = Heard()
+        self.ear.subscribe(topic, kind, heard)
+        return heard
+
+    def start(self, *arguments: str, **more: str) -> Process:
+        process = Process(list(arguments), {**self.environment, **more})
+        self._processes.append(process)
+        return process
+
+    def run(self, package: str, executable: str, *arguments: str) -> Process:
+        return self.start("ros2", "run", package, executable, *arguments)
+
+    def ask(self, *arguments: str) -> str:
+        """What a command of `ros2` prints, its warnings too."""
+        done = subprocess.run(
+            ["ros2", *arguments], capture_output=True, text=True, timeout=PATIENCE_S, env=self.environment
+        )
+        assert done.returncode == 0, done.stdout + done.stderr
+        return done.stdout + done.stderr
+
+    def close(self) -> None:
+        for process in reversed(self._processes):
+            process.end()
+        self.ear.close()
+
+
+@contextlib.contextmanager
+def rig_of(
+    workspace: Workspace, folder: Path, robot: str = ROBOT, ear_args: Sequence[str] = ()
+) -> Iterator[Rig]:
+    rig = Rig(workspace, folder, robot, ear_args)
+    try:
+        yield rig
+    finally:
+        rig.close()
+
+
+@contextlib.contextmanager
+def _environment_variable(name: str, value: str) -> Iterator[None]:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv(name, value)
+        yield

@@ -1,0 +1,301 @@
+"""What our nodes use of rclpy, without ROS: it delivers, and fails, as Jazzy's was seen to (tests/ros has the real).
+
+Publishing needs no executor, delivering does; a callback's exception leaves through `spin`; what is destroyed or shut
+down raises RuntimeErrors; reliable readers do not hear best-effort writers; names are validated; arguments may rename.
+"""
+
+from __future__ import annotations
+
+import copy
+import queue
+import re
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from enum import Enum
+from importlib.machinery import ModuleSpec
+from types import ModuleType, SimpleNamespace
+from typing import Any
+
+import pytest
+from fake_ros_messages import modules as message_modules
+
+Option = Enum("Option", "KEEP_LAST RELIABLE BEST_EFFORT VOLATILE NO STEADY_TIME")
+
+
+# ruff: noqa: N818 - their names
+class RCLError(RuntimeError): ...
+
+
+class InvalidHandle(RuntimeError): ...
+
+
+class NotInitializedException(Exception): ...
+
+
+class NameValidationException(ValueError): ...
+
+
+class InvalidTopicNameException(NameValidationException): ...
+
+
+class InvalidNodeNameException(NameValidationException): ...
+
+
+class InvalidNamespaceException(NameValidationException): ...
+
+
+class ExternalShutdownException(Exception): ...
+
+
+class InvalidParameterTypeException(Exception): ...
+
+
+class InvalidParameterValueException(Exception): ...
+
+
+class Ros:
+    """All nodes there are: every context of the process meets every other."""
+
+    def __init__(self) -> None:
+        self.nodes: list[Node] = []
+        self.clock_s = 0.0
+
+    def each(self, kind: str, topic: str) -> Iterator[Any]:
+        for node in tuple(self.nodes):
+            yield from (end for end in tuple(getattr(node, kind)) if end.topic == topic)
+
+    def call(self, service: str, timeout_s: float = 10.0) -> Any:
+        """What a client of that std_srvs/Trigger gets."""
+        node, callback = next((n, n.services[service]) for n in self.nodes if service in n.services)
+        answers: queue.Queue[Any] = queue.Queue()
+        node.inbox.put(lambda: answers.put(callback(None, SimpleNamespace())))
+        return answers.get(timeout=timeout_s)
+
+    def parameters(self, name: str) -> dict[str, Any]:
+        node = next(node for node in self.nodes if node.get_name() == name)
+        return {key: value for key, (value, _) in node.parameters.items()}
+
+
+class Context:
+    def __init__(self) -> None:
+        self.is_valid = False
+        self.renames: dict[str, str] = {}
+        self.overrides: dict[str, Any] = {}
+
+
+class Future:
+    def __init__(self) -> None:
+        self.event = threading.Event()
+
+    def set_result(self, _: object) -> None:
+        self.event.set()
+
+
+class Publisher:
+    def __init__(self, node: Node, kind: type, topic: str, qos: Any) -> None:
+        self.node, self.kind, self.topic, self.qos = node, kind, topic, qos
+
+    def _matched(self) -> list[Subscription]:
+        if self.node.is_destroyed:
+            raise InvalidHandle("cannot use Destroyable because destruction was requested")
+        if not self.node.context.is_valid:
+            raise RCLError("Failed to publish: publisher's context is invalid")
+        return [s for s in self.node.ros.each("subscriptions", self.topic) if s.hears(self)]
+
+    def get_subscription_count(self) -> int:
+        return len(self._matched())
+
+    def publish(self, message: Any) -> None:
+        if not isinstance(message, self.kind):
+            raise TypeError(f"Expected {self.kind}, got {type(message)}")
+        for subscription in self._matched():
+            subscription.take(copy.deepcopy(message))
+
+
+class Subscription:
+    def __init__(self, node: Node, kind: type, topic: str, callback: Any, qos: Any) -> None:
+        self.node, self.kind, self.topic, self.callback, self.qos = node, kind, topic, callback, qos
+
+    def hears(self, publisher: Publisher) -> bool:
+        reliable = publisher.qos.reliability is Option.RELIABLE
+        return self.kind is publisher.kind and (reliable or self.qos.reliability is Option.BEST_EFFORT)
+
+    def take(self, message: Any) -> None:
+        self.node.inbox.put(lambda: self.callback(message))
+
+
+class Node:
+    def __init__(self, ros: Ros, name: str, context: Context, namespace: str | None) -> None:
+        if not context.is_valid:
+            raise NotInitializedException("rclpy.init() has not been called")
+        self.ros, self.context = ros, context
+        self.name = context.renames.get("__node", name)
+        self.namespace = "/" + context.renames.get("__ns", namespace or "").strip("/")
+        if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", self.name):
+            raise InvalidNodeNameException(f"Invalid node name: {name!r}")
+        self.inbox: queue.Queue[Callable[[], Any]] = queue.Queue()
+        self.publishers: list[Publisher] = []
+        self.subscriptions: list[Subscription] = []
+        self.services: dict[str, Any] = {}
+        self.timers: list[list[Any]] = []
+        self.parameters: dict[str, tuple[Any, Any]] = {}
+        self.is_destroyed = False
+        self.declare_parameter("use_sim_time", False)
+        ros.nodes.append(self)
+
+    def get_name(self) -> str:
+        return self.name
+
+    def get_namespace(self) -> str:
+        return self.namespace
+
+    def resolve_topic_name(self, topic: str) -> str:
+        if not re.fullmatch(r"(/|~/)?[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*", topic):
+            raise InvalidTopicNameException(f"Invalid topic name: {topic!r}")
+        base = self.namespace.rstrip("/")
+        own = f"{base}/{self.name}"
+        full = own + topic[1:] if topic[0] == "~" else topic if topic[0] == "/" else f"{base}/{topic}"
+        found = self.context.renames.get(topic, self.context.renames.get(full, full))
+        return found if found.startswith("/") else f"{base}/{found}"
+
+    def create_publisher(self, kind: type, topic: str, qos: Any) -> Publisher:
+        publisher = Publisher(self, kind, self.resolve_topic_name(topic), qos)
+        self.publishers.append(publisher)
+        return publisher
+
+    def create_subscription(self, kind: type, topic: str, callback: Any, qos: Any) -> Subscription:
+        subscription = Subscription(self, kind, self.resolve_topic_name(topic), callback, qos)
+        self.subscriptions.append(subscription)
+        return subscription
+
+    def create_service(self, _kind: type, name: str, callback: Any) -> None:
+        self.services[self.resolve_topic_name(name)] = callback
+
+    def create_timer(self, period_s: float, callback: Any, clock: Any) -> None:  # noqa: ARG002
+        self.timers.append([time.monotonic() + period_s, period_s, callback])
+
+    def get_publishers_info_by_topic(self, topic: str) -> list[Any]:
+        found = [p.node for p in self.ros.each("publishers", self.resolve_topic_name(topic))]
+        return [SimpleNamespace(node_name=n.name, node_namespace=n.namespace) for n in found]
+
+    def declare_parameter(self, name: str, default: Any, descriptor: Any = None) -> Any:
+        value = self.context.overrides.get(name, default)
+        if type(value) is not type(default):
+            raise InvalidParameterTypeException(f"wrong type for {name}")
+        for bounds in getattr(descriptor, "floating_point_range", ()):
+            if not bounds.from_value <= value <= bounds.to_value:
+                raise InvalidParameterValueException(f"{name} is out of range")
+        self.parameters[name] = (value, descriptor)
+        return SimpleNamespace(value=value)
+
+    def get_parameter(self, name: str) -> Any:
+        return SimpleNamespace(value=self.parameters[name][0])
+
+    def get_clock(self) -> Any:
+        now_s = self.ros.clock_s if self.parameters["use_sim_time"][0] else time.time()
+        seconds = int(now_s), int(now_s % 1.0 * 1e9)
+        now = SimpleNamespace(nanoseconds=round(now_s * 1e9), seconds_nanoseconds=lambda: seconds)
+        return SimpleNamespace(now=lambda: now)
+
+    def destroy_node(self) -> None:
+        self.is_destroyed = True
+        if self in self.ros.nodes:
+            self.ros.nodes.remove(self)
+
+
+class SingleThreadedExecutor:
+    def __init__(self, *, context: Context) -> None:
+        self.context = context
+        self.node: Any = None
+
+    def add_node(self, node: Node) -> None:
+        self.node = node
+
+    def spin_until_future_complete(self, future: Future) -> None:
+        while not future.event.is_set():
+            if not self.context.is_valid:
+                raise ExternalShutdownException
+            for timer in self.node.timers:
+                if time.monotonic() >= timer[0]:
+                    timer[0] += timer[1]
+                    timer[2]()
+            try:
+                self.node.inbox.get(timeout=0.002)()
+            except queue.Empty:
+                continue
+
+    def shutdown(self) -> None:
+        """Nothing is left to wait for."""
+
+
+def _read_arguments(context: Context, arguments: list[str]) -> None:
+    words = iter(arguments[arguments.index("--ros-args") + 1 :])
+    for word in words:
+        left, separator, right = next(words, "").partition(":=")
+        if word not in ("-p", "-r") or not separator:
+            raise RCLError(f"Couldn't parse arguments: {word}")
+        if word == "-r":
+            context.renames[left] = right
+        else:
+            named = {"true": True, "false": False}
+            is_number = re.fullmatch(r"-?[0-9]+\.[0-9]*", right)
+            context.overrides[left] = named.get(right.lower(), float(right) if is_number else right)
+
+
+def _rclpy(ros: Ros) -> dict[str, ModuleType]:
+    def init(*, args: Any, context: Context, domain_id: int | None, signal_handler_options: Any) -> None:  # noqa: ARG001
+        if context.is_valid:
+            raise RuntimeError("Context.init() must only be called once")
+        if args:
+            _read_arguments(context, args)
+        context.is_valid = True
+
+    def try_shutdown(*, context: Context) -> None:
+        context.is_valid = False
+
+    def create_node(name: str, *, context: Context, namespace: str | None) -> Node:
+        return Node(ros, name, context, namespace)
+
+    exceptions = {n: e for n, e in globals().items() if isinstance(e, type) and issubclass(e, Exception)}
+    contents: dict[str, dict[str, Any]] = {
+        "rclpy": {"init": init, "try_shutdown": try_shutdown, "create_node": create_node},
+        "rclpy.clock": {"Clock": lambda clock_type: clock_type, "ClockType": Option},
+        "rclpy.context": {"Context": Context},
+        "rclpy.exceptions": exceptions,
+        "rclpy.executors": {
+            "SingleThreadedExecutor": SingleThreadedExecutor,
+            "ExternalShutdownException": ExternalShutdownException,
+        },
+        "rclpy.qos": {
+            "DurabilityPolicy": Option, "HistoryPolicy": Option, "ReliabilityPolicy": Option,
+            "QoSProfile": SimpleNamespace,
+        },
+        "rclpy.signals": {"SignalHandlerOptions": Option},
+        "rclpy.task": {"Future": Future},
+        "rcl_interfaces": {},
+        "rcl_interfaces.msg": {"FloatingPointRange": SimpleNamespace, "ParameterDescriptor": SimpleNamespace},
+        "std_srvs": {},
+        "std_srvs.srv": {"Trigger": object},
+    }  # fmt: skip
+    made = {name: ModuleType(name) for name in contents}
+    for name, values in contents.items():
+        vars(made[name]).update(values)
+    made["rclpy"].__spec__ = ModuleSpec("rclpy", None)
+    return made
+
+
+_OVER_RCLPY = ("wire.ros.convert", "wire.ros.node", "wire.ros.wire", "nodes.citizen")
+
+
+def install(monkeypatch: pytest.MonkeyPatch) -> Ros:
+    """Let this process believe that ROS is sourced, with nobody else there."""
+    ros = Ros()
+    for name, module in {**_rclpy(ros), **message_modules()}.items():
+        monkeypatch.setitem(sys.modules, name, module)
+    for name in _OVER_RCLPY:  # imported anew, and forgotten again with the test
+        monkeypatch.setitem(sys.modules, f"chatrobot.{name}", ModuleType(name))
+        del sys.modules[f"chatrobot.{name}"]
+    monkeypatch.setenv("ROS_DISTRO", "jazzy")
+    return ros
