@@ -23,8 +23,8 @@ run: setup
 	@$(BIN)/chatrobot
 
 lint: setup
-	$(BIN)/ruff check src tests examples scripts bench
-	$(BIN)/ruff format --check src tests examples scripts bench
+	$(BIN)/ruff check src tests examples scripts bench ros
+	$(BIN)/ruff format --check src tests examples scripts bench ros
 	$(BIN)/mypy
 
 # Real processes in real time come after the rest, two at a time: they mostly wait. What fails is tried once more with

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+import re
 import sys
 import threading
 from collections.abc import Callable, Iterator
@@ -25,7 +27,8 @@ from chatrobot.session import motion_runner
 from chatrobot.session.guard_link import SimulatedGuard
 from chatrobot.wire.messages import Text, TwistMessage
 
-PARAMS_FILE = Path(__file__).parents[2] / "ros" / "chatrobot" / "params" / "params.yaml"
+ROOT = Path(__file__).parents[2]
+PARAMS_FILE = ROOT / "ros" / "chatrobot" / "params" / "params.yaml"
 PATIENCE_S = 10.0
 
 
@@ -219,6 +222,18 @@ def test_every_parameter_is_described_and_stands_in_the_file_with_its_default(ro
                 bounds = f" ({parameter.bounds[0]} to {parameter.bounds[1]})" if parameter.bounds else ""
                 assert f"# {parameter.description}{bounds}\n" in text
     assert not ros.nodes
+
+
+def test_every_parameter_stands_on_the_page_and_every_switch_of_a_launch_line_is_one() -> None:
+    page = (ROOT / "docs" / "ros.md").read_text(encoding="utf-8")
+    names = {parameter.name for known in PARAMETERS.values() for parameter in known}
+    assert {name for name in names if f"| `{name}` |" in page} == names
+    launch = (ROOT / "ros" / "chatrobot" / "launch" / "robot.launch.py").read_text(encoding="utf-8")
+    of_one = re.search("^OF_ONE = (.*)$", launch, re.MULTILINE)
+    assert of_one is not None
+    assert set(re.findall(r'^    "(\w+)":', launch, re.MULTILINE)) <= {*names, "use_sim_time"}
+    for node, own in ast.literal_eval(of_one[1]).items():
+        assert own <= {parameter.name for parameter in PARAMETERS[node]}
 
 
 def test_ros_s_arguments_end_at_two_dashes() -> None:

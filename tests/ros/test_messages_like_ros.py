@@ -11,8 +11,6 @@ from typing import Any
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "src"))
-pytest.importorskip("rclpy", reason="NOT TESTED: messages against real ROS, which is not here")
-
 from chatrobot.programs.inside import messages, top_level
 
 top_level.preload()

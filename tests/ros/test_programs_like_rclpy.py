@@ -21,8 +21,6 @@ sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from tests.programs.expectations import Expected, Phase, all_programs, is_alike, phases_of
 
-pytest.importorskip("rclpy", reason="NOT TESTED: programs under real rclpy, which is not here")
-
 from chatrobot.core.geometry import Twist
 
 RECORDER = Path(__file__).with_name("record_program.py")

@@ -57,8 +57,7 @@ class Guard:
         self._standing = Standing()
         self._motion_is_gone = False
         advertise(wire, cmd_vel_topic, TwistMessage)
-        if odom_topic:
-            wire.subscribe(odom_topic, Odometry, self._standing.on_odometry)
+        self._unheard_odom_topic = odom_topic
 
     def run(self) -> None:
         """Until Motion says goodbye, or is gone and the robot stands."""
@@ -83,8 +82,15 @@ class Guard:
                 raise
 
     def _may_leave(self, now_s: float, tripped_at_s: float) -> bool:
+        self._hear_odometry()
         halted_s = now_s - tripped_at_s
         return halted_s > GIVE_UP_S or (halted_s > STANDING_S and self._standing.for_s(now_s) > STANDING_S)
+
+    def _hear_odometry(self) -> None:
+        """From the first question on: hearing what nobody asks would cost more than all else the guard does."""
+        topic, self._unheard_odom_topic = self._unheard_odom_topic, ""
+        if topic:
+            self._wire.subscribe(topic, Odometry, self._standing.on_odometry)
 
     def _listen(self, timeout_s: float) -> bool:
         """Take in Motion's words for up to `timeout_s`; True for a goodbye."""

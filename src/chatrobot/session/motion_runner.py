@@ -38,7 +38,7 @@ from chatrobot.session.program_host import ProgramHost
 from chatrobot.session.rivals import BEAT_S, Rivals
 from chatrobot.session.topics import STOP, USER_INPUT
 from chatrobot.sim.load import load_world
-from chatrobot.wire.connect import Connect, clock_of, connect_wire, is_on_this_machine, resolved
+from chatrobot.wire.connect import Connect, Knowing, clock_of, connect_wire, is_on_this_machine, resolved
 from chatrobot.wire.messages import Flag, Text
 from chatrobot.wire.runtime_dir import stop_socket_path
 from chatrobot.wire.wire import Wire
@@ -123,6 +123,9 @@ class MotionRunner:
         for reason in said:
             self.notice(reason)
         self._look_around()
+        if isinstance(self.wire, Knowing):  # whoever else drives is named before anything moves
+            time.sleep(BEAT_S)
+            self._look_around()
 
     def run(self, has_left: Callable[[], bool], each_tick: Callable[[], None]) -> None:
         """The control loop, until `has_left`; then the guard is told goodbye."""

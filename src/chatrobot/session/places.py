@@ -10,6 +10,8 @@ from pathlib import Path
 from chatrobot.core.errors import InputError
 from chatrobot.core.geometry import Pose
 from chatrobot.language.context import Place
+from chatrobot.plan.primitives.go import MAX_PLACE_CHARS
+from chatrobot.session.quoting import one_line
 
 _FILE = "places.json"
 
@@ -32,7 +34,8 @@ class Places:
 
     def add(self, name: str, pose: Pose) -> None:
         """Remember `pose` under `name`; an older place of that name is replaced."""
-        self._kept[name] = {"x_m": pose.x_m, "y_m": pose.y_m, "yaw_rad": pose.yaw_rad, "epoch": self._epoch}
+        tidy = one_line(name, MAX_PLACE_CHARS)
+        self._kept[tidy] = {"x_m": pose.x_m, "y_m": pose.y_m, "yaw_rad": pose.yaw_rad, "epoch": self._epoch}
         try:
             self._save()
         except OSError as error:  # a full disk is no reason to stop a robot
@@ -56,7 +59,8 @@ class Places:
             return {}
         try:
             robots = json.loads(self._path.read_text(encoding="utf-8"))
-            kept: dict[str, dict[str, object]] = dict(robots.get(self._robot, {}))
+            found: dict[str, dict[str, object]] = dict(robots.get(self._robot, {}))
+            kept = {one_line(name, MAX_PLACE_CHARS): entry for name, entry in found.items()}
             for entry in kept.values():
                 self._place(entry)
         except (ValueError, KeyError, AttributeError, TypeError) as error:
