@@ -17,8 +17,8 @@ WRITERS = {"transports/transport.py", "guard/__main__.py", "session/joint.py"}
 CARRIERS = {"session/link.py", "sim/marshalled.py", "sim/robot.py"}
 """Hand on what they were given: a wire around a wire, and the robot's own end with its sensors."""
 
-OTHER_GRAPHS = ("programs/", "session/program_stage.py")
-"""A generated program publishes to the box it is in; what comes out of it is governed like anything else."""
+OTHER_GRAPHS = ("programs/", "session/program_stage.py", "session/program_run.py", "wire/")
+"""A program publishes to the box it is in, and what it holds is governed like anything else; a backend is a wire."""
 
 HARMLESS = {"Text", "Flag", "Odometry"}
 
