@@ -13,6 +13,8 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+from packaging.requirements import Requirement
+
 if sys.version_info >= (3, 11):
     import tomllib
 else:
@@ -28,11 +30,10 @@ HEADER = """\
 
 
 def main() -> int:
-    requirements = _requirements()
     pins: dict[str, dict[str, str]] = {}
     for python in PYTHONS:
         backports = BACKPORTS if python == "3.10" else ()
-        for name, version in _resolve([*requirements, *backports], python).items():
+        for name, version in _resolve([*_requirements(python), *backports], python).items():
             pins.setdefault(name, {})[python] = version
     lines = [line for name in sorted(pins) for line in _lines(name, pins[name])]
     (ROOT / "requirements.lock").write_text(HEADER + "\n".join(lines) + "\n", encoding="utf-8")
@@ -40,16 +41,29 @@ def main() -> int:
     return 0
 
 
-def _requirements() -> list[str]:
-    """All that `.[dev]` and the build ask for."""
+def _requirements(python: str) -> list[str]:
+    """All that `.[dev]` and the build ask for on that Python, without markers: pip judges them by its own Python."""
     data = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     project: dict[str, Any] = data["project"]
-    asked = [
-        *project["dependencies"],
-        *project["optional-dependencies"]["dev"],
-        *data["build-system"]["requires"],
-    ]
-    return [requirement for requirement in asked if "python_version" not in requirement]
+    asked = [*project["dependencies"], *_extra(project, "dev"), *data["build-system"]["requires"]]
+    wanted = []
+    for requirement in map(Requirement, asked):
+        if requirement.marker is None or requirement.marker.evaluate({"python_version": python}):
+            requirement.marker = None
+            wanted.append(str(requirement))
+    return wanted
+
+
+def _extra(project: dict[str, Any], name: str) -> list[str]:
+    """What an extra asks for; an extra of ours within it is what that one asks for."""
+    asked: list[str] = []
+    for line in project["optional-dependencies"][name]:
+        requirement = Requirement(line)
+        ours = requirement.name == project["name"]
+        asked += (
+            [inner for extra in requirement.extras for inner in _extra(project, extra)] if ours else [line]
+        )
+    return asked
 
 
 def _resolve(requirements: list[str], python: str) -> dict[str, str]:
