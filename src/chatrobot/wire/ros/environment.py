@@ -1,7 +1,7 @@
 """What ROS 2 is here, by its environment variables. Pure, and needs no rclpy.
 
 Unlike on DDS we choose no range of our own: in Jazzy a node in LOCALHOST range and one in SUBNET range, ROS's
-default, may not meet even on one machine, and then the robot's own driver would not hear us (decision 6).
+default, may not meet even on one machine, and then the robot's own driver would not hear us (decision 8).
 """
 
 from __future__ import annotations
