@@ -181,7 +181,8 @@ def test_diagnostics_tell_how_a_node_is(
 def test_the_command_line_is_the_default_and_ros_s_parameters_go_before_it(
     monkeypatch: pytest.MonkeyPatch, ros: fake_rclpy.Ros
 ) -> None:
-    words = ("base", "--robot", "turtlesim", "--world", "home", "-p", "generate_code:=True")
+    words = ("base", "--robot", "turtlesim", "--world", "home", "--interpreter", "offline")
+    words = (*words, "-p", "generate_code:=True")
     with running(monkeypatch, ros, *words, "--ros-args", "-p", "robot:=originbot"):
         values = ros.parameters("chatrobot_base")
     assert values == {
@@ -192,10 +193,24 @@ def test_the_command_line_is_the_default_and_ros_s_parameters_go_before_it(
         "world": "home",
         "diagnostics_period_s": 1.0,
         "config_dir": "",
+        "interpreter": "offline",
+        "model": "",
+        "rounds": 6,
+        "budget_tokens": 20_000,
+        "budget_s": 600.0,
     }
 
 
-@pytest.mark.parametrize("given", ["diagnostics_period_s:=0.01", "generate_code:=perhaps", "robot:=1.0"])
+@pytest.mark.parametrize(
+    "given",
+    [
+        "diagnostics_period_s:=0.01",
+        "generate_code:=perhaps",
+        "robot:=1.0",
+        "rounds:=0",
+        "interpreter:=psychic",
+    ],
+)
 def test_a_parameter_out_of_range_or_of_another_type_is_refused(ros: fake_rclpy.Ros, given: str) -> None:
     with pytest.raises(UsageError, match=given.partition(":")[0]):
         command.run(parse(["node", "base", "--on", "ros", "--ros-args", "-p", given]))

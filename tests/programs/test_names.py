@@ -9,6 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from chatrobot.programs import names
+from chatrobot.programs.check import ROBOT_MODULES
+from chatrobot.programs.inside.top_level import preload
 from chatrobot.programs.names.geometry_msgs.msg import Pose2D, PoseStamped, Quaternion, Twist, Vector3
 from chatrobot.programs.names.nav_msgs.msg import Odometry
 from chatrobot.programs.names.rclpy.clock_type import ClockType
@@ -31,6 +34,14 @@ from chatrobot.programs.names.tf_transformations import (
     quaternion_inverse,
     quaternion_multiply,
 )
+
+
+def test_what_is_there_may_be_imported() -> None:
+    found = {name[len(names.__name__) + 1 :] for name in preload()}
+    packages = {name for name in found if "." not in name} - {"rclpy", "tf_transformations"}
+    inner = {"rclpy.node_checks", "rclpy.node_graph", "rclpy.node_parameters"}
+    assert found - packages - inner == ROBOT_MODULES
+
 
 # --- messages ---
 

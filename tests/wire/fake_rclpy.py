@@ -203,7 +203,8 @@ class Node:
         value = self.context.overrides.get(name, default)
         if type(value) is not type(default):
             raise InvalidParameterTypeException(f"wrong type for {name}")
-        for bounds in getattr(descriptor, "floating_point_range", ()):
+        ranges = vars(descriptor) if descriptor is not None else {}
+        for bounds in (*ranges.get("floating_point_range", ()), *ranges.get("integer_range", ())):
             if not bounds.from_value <= value <= bounds.to_value:
                 raise InvalidParameterValueException(f"{name} is out of range")
         self.parameters[name] = (value, descriptor)
@@ -259,8 +260,9 @@ def _read_arguments(context: Context, arguments: list[str]) -> None:
             context.renames[left] = right
         else:
             named = {"true": True, "false": False}
-            is_number = re.fullmatch(r"-?[0-9]+\.[0-9]*", right)
-            context.overrides[left] = named.get(right.lower(), float(right) if is_number else right)
+            number = re.fullmatch(r"-?[0-9]+(\.[0-9]*)?", right)
+            parsed = right if number is None else float(right) if number[1] else int(right)
+            context.overrides[left] = named.get(right.lower(), parsed)
 
 
 def _rclpy(ros: Ros) -> dict[str, ModuleType]:
@@ -295,7 +297,10 @@ def _rclpy(ros: Ros) -> dict[str, ModuleType]:
         "rclpy.task": {"Future": Future},
         "rclpy.utilities": {"get_rmw_implementation_identifier": lambda: "rmw_fake_cpp"},
         "rcl_interfaces": {},
-        "rcl_interfaces.msg": {"FloatingPointRange": SimpleNamespace, "ParameterDescriptor": SimpleNamespace},
+        "rcl_interfaces.msg": {
+            "FloatingPointRange": SimpleNamespace, "IntegerRange": SimpleNamespace,
+            "ParameterDescriptor": SimpleNamespace,
+        },
         "std_srvs": {},
         "std_srvs.srv": {"Trigger": object},
     }  # fmt: skip

@@ -160,7 +160,7 @@ class BaseNode:
     def _diagnose(self) -> Diagnosis:
         from chatrobot.nodes.citizen import Diagnosis
 
-        values = {"interpreter": "offline", "profile": self._options.profile}
+        values = {"interpreter": self._options.interpreter, "profile": self._options.profile}
         if not self._joint.has_control:
             return Diagnosis("warn", "no_control", values)
         return Diagnosis("ok", "ready", values)
