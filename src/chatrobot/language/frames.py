@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import copy
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from chatrobot.language.tokens import Atom
 
@@ -80,7 +79,10 @@ class Frame:
         return self.verb in TURN or (not self.verb and bool(self.rot)) or self.verb == "uturn"
 
     def copy(self) -> Frame:
-        return copy.deepcopy(self)
+        """One that may be changed by itself; the atoms are shared, for nobody changes those."""
+        return replace(
+            self, q=dict(self.q), flags=set(self.flags), roles=list(self.roles), texts=list(self.texts)
+        )
 
     def add(self, atom: Atom) -> bool:
         """Put `atom` in its slot. False, and nothing changed, where it contradicts what is there."""

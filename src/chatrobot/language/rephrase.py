@@ -38,5 +38,6 @@ def rephrased(text: str, language: str) -> str:
     spoken, dialect = _dialect(language)
     text = dialect.sub(lambda found: spoken[found[0]], text)
     for rule, said in _rules(language):
-        text = rule.sub(said, text)
+        if rule.search(text):  # most do not match, and to prepare `said` takes longer than to see that
+            text = rule.sub(said, text)
     return text
