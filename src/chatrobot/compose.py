@@ -26,7 +26,7 @@ from chatrobot.session.authoring import Authoring
 from chatrobot.session.child import spawn
 from chatrobot.session.joint import SimulatedJoint
 from chatrobot.session.model_choice import warm_up
-from chatrobot.session.model_turn import ModelOptions
+from chatrobot.session.model_terms import ModelOptions
 from chatrobot.session.observations import Camera
 from chatrobot.session.session import Options, Session
 from chatrobot.session.thinking import Mind

@@ -183,6 +183,24 @@ def test_zeros_do_not_hide_a_wall(robot: RobotProfile, direction_deg: int, share
     drive_at_wall(rig, Drive(distance_m=5.0, direction_rad=direction, speed_mps=speed), direction)
 
 
+@pytest.mark.parametrize(
+    ("then", "is_still_there"), [(0.0, True), (math.nan, True), (-1.0, True), (math.inf, False), (3.0, False)]
+)
+def test_a_near_thing_that_a_cheap_lidar_no_longer_tells_of_is_still_there(
+    then: float, is_still_there: bool
+) -> None:
+    """Zero, NaN (JSON's null, too) and nonsense tell nothing; infinity (REP-117) and a farther thing do."""
+    lidar = load_profile("wheeltec_mini_mec").lidar
+    assert lidar is not None
+    seen = Seen(lidar)
+    for stamp_s, ahead_m in enumerate((0.2, *[then] * 5)):
+        ranges_m = [math.inf] * 360
+        ranges_m[180] = ahead_m
+        seen.take(LaserScan(float(stamp_s), -math.pi, math.radians(1.0), 0.12, 8.0, ranges_m), ORIGIN)
+    near = [point for point in seen.points.tolist() if math.hypot(*point) < 1.0]
+    assert bool(near) is is_still_there
+
+
 @pytest.mark.parametrize("yaw_deg", [-120, 90, 180])
 def test_a_lidar_that_is_mounted_turned_sees_the_wall_where_it_is(yaw_deg: int) -> None:
     robot = load_profile("wheeltec_mini_mec")

@@ -16,6 +16,11 @@ from tests.models.rig import KEY, WIRES, Got, model_at, serving
 
 TEXT = "drive 1 m\nturn left\ndrive 2 m\nturn left\n"
 REPLIES: list[dict[str, Any]] = [
+    {
+        "match": "not valid",
+        "error": {"status": 400, "message": "API key not valid. Please pass a valid API key."},
+    },
+    {"match": "overloaded", "error": {"status": 529, "message": "Overloaded"}},
     {"match": "limit", "error": {"status": 429}},
     {
         "match": "forbidden",
@@ -55,6 +60,8 @@ CODES = {
     "500": "model_server_error",
     "503": "model_server_error",
     "rejected": "model_rejected",
+    "not valid": "model_wrong_key",
+    "overloaded": "model_server_error",
     "error page": "model_server_error",
     "cut off": "model_cut_off",
     "empty": "model_empty",

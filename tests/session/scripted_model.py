@@ -10,7 +10,7 @@ from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.events import Event, Result, TruePose
 from chatrobot.core.reason import Reason
 from chatrobot.models.seam import CallLimits, Message, ModelError, Usage
-from chatrobot.session.model_turn import ModelOptions
+from chatrobot.session.model_terms import ModelOptions
 from chatrobot.session.session import Options
 
 Line = Union[str, Reason, None]

@@ -10,6 +10,7 @@ from tests.session.scripted_model import ModelOptions, ModelTalk, Options
 
 from chatrobot.core.events import Interpreted, ModelCalled, Streamed
 from chatrobot.core.reason import Reason
+from chatrobot.language.interpretation import Interpretation
 
 ASKED = "please do something nice"
 PLAN = "drive 0.5 m\nturn left 90 deg\ndrive 0.3 m\n"
@@ -300,6 +301,18 @@ def test_a_stop_ends_a_turn_whose_model_hangs() -> None:
     talk.pump_until(lambda: turn in talk.session.results)
     assert talk.session.results[turn].outcome == "stopped"
     assert talk.session.do("forward 0.1 m").outcome == "completed"
+
+
+def test_a_stop_counts_that_comes_while_the_text_is_being_understood() -> None:
+    talk = ModelTalk(None)
+    understand = talk.session.understanding.interpret
+
+    def interpret(text: str) -> Interpretation:
+        talk.session.stop("meanwhile")
+        return understand(text)
+
+    talk.session.understanding.interpret = interpret  # type: ignore[method-assign]
+    assert talk.do(ASKED).outcome == "stopped"
 
 
 def test_offline_commands_pass_a_hung_model() -> None:

@@ -293,6 +293,7 @@ def _rclpy(ros: Ros) -> dict[str, ModuleType]:
         },
         "rclpy.signals": {"SignalHandlerOptions": Option},
         "rclpy.task": {"Future": Future},
+        "rclpy.utilities": {"get_rmw_implementation_identifier": lambda: "rmw_fake_cpp"},
         "rcl_interfaces": {},
         "rcl_interfaces.msg": {"FloatingPointRange": SimpleNamespace, "ParameterDescriptor": SimpleNamespace},
         "std_srvs": {},

@@ -13,7 +13,7 @@ from chatrobot.core.errors import UsageError
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.models.seam import Model, ModelError
 from chatrobot.session.model_choice import chosen_model
-from chatrobot.session.model_turn import ModelOptions
+from chatrobot.session.model_terms import ModelOptions
 from chatrobot.session.session import Options
 
 

@@ -71,7 +71,7 @@ def _run_base(args: argparse.Namespace, citizen: Citizen | None, connect: Connec
     from chatrobot.cli.choices import model_from
     from chatrobot.cli.folders import config_folder
     from chatrobot.nodes.base import BaseNode, BaseOptions
-    from chatrobot.session.model_turn import ModelOptions
+    from chatrobot.session.model_terms import ModelOptions
 
     node = BaseNode(
         BaseOptions(

@@ -135,9 +135,9 @@ def _with_units(frame: Frame, state: State) -> Frame:
         frame.q[before.value] = quantity(before.value, before.number / 2, number.text)
         return frame
     dimension = ""
-    if "units_said" in frame.flags:
+    if "units_said" in frame.flags and not _means_degrees(frame, number.number):
         dimension = "angle" if frame.turning else "length"
-        factor = math.pi / 180 if frame.turning else 1.0
+        factor = math.pi / 180 if frame.turning else 0.01 if "units_cm" in frame.flags else 1.0
     elif _means_degrees(frame, number.number) or (
         state.last == "turn"
         and state.angle is not None
@@ -147,13 +147,7 @@ def _with_units(frame: Frame, state: State) -> Frame:
         and frame.verb not in GO
     ):
         dimension, factor = "angle", math.pi / 180
-    elif (
-        "more" in frame.flags
-        and state.last == "drive"
-        and state.unit_m
-        and not frame.has_extent
-        and not frame.turning
-    ):
+    elif state.unit_m and not frame.has_extent and _goes_on_in_unit(frame, number.number, state):
         dimension, factor = "length", state.unit_m
     if not dimension:
         return frame
@@ -161,6 +155,17 @@ def _with_units(frame: Frame, state: State) -> Frame:
     del frame.q["number"]
     frame.q[dimension] = quantity(dimension, number.number * factor, number.text)
     return frame
+
+
+def _goes_on_in_unit(frame: Frame, value: float, state: State) -> bool:
+    """`forward 50 cm, …, back 20`: the unit said before, if that gives a distance of the same order."""
+    if frame.turning or frame.is_arc or value < 1:
+        return False
+    on = "more" in frame.flags and (state.last == "drive" or frame.verb in GO)
+    sideways = frame.verb in ("slide", "shift") or frame.direction in DIAGONALS.values()
+    along = frame.direction in ("forward", "back") or (frame.verb in GO and not frame.direction)
+    before = state.length.number if state.length is not None else 0.0
+    return (on or sideways or along) and before / 10 <= value * (state.unit_m or 0.0) <= 5 * before
 
 
 def _means_degrees(frame: Frame, value: float) -> bool:
@@ -172,7 +177,9 @@ def _means_degrees(frame: Frame, value: float) -> bool:
 
 def _goes_back(frame: Frame, state: State) -> bool:
     """`…, then back`: the way back, where there is a way to go back."""
-    bare = frame.verb in ("", "go") and frame.direction == "back" and not frame.q and "bit" not in frame.flags
+    sideways = bool(state.steps) and state.last == "drive" and state.direction in SIDES
+    verbs = ("", "go", "slide", "shift") if sideways else ("", "go")
+    bare = frame.verb in verbs and frame.direction == "back" and not frame.q and "bit" not in frame.flags
     return bare and bool(state.steps) and frame.texts[-1:] == ["back"]
 
 

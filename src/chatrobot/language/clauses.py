@@ -34,10 +34,20 @@ def read_frames(atoms: Sequence[Atom]) -> list[Frame]:
     drawing = any(atom.kind == "shape" for atom in atoms)
     for segment in _segments(atoms, drawing):
         _join(frames, segment)
+    frames = _marked_ends(frames)
     loose = next((frame for frame in frames if _hangs_loose(frame)), None)
     if loose is not None and not drawing:
         raise Unclear("unclear_motion", loose.text)
     return frames
+
+
+def _marked_ends(frames: list[Frame]) -> list[Frame]:
+    """`finally`, `after all that`: what follows is outside of a loop that was announced before."""
+    for frame in frames:
+        if "finally" in frame.flags:
+            frame.flags.discard("finally")
+            frame.opens = True
+    return [frame for frame in frames if not frame.is_empty or frame.words]
 
 
 def _hangs_loose(frame: Frame) -> bool:
@@ -47,7 +57,7 @@ def _hangs_loose(frame: Frame) -> bool:
 
 def _segments(atoms: Sequence[Atom], drawing: bool) -> list[Segment]:
     segments: list[Segment] = []
-    joined = "start"
+    joined, opens = "start", False
     pending: list[Atom] = []
     for atom in (*atoms, Atom("sep", "strong")):
         separator = _separator(atom)
@@ -55,13 +65,14 @@ def _segments(atoms: Sequence[Atom], drawing: bool) -> list[Segment]:
             pending.append(atom)
             continue
         frames = _split(pending, drawing)
+        ends = separator == "strong" or (bool(pending) and pending[-1].text == ")")
         if frames:
-            frames[0].joined = joined
+            frames[0].joined, frames[0].opens = joined, opens
             segments.append(Segment(joined, frames))
-            joined, pending = separator, []
+            joined, opens = separator, ends
         else:
-            joined = max(joined, separator, key=lambda s: _STRENGTH[s])
-            pending = []
+            joined, opens = max(joined, separator, key=lambda s: _STRENGTH[s]), opens or ends
+        pending = []
     return segments
 
 
@@ -153,6 +164,8 @@ def _join(frames: list[Frame], segment: Segment) -> None:
 def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
     if "trip" in last.flags and "each" in first.flags and not first.verb:
         return None
+    if last.verb == "return" and joined == "and" and "length" in first.q and not first.verb:
+        return None  # `come back, and a metre to the right`: another motion
     trip = "trip" in (*first.flags, *first.roles) and not first.has_extent
     if trip and (last.verb == "return" or (last.direction and last.has_extent)):
         return None

@@ -15,6 +15,7 @@ from chatrobot.language.manner import Pace
 from chatrobot.language.normalise import normalise
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.quantities import quantity
+from chatrobot.language.tokens import tokenise
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undoing import inverse
 from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Repeat, Step, Turn, Wait
@@ -39,7 +40,7 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
         return None
     last = context.dialogue.last_motion
     if whole.verb == "undo":
-        return inverse(list(_last(last).plan_steps))
+        return _undone(whole, context)
     if "same_way" in whole.flags and (
         whole.verb in ("return", "", "go", "uturn") or whole.direction == "back"
     ):
@@ -55,14 +56,60 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
         if set(whole.q) - {"rate", "percent", "faster"}:
             raise Unclear("unclear_motion", whole.text)  # 转回来一半: not all the way
         return [Face(context.dialogue.start_pose.yaw_rad, frame="odom", rate_radps=pace.rate(whole))]
+    if whole.verb == "face" and "to_start" in whole.flags:
+        raise Unclear("unclear_motion", whole.text)  # to drive there or to look there?
     if (whole.verb == "return" or "to_start" in whole.flags) and not whole.q and not whole.place:
         if whole.direction and whole.direction != "back":
             return None
         start = context.dialogue.start_pose
         return [Go(start.x_m, start.y_m, frame="odom", speed_mps=pace.speed(whole))]
+    on = "more" in whole.flags or any(text.endswith(("more", "further", "farther")) for text in whole.texts)
+    if on and "bit" in whole.flags <= {"bit", "more"} and not (whole.moves or whole.q or whole.roles):
+        return [_a_bit_of(_last(last), whole, pace)]
     if _is_change(whole):
         return _changed(_last(last), whole, pace)
     return None
+
+
+def _undone(whole: Frame, context: Context) -> list[Step]:
+    """`undo that`; `undo both`, `undo the last three`: so many turns that moved, the last one first."""
+    counts = [whole.q[name] for name in ("number", "count", "times") if name in whole.q]
+    both = any(text.split()[-1] in ("both", "two") for text in whole.texts)
+    count = counts[0].number if counts else 2.0 if both else 1.0
+    moved = _not_undone(context)
+    if count != int(count) or count < 1 or set(whole.q) - {"number", "count", "times", "speed"}:
+        raise Unclear("unclear_motion", whole.text)
+    if len(moved) < count:
+        raise Unclear("nothing_before", whole.text)
+    steps = [step for turn in moved[-int(count) :] if turn.plan for step in turn.plan.steps]
+    return inverse(steps)
+
+
+def _not_undone(context: Context) -> list[TurnRecord]:
+    """The turns that moved and still count: `undo` twice takes back two of them."""
+    moved: list[TurnRecord] = []
+    for turn in context.dialogue.turns:
+        if turn.plan is None:
+            continue
+        said = tokenise(normalise(turn.text), lexicon(), {})
+        undoes = any((atom.kind, atom.value) == ("verb", "undo") for atom in said)
+        before = [step for record in moved[-1:] if record.plan for step in record.plan.steps]
+        if undoes and before and list(turn.plan.steps) == inverse(before):
+            moved.pop()
+        else:
+            moved.append(turn)
+    return moved
+
+
+def _a_bit_of(last: _Last, whole: Frame, pace: Pace) -> Step:
+    """`a bit more`: the last motion's way, a little."""
+    step = last.plan_steps[-1]
+    defaults = pace.profile.defaults
+    if len(last.plan_steps) == 1 and isinstance(step, Drive):
+        return dataclasses.replace(step, distance_m=defaults.distance_m / 2, duration_s=None)
+    if len(last.plan_steps) == 1 and isinstance(step, Turn):
+        return dataclasses.replace(step, angle_rad=defaults.turn_rad / 2, duration_s=None)
+    raise Unclear("nothing_before", whole.text)
 
 
 def _goes_on_the_same_way(frames: Sequence[Frame]) -> bool:
@@ -343,7 +390,8 @@ def state_after(context: Context) -> State:
             state.last = "drive"
             if step.distance_m:
                 state.length = quantity("length", step.distance_m, f"{step.distance_m:g} m")
-                state.unit_m = _said_unit_m(last.text)
+                said = (_said_unit_m(turn.text) for turn in reversed(context.dialogue.turns))
+                state.unit_m = next((unit for unit in said if unit), None)
             state.direction = next(
                 (
                     n

@@ -16,6 +16,13 @@ _IS = frozenset(
 )
 
 
+_FACTORS = {
+    "half": 0.5, "twice": 2.0, "double": 2.0, "two times": 2.0, "three times": 3.0, "thrice": 3.0,
+    "a third": 1 / 3, "a quarter": 0.25,
+}  # fmt: skip
+"""`half as many metres as …`"""
+
+
 @lru_cache(maxsize=1)
 def _counts() -> tuple[tuple[re.Pattern[str], dict[str, int]], ...]:
     tables = [load_table(language, "facts") for language in LANGUAGES]
@@ -49,7 +56,8 @@ def with_known_counts(text: str) -> str:
             key = f"{found['thing']} {found['part']}"
             value = counts.get(key) or counts.get(f"{found['thing'].rstrip('s')} {found['part']}")
             if value is not None:
-                return f"{text[: found.start()]} {value} {found['unit']} {text[found.end() :]}"
+                told = value * _FACTORS.get(found.groupdict().get("factor") or "", 1.0)
+                return f"{text[: found.start()]} {told:g} {found['unit']} {text[found.end() :]}"
     return text
 
 

@@ -39,6 +39,8 @@ class Frame:
     joined: str = "start"
     contradiction: bool = False
     negated: bool = False
+    opens: bool = False
+    """Whether it begins a new sentence, follows a closing bracket, or is said to come at the very end."""
 
     @property
     def text(self) -> str:

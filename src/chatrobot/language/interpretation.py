@@ -11,6 +11,7 @@ from chatrobot import reflex
 from chatrobot.language import forms, questions
 from chatrobot.language.arithmetic import settle_condition
 from chatrobot.language.asides import check_finished, is_choice, without_asides
+from chatrobot.language.brackets import unrolled
 from chatrobot.language.chatter import without_chatter
 from chatrobot.language.clauses import read_frames
 from chatrobot.language.compass import split_convention, with_headings
@@ -417,11 +418,8 @@ class _Reading:
 
 
 def _frames(atoms: list[Atom]) -> list[Frame]:
-    return read_frames(
-        tidy(
-            without_negated(in_order(corrected(settle_condition(with_defined_units(without_chatter(atoms))))))
-        )
-    )
+    settled = settle_condition(with_defined_units(without_chatter(unrolled(atoms))))
+    return read_frames(tidy(without_negated(in_order(corrected(settled)))))
 
 
 def _clauses(text: str) -> list[str]:

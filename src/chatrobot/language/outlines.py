@@ -56,6 +56,17 @@ def rhombus(side_m: float, acute_rad: float, left: bool, speed: float | None) ->
     return [edge, Turn(acute_rad, left=left), edge, Turn(math.pi - acute_rad, left=left)] * 2
 
 
+def parallelogram(
+    first_m: float, second_m: float, corner_rad: float, left: bool, speed: float | None
+) -> list[Step]:
+    """Sides in turn; `corner_rad` is the inner angle at the start."""
+    half: list[Step] = [
+        Drive(first_m, speed_mps=speed), Turn(math.pi - corner_rad, left=left),
+        Drive(second_m, speed_mps=speed), Turn(corner_rad, left=left),
+    ]  # fmt: skip
+    return half * 2
+
+
 def polyline(sides_m: list[float], turn_rad: float, left: bool, speed: float | None) -> list[Step]:
     """Sides of these lengths with the same turn between one and the next."""
     steps: list[Step] = [Drive(sides_m[0], speed_mps=speed)]

@@ -54,9 +54,10 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
     """
     frames = arranged(_shared(frames))
     if any("units_said" in frame.flags for frame in frames):
+        said = {flag for frame in frames for flag in frame.flags & {"units_said", "units_cm"}}
         frames = [f for f in frames if f.moves or f.has_extent]
         for frame in frames:
-            frame.flags.add("units_said")
+            frame.flags |= said
     frames = _shape_first(frames)
     _check_amounts(frames)
     paced = _paced(frames, pace)
@@ -64,11 +65,11 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
         return paced
     count, frames = _leading_count(frames)
     script = Script(pace, memory, state=memory.state)
-    i = 0
-    while i < len(frames):
-        i = _take(script, frames, i)
+    body = _loop_end(frames) if count is not None else len(frames)
+    _take_all(script, frames[:body])
     if count is not None:
         script.units = _repeated(script.units, count)
+        _take_all(script, frames[body:])
     steps = script.steps()
     if not steps:
         raise Unclear("nothing_to_do")
@@ -184,6 +185,18 @@ def _leading_count(frames: list[Frame]) -> tuple[int | None, list[Frame]]:
     ):
         return _count(frames[0]), frames[1:]
     return None, frames
+
+
+def _loop_end(frames: list[Frame]) -> int:
+    """Where the announced loop ends: `twice: A, B. Then C`, `twice (A, B), then C`, `…, and after all that C`."""
+    ends = (k for k, f in enumerate(frames) if k and f.opens and f.joined == "then")
+    return next(ends, len(frames))
+
+
+def _take_all(script: Script, frames: list[Frame]) -> None:
+    i = 0
+    while i < len(frames):
+        i = _take(script, frames, i)
 
 
 def _count(frame: Frame) -> int:

@@ -257,6 +257,11 @@ def _drawn(shape: str, found: Measures, pace: Pace, text: str) -> list[Step]:
         if not 0 < acute <= math.pi / 2:
             raise Unclear("contradiction", text)
         return outlines.rhombus(side, acute, left, speed)
+    if shape == "parallelogram":
+        pair = found.plain()
+        if len(pair) != 2 or found.angle_rad is None or not 0 < found.angle_rad < math.pi:
+            raise Unclear("which_size", text)
+        return outlines.parallelogram(pair[0], pair[1], found.angle_rad, left, speed)
     if shape == "zigzag":
         return outlines.zigzag(legs or 4, side, left, speed, found.back)
     if shape == "letter_u" and len(found.lengths) == 2:

@@ -36,7 +36,7 @@ from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.authoring import Authoring
 from chatrobot.session.model_choice import warm_up
-from chatrobot.session.model_turn import ModelOptions
+from chatrobot.session.model_terms import ModelOptions
 from chatrobot.session.session import Options, Session
 from chatrobot.session.thinking import Interpreter, Mind
 from chatrobot.session.topic_joint import TopicJoint

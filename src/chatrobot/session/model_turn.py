@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Literal, Protocol
+from typing import TYPE_CHECKING, Literal
 
 from chatrobot.core.events import (
     Event,
@@ -25,13 +24,14 @@ from chatrobot.core.events import (
     Streamed,
 )
 from chatrobot.core.reason import Reason
-from chatrobot.models.seam import CallLimits, Message, Model
+from chatrobot.models.seam import Message, Model
 from chatrobot.plan.base import Step
 from chatrobot.plan.primitives.say import Say
 from chatrobot.plan.steps import count_steps
 from chatrobot.plan.text import format_step
 from chatrobot.session.model_call import CallEnd, ModelCall
 from chatrobot.session.model_reply import ReplyReader
+from chatrobot.session.model_terms import Ended, ModelOptions, Surroundings, summed, told
 from chatrobot.session.prompt import correction
 from chatrobot.session.quoting import one_line
 
@@ -48,49 +48,6 @@ WORTH_ANOTHER_TRY = frozenset({"model_empty", "model_called_tool"})
 """What a model did, not what became of the call: it may do better when it is told."""
 
 PLAN_REFUSED = frozenset({"lasts_too_long", "plan_too_large", "plan_text"})
-
-
-@dataclass(frozen=True)
-class ModelOptions:
-    """How a model is used. `rounds` bounds the calls of one turn that are no corrections, `budget_tokens` what all of
-    its calls may use, `budget_s` how long it may take in all. `streams`: steps run as they come."""
-
-    streams: bool = True
-    rounds: int = 6
-    budget_tokens: int = 20_000
-    budget_s: float = 600.0
-    limits: CallLimits = field(default_factory=CallLimits)
-
-
-@dataclass(frozen=True)
-class Ended:
-    """What became of the turn. `finished` sums up its runs; None where nothing ran. `steps` are those that were done,
-    `answer` all that the model wrote, `said` what of it is for the person."""
-
-    outcome: Outcome
-    reason: Reason | None
-    finished: Finished | None
-    steps: tuple[Step, ...]
-    answer: str
-    said: str
-
-
-class Surroundings(Protocol):
-    """What a turn needs of the half that understands."""
-
-    def describe(self, steps: tuple[Step, ...]) -> str:
-        """The steps in a few words, in the person's language."""
-        ...
-
-    def observation(
-        self, looks: tuple[str, ...], looked: Looked | None, finished: Finished | None
-    ) -> Message:
-        """What the model asked to see."""
-        ...
-
-    def measured(self, finished: Finished | None) -> str:
-        """What was driven, in words."""
-        ...
 
 
 class ModelTurn:
@@ -340,7 +297,7 @@ class ModelTurn:
     def _end_run(self, finished: Finished) -> None:
         self._run_open = False
         self._run = finished
-        self._total = finished if self._total is None else _sum(self._total, finished)
+        self._total = finished if self._total is None else summed(self._total, finished)
         if finished.outcome != "completed":
             self._run_problem = finished.reason or Reason("stopped")
             if self.is_calling:
@@ -402,8 +359,8 @@ class ModelTurn:
         self._done = (*self._done, *self._count_done())
         done = [format_step(step) for step in self._done]
         self._emit(Notice(self.turn, Reason("model_corrected", {"try": self._retries, "tries": MAX_RETRIES})))
-        told = correction(_told(problem), done, self._surroundings.measured(self._total))
-        self._go_on(Message("user", told))
+        words = correction(told(problem), done, self._surroundings.measured(self._total))
+        self._go_on(Message("user", words))
 
     def _look(self) -> None:
         self._say_what_is_held()
@@ -464,31 +421,3 @@ class ModelTurn:
         said = says if is_answer else one_line(self._reader.text)
         answer = "\n".join(self._answers) or self._reader.text
         self.ended = Ended(outcome, reason, self._total, self._all_done, answer, said)
-
-
-def _told(problem: Reason) -> str:
-    """A reason as a model is told it: the exact error."""
-    if problem.code == "plan_text":
-        return str(problem.values.get("problem", ""))
-    values = ", ".join(f"{name} {value}" for name, value in problem.values.items() if name != "model")
-    return f"{problem.code}: {values}" if values else problem.code
-
-
-def _sum(total: Finished, run: Finished) -> Finished:
-    """Two runs of one turn as one."""
-    return Finished(
-        run.turn,
-        run.outcome,
-        run.reason,
-        total.start,
-        run.pose,
-        turned_rad=total.turned_rad + run.turned_rad,
-        path_m=total.path_m + run.path_m,
-        duration_s=total.duration_s + run.duration_s,
-        paused_s=total.paused_s + run.paused_s,
-        planned_m=total.planned_m + run.planned_m,
-        planned_turn_rad=total.planned_turn_rad + run.planned_turn_rad,
-        steps_done=total.steps_done + run.steps_done,
-        steps=total.steps + run.steps,
-        measured=total.measured and run.measured,
-    )

@@ -9,7 +9,7 @@ from chatrobot.core.events import Finished
 from chatrobot.language.phrases import render_reason, say
 
 if TYPE_CHECKING:
-    from chatrobot.session.model_turn import Ended
+    from chatrobot.session.model_terms import Ended
 
 LEAST_DISTANCE_M = 0.005
 LEAST_ANGLE_RAD = math.radians(0.5)

@@ -21,7 +21,7 @@ from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
 from chatrobot.session.authoring import Authoring
 from chatrobot.session.draft import Draft
 from chatrobot.session.joint import Joint
-from chatrobot.session.model_turn import Ended
+from chatrobot.session.model_terms import Ended
 from chatrobot.session.observations import measured
 from chatrobot.session.program_turns import Hooks, ProgramTurns
 from chatrobot.session.thinking import Interpreter, Mind, Thinking
@@ -304,6 +304,8 @@ class Session:
             approve=options.approve,
             rehearse_only=options.rehearse_only,
         )
+        if self._is_void_turn(said.turn):
+            self._thinking.cancel()  # a stop came while it was being understood
 
     def _conclude_model_turn(self, turn: int, text: str, ended: Ended) -> None:
         reply = self.understanding.note_model_turn(text, ended, self._options.rehearse_only)

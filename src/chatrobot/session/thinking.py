@@ -19,7 +19,8 @@ from chatrobot.plan.base import Step
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session import prompt
 from chatrobot.session.history import Exchange, History
-from chatrobot.session.model_turn import Ended, ModelOptions, ModelTurn
+from chatrobot.session.model_terms import Ended, ModelOptions
+from chatrobot.session.model_turn import ModelTurn
 from chatrobot.session.observations import Camera, measured, observation
 from chatrobot.session.quoting import one_line
 from chatrobot.session.tutorial_mode import connects_to_the_robot, is_form
@@ -235,7 +236,7 @@ def _end(ended: Ended) -> str:
 
 
 class _Shown:
-    """`model_turn.Surroundings`, out of what Understanding knows."""
+    """`Surroundings`, out of what Understanding knows."""
 
     def __init__(self, understanding: Understanding, camera: Camera | None) -> None:
         self._understanding = understanding

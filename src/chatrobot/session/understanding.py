@@ -21,7 +21,7 @@ from chatrobot.session.replies import describe_end, describe_model_end
 from chatrobot.sim.world import World
 
 if TYPE_CHECKING:
-    from chatrobot.session.model_turn import Ended
+    from chatrobot.session.model_terms import Ended
 
 REMEMBERED_TURNS = 50
 """Older turns are forgotten: nobody says "again" about what was fifty instructions ago."""

@@ -1,0 +1,72 @@
+"""What is said once for several clauses: where a loop ends, brackets, units, sums, and what is taken back."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from chatrobot.plan.steps import Drive, Step, Turn
+from tests.language.dialogue_runner import Conversation
+
+
+def _after(*turns: str) -> list[Step]:
+    talk = Conversation()
+    last = [talk.say(turn) for turn in turns][-1]
+    return list(last.plan.steps) if last.plan else []
+
+
+def _lengths(*turns: str) -> list[float]:
+    """Metres of each drive, below zero backwards."""
+    drives = [s for s in _after(*turns) if isinstance(s, Drive) and s.distance_m]
+    return [round((s.distance_m or 0.0) * math.cos(s.direction_rad), 3) for s in drives]
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "twice: (left 90, forward 1 m) and after all that reverse 50 cm",
+        "do this twice: left 90, forward 1 m. Finally go back 50 cm.",
+        "(left 90, forward 1 m) twice, then back 50 cm",
+    ],
+)
+def test_a_loop_ends_where_the_person_says_so(said: str) -> None:
+    assert _lengths(said) == [1.0, 1.0, -0.5]
+
+
+def test_brackets_are_repeated_as_one_in_the_midst_of_a_sentence() -> None:
+    steps = _after("forward 1 m, (left 90, forward 50 cm) twice")
+    assert [type(step) for step in steps] == [Drive, Turn, Drive, Turn, Drive]
+    assert steps == _after("forward 1 m, then twice (left 90, forward 50 cm)")
+
+
+@pytest.mark.parametrize(
+    ("said", "metres"),
+    [
+        ("two metres minus fifty centimetres, straight ahead", [1.5]),
+        ("go twice as far as 60 cm", [1.2]),
+        ("half as many metres as a car has wheels, backwards", [-2.0]),
+        ("left 90, fwd 50, right 90, fwd 20, centimetres both", [0.5, 0.2]),
+        ("fwd 1 / left 90 / fwd 0.5 (metres and degrees)", [1.0, 0.5]),
+        ("forward 50 cm, left 90, forward 30", [0.5, 0.3]),
+        ("forward 1 m then back 50", []),
+    ],
+)
+def test_amounts_told_by_way_of_others(said: str, metres: list[float]) -> None:
+    assert _lengths(said) == metres
+
+
+def test_undoing_goes_on_to_what_was_before() -> None:
+    assert _lengths("forward 2 m", "left 90", "undo", "undo") == [-2.0]
+    assert _lengths("forward 2 m", "forward 1 m", "undo both") == [-1.0, -2.0]
+    assert _after("forward 2 m", "undo the last three") == []
+
+
+def test_a_bit_more_is_the_same_way_again() -> None:
+    assert [
+        (s.left, s.angle_rad) for s in _after("turn right a bit", "a bit more") if isinstance(s, Turn)
+    ] == [(False, pytest.approx(math.pi / 4))]
+
+
+def test_another_motion_after_coming_back_is_not_its_amount() -> None:
+    assert _lengths("a metre out at 30 degrees left, come back, and a metre forward")[-1] == 1.0
