@@ -14,7 +14,7 @@ BEAT_S = 0.02
 MISSED_S = 0.14
 """This long without a beat is a trip: seven ticks, and leaves 100 ms of the promised 250 ms for everything else."""
 
-ECHO_LOST_S = 0.18
+ECHO_LOST_S = 0.15
 """Motion takes a guard that does not echo for this long as dead, and does not move without one."""
 
 HANDSHAKE, BEAT, GOODBYE = b"H", b"B", b"G"

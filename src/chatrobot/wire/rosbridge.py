@@ -37,7 +37,7 @@ UNACKNOWLEDGED_S = 1.0
 """A connection whose data is not acknowledged for this long is given up: when Wi-Fi comes back, the velocities of
 ten seconds must not pour out of the kernel's queue."""
 PING_S = 1.0
-FIRST_RETRY_S, LAST_RETRY_S = 0.05, 1.0
+FIRST_RETRY_S, LAST_RETRY_S = 0.02, 1.0
 """A robot whose base holds its last command waits for our zero all the while."""
 ANSWER_S = 0.5
 """A service of the robot's answers within this time, or is taken not to be there."""
