@@ -66,6 +66,11 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     on = "more" in whole.flags or any(text.endswith(("more", "further", "farther")) for text in whole.texts)
     if on and "bit" in whole.flags <= {"bit", "more"} and not (whole.moves or whole.q or whole.roles):
         return [_a_bit_of(_last(last), whole, pace)]
+    if "again" in whole.flags and "both" in whole.texts[-1:] and not (whole.moves or whole.q):
+        both = [turn.plan for turn in context.dialogue.turns if turn.plan is not None][-2:]
+        if len(both) < 2:
+            raise Unclear("nothing_before", whole.text)
+        return [step for plan in both for step in plan.steps]
     if _is_change(whole):
         return _changed(_last(last), whole, pace)
     return None

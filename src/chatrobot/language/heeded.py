@@ -42,7 +42,8 @@ def check_heeded(
         return
     for i, atom in enumerate(atoms):
         changed = _changed(atom, atoms)
-        if changed is None:
+        adverb = atom.text.endswith("straight") and i + 1 < len(atoms) and atoms[i + 1].kind == "dir"
+        if changed is None or adverb:
             continue
         try:
             other = read([*atoms[:i], changed, *atoms[i + 1 :]])
