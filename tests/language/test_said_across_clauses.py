@@ -64,7 +64,8 @@ def test_undoing_goes_on_to_what_was_before() -> None:
 
 def test_a_bit_more_is_the_same_way_again() -> None:
     (step,) = _after("turn right a bit", "a bit more")
-    assert isinstance(step, Turn) and not step.left
+    assert isinstance(step, Turn)
+    assert not step.left
     assert step.angle_rad == pytest.approx(math.pi / 4)
 
 
@@ -93,3 +94,17 @@ def test_what_is_not_known_is_asked_about(said: str) -> None:
 def test_the_same_radius_is_the_one_before() -> None:
     steps = _after("quarter circle right of 1 m radius, then a quarter circle left of the same radius")
     assert [getattr(step, "radius_m", None) for step in steps] == [1.0, 1.0]
+
+
+def test_the_way_back_is_as_long_as_all_that_was_repeated() -> None:
+    assert _lengths("forward 20 cm, three times, then come back") == [0.2, 0.2, 0.2, -0.2, -0.2, -0.2]
+
+
+def test_at_the_end_comes_after_what_was_put_first() -> None:
+    said = "Turn left 90 degrees, but before that go forward half a metre, and at the end go back 20 cm."
+    assert [type(step) for step in _after(said)] == [Drive, Turn, Drive]
+
+
+def test_a_turn_is_undone_only_where_the_last_motion_was_one() -> None:
+    assert len(_after("forward 1 m", "left 90", "undo the turn")) == 1
+    assert _after("left 90", "forward 1 m", "undo the turn") == []
