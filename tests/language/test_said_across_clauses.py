@@ -108,3 +108,9 @@ def test_at_the_end_comes_after_what_was_put_first() -> None:
 def test_a_turn_is_undone_only_where_the_last_motion_was_one() -> None:
     assert len(_after("forward 1 m", "left 90", "undo the turn")) == 1
     assert _after("left 90", "forward 1 m", "undo the turn") == []
+
+
+def test_brackets_are_read_in_chinese_too() -> None:
+    once = [Turn, Drive]
+    steps = _after("两遍（左转90度，前进1米），之后后退半米")
+    assert [type(step) for step in steps] == [*once, *once, Drive]

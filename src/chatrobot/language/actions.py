@@ -213,7 +213,7 @@ _REFERRING = {
 }
 
 
-_COUNTED = {"tile", "step", "leg", "side"}
+_COUNTED = {"tile", "step"}
 """What is counted: as a word without its count it says nothing."""
 
 _OUTLINES = {"short", "apart", "circumference", "ends", "straights", "diagonal"}

@@ -18,12 +18,9 @@ _CHANGE = 1.07
 """Small enough that no limit or sign turns over, and nothing that is rounded hides it."""
 
 _AMOUNTS = frozenset({"length", "time", "speed", "rate", "radius", "percent", "fold", "faster", "scale"})
-"""Changed wherever they are said."""
+"""Changed wherever they are said. Counts and angles are changed where nothing is drawn: a shape tells them twice, as in
+`a triangle with three sides`."""
 
-_COUNTED = frozenset({"times", "count", "angle", "turns"})
-"""Changed where nothing is drawn: a shape tells them twice, `a triangle with three sides`."""
-
-_OTHER_VERB = {"wait": "turn", "curve": "wait", "uturn": "wait"}
 _OTHER_SIDE = {"left": "right", "right": "left"}
 
 _OPPOSITE = {
@@ -66,8 +63,6 @@ def _changed(atom: Atom, atoms: Sequence[Atom]) -> Atom | None:
     drawn = any(other.kind in ("shape", "role") for other in atoms)  # a shape may name a side for looks
     if not drawn and (counted := _counted_otherwise(atom, atoms)) is not None:
         return counted
-    if not drawn and atom.kind == "verb" and atom.value in _OTHER_VERB:
-        return atom._replace(value=_OTHER_VERB[atom.value])
     if not drawn and atom.kind == "rot" and atom.value in _OTHER_SIDE:
         return atom._replace(value=_OTHER_SIDE[atom.value])
     if atom.kind != "dir" or atom.value not in _OPPOSITE or atom.text.endswith("of you"):
@@ -80,9 +75,9 @@ def _counted_otherwise(atom: Atom, atoms: Sequence[Atom]) -> Atom | None:
     """A count or an angle changed; `the third turn` and the half turn of a U-turn only tell it again."""
     if atom.kind != "q" or any((other.kind, other.value) == ("verb", "uturn") for other in atoms):
         return None
-    if atom.value in ("times", "count"):
+    if atom.value in ("times", "count") and atom.role != "move":  # 走两下: a little
         return quantity(atom.value, atom.number + 1.0, atom.text, atom.role)
-    if atom.value in _COUNTED and not atom.text.startswith(("third", "second", "first", "fourth")):
+    if atom.value in ("angle", "turns") and not atom.text.startswith(("third", "second", "first", "fourth")):
         return quantity(atom.value, atom.number * _CHANGE, atom.text, atom.role)
     if atom.value == "number" and atom.number > 2:
         return quantity(atom.value, atom.number + 15.0, atom.text, atom.role)
