@@ -23,15 +23,15 @@ run: setup
 	@$(BIN)/chatrobot
 
 lint: setup
-	$(BIN)/ruff check src tests examples scripts bench
-	$(BIN)/ruff format --check src tests examples scripts bench
+	$(BIN)/ruff check src tests examples scripts bench ros
+	$(BIN)/ruff format --check src tests examples scripts bench ros
 	$(BIN)/mypy
 
-# Real processes in real time come after the rest, one by one: beside other work their figures mean nothing. What fails
-# is tried once more: a busy machine may hold a process up once, but a promise that is broken twice is broken.
+# Real processes in real time come after the rest, two at a time: they mostly wait. What fails is tried once more with
+# nothing beside it: a busy machine may hold a process up once, but a promise that is broken alone too is broken.
 test: lint
 	$(BIN)/pytest -m "not realtime" -n 2
-	$(BIN)/pytest -m realtime || $(BIN)/pytest -m realtime --last-failed --last-failed-no-failures none
+	$(BIN)/pytest -m realtime -n 2 --dist loadfile || $(BIN)/pytest -m realtime --last-failed --last-failed-no-failures none
 
 bench: setup
 	@for file in bench/[a-z]*.py; do \

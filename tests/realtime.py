@@ -19,6 +19,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from chatrobot.core.errors import WireError
 from chatrobot.wire.local import LocalWire
 from chatrobot.wire.messages import TwistMessage
 
@@ -91,7 +92,7 @@ class RunningRobot:
             text=True,
         )
         threading.Thread(target=self._read, daemon=True).start()
-        self.ear = Ear(self._wait_for_file("sim-*.wire"))
+        self.ear = self._listen(self._wait_for_file("sim-*.wire"))
         self.motion_pid = int(self._wait_for_file("motion-*.stop").stem.removeprefix("motion-"))
 
     def say(self, text: str) -> float:
@@ -120,9 +121,22 @@ class RunningRobot:
 
     def _read(self) -> None:
         assert self.console.stdout is not None
-        for line in self.console.stdout:
-            with contextlib.suppress(ValueError):
-                self._lines.put(json.loads(line))
+        with contextlib.suppress(OSError):  # a test may close this end
+            for line in self.console.stdout:
+                with contextlib.suppress(ValueError):
+                    self._lines.put(json.loads(line))
+
+    @staticmethod
+    def _listen(wire_path: Path) -> Ear:
+        """The file may be there a moment before anybody listens at it."""
+        deadline_s = time.monotonic() + PATIENCE_S
+        while True:
+            try:
+                return Ear(wire_path)
+            except WireError:
+                if time.monotonic() > deadline_s:
+                    raise
+                time.sleep(0.01)
 
     def _wait_for_file(self, pattern: str) -> Path:
         deadline_s = time.monotonic() + PATIENCE_S

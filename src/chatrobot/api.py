@@ -18,10 +18,13 @@ from chatrobot.compose import connect as compose_connect
 from chatrobot.core.errors import ChatRobotError
 from chatrobot.core.events import Event, Result, Telemetry
 from chatrobot.core.geometry import ORIGIN, Pose
+from chatrobot.models.seam import Model
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.robots.load import DEFAULT_PROFILE
-from chatrobot.session.session import Session
+from chatrobot.session.model_choice import chosen_model
+from chatrobot.session.session import Options, Session
+from chatrobot.session.thinking import Interpreter
 
 PUMP_S = 0.1
 Listener = Callable[[Event], None]
@@ -36,6 +39,8 @@ def connect(
     fast: bool = False,
     trace: bool = False,
     config_dir: Path | str | None = None,
+    model: Model | str | None = None,
+    interpreter: Interpreter = "auto",
 ) -> Robot:
     """Connect to a robot; by default to the simulated one, in a furnished flat. The options of the command line.
 
@@ -45,14 +50,25 @@ def connect(
         sim: how the simulated robot lies, such as `slip=0.03,noise=on`.
         fast: simulated time, as quick as it goes; otherwise real time.
         trace: the simulated robot's true poses come as events too.
+        model: the language model that is asked what is not understood without one: `PROVIDER:NAME`, or anything
+            with the methods of `chatrobot.models.seam.Model`. None: no model.
+        interpreter: `auto`, `offline`, or `model` to ask it about everything.
         config_dir: where remembered places and the user's own profiles live; None keeps nothing.
 
     Raises:
         InputError: an option cannot be used; it says what is allowed.
         JointError: the robot's processes do not start.
+        ModelError: there is no provider of that name.
     """
     folder = Path(config_dir) if config_dir is not None else None
-    return Robot(Setup(on=on, robot=robot, world=world, sim=sim, fast=fast, trace=trace, folder=folder))
+    chosen = chosen_model(model, folder) if isinstance(model, str) else model
+    options = Options(interpreter=interpreter)
+    return Robot(
+        Setup(
+            on=on, robot=robot, world=world, sim=sim, fast=fast, trace=trace, folder=folder, model=chosen,
+            options=options,
+        )
+    )  # fmt: skip
 
 
 class Robot:

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.errors import JointError, UsageError
 from chatrobot.core.events import Event, TruePose
+from chatrobot.models.seam import Model
 from chatrobot.plan.context import RoutePlanner
 from chatrobot.programs.library import Library
 from chatrobot.robots.cautious import drives_on_alone, slowed
@@ -24,7 +25,11 @@ from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.authoring import Authoring
 from chatrobot.session.child import spawn
 from chatrobot.session.joint import SimulatedJoint
+from chatrobot.session.model_choice import warm_up
+from chatrobot.session.model_terms import ModelOptions
+from chatrobot.session.observations import Camera
 from chatrobot.session.session import Options, Session
+from chatrobot.session.thinking import Mind
 from chatrobot.session.understanding import Understanding
 from chatrobot.sim.lies import SimLies
 from chatrobot.sim.load import load_world
@@ -51,7 +56,8 @@ class Setup:
     simulated robot and nothing known for any other. `sim` holds the lies of the simulated robot (`slip=0.03,…`).
     `yes`: plans of a real robot need no approval. `programs`: who asks for a program gets one written, rehearsed and
     run; else its motion is driven as a plan. `folder` is where places, programs and history live; None keeps
-    nothing.
+    nothing. `model` is the language model to ask, None for none, `model_options` how it is used, and `camera` takes
+    pictures for it.
     """
 
     on: str = "sim"
@@ -64,6 +70,9 @@ class Setup:
     programs: bool = False
     folder: Path | None = None
     options: Options = field(default_factory=Options)
+    model: Model | None = None
+    model_options: ModelOptions = field(default_factory=ModelOptions)
+    camera: Camera | None = None
 
 
 @dataclass
@@ -93,6 +102,8 @@ def connect(setup: Setup, on_event: OnEvent) -> Connection:
     world = load_world(setup.world)
     SimLies.parse(setup.sim)
     understanding = Understanding(profile, world, setup.folder)
+    if not setup.fast and setup.options.interpreter != "offline":
+        warm_up(setup.model)
     if on_wire:
         return _connect_wire(setup, profile, world, understanding, on_event)
     if setup.fast:
@@ -103,6 +114,18 @@ def connect(setup: Setup, on_event: OnEvent) -> Connection:
 def default_world(on: str) -> str:
     """What is known of the surroundings where nobody says: of a robot that is not ours, nothing."""
     return "home" if on in SIMULATED else "empty"
+
+
+def mind_of(setup: Setup, profile: RobotProfile) -> Mind | None:
+    """The model and how it drives this robot.
+
+    Its steps run as they come where the profile allows that; on a base that steers like a car a plan comes whole,
+    because corners can be rounded only where both legs are known.
+    """
+    if setup.model is None:
+        return None
+    streams = setup.model_options.streams and profile.approval == "stream" and profile.can_turn_on_the_spot
+    return Mind(setup.model, replace(setup.model_options, streams=streams), profile, setup.camera)
 
 
 def profile_dirs(folder: Path | None) -> tuple[Path, ...]:
@@ -121,7 +144,14 @@ def _authoring(
     def routes() -> RoutePlanner | None:
         return None if world.is_empty else GridRoutePlanner(world, profile)
 
-    return Authoring(profile, Library(setup.folder), understanding.interpret, routes=routes)
+    return Authoring(
+        profile,
+        Library(setup.folder),
+        understanding.interpret,
+        model=setup.model,
+        prefers_model=setup.options.interpreter == "model",
+        routes=routes,
+    )
 
 
 # --- simulated time: one process, one thread ---
@@ -153,9 +183,8 @@ def _connect_simulated(
 
     joint = SimulatedJoint(build, wire, clock, robot.step, guard, hub.connect(), profile.wiring.cmd_vel_topic)
     joint.next_event(SETTLE_S)
-    session = Session(
-        joint, understanding, on_event, setup.options, _authoring(setup, profile, world, understanding)
-    )
+    authoring = _authoring(setup, profile, world, understanding)
+    session = Session(joint, understanding, on_event, setup.options, authoring, mind_of(setup, profile))
 
     def close() -> None:
         session.close()
@@ -195,7 +224,8 @@ def _connect_real_time(
     if trace is not None:
         trace.subscribe(TRUTH_TOPIC, Odometry, _tracer(one_at_a_time))
     authoring = _authoring(setup, profile, world, understanding)
-    session = Session(joint, understanding, one_at_a_time, setup.options, authoring)
+    mind = mind_of(setup, profile)
+    session = Session(joint, understanding, one_at_a_time, setup.options, authoring, mind)
 
     def close() -> None:
         session.close()
@@ -221,7 +251,8 @@ def _connect_wire(
     joint = SocketJoint(address, profile_argument(setup.robot, profile_dirs(setup.folder)), setup.world)
     joint.wait_until_ready()
     authoring = _authoring(setup, profile, world, understanding)
-    session = Session(joint, understanding, on_event, replace(setup.options, approve=approve), authoring)
+    options = replace(setup.options, approve=approve)
+    session = Session(joint, understanding, on_event, options, authoring, mind_of(setup, profile))
     return Connection(session, profile, world, session.close)
 
 

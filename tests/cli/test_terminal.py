@@ -91,3 +91,17 @@ def test_ctrl_c_answers_the_question_with_no(terminal: Terminal) -> None:
     child.expect_exact("[y/N]")
     child.sendintr()
     assert code(child) == 5
+
+
+def test_a_plan_can_be_edited_and_is_asked_about_again(
+    terminal: Terminal, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("VISUAL", "sed -i s/1/0.25/")
+    child = terminal("do", "forward 1 m", "--approve", "--fast", *EMPTY)
+    child.expect_exact("[y/N]")
+    child.sendline("e")
+    child.expect_exact("drive 0.25 m")
+    child.expect_exact("[y/N]")
+    child.sendline("y")
+    child.expect_exact("drove 0.25 m of 0.25 m")
+    assert code(child) == 0

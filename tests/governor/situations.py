@@ -23,3 +23,13 @@ def at(pose: Pose | None = ORIGIN, **ages_s: float) -> Situation:
 
 def battery(percent: float | None, begins: bool = False) -> Situation:
     return Situation(ORIGIN, Sensed(battery_percent=percent), begins)
+
+
+JERK_MPS3 = 5.0
+ANGULAR_JERK_RADPS3 = 12.0
+
+
+def smooth(profile: RobotProfile = MECANUM) -> RobotProfile:
+    """The same robot with limited jerk."""
+    limits = replace(profile.limits, jerk_mps3=JERK_MPS3, angular_jerk_radps3=ANGULAR_JERK_RADPS3)
+    return replace(profile, limits=limits)

@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
-from chatrobot.governor.contact import Footprint, _seen_along, seconds_to_contact
+from chatrobot.governor.contact import Footprint, _moved, _seen_from, seconds_to_contact
 
 BOX = Footprint(((0.2, -0.1), (0.2, 0.1), (-0.2, 0.1), (-0.2, -0.1)))
 """0.4 m long, 0.2 m wide."""
@@ -27,7 +27,7 @@ def test_clearance_is_the_distance_to_the_sides_positive_outside() -> None:
         [[0.3, 0.0], [0.0, 0.3], [-0.3, 0.05], [0.0, -0.15], [0.0, 0.0], [0.19, 0.0], [0.2, 0.1]]
     )
     expected = [0.1, 0.2, 0.1, 0.05, -0.1, -0.01, 0.0]
-    assert BOX.clearance_m(points) == pytest.approx(expected)
+    assert BOX.clearance_m(points[:, 0], points[:, 1]) == pytest.approx(expected)
     assert BOX.radius_m == pytest.approx(math.hypot(0.2, 0.1))
 
 
@@ -35,7 +35,7 @@ def test_a_footprint_need_not_have_sides_of_one_length_or_right_angles() -> None
     assert Footprint(((1.0, -0.1), (1.0, 0.1), (-0.2, 0.0))).radius_m == pytest.approx(math.hypot(1.0, 0.1))
     slanted = Footprint(((0.4, 0.0), (0.0, 0.3), (-0.2, -0.3)))
     # the side from (0.4, 0) to (0, 0.3) has the normal (0.6, 0.8) and the offset 0.24
-    assert slanted.clearance_m(np.array([[0.6, 0.8]])) == pytest.approx([1.0 - 0.24])
+    assert slanted.clearance_m(np.array([0.6]), np.array([0.8])) == pytest.approx([1.0 - 0.24])
 
 
 @pytest.mark.parametrize(
@@ -99,7 +99,34 @@ def test_the_nearest_of_many_points_counts() -> None:
 )
 def test_points_pass_by_as_the_exact_motion_says(vx: float, vy: float, wz: float, x: float, y: float) -> None:
     twist, times = Twist(vx, vy, wz), np.array([0.0, 0.4, 1.0])
-    seen = _seen_along(np.array([[x, y]]), twist, times)
+    seen_x, seen_y = _seen_from(np.array([[x, y]]), *_moved(twist, times))
     for row, time_s in enumerate(times.tolist()):
         expected = Pose(x, y).relative_to(ORIGIN.moved(twist, time_s))
-        assert tuple(seen[row, 0]) == pytest.approx(expected[:2], abs=1e-6)
+        assert (seen_x[row, 0], seen_y[row, 0]) == pytest.approx(expected[:2], abs=1e-6)
+
+
+@settings(deadline=None, max_examples=60)
+@given(
+    st.lists(st.tuples(st.floats(-1.5, 1.5), st.floats(-1.5, 1.5)), min_size=1, max_size=12),
+    st.floats(-0.5, 0.5),
+    st.floats(-0.5, 0.5),
+    st.floats(-2.0, 2.0),
+    st.floats(0.1, 1.0),
+)
+def test_no_point_that_the_way_comes_near_is_passed_over(
+    points: list[tuple[float, float]], vx: float, vy: float, wz: float, horizon_s: float
+) -> None:
+    """Points far from the way are not looked at: all of them together find what each alone does, one far or near."""
+    twist = Twist(vx, vy, wz)
+    alone = min(seconds(x, y, twist, horizon_s) for x, y in points)
+    together = seconds_to_contact(BOX, np.array(points), twist, horizon_s, MARGIN_M)
+    assert together <= alone + 1e-9
+    for x, y in points:
+        touches = any(
+            BOX.clearance_m(*map(np.array, zip(Pose(x, y).relative_to(ORIGIN.moved(twist, t))[:2])))[0]
+            < -0.02
+            for t in np.linspace(0.0, horizon_s, 40).tolist()
+        )
+        outside = BOX.clearance_m(np.array([x]), np.array([y]))[0] > MARGIN_M
+        if touches and outside:
+            assert together < math.inf

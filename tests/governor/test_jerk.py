@@ -7,24 +7,13 @@ import math
 from dataclasses import replace
 
 import pytest
-from tests.governor.situations import MECANUM
-from tests.rig import Rig
+from tests.governor.situations import ANGULAR_JERK_RADPS3, JERK_MPS3, MECANUM, smooth
 
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.governed import StopEpoch
 from chatrobot.governor.governor import TICK_S, Governor
 from chatrobot.governor.jerk import JerkLimit
-from chatrobot.plan.steps import Drive, Plan, Turn
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.sim.shapes import rectangle
-
-JERK_MPS3 = 5.0
-ANGULAR_JERK_RADPS3 = 12.0
-
-
-def smooth(profile: RobotProfile = MECANUM) -> RobotProfile:
-    limits = replace(profile.limits, jerk_mps3=JERK_MPS3, angular_jerk_radps3=ANGULAR_JERK_RADPS3)
-    return replace(profile, limits=limits)
 
 
 class Driven:
@@ -131,20 +120,3 @@ def test_no_time_no_easing() -> None:
     first = Twist(0.02, 0.0, 0.0)
     eased = jerk.eased(first, Twist(0.06, 0.0, 0.0), Twist(1.0, 0.0, 0.0), TICK_S, urgent=False)
     assert eased.vx_mps - first.vx_mps == pytest.approx((1.0 + JERK_MPS3 * TICK_S) * TICK_S)
-
-
-@pytest.mark.parametrize("speed", [0.3, 1.0])
-def test_a_plan_still_arrives_where_it_should(speed: float) -> None:
-    rig = Rig(smooth())
-    plan = Plan((Drive(distance_m=1.0, speed_mps=speed), Turn(angle_rad=math.pi / 2), Drive(distance_m=0.5)))
-    assert rig.run(plan).outcome == "completed"
-    assert rig.robot.true_pose == pytest.approx((1.0, 0.5, math.pi / 2), abs=0.015)
-
-
-def test_a_wall_is_not_touched_by_a_robot_that_eases() -> None:
-    rig = Rig(smooth())
-    rig.robot.add_obstacle("wall", rectangle(2.1, 0.0, 0.2, 4.0))
-    rig.live(0.3)
-    executor = rig.run(Plan((Drive(distance_m=5.0, speed_mps=1.0),)))
-    assert not rig.robot.in_contact
-    assert executor.outcome == "stopped"

@@ -47,19 +47,74 @@ def test_the_robot_stops_before_a_wall(speed: float, direction_deg: int) -> None
     assert math.hypot(pose.x_m, pose.y_m) > 1.0, "it should come near before it stops"
 
 
-@pytest.mark.parametrize("appears_after_s", [2.0, 3.0])
-@pytest.mark.parametrize("speed", [0.3, 0.6, 1.0])
-def test_a_wall_that_appears_in_time_to_brake_is_not_touched(speed: float, appears_after_s: float) -> None:
-    rig = Rig(lies="noise=on,seed=5")
+def braking_m(rig: Rig, speed_mps: float) -> float:
+    """Latency, a scan's period and a tick, then the profile's deceleration; and the margin."""
     limits = rig.profile.limits
-    front = max(x for x, _ in rig.profile.footprint)
-    needed = speed * (limits.latency_s + 0.15) + speed**2 / (2.0 * limits.deceleration_mps2) + front + 0.08
+    assert rig.profile.lidar is not None
+    late_s = limits.latency_s + 1.0 / rig.profile.lidar.rate_hz + 0.05
+    slowest = min(limits.acceleration_mps2, limits.deceleration_mps2)
+    return speed_mps * late_s + speed_mps**2 / (2.0 * slowest) + 0.08
+
+
+@pytest.mark.parametrize("direction_deg", [0, 180, 90, -90, 45, -150])
+@pytest.mark.parametrize("speed", [0.1, 0.3, 0.6, 1.0])
+def test_a_wall_that_appears_in_time_to_brake_is_not_touched(speed: float, direction_deg: int) -> None:
+    rig, direction = Rig(lies="noise=on,seed=5"), math.radians(direction_deg)
+    reach = max(x * math.cos(direction) + y * math.sin(direction) for x, y in rig.profile.footprint)
 
     def appear(t_s: float) -> None:
-        if t_s == pytest.approx(appears_after_s, abs=0.011):
-            rig.robot.add_obstacle("wall", rectangle(rig.robot.true_pose.x_m + needed + 0.1, 0.0, 0.2, 3.0))
+        if t_s == pytest.approx(2.0, abs=0.011):
+            pose = rig.robot.true_pose
+            gone = pose.x_m * math.cos(direction) + pose.y_m * math.sin(direction)
+            rig.robot.add_obstacle("wall", wall_ahead(direction, gone + reach + braking_m(rig, speed)))
 
-    executor = rig.run(Plan((Drive(distance_m=8.0, speed_mps=speed),)), appear)
+    executor = rig.run(Plan((Drive(distance_m=8.0, direction_rad=direction, speed_mps=speed),)), appear)
+    assert not rig.robot.in_contact
+    assert executor.outcome == "stopped"
+
+
+@pytest.mark.parametrize(
+    "robot", [r for r in (e.load() for e in list_profiles()) if r.lidar], ids=lambda r: r.name
+)
+@pytest.mark.parametrize("share", [0.3, 1.0])
+@pytest.mark.parametrize("direction_deg", [0, 180])
+def test_a_wall_that_appears_is_not_touched_by_any_robot_that_sees(
+    robot: RobotProfile, share: float, direction_deg: int
+) -> None:
+    rig, direction = Rig(robot, lies="noise=on,seed=6"), math.radians(direction_deg)
+    speed, sign = share * robot.limits.max_speed_mps, math.cos(direction)
+    reach = max(sign * x for x, _ in robot.footprint)
+
+    def appear(t_s: float) -> None:
+        if t_s == pytest.approx(2.0, abs=0.011):
+            gone = sign * rig.robot.true_pose.x_m
+            rig.robot.add_obstacle("wall", wall_ahead(direction, gone + reach + braking_m(rig, speed)))
+
+    executor = rig.run(Plan((Drive(distance_m=8.0, direction_rad=direction, speed_mps=speed),)), appear)
+    assert not rig.robot.in_contact
+    assert executor.outcome == "stopped"
+
+
+@pytest.mark.parametrize("left", [True, False])
+@pytest.mark.parametrize("rate", [0.5, 1.0, 2.0])
+def test_a_post_that_appears_beside_a_turning_robot_in_time_to_brake_is_not_touched(
+    rate: float, left: bool
+) -> None:
+    rig = Rig("wheeltec_mini_mec", lies="noise=on,seed=7")
+    limits, sign = rig.profile.limits, 1.0 if left else -1.0
+    corner_x, corner_y = rig.profile.footprint[1]
+    late_s = limits.latency_s + 0.15
+    angle = rate * late_s + rate**2 / (2.0 * limits.angular_acceleration_radps2) + 0.25
+
+    def appear(t_s: float) -> None:
+        if t_s == pytest.approx(1.5, abs=0.011):
+            bearing = rig.robot.true_pose.yaw_rad + sign * (math.atan2(corner_y, corner_x) + angle)
+            away = math.hypot(corner_x, corner_y) - 0.01
+            away = away + 0.03
+            post = Circle(away * math.cos(bearing), away * math.sin(bearing), 0.03)
+            rig.robot.add_obstacle("post", post)
+
+    executor = rig.run(Plan((Turn(angle_rad=4.0 * math.pi, left=left, rate_radps=rate),)), appear)
     assert not rig.robot.in_contact
     assert executor.outcome == "stopped"
 
@@ -126,6 +181,24 @@ def test_zeros_do_not_hide_a_wall(robot: RobotProfile, direction_deg: int, share
     direction, rig = math.radians(direction_deg), Rig(robot, CHEAP)
     speed = share * robot.limits.max_speed_mps
     drive_at_wall(rig, Drive(distance_m=5.0, direction_rad=direction, speed_mps=speed), direction)
+
+
+@pytest.mark.parametrize(
+    ("then", "is_still_there"), [(0.0, True), (math.nan, True), (-1.0, True), (math.inf, False), (3.0, False)]
+)
+def test_a_near_thing_that_a_cheap_lidar_no_longer_tells_of_is_still_there(
+    then: float, is_still_there: bool
+) -> None:
+    """Zero, NaN (JSON's null, too) and nonsense tell nothing; infinity (REP-117) and a farther thing do."""
+    lidar = load_profile("wheeltec_mini_mec").lidar
+    assert lidar is not None
+    seen = Seen(lidar)
+    for stamp_s, ahead_m in enumerate((0.2, *[then] * 5)):
+        ranges_m = [math.inf] * 360
+        ranges_m[180] = ahead_m
+        seen.take(LaserScan(float(stamp_s), -math.pi, math.radians(1.0), 0.12, 8.0, ranges_m), ORIGIN)
+    near = [point for point in seen.points.tolist() if math.hypot(*point) < 1.0]
+    assert bool(near) is is_still_there
 
 
 @pytest.mark.parametrize("yaw_deg", [-120, 90, 180])

@@ -49,12 +49,11 @@ def test_a_broken_choice_is_told_with_its_file(tmp_path: Path) -> None:
         resolve("", ModelConfig(tmp_path, {}))
 
 
-def test_local_servers_are_found_by_themselves(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("chatrobot.models.discovery._OTHER_ADDRESS", "http://127.0.0.1:1/v1")
+def test_local_servers_are_found_by_themselves() -> None:
     with serving([], models=["qwen3:4b", "llama"]) as fake:
         environ = {
             "OLLAMA_HOST": fake.url, "LLAMACPP_BASE_URL": "http://127.0.0.1:1/v1",
-            "VLLM_BASE_URL": "http://192.0.2.1/v1",
+            "VLLM_BASE_URL": "http://192.0.2.1/v1", "LMSTUDIO_BASE_URL": "http://127.0.0.1:1/v1",
         }  # fmt: skip
         found = find_local(ModelConfig(environ=environ))
         assert [(server.provider, server.models) for server in found] == [("ollama", ("qwen3:4b", "llama"))]

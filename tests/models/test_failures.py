@@ -16,6 +16,17 @@ from tests.models.rig import KEY, WIRES, Got, model_at, serving
 
 TEXT = "drive 1 m\nturn left\ndrive 2 m\nturn left\n"
 REPLIES: list[dict[str, Any]] = [
+    {
+        "match": "not valid",
+        "error": {"status": 400, "message": "API key not valid. Please pass a valid API key."},
+    },
+    {"match": "overloaded", "error": {"status": 529, "message": "Overloaded"}},
+    {"match": "limit", "error": {"status": 429}},
+    {
+        "match": "forbidden",
+        "error": {"status": 403, "body": "<html><h1>Forbidden</h1>You shall not pass</html>"},
+    },
+    {"match": "unauthorised", "error": {"status": 401, "body": ""}},
     {"match": "rate", "error": {"status": 429, "retry_after_s": 20, "message": "slow down"}},
     {
         "match": "credit",
@@ -49,6 +60,8 @@ CODES = {
     "500": "model_server_error",
     "503": "model_server_error",
     "rejected": "model_rejected",
+    "not valid": "model_wrong_key",
+    "overloaded": "model_server_error",
     "error page": "model_server_error",
     "cut off": "model_cut_off",
     "empty": "model_empty",
@@ -134,6 +147,18 @@ def test_a_rate_limit_says_for_how_long(models: dict[str, Any]) -> None:
         assert got.values["retry_after_s"] == 20
         assert got.error is not None
         assert "20" in render_reason(got.error.reason, "en")
+
+
+def test_a_rate_limit_without_a_time_suggests_one(models: dict[str, Any]) -> None:
+    got = Got(models["openai"], "limit")
+    assert got.values["retry_after_s"] == 30
+    assert_told(got)
+
+
+def test_an_error_page_is_quoted_without_its_tags(models: dict[str, Any]) -> None:
+    got = Got(models["openai"], "forbidden")
+    assert (got.code, got.values["said"]) == ("model_wrong_key", "Forbidden You shall not pass")
+    assert Got(models["openai"], "unauthorised").values["said"]
 
 
 @pytest.mark.parametrize("provider", WIRES)

@@ -32,9 +32,10 @@ from chatrobot.wire.dds.wire import DdsWire
 from chatrobot.wire.messages import Flag, Odometry, Text, TwistMessage
 
 PATIENCE_S = 30.0
-WORDS: dict[str, tuple[str, ...]] = {"base": (), "control": (), "input": ()}
 _STRANGER = Path(__file__).with_name("stranger.py")
-_domains = itertools.count(random.Random(os.getpid()).randrange(1, 90))
+_WORKER = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
+_domains = itertools.count(random.Random(os.getpid()).randrange(1, 20) + 45 * (_WORKER % 2))
+"""Domains of this run's own, and of this worker's where two run side by side."""
 
 
 class Heard:
@@ -160,6 +161,28 @@ class NodeRig:
         node = Node(["-m", "chatrobot", *arguments], self.environment)
         self._all.append(node)
         return node
+
+    def replace(self, name: str, *more: str) -> None:
+        """A new one in the place of a node that has ended, or was killed."""
+        self.nodes[name].end()
+        self.nodes[name] = self.start("node", name, "--on", "dds", *more)
+        self.nodes[name].wait_for_line(name)
+
+    def drive(self, text: str = "forward 100 m at 0.3 m/s") -> float:
+        """Type it until the robot is at speed: who has just come may not have met everybody yet. When it was said."""
+        for _ in range(5):
+            said_s = self.nodes["input"].say(text)
+            with contextlib.suppress(AssertionError):
+                self.truth.wait_for(lambda odometry: odometry.vx_mps > 0.25, said_s, 3.0)
+                return said_s
+        raise AssertionError(f"it does not move: {self.events.all[-3:]}")
+
+    def rest(self) -> None:
+        """Until the robot stands, and whatever was under way has been told."""
+        self.publish("chatrobot/stop", Flag(True))
+        now_s = time.monotonic()
+        self.truth.wait_for(lambda odometry: abs(odometry.vx_mps) < 0.005, now_s)
+        time.sleep(0.3)
 
     def publish(self, topic: str, message: Text | Flag) -> float:
         """Put it on the wire once somebody listens; when that was."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+import re
 import sys
 import threading
 from collections.abc import Callable, Iterator
@@ -16,16 +18,18 @@ import yaml
 sys.path.insert(0, str(Path(__file__).parents[1] / "wire"))
 import fake_rclpy
 
+from chatrobot.cli import doctor, ros_run
 from chatrobot.cli import node as command
 from chatrobot.cli.arguments import parse, split_ros_args
-from chatrobot.core.clock import VirtualClock
+from chatrobot.core.clock import RealClock, VirtualClock
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.nodes.parameters import PARAMETERS
 from chatrobot.session import motion_runner
 from chatrobot.session.guard_link import SimulatedGuard
-from chatrobot.wire.messages import Text, TwistMessage
+from chatrobot.wire.messages import Odometry, Text, TwistMessage
 
-PARAMS_FILE = Path(__file__).parents[2] / "ros" / "chatrobot" / "params" / "params.yaml"
+ROOT = Path(__file__).parents[2]
+PARAMS_FILE = ROOT / "ros" / "chatrobot" / "params" / "params.yaml"
 PATIENCE_S = 10.0
 
 
@@ -37,8 +41,9 @@ def ros(monkeypatch: pytest.MonkeyPatch) -> fake_rclpy.Ros:
 class _Guard(SimulatedGuard):
     """In place of the guard's process, which has no fake of ROS."""
 
-    def __init__(self, address: str, wiring: Any) -> None:
+    def __init__(self, address: str, wiring: Any, clock: Any) -> None:
         super().__init__(VirtualClock())
+        self.given_clock = clock
         self.halts = address, wiring.cmd_vel_topic, wiring.odom_topic
 
     def wait_until_alive(self, _timeout_s: float) -> bool:
@@ -49,8 +54,8 @@ class _Guard(SimulatedGuard):
 def guards(monkeypatch: pytest.MonkeyPatch) -> list[_Guard]:
     made: list[_Guard] = []
 
-    def make(address: str, wiring: Any, _clock: Any) -> _Guard:
-        made.append(_Guard(address, wiring))
+    def make(address: str, wiring: Any, clock: Any) -> _Guard:
+        made.append(_Guard(address, wiring, clock))
         return made[-1]
 
     monkeypatch.setattr(motion_runner, "GuardProcess", make)
@@ -176,7 +181,8 @@ def test_diagnostics_tell_how_a_node_is(
 def test_the_command_line_is_the_default_and_ros_s_parameters_go_before_it(
     monkeypatch: pytest.MonkeyPatch, ros: fake_rclpy.Ros
 ) -> None:
-    words = ("base", "--robot", "turtlesim", "--world", "home", "-p", "generate_code:=True")
+    words = ("base", "--robot", "turtlesim", "--world", "home", "--interpreter", "offline")
+    words = (*words, "-p", "generate_code:=True")
     with running(monkeypatch, ros, *words, "--ros-args", "-p", "robot:=originbot"):
         values = ros.parameters("chatrobot_base")
     assert values == {
@@ -187,14 +193,45 @@ def test_the_command_line_is_the_default_and_ros_s_parameters_go_before_it(
         "world": "home",
         "diagnostics_period_s": 1.0,
         "config_dir": "",
+        "interpreter": "offline",
+        "model": "",
+        "rounds": 6,
+        "budget_tokens": 20_000,
+        "budget_s": 600.0,
     }
 
 
-@pytest.mark.parametrize("given", ["diagnostics_period_s:=0.01", "generate_code:=perhaps", "robot:=1.0"])
+@pytest.mark.parametrize(
+    "given",
+    [
+        "diagnostics_period_s:=0.01",
+        "generate_code:=perhaps",
+        "robot:=1.0",
+        "rounds:=0",
+        "interpreter:=psychic",
+    ],
+)
 def test_a_parameter_out_of_range_or_of_another_type_is_refused(ros: fake_rclpy.Ros, given: str) -> None:
     with pytest.raises(UsageError, match=given.partition(":")[0]):
         command.run(parse(["node", "base", "--on", "ros", "--ros-args", "-p", given]))
     assert not ros.nodes
+
+
+def test_motion_keeps_the_simulation_s_time_and_the_guard_real_time(
+    monkeypatch: pytest.MonkeyPatch, ros: fake_rclpy.Ros, guards: list[_Guard]
+) -> None:
+    clocks: list[Any] = []
+
+    class Spy(motion_runner.Motion):
+        def __init__(self, profile: Any, wire: Any, clock: Any, *rest: Any) -> None:
+            clocks.append(clock)
+            super().__init__(profile, wire, clock, *rest)
+
+    monkeypatch.setattr(motion_runner, "Motion", Spy)
+    ros.clock_s = 12.5
+    with running(monkeypatch, ros, "control", "--ros-args", "-p", "use_sim_time:=true"):
+        assert clocks[0].now_s() == 12.5
+        assert isinstance(guards[0].given_clock, RealClock)
 
 
 def test_without_a_clock_a_node_that_follows_simulated_time_does_not_start(
@@ -219,6 +256,55 @@ def test_every_parameter_is_described_and_stands_in_the_file_with_its_default(ro
                 bounds = f" ({parameter.bounds[0]} to {parameter.bounds[1]})" if parameter.bounds else ""
                 assert f"# {parameter.description}{bounds}\n" in text
     assert not ros.nodes
+
+
+def test_every_parameter_stands_on_the_page_and_every_switch_of_a_launch_line_is_one() -> None:
+    page = (ROOT / "docs" / "ros.md").read_text(encoding="utf-8")
+    names = {parameter.name for known in PARAMETERS.values() for parameter in known}
+    assert {name for name in names if f"| `{name}` |" in page} == names
+    launch = (ROOT / "ros" / "chatrobot" / "launch" / "robot.launch.py").read_text(encoding="utf-8")
+    of_one = re.search("^OF_ONE = (.*)$", launch, re.MULTILINE)
+    assert of_one is not None
+    assert set(re.findall(r'^    "(\w+)":', launch, re.MULTILINE)) <= {*names, "use_sim_time"}
+    for node, own in ast.literal_eval(of_one[1]).items():
+        assert own <= {parameter.name for parameter in PARAMETERS[node]}
+
+
+def test_doctor_tells_which_ros_is_here_and_who_is_on_it(ros: fake_rclpy.Ros, ear: Any) -> None:
+    ear.advertise("odom", Odometry)
+    check = doctor._ros(parse(["doctor"]))
+    assert check.state == "ok"
+    assert check.text.startswith("jazzy with rmw_fake_cpp; on domain ")
+    assert check.text.endswith("/ear tells odom")
+    assert [node.name for node in ros.nodes] == ["ear"]
+
+
+def test_doctor_says_how_to_get_ros(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("importlib.util.find_spec", lambda _: None)
+    monkeypatch.setenv("ROS_DISTRO", "jazzy")
+    check = doctor._ros(parse(["doctor"]))
+    assert check.state == "later"
+    assert "not for this Python" in check.text
+    assert "source /opt/ros" in check.text
+
+
+@pytest.mark.parametrize(
+    ("executable", "command_line"),
+    [
+        (ros_run.input_node, ["node", "input"]),
+        (ros_run.base_node, ["node", "base"]),
+        (ros_run.control_node, ["node", "control"]),
+        (ros_run.simulated_robot, ["sim"]),
+    ],
+)
+def test_ros2_run_starts_what_the_command_line_starts(
+    monkeypatch: pytest.MonkeyPatch, executable: Callable[[], int], command_line: list[str]
+) -> None:
+    started: list[list[str]] = []
+    monkeypatch.setattr(ros_run, "main", lambda arguments: started.append(arguments) or 7)
+    monkeypatch.setattr(sys, "argv", ["/ws/lib/chatrobot/it", "--ros-args", "-r", "a:=b"])
+    assert executable() == 7
+    assert started == [[*command_line, "--on", "ros", "--ros-args", "-r", "a:=b"]]
 
 
 def test_ros_s_arguments_end_at_two_dashes() -> None:

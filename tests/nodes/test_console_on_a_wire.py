@@ -5,56 +5,117 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
+import chatrobot
 from chatrobot.core.errors import UsageError
 from chatrobot.wire.connect import is_on_this_machine, wire_address
-from tests.nodes.node_rig import PATIENCE_S, NodeRig, running
+from chatrobot.wire.messages import Odometry, TwistMessage
+from tests.nodes.node_rig import PATIENCE_S, Heard, NodeRig, running
 
 pytestmark = pytest.mark.realtime
 
 
-def do(rig: NodeRig, *arguments: str) -> tuple[int, list[dict[str, object]]]:
-    done = subprocess.run(
-        [sys.executable, "-m", "chatrobot", "do", "--on", "dds", "--json", *arguments],
-        capture_output=True,
+@pytest.fixture(scope="module")
+def rig(tmp_path_factory: pytest.TempPathFactory) -> Iterator[NodeRig]:
+    with running(tmp_path_factory.mktemp("nodes"), "input") as made:
+        yield made
+
+
+def begin(rig: NodeRig, *arguments: str, on: str = "dds") -> subprocess.Popen[str]:
+    return subprocess.Popen(
+        [sys.executable, "-m", "chatrobot", "do", "--on", on, "--json", *arguments],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
         env=rig.environment,
-        timeout=PATIENCE_S,
         text=True,
     )
-    assert "Traceback" not in done.stderr
-    return done.returncode, [json.loads(line) for line in done.stdout.splitlines()]
 
 
-def test_do_drives_a_robot_on_dds_once_it_is_approved(tmp_path: Path) -> None:
-    with running(tmp_path, "input") as rig:
-        code, events = do(rig, "forward 20 cm", "--yes")
+def end(doing: subprocess.Popen[str]) -> tuple[int, list[dict[str, object]]]:
+    out, err = doing.communicate(timeout=PATIENCE_S)
+    assert out, err
+    assert "Traceback" not in err
+    return doing.returncode, [json.loads(line) for line in out.splitlines()]
+
+
+def do(rig: NodeRig, *arguments: str) -> tuple[int, list[dict[str, object]]]:
+    return end(begin(rig, *arguments))
+
+
+def test_do_drives_a_robot_on_dds_once_it_is_approved(rig: NodeRig) -> None:
+    code, events = do(rig, "forward 20 cm", "--yes")
+    assert (code, events[-1]["outcome"]) == (0, "completed")
+    assert rig.pose()[0] == pytest.approx(0.2, abs=0.01)
+    code, events = do(rig, "forward 20 cm")  # nobody is there to be asked
+    assert (code, events[-1]["outcome"]) == (4, "refused")
+    assert rig.pose()[0] == pytest.approx(0.2, abs=0.01)
+
+
+def test_two_robots_in_two_namespaces_on_one_domain_are_driven_apart(rig: NodeRig, tmp_path: Path) -> None:
+    """At one time, one by its address, the other by its profile; the one without a namespace stands all the while."""
+    builtin = Path(chatrobot.__file__).parent / "robots" / "profiles" / "wheeltec_mini_mec.toml"
+    mine = tmp_path / "mine.toml"
+    mine.write_text(
+        builtin.read_text("utf-8").replace("\n[wiring]", '\n[wiring]\nnamespace = "right"'), "utf-8"
+    )
+    left, right = f"dds://{rig.domain}/left", f"dds://{rig.domain}/right"
+    heard, truths = {}, {}
+    for name in ("left", "right"):
+        heard[name], truths[name] = Heard(), Heard()
+        rig.ear.subscribe(f"/{name}/cmd_vel", TwistMessage, heard[name])
+        rig.ear.subscribe(f"/{name}/chatrobot/sim/truth", Odometry, truths[name])
+    robots = [rig.start("sim", "--on", on, "--world", "empty") for on in (left, right)]
+    for robot in robots:
+        robot.wait_for_line("it ends with Ctrl-C")
+    x_m = rig.pose()[0]
+    count = len(rig.velocities.all)
+    both = (
+        begin(rig, "forward 40 cm", "--yes", on=left),
+        begin(rig, "backward 20 cm", "--yes", "--robot", str(mine)),
+    )
+    for doing in both:
+        code, events = end(doing)
         assert (code, events[-1]["outcome"]) == (0, "completed")
-        assert rig.pose()[0] == pytest.approx(0.2, abs=0.01)
-        code, events = do(rig, "forward 20 cm")  # nobody is there to be asked
-        assert (code, events[-1]["outcome"]) == (4, "refused")
-        assert rig.pose()[0] == pytest.approx(0.2, abs=0.01)
+        assert not any(event["event"] == "notice" for event in events)  # neither sees a rival in the other
+    for name, went_m in (("left", 0.4), ("right", -0.2)):
+        _, truth = truths[name].wait_for(lambda _: True, time.monotonic())
+        assert truth.x_m == pytest.approx(went_m, abs=0.01)
+        assert all(twist.vx_mps * went_m >= 0.0 for _, twist in heard[name].all if abs(twist.vx_mps) > 0.09)
+    assert rig.pose()[0] == pytest.approx(x_m, abs=1e-6)
+    assert len(rig.velocities.all) == count
+    for robot in robots:
+        robot.end()
 
 
-def test_do_does_not_drive_a_robot_that_a_control_node_drives(tmp_path: Path) -> None:
-    with running(tmp_path, "control") as rig:
-        code, events = do(rig, "forward 20 cm", "--yes")
-        assert (code, events[-1]["outcome"]) == (4, "refused")
-        assert "chatrobot_control" in str(events[-1]["reply"])
+def test_do_does_not_drive_a_robot_that_a_control_node_drives(rig: NodeRig) -> None:
+    control = rig.start("node", "control", "--on", "dds")
+    control.wait_for_line("control")
+    code, events = do(rig, "forward 20 cm", "--yes")
+    assert (code, events[-1]["outcome"]) == (4, "refused")
+    assert "chatrobot_control" in str(events[-1]["reply"])
+    control.end()
 
 
-def test_the_nodes_run_on_a_local_wire_too(tmp_path: Path) -> None:
-    with running(tmp_path, "input") as rig:  # its environment, and somebody to keep apart from
-        on = f"local:{tmp_path / 'robot.wire'}"
-        rig.start("sim", "--on", on, "--world", "empty").wait_for_line("answers on")
-        nodes = {name: rig.start("node", name, "--on", on) for name in ("control", "base", "input")}
-        for name, node in nodes.items():
-            node.wait_for_line(name)
-        nodes["input"].say("forward 20 cm")
-        assert "0.2" in nodes["input"].wait_for_line("Done")
-        assert not rig.velocities.all
+def test_the_nodes_run_on_a_local_wire_too(rig: NodeRig, tmp_path: Path) -> None:
+    """Beside somebody on DDS, whom they leave alone."""
+    count = len(rig.velocities.all)
+    on = f"local:{tmp_path / 'robot.wire'}"
+    robot = rig.start("sim", "--on", on, "--world", "empty")
+    robot.wait_for_line("answers on")
+    nodes = {name: rig.start("node", name, "--on", on) for name in ("control", "base", "input")}
+    for name, node in nodes.items():
+        node.wait_for_line(name)
+    nodes["input"].say("forward 20 cm")
+    assert "0.2" in nodes["input"].wait_for_line("Done")
+    assert len(rig.velocities.all) == count
+    for node in (nodes["input"], nodes["base"], nodes["control"], robot):
+        node.end()
 
 
 @pytest.mark.parametrize(

@@ -1,78 +1,98 @@
-"""Whichever node dies or freezes, the robot stands within 250 ms, at a subscriber that is none of ours."""
+"""Whichever node dies or freezes, the robot stands within 250 ms, at a subscriber that is none of ours.
+
+One set of processes for all: what was killed is replaced, what was frozen thaws.
+"""
 
 from __future__ import annotations
 
-from pathlib import Path
+import time
+from collections.abc import Iterator
 
 import pytest
 
-from tests.nodes.node_rig import running
+from tests.nodes.node_rig import NodeRig, running
 
 pytestmark = pytest.mark.realtime
 
 PROMISE_S = 0.25
 TIMES = 2
 """`make faults` does twenty of each."""
+NODES = ("base", "control", "input")
+REPLACEMENT = {"control": ("--accept-others",)}
+"""One that was killed is still seen on DDS for ten seconds."""
 
 
-@pytest.mark.parametrize("_", range(TIMES))
-@pytest.mark.parametrize("whom", ["base", "control", "input"])
-@pytest.mark.parametrize("how", ["SIGKILL", "SIGSTOP"])
-def test_the_robot_stands_within_250_ms(tmp_path: Path, whom: str, how: str, _: int) -> None:
-    with running(tmp_path) as rig:
-        said_s = rig.nodes["input"].say("forward 100 m at 0.3 m/s")
-        rig.wait_for_motion(said_s)
-        rig.truth.wait_for(lambda odometry: odometry.vx_mps > 0.25, said_s)
-        took_s = rig.seconds_to_zero(rig.nodes[whom].strike(how))
-        print(f"{how} {whom}: {took_s * 1e3:.0f} ms")
+@pytest.fixture(scope="module")
+def rig(tmp_path_factory: pytest.TempPathFactory) -> Iterator[NodeRig]:
+    with running(tmp_path_factory.mktemp("nodes")) as made:
+        yield made
+
+
+def test_a_second_control_is_named_and_nothing_moves_until_it_is_gone(rig: NodeRig) -> None:
+    second = rig.start("node", "control", "--on", "dds")
+    for control in (second, rig.nodes["control"]):
+        assert "chatrobot_control" in control.wait_for_line("notice (not_alone")
+    result = rig.do("forward")
+    assert (result["outcome"], result["reason"]["code"]) == ("refused", "another_motion")
+    assert "chatrobot_control" in result["reply"]
+    assert not any(any(twist) for _, twist in rig.velocities.all)
+    second.end()
+    rig.nodes["control"].wait_for_line("notice (alone_again")
+    assert rig.do("forward 10 cm")["outcome"] == "completed"
+
+
+@pytest.mark.parametrize("whom", NODES)
+def test_when_one_freezes_the_robot_stands_within_250_ms(rig: NodeRig, whom: str) -> None:
+    for _ in range(TIMES):
+        rig.drive()
+        took_s = rig.seconds_to_zero(rig.nodes[whom].strike("SIGSTOP"))
+        rig.nodes[whom].strike("SIGCONT")
+        print(f"SIGSTOP {whom}: {took_s * 1e3:.0f} ms")
         assert took_s <= PROMISE_S
+        rig.rest()
 
 
-@pytest.mark.parametrize("whom", ["base", "control", "input"])
-def test_ctrl_c_stops_the_robot_first(tmp_path: Path, whom: str) -> None:
-    with running(tmp_path) as rig:
-        said_s = rig.nodes["input"].say("forward 100 m at 0.3 m/s")
-        rig.wait_for_motion(said_s)
-        assert rig.seconds_to_zero(rig.nodes[whom].strike("SIGINT")) <= PROMISE_S
-        assert rig.nodes[whom].process.wait(10.0) == 5
+def test_a_base_that_thaws_drives_again_when_told_and_not_before(rig: NodeRig) -> None:
+    rig.drive()
+    rig.seconds_to_zero(rig.nodes["base"].strike("SIGSTOP"))
+    thawed_s = rig.nodes["base"].strike("SIGCONT")
+    assert rig.result(thawed_s)["outcome"] == "stopped"
+    assert not any(any(twist) for at_s, twist in rig.velocities.all if at_s > thawed_s)
+    assert rig.do("forward 10 cm")["outcome"] == "completed"
 
 
-def test_a_base_that_thaws_drives_again_when_told_and_not_before(tmp_path: Path) -> None:
-    with running(tmp_path) as rig:
-        said_s = rig.nodes["input"].say("forward 5 m")
-        rig.wait_for_motion(said_s)
-        rig.seconds_to_zero(rig.nodes["base"].strike("SIGSTOP"))
-        thawed_s = rig.nodes["base"].strike("SIGCONT")
-        assert rig.result(thawed_s)["outcome"] == "stopped"
-        assert not any(any(twist) for at_s, twist in rig.velocities.all if at_s > thawed_s)
-        assert rig.do("forward 10 cm")["outcome"] == "completed"
+@pytest.mark.parametrize("whom", NODES)
+def test_when_one_is_killed_the_robot_stands_within_250_ms(rig: NodeRig, whom: str) -> None:
+    for _ in range(TIMES):
+        rig.drive()
+        took_s = rig.seconds_to_zero(rig.nodes[whom].strike("SIGKILL"))
+        print(f"SIGKILL {whom}: {took_s * 1e3:.0f} ms")
+        assert took_s <= PROMISE_S
+        rig.replace(whom, *REPLACEMENT.get(whom, ()))
+        rig.rest()
 
 
-def test_a_control_that_is_gone_is_told_and_a_new_one_obeys(tmp_path: Path) -> None:
-    with running(tmp_path) as rig:
-        said_s = rig.nodes["input"].say("forward 5 m")
-        rig.wait_for_motion(said_s)
-        struck_s = rig.nodes["control"].strike("SIGKILL")
-        assert rig.result(struck_s)["reason"]["code"] == "control_silent"
-        rig.start("node", "control", "--on", "dds", "--accept-others").wait_for_line("control")
-        assert rig.do("forward 10 cm")["outcome"] == "completed"
+@pytest.mark.parametrize("whom", NODES)
+def test_ctrl_c_stops_the_robot_first(rig: NodeRig, whom: str) -> None:
+    rig.drive()
+    assert rig.seconds_to_zero(rig.nodes[whom].strike("SIGINT")) <= PROMISE_S
+    assert rig.nodes[whom].process.wait(10.0) == 5
+    rig.replace(whom, *REPLACEMENT.get(whom, ()))
+    rig.rest()
 
 
-def test_a_base_without_control_says_so(tmp_path: Path) -> None:
-    with running(tmp_path, "base", "input") as rig:
-        result = rig.do("forward")
-        assert (result["outcome"], result["reason"]["code"]) == ("failed", "no_control")
+def test_a_control_that_is_gone_is_told_and_a_new_one_obeys(rig: NodeRig) -> None:
+    rig.drive()
+    struck_s = rig.nodes["control"].strike("SIGKILL")
+    assert rig.result(struck_s)["reason"]["code"] == "control_silent"
+    rig.replace("control", "--accept-others")
+    rig.drive()
+    rig.rest()
 
 
-def test_a_second_control_is_named_and_nothing_moves_until_it_is_gone(tmp_path: Path) -> None:
-    with running(tmp_path) as rig:
-        second = rig.start("node", "control", "--on", "dds")
-        for control in (second, rig.nodes["control"]):
-            assert "chatrobot_control" in control.wait_for_line("notice (not_alone")
-        result = rig.do("forward")
-        assert (result["outcome"], result["reason"]["code"]) == ("refused", "another_motion")
-        assert "chatrobot_control" in result["reply"]
-        assert not any(any(twist) for _, twist in rig.velocities.all)
-        second.end()
-        rig.nodes["control"].wait_for_line("notice (alone_again")
-        assert rig.do("forward 10 cm")["outcome"] == "completed"
+def test_a_base_without_control_says_so(rig: NodeRig) -> None:
+    rig.nodes["control"].end()
+    time.sleep(1.5)  # so long one that has left still counts as there
+    said_s = rig.nodes["input"].say("forward")
+    _, result = rig.events.wait_for(lambda event: event["event"] == "result", said_s)
+    assert (result["outcome"], result["reason"]["code"]) == ("failed", "no_control")

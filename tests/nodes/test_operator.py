@@ -57,6 +57,15 @@ def test_who_falls_silent_while_the_robot_does_as_they_said_stops_it(room: Room)
     assert room.stops == 1, "once"
 
 
+def test_time_in_which_we_did_not_listen_is_nobodys_silence(room: Room) -> None:
+    room.says(room.ann, "forward 5 m")
+    room.now_s += 1.0
+    room.operators.look()
+    assert room.stops == 0
+    room.wait(LOCAL_TERM_S + 0.1)
+    assert room.stops == 1
+
+
 def test_over_a_slower_wire_they_have_a_little_longer(room: Room) -> None:
     room.says(room.bob, "forward 5 m")
     room.wait(TERM_S - 0.04)

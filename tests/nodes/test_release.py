@@ -17,6 +17,8 @@ def test_a_person_releases_an_emergency_stop_over_ros_where_control_was_told_so(
         control = rig.start("node", "control", "--on", "dds", "--allow-release")
         control.wait_for_line("control")
         assert rig.do("turn left 5 degrees")["outcome"] == "completed"
+        writers = sorted(name.rpartition("/")[2] for name in rig.ear.publishers_of("cmd_vel"))
+        assert writers == ["chatrobot_control", "chatrobot_guard"], "one writer, and its guard"
         said_s = rig.nodes["input"].say("emergency stop")
         rig.result(said_s, "Emergency stop")
         assert rig.do("forward")["outcome"] == "refused"

@@ -26,11 +26,15 @@ TESTS = {
         ROS,
         "colcon build, every `ros2 run` of the tutorial, ros2 topic/node/param/service, diagnostics, Ctrl-C",
     ),
+    "test_death_on_ros.py": (ROS, "nodes that die or freeze on ROS, its latencies, the console --on ros"),
     "test_launch.py": ((*ROS, "launch_ros"), "ros2 launch of the simulated robot with its nodes"),
     "test_turtlesim.py": (
         (*ROS, "launch_ros", "turtlesim"),
         "turtlesim drives a square; DDS without ROS drives it, either started first, LOCALHOST and SUBNET",
     ),
+    "test_programs_like_rclpy.py": (("rclpy",), "programs under real rclpy do what they do in the box"),
+    "test_messages_like_ros.py": (("rclpy",), "message classes of the box against ROS's own"),
+    "test_box_like_rclpy.py": (("rclpy",), "what our rclpy says against what rclpy says"),
 }
 """File: what it needs, and what stays untested without."""
 

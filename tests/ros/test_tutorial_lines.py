@@ -34,15 +34,13 @@ class Tutorial(Rig):
         self.robot = self.run("chatrobot", "sim", "--world", "empty")
         self.control = self.run("chatGPT_test", "chatGPT_control")
         self.base = self.run(
-            *[
-                "chatGPT_test",
-                "chatGPT_base",
-                "--ros-args",
-                "-p",
-                "generate_code:=True",
-                "-p",
-                "revChatGPT:=True",
-            ]
+            "chatGPT_test",
+            "chatGPT_base",
+            "--ros-args",
+            "-p",
+            "generate_code:=True",
+            "-p",
+            "revChatGPT:=True",
         )
         self.input = self.run("chatGPT_test", "chatGPT_input")
         self.robot.wait_for_line("it ends with Ctrl-C")
@@ -202,7 +200,7 @@ def test_with_use_sim_time_a_second_is_the_simulation_s(workspace: Workspace, tm
         teller = threading.Thread(target=tell_the_time)
         teller.start()
         try:
-            control = rig.run(*["chatrobot", "control", "--ros-args", "-p", "use_sim_time:=true"])
+            control = rig.run("chatrobot", "control", "--ros-args", "-p", "use_sim_time:=true")
             control.wait_for_line("control drives")
             rig.ear.wait_for_listener("chatgpt_node", Text, 10.0)
             rig.ear.publish("chatgpt_node", Text(LINE.replace("0.2", "0.1")))

@@ -29,7 +29,9 @@ GOOD: dict[str, dict[str, Any]] = {
         "rehearse_only": False,
         "term_s": 0.3,
         "longest_s": 10,
+        "more": False,
     },
+    "look": {},
     "program": {
         "code": "pass\n",
         "name": "square",
@@ -66,6 +68,7 @@ ALLOWED: dict[str, list[Any]] = {
     "approve": [True, False],
     "rehearse_only": [True, False],
     "yes": [True, False],
+    "more": [True, False],
 }
 STOPS = ("stop", "emergency_stop")
 
@@ -205,6 +208,6 @@ def test_a_program_that_is_too_large_is_refused(field: str, value: Any) -> None:
 
 
 def test_an_unlisted_mode_is_refused() -> None:
-    assert MODES == ("queue", "replace", "append")
+    assert MODES == ("queue", "replace", "append", "extend")
     for mode in ("", "now", "QUEUE", "force"):
         assert Envelope.from_bytes(packet("plan", {"plan_text": "drive 1 m", "mode": mode})) is None

@@ -8,63 +8,16 @@ from dataclasses import replace
 import pytest
 
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Twist
-from chatrobot.core.governed import StopEpoch
-from chatrobot.governor.governor import LONGEST_STEP_S, TICK_S, Governor
+from chatrobot.governor.governor import LONGEST_STEP_S, TICK_S
 from chatrobot.governor.priority import PRIORITIES, RELEASERS
 from chatrobot.governor.rule import Sensed
 from chatrobot.robots.load import list_profiles
-from chatrobot.robots.profile import Circle, RobotProfile, Safety, Wiring
-from chatrobot.transports.transport import WireTransport
-from chatrobot.wire.memory import MemoryHub
+from chatrobot.robots.profile import Circle, RobotProfile, Safety
 from chatrobot.wire.messages import LaserScan, TwistMessage
+from tests.safety.driven import EPSILON, FRESH, Driven
 
 ENTRIES = list_profiles()
 SOURCES = [*PRIORITIES, "one that nobody has heard of"]
-FRESH = Sensed({"odom": 0.0, "scan": 0.0, "imu": 0.0})
-EPSILON = 1e-9
-
-
-class Driven:
-    """A robot of one profile, driven by one source over a wire, that notes every velocity that goes out."""
-
-    def __init__(self, profile: RobotProfile, source: str) -> None:
-        self.profile, self.source = profile, source
-        self.epoch = StopEpoch()
-        self.governor = Governor(profile, self.epoch)
-        hub = MemoryHub()
-        self.out: list[TwistMessage] = []
-        hub.connect().subscribe("cmd_vel", TwistMessage, self.out.append)
-        self.transport = WireTransport(hub.connect(), Wiring(), self.epoch)
-        self.now_s = 50.0
-        self.governor.leases.open("lease", source, 0.3, self.now_s)
-        if profile.lidar is not None:
-            free = LaserScan(self.now_s, -math.pi, math.radians(1.0), 0.1, 8.0, [math.inf] * 360)
-            self.governor.take_scan(free, ORIGIN)
-
-    def begin(self) -> Driven:
-        assert self.governor.begin("lease", self.now_s, FRESH).refusal is None
-        return self
-
-    def ask(self, twist: Twist, after_s: float = TICK_S, beats: bool = True, sensed: Sensed = FRESH) -> str:
-        """Ask once; what goes out is in `out`. Returns the rule that had the say."""
-        self.now_s += after_s
-        if beats:
-            self.governor.leases.beat("lease", self.now_s)
-        verdict = self.governor.govern(twist, "lease", self.now_s, ORIGIN, sensed)
-        assert verdict.asked is twist
-        self.transport.send(verdict.sent)
-        assert self.out[-1] == TwistMessage(*verdict.sent.twist), "the verdict says what was sent"
-        return verdict.rule
-
-    def at_full_speed(self) -> Driven:
-        for _ in range(200):
-            self.ask(Twist(self.profile.limits.max_speed_mps, 0.0, 0.0))
-        assert self.out[-1].vx_mps == pytest.approx(self.profile.limits.max_speed_mps)
-        return self
-
-    @property
-    def stands(self) -> bool:
-        return not any(self.out[-1])
 
 
 @pytest.fixture(params=ENTRIES, ids=lambda entry: entry.name)
@@ -131,7 +84,7 @@ def test_a_number_that_is_none_stops_the_robot(robot: Driven, bad: float, axis: 
 def test_a_stop_voids_what_was_minted_and_the_motion_has_to_begin_again(robot: Driven) -> None:
     robot.begin().at_full_speed()
     old = robot.governor.govern(Twist(0.1, 0.0, 0.0), "lease", robot.now_s, ORIGIN, FRESH).sent
-    robot.transport.halt()
+    robot.halt()
     assert robot.stands
     assert not robot.transport.send(old)
     assert robot.ask(Twist(0.1, 0.0, 0.0)) == "not_begun"

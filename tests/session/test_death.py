@@ -8,13 +8,14 @@ import signal
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import psutil
 import pytest
 from tests.realtime import RunningRobot
 
 pytestmark = pytest.mark.realtime
 
 PROMISE_S = 0.25
-TIMES = 4
+TIMES = 2
 """`make faults` does twenty of each."""
 
 
@@ -25,7 +26,7 @@ def robot(tmp_path: Path) -> Iterator[RunningRobot]:
     running.close()
 
 
-def seconds_to_zero_after(robot: RunningRobot, strike: Callable[[], None]) -> float:
+def seconds_to_zero_after(robot: RunningRobot, strike: Callable[[], object]) -> float:
     import time
 
     said_s = robot.say("forward 100 m at 0.3 m/s")
@@ -35,12 +36,24 @@ def seconds_to_zero_after(robot: RunningRobot, strike: Callable[[], None]) -> fl
     return robot.ear.seconds_to_zero(began_s)
 
 
+def guard_of(robot: RunningRobot) -> int:
+    """The process that Motion started to watch itself."""
+    children = psutil.Process(robot.motion_pid).children()
+    (guard,) = [child.pid for child in children if "chatrobot.guard" in child.cmdline()]
+    return guard
+
+
 @pytest.mark.parametrize("_", range(TIMES))
-@pytest.mark.parametrize("whom", ["console", "motion"])
+@pytest.mark.parametrize("whom", ["console", "motion", "guard"])
 @pytest.mark.parametrize("how", ["SIGKILL", "SIGSTOP"])
 def test_the_robot_stands_within_250_ms(robot: RunningRobot, whom: str, how: str, _: int) -> None:
-    pid = robot.console.pid if whom == "console" else robot.motion_pid
+    pid = {"console": robot.console.pid, "motion": robot.motion_pid, "guard": guard_of(robot)}[whom]
     assert seconds_to_zero_after(robot, lambda: os.kill(pid, getattr(signal, how))) <= PROMISE_S
+
+
+def test_two_at_once_leave_one_who_stops_the_robot(robot: RunningRobot) -> None:
+    pids = (guard_of(robot), robot.console.pid)
+    assert seconds_to_zero_after(robot, lambda: [os.kill(pid, signal.SIGKILL) for pid in pids]) <= PROMISE_S
 
 
 def test_a_motion_that_thaws_does_not_drive_on(robot: RunningRobot) -> None:

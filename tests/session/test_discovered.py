@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from chatrobot.core.wiring import Wiring
-from chatrobot.session.discovered import ODOMETRY, TURTLE_POSE, TWIST, TWIST_STAMPED, fit, is_complete
+from chatrobot.session.discovered import IMU, ODOMETRY, TURTLE_POSE, TWIST, TWIST_STAMPED, fit, is_complete
 from chatrobot.wire.connect import Endpoint
 
 AS_SAID = Wiring()
@@ -49,13 +49,13 @@ def test_the_only_odometry_there_is_is_taken_and_named() -> None:
     other = Endpoint("/odom_combined", ODOMETRY, "publishes")
     assert fitted(LISTENS, other) == (
         replace(AS_SAID, odom_topic="/odom_combined"),
-        ["odom_found /odom_combined"],
+        ["sensor_found /odom_combined"],
     )
 
 
 def test_of_two_odometries_none_is_guessed() -> None:
     others = [Endpoint(f"/{name}", ODOMETRY, "publishes") for name in ("wheel_odom", "ekf_odom")]
-    assert fitted(LISTENS, *others) == (AS_SAID, ["odom_unclear /ekf_odom, /wheel_odom"])
+    assert fitted(LISTENS, *others) == (AS_SAID, ["sensor_unclear /ekf_odom, /wheel_odom"])
 
 
 def test_who_only_listens_to_odometry_tells_none() -> None:
@@ -74,3 +74,24 @@ def test_a_robot_in_another_namespace_is_named_and_not_taken() -> None:
         AS_SAID,
         [],
     )
+
+
+def test_a_gyro_elsewhere_is_taken_too_and_one_that_is_missing_is_waited_for() -> None:
+    wiring = Wiring(imu_topic="imu")
+    raw = Endpoint("/imu/data_raw", IMU, "publishes")
+    assert not is_complete(wiring, [LISTENS, TELLS, raw], lambda topic: f"/{topic}")
+    assert fitted(LISTENS, TELLS, raw, wiring=wiring) == (
+        replace(wiring, imu_topic="/imu/data_raw"),
+        ["sensor_found /imu/data_raw"],
+    )
+    assert fitted(LISTENS, TELLS, wiring=wiring) == (wiring, [])
+    assert fitted(LISTENS, TELLS, raw) == (AS_SAID, [])
+
+
+def test_another_robots_odometry_is_named_and_never_taken() -> None:
+    theirs = Endpoint("/right/odom", ODOMETRY, "publishes"), Endpoint("/right/cmd_vel", TWIST, "listens")
+    assert fitted(*theirs, namespace="/left") == (
+        AS_SAID,
+        ["cmd_vel_elsewhere /right/cmd_vel", "sensor_unclear /right/odom"],
+    )
+    assert fitted(LISTENS, *theirs) == (AS_SAID, ["sensor_unclear /right/odom"])

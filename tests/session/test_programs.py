@@ -353,9 +353,15 @@ def test_a_program_listens_to_odometry_and_ends_where_it_wants(house: House) -> 
     assert result.path_m == pytest.approx(0.33, abs=0.03)
 
 
-def test_a_wrong_topic_is_noticed_and_led_to_the_robot(house: House) -> None:
+def test_a_wrong_topic_is_noticed_and_led_to_the_robot_with_a_yes(house: House) -> None:
+    house.on_event = lambda event: (
+        house.session.approve(event.turn, True)
+        if isinstance(event, Rehearsed) and event.needs_approval
+        else None
+    )
     result = house.run(DANCE.replace("'/cmd_vel'", "'/turtle1/cmd_vel'"))
     assert "other_topic" in house.marks
+    assert house.all(Rehearsed)[0].needs_approval
     assert result.outcome == "completed"
     assert result.path_m > 0.1
 

@@ -19,6 +19,7 @@ from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import pytest
+from fake_ros_messages import CLASSES
 from fake_ros_messages import modules as message_modules
 
 Option = Enum("Option", "KEEP_LAST RELIABLE BEST_EFFORT VOLATILE NO STEADY_TIME")
@@ -177,14 +178,33 @@ class Node:
         self.timers.append([time.monotonic() + period_s, period_s, callback])
 
     def get_publishers_info_by_topic(self, topic: str) -> list[Any]:
-        found = [p.node for p in self.ros.each("publishers", self.resolve_topic_name(topic))]
-        return [SimpleNamespace(node_name=n.name, node_namespace=n.namespace) for n in found]
+        return self._infos("publishers", topic)
+
+    def get_subscriptions_info_by_topic(self, topic: str) -> list[Any]:
+        return self._infos("subscriptions", topic)
+
+    def get_topic_names_and_types(self) -> list[tuple[str, list[str]]]:
+        ends = [end for node in self.ros.nodes for end in (*node.publishers, *node.subscriptions)]
+        types = {
+            topic: {_type_name(end.kind) for end in ends if end.topic == topic}
+            for topic in {e.topic for e in ends}
+        }
+        return [(topic, sorted(names)) for topic, names in sorted(types.items())]
+
+    def _infos(self, kind: str, topic: str) -> list[Any]:
+        return [
+            SimpleNamespace(
+                node_name=end.node.name, node_namespace=end.node.namespace, topic_type=_type_name(end.kind)
+            )
+            for end in self.ros.each(kind, self.resolve_topic_name(topic))
+        ]
 
     def declare_parameter(self, name: str, default: Any, descriptor: Any = None) -> Any:
         value = self.context.overrides.get(name, default)
         if type(value) is not type(default):
             raise InvalidParameterTypeException(f"wrong type for {name}")
-        for bounds in getattr(descriptor, "floating_point_range", ()):
+        ranges = vars(descriptor) if descriptor is not None else {}
+        for bounds in (*ranges.get("floating_point_range", ()), *ranges.get("integer_range", ())):
             if not bounds.from_value <= value <= bounds.to_value:
                 raise InvalidParameterValueException(f"{name} is out of range")
         self.parameters[name] = (value, descriptor)
@@ -240,8 +260,9 @@ def _read_arguments(context: Context, arguments: list[str]) -> None:
             context.renames[left] = right
         else:
             named = {"true": True, "false": False}
-            is_number = re.fullmatch(r"-?[0-9]+\.[0-9]*", right)
-            context.overrides[left] = named.get(right.lower(), float(right) if is_number else right)
+            number = re.fullmatch(r"-?[0-9]+(\.[0-9]*)?", right)
+            parsed = right if number is None else float(right) if number[1] else int(right)
+            context.overrides[left] = named.get(right.lower(), parsed)
 
 
 def _rclpy(ros: Ros) -> dict[str, ModuleType]:
@@ -274,8 +295,12 @@ def _rclpy(ros: Ros) -> dict[str, ModuleType]:
         },
         "rclpy.signals": {"SignalHandlerOptions": Option},
         "rclpy.task": {"Future": Future},
+        "rclpy.utilities": {"get_rmw_implementation_identifier": lambda: "rmw_fake_cpp"},
         "rcl_interfaces": {},
-        "rcl_interfaces.msg": {"FloatingPointRange": SimpleNamespace, "ParameterDescriptor": SimpleNamespace},
+        "rcl_interfaces.msg": {
+            "FloatingPointRange": SimpleNamespace, "IntegerRange": SimpleNamespace,
+            "ParameterDescriptor": SimpleNamespace,
+        },
         "std_srvs": {},
         "std_srvs.srv": {"Trigger": object},
     }  # fmt: skip
@@ -299,3 +324,7 @@ def install(monkeypatch: pytest.MonkeyPatch) -> Ros:
         del sys.modules[f"chatrobot.{name}"]
     monkeypatch.setenv("ROS_DISTRO", "jazzy")
     return ros
+
+
+def _type_name(kind: type) -> str:
+    return next(name.replace("/", "/msg/") for name, known in CLASSES.items() if known is kind)

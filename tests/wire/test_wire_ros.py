@@ -192,6 +192,18 @@ def test_when_its_context_is_gone_publishing_fails_and_does_not_hang(connect: Ca
         wire.publish("cmd_vel", ZERO)
 
 
+def test_it_tells_who_else_is_there_and_as_what(connect: Ends) -> None:
+    robot, wire = connect(name="robot"), connect(name="ours")
+    robot.subscribe("cmd_vel", TwistMessage, lambda _: None)
+    robot.publish("odom", STANDING)
+    wire.publish("cmd_vel", ZERO)
+    wanted = {
+        ("/cmd_vel", "geometry_msgs/msg/Twist", "listens"),
+        ("/odom", "nav_msgs/msg/Odometry", "publishes"),
+    }
+    assert {end for end in wire.survey() if end.topic in ("/cmd_vel", "/odom")} == wanted
+
+
 def test_without_ros_it_says_how_to_get_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "rclpy", None)
     monkeypatch.delitem(sys.modules, "chatrobot.wire.ros.node", raising=False)

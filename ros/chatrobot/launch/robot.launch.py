@@ -22,9 +22,10 @@ SWITCHES = {
     "use_sim_time": "follow the time of a simulation (/clock)",
     "allow_release": "an emergency stop may be released over ROS",
     "accept_others": "drive though another ChatRobot is on the same robot",
+    "on_robot": "this machine is the robot's own: no network lies between control and base",
     "generate_code": "have requests for programs answered by a program",
 }
-OF_ONE = {"base": {"generate_code"}, "control": {"allow_release", "accept_others"}}
+OF_ONE = {"base": {"generate_code"}, "control": {"allow_release", "accept_others", "on_robot"}}
 
 
 def nodes(context):

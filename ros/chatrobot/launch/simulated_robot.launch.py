@@ -14,7 +14,7 @@ from launch_ros.substitutions import FindPackageShare
 def generate_launch_description():
     robot, world, namespace = (LaunchConfiguration(name) for name in ("robot", "world", "namespace"))
     nodes = PathJoinSubstitution([FindPackageShare("chatrobot"), "launch", "robot.launch.py"])
-    chosen = {"robot": robot, "world": world, "namespace": namespace}
+    chosen = {"robot": robot, "world": world, "namespace": namespace, "on_robot": "true"}
     return LaunchDescription(
         [
             DeclareLaunchArgument(

@@ -17,7 +17,8 @@ def generate_launch_description():
         [
             Node(package="turtlesim", executable="turtlesim_node", output="screen"),
             IncludeLaunchDescription(
-                PythonLaunchDescriptionSource(nodes), launch_arguments={"robot": "turtlesim"}.items()
+                PythonLaunchDescriptionSource(nodes),
+                launch_arguments={"robot": "turtlesim", "on_robot": "true"}.items(),
             ),
         ]
     )

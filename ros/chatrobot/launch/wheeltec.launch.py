@@ -35,7 +35,7 @@ def generate_launch_description():
             IncludeLaunchDescription(PythonLaunchDescriptionSource(bring_up)),
             IncludeLaunchDescription(
                 PythonLaunchDescriptionSource(nodes),
-                launch_arguments={"robot": LaunchConfiguration("robot")}.items(),
+                launch_arguments={"robot": LaunchConfiguration("robot"), "on_robot": "true"}.items(),
             ),
         ]
     )

@@ -51,8 +51,9 @@ def watch(page: mmap.mmap) -> None:
 
 def _kind(event: str, arguments: tuple[Any, ...], own_pid: int) -> str | None:
     if event == "open":
-        # A traceback looks for the source of the library; that is nobody's mistake.
-        return None if str(arguments[0]).endswith(".py") or isinstance(arguments[0], int) else "files"
+        # Tracebacks look for source, the library's and that of "<unknown>"; that is nobody's mistake.
+        is_source = str(arguments[0]).endswith(".py") or str(arguments[0]).startswith("<")
+        return None if is_source or isinstance(arguments[0], int) else "files"
     if event in _FILE_EVENTS or event.startswith(("shutil.", "tempfile.")):
         return "files"
     if event in _NETWORK_EVENTS:

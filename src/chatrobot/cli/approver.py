@@ -5,9 +5,13 @@ from __future__ import annotations
 import select
 import sys
 
+from chatrobot.cli.console.ride import Ride
+from chatrobot.cli.editor import edited_text
 from chatrobot.core.events import Event, Finished, Rehearsed
 from chatrobot.session.session import Session
+from chatrobot.sim.world import World
 
+_EDIT = frozenset({"e", "edit", "修改", "改"})
 _YES = frozenset({"y", "yes", "ok", "是", "好", "好的", "行", "可以", "对"})
 
 
@@ -19,13 +23,20 @@ class Approver:
         others_answer: whoever reads our events answers; see `talk`.
     """
 
-    prompt = "Do it? [y/N] "
+    prompt = "Do it (e edits it first)? [y/N] "
 
     def __init__(self, *, can_ask: bool, others_answer: bool = False) -> None:
         self._can_ask = can_ask
         self._others_answer = others_answer
         self._turn: int | None = None
         self._has_asked = False
+        self._ride = Ride()
+        self._world: World | None = None
+        self._edited_plan: str | None = None
+
+    def attach(self, world: World) -> None:
+        """What to draw the way in."""
+        self._world = world
 
     @property
     def is_waiting(self) -> bool:
@@ -33,6 +44,7 @@ class Approver:
         return self._turn is not None
 
     def hear(self, event: Event) -> None:
+        self._ride.hear(event)
         if isinstance(event, Rehearsed) and event.needs_approval:
             self._turn, self._has_asked = event.turn, False
         elif isinstance(event, Finished) and event.turn == self._turn:
@@ -59,6 +71,7 @@ class Approver:
 
     def _ask(self, session: Session) -> None:
         if not self._has_asked:
+            self._draw_way()
             print(self.prompt, end="", file=sys.stderr, flush=True)
             self._has_asked = True
         if select.select([sys.stdin], [], [], 0.0)[0]:
@@ -67,3 +80,18 @@ class Approver:
     def take(self, session: Session, answer: str) -> None:
         """What the person typed, in lower case."""
         self.give(session, answer in _YES)
+        if answer in _EDIT and self._ride.plan_text and self._ride.program is None:
+            self._edited_plan = edited_text(self._ride.plan_text, ".txt").strip() or None
+
+    def take_edited(self) -> str | None:
+        """The plan as the person has changed it; it is rehearsed and asked about like a new one."""
+        text, self._edited_plan = self._edited_plan, None
+        return text
+
+    def _draw_way(self) -> None:
+        from rich.console import Console
+
+        from chatrobot.cli.console.maps import way_map
+
+        if self._world is not None and len(self._ride.path) > 1:
+            Console(stderr=True, highlight=False).print(way_map(self._ride, self._world))

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
-from typing import Any, NoReturn
+from collections.abc import Callable, Sequence
+from typing import Any, NoReturn, TypeVar
 
 from chatrobot import __version__
 from chatrobot.core.errors import UsageError
 
+Number = TypeVar("Number", int, float)
 DEFAULT_ROBOT = "wheeltec_mini_mec"
 """The same as `robots.load.DEFAULT_PROFILE` (a test compares); importing that would read TOML for a help text."""
 
@@ -30,7 +31,12 @@ COMMANDS = {
 DEFAULTS: dict[str, Any] = {
     "on": "auto", "robot": DEFAULT_ROBOT, "interpreter": "auto", "model": "", "fast": False, "json": False,
     "trace": False, "sim": "", "world": "", "approve": False, "yes": False, "config_dir": None,
+    "rounds": 6, "budget_tokens": 20_000, "budget_s": 600.0, "parameters": [],
 }  # fmt: skip
+
+_NODES = ("node", "sim")
+_TALKS = ("", "do", "plan")
+"""A conversation takes `--ros-args -p revChatGPT:=True` as the tutorial's base node does."""
 
 _DESCRIPTION = "Say it, and a robot does exactly that, safely. Without a command: talk to it."
 _EPILOG = """\
@@ -67,7 +73,8 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         )
     parsed = parser.parse_args(list(arguments))
     parsed.command = parsed.command or ""
-    if ros_args and parsed.command not in ("node", "sim"):
+    are_parameters = all(word == "-p" for word in ros_args[::2])
+    if ros_args and not (parsed.command in _NODES or (parsed.command in _TALKS and are_parameters)):
         raise UsageError("--ros-args is for nodes", allowed="chatrobot node … or chatrobot sim … --on ros")
     parsed.ros_args = ros_args
     for name, value in DEFAULTS.items():
@@ -144,7 +151,22 @@ def _options() -> _Parser:
         help=f"a robot profile, by name or .toml file (default: {DEFAULT_ROBOT})",
     )
     add("--interpreter", choices=("auto", "offline", "model"), help="who understands (default: auto)")
-    add("--model", metavar="PROVIDER:NAME", help="a language model (not built in yet)")
+    add("--model", metavar="PROVIDER:NAME", help="the language model to ask what is not understood offline")
+    add(
+        "--rounds", type=_positive(int), metavar="N", help="how often a model may look and go on (default: 6)"
+    )
+    add(
+        "--budget-tokens",
+        type=_positive(int),
+        metavar="N",
+        help="what a model may use for one text (default: 20000)",
+    )
+    add(
+        "--budget-s",
+        type=_positive(float),
+        metavar="SECONDS",
+        help="what a model's turn may take (default: 600)",
+    )
     add("--fast", action="store_true", help="simulated time, as quick as it goes")
     add("--json", action="store_true", help="one JSON object a line; without a command: text in, events out")
     add(
@@ -159,7 +181,26 @@ def _options() -> _Parser:
     add("--approve", action="store_true", help="ask before each plan")
     add("--yes", action="store_true", help="do each plan without asking")
     add("--config-dir", metavar="DIR", help="where places and robot profiles live")
+    add(
+        "-p",
+        dest="parameters",
+        action="append",
+        metavar="NAME:=VALUE",
+        help="the tutorial's parameters: generate_code:=True (base), revChatGPT:=True",
+    )
     return parser
+
+
+def _positive(kind: Callable[[str], Number]) -> Callable[[str], Number]:
+    """A reader of numbers above zero."""
+
+    def read(text: str) -> Number:
+        value = kind(text)
+        if not 0 < value < float("inf"):
+            raise argparse.ArgumentTypeError(f"{text!r} is not above zero")
+        return value
+
+    return read
 
 
 def _do(parser: argparse.ArgumentParser) -> None:
@@ -189,14 +230,6 @@ def _node(parser: argparse.ArgumentParser) -> None:
         "which",
         choices=("input", "base", "control"),
         help="input: lines typed → user_input; base: user_input → chatgpt_node; control: chatgpt_node → cmd_vel",
-    )
-    parser.add_argument(
-        "-p",
-        dest="parameters",
-        action="append",
-        default=[],
-        metavar="NAME:=VALUE",
-        help="base: generate_code:=True or revChatGPT:=True, the tutorial's parameters",
     )
     _ros_args(parser)
     parser.add_argument(

@@ -3,29 +3,38 @@
 from __future__ import annotations
 
 import argparse
+import sys
+from dataclasses import replace
 
 from chatrobot.cli.folders import config_folder
+from chatrobot.cli.parameters import parameters_in, read_parameters
 from chatrobot.compose import Setup
 from chatrobot.core.errors import UsageError
+from chatrobot.language.phrases import render_reason, say
+from chatrobot.models.seam import Model, ModelError
+from chatrobot.session.model_choice import chosen_model
+from chatrobot.session.model_terms import ModelOptions
 from chatrobot.session.session import Options
 
 
 def setup_from(
-    args: argparse.Namespace, *, options: Options | None = None, world: str = "", programs: bool = False
+    args: argparse.Namespace,
+    *,
+    options: Options | None = None,
+    world: str = "",
+    named_model: bool = False,
+    programs: bool = False,
 ) -> Setup:
     """What a person chose. `world` is the one where nothing is said; "" for the one that fits the robot.
 
-    `programs`: see `Setup`.
+    Args:
+        named_model: only a model that is named on this very command line counts.
+        programs: who asks for a program gets one (see `Setup`).
 
     Raises:
-        UsageError: this version cannot do what was chosen.
+        UsageError: what was chosen does not exist.
     """
-    if args.model or args.interpreter == "model":
-        raise UsageError(
-            "language models are not built in yet",
-            where="--model" if args.model else "--interpreter model",
-            allowed="leave it out: the offline interpreter needs none",
-        )
+    options = options or Options(approve=args.approve and not args.yes, ask_findings=not args.yes)
     return Setup(
         on=args.on,
         robot=args.robot,
@@ -36,5 +45,42 @@ def setup_from(
         yes=args.yes,
         programs=programs,
         folder=config_folder(args),
-        options=options or Options(approve=args.approve and not args.yes, ask_findings=not args.yes),
+        options=replace(options, interpreter=args.interpreter),
+        model=model_from(args, named=named_model),
+        model_options=ModelOptions(
+            rounds=args.rounds, budget_tokens=args.budget_tokens, budget_s=args.budget_s
+        ),
     )
+
+
+def model_from(args: argparse.Namespace, *, named: bool = False, server_held: bool = False) -> Model | None:
+    """The model that was chosen, and a word about it where the tutorial's switch chose it.
+
+    Raises:
+        UsageError: there is none of that name, or none where `--interpreter model` wants one.
+    """
+    if args.interpreter == "offline" or (named and not args.model and args.interpreter != "model"):
+        return None
+    if args.command != "node":
+        given = [*args.parameters, *parameters_in(args.ros_args)]
+        server_held = read_parameters(given)["revChatGPT"]
+    try:
+        model = chosen_model(args.model, config_folder(args), server_held=server_held)
+    except ModelError as error:
+        raise UsageError(render_reason(error.reason, "en"), where="--model") from error
+    if model is None and args.interpreter == "model":
+        raise UsageError(
+            "no language model is set up",
+            where="--interpreter model",
+            allowed="--model PROVIDER:NAME, CHATROBOT_MODEL, or: chatrobot model",
+        )
+    if server_held and args.command != "node":
+        print(explain_server_held(model), file=sys.stderr)
+    return model
+
+
+def explain_server_held(model: Model | None) -> str:
+    """What has become of revChatGPT."""
+    if model is None:
+        return say("en", "revchatgpt_no_model")
+    return say("en", "revchatgpt_gone", model=model.name)

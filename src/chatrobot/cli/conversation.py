@@ -38,6 +38,7 @@ class Conversation:
     def __enter__(self) -> Conversation:
         self._connection = connect(self._setup, self._on_event)
         self.session = self._connection.session
+        self._approver.attach(self._connection.world)
         self._watch.__enter__()
         return self
 
@@ -101,6 +102,8 @@ class Conversation:
     def do(self, text: str) -> None:
         """One turn, seen through to its result."""
         self.see_through(self.session.say(text))
+        while (edited := self._approver.take_edited()) is not None:
+            self.see_through(self.session.say_plan(edited))
 
     def see_through(self, turn: int) -> None:
         """Let things happen until that turn has its result."""

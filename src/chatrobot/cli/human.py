@@ -19,6 +19,7 @@ from chatrobot.core.events import (
     Result,
     Said,
     Started,
+    Streamed,
     TruePose,
 )
 from chatrobot.core.geometry import Pose, Twist
@@ -36,6 +37,7 @@ class HumanPrinter:
         self._output = output
         self._way = _Way()
         self._has_status = False
+        self._streamed = 0
 
     @property
     def is_broken(self) -> bool:
@@ -45,12 +47,16 @@ class HumanPrinter:
         self._line(f"> {text}")
 
     def show(self, event: Event, language: LanguageCode) -> None:
-        if isinstance(event, Interpreted):
+        if isinstance(event, Streamed):
+            if self._streamed != event.turn:
+                self._streamed, self._way = event.turn, _Way()
+            self._show_plan(event.plan_text)
+        elif isinstance(event, Interpreted):
             self._show_interpreted(event)
         elif isinstance(event, Rehearsed):
             self._show_rehearsed(event, language)
         elif isinstance(event, Started):
-            self._way = _Way(event.pose, self._way.planned_m)
+            self._way.start(event.pose)
         elif isinstance(event, Progress):
             self._show_progress(event)
         elif isinstance(event, Result):
@@ -59,15 +65,21 @@ class HumanPrinter:
             self._show_rest(event, language)
 
     def _show_interpreted(self, event: Interpreted) -> None:
-        if not event.plan_text:
-            return  # the reply comes again with the result
+        if not event.plan_text or event.turn == self._streamed:
+            return  # the reply comes again with the result, and a plan that streamed in is there already
         if event.reply:
             self._line(event.reply)
-        for line in event.plan_text.splitlines():
+        self._show_plan(event.plan_text)
+
+    def _show_plan(self, plan_text: str) -> None:
+        for line in plan_text.splitlines():
             self._line(f"    {line}")
 
     def _show_rehearsed(self, event: Rehearsed, language: LanguageCode) -> None:
-        self._way = _Way(planned_m=event.length_m)
+        if event.turn == self._streamed:
+            self._way.planned_m += event.length_m
+        else:
+            self._way = _Way(planned_m=event.length_m)
         if event.ok:
             self._line(f"  ≈ {event.duration_s:.1f} s, {event.length_m:.2f} m")
         for finding in event.findings:
@@ -137,6 +149,10 @@ class _Way:
         self._start_yaw_rad = start.yaw_rad if start is not None else 0.0
         self.planned_m = planned_m
         self._driven_m = 0.0
+
+    def start(self, pose: Pose) -> None:
+        """The robot begins to move there."""
+        self._last, self._start_yaw_rad, self._driven_m = pose, pose.yaw_rad, 0.0
 
     def advance(self, pose: Pose) -> bool:
         """Take in where the robot is now; True when another whole metre lies behind it."""

@@ -8,15 +8,13 @@ import sys
 from typing import TYPE_CHECKING
 
 from chatrobot.cli.entry import STOPPED
+from chatrobot.cli.parameters import parameters_in, read_parameters
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.wire.connect import Connect, connect_wire
 
 if TYPE_CHECKING:
     from chatrobot.nodes.citizen import Citizen
-
-_PARAMETERS = ("generate_code", "revChatGPT")
-_VALUES = {"true": True, "false": False}
 
 
 def run(args: argparse.Namespace) -> int:
@@ -31,7 +29,7 @@ def run(args: argparse.Namespace) -> int:
         connect: Connect = citizen.connect
     else:
         citizen, connect = None, connect_wire
-        vars(args).update(_parameters(ros_args))
+        vars(args).update(read_parameters(parameters_in(ros_args)))
     return {"input": _run_input, "base": _run_base, "control": _run_control}[args.which](
         args, citizen, connect
     )
@@ -70,8 +68,10 @@ def _run_control(args: argparse.Namespace, citizen: Citizen | None, connect: Con
 
 
 def _run_base(args: argparse.Namespace, citizen: Citizen | None, connect: Connect) -> int:
+    from chatrobot.cli.choices import model_from
     from chatrobot.cli.folders import config_folder
     from chatrobot.nodes.base import BaseNode, BaseOptions
+    from chatrobot.session.model_terms import ModelOptions
 
     node = BaseNode(
         BaseOptions(
@@ -81,6 +81,9 @@ def _run_base(args: argparse.Namespace, citizen: Citizen | None, connect: Connec
             config_folder(args),
             args.generate_code,
             args.revChatGPT,
+            args.interpreter,
+            model_from(args, server_held=args.revChatGPT),
+            ModelOptions(rounds=args.rounds, budget_tokens=args.budget_tokens, budget_s=args.budget_s),
         ),
         _say,
         connect,
@@ -88,8 +91,8 @@ def _run_base(args: argparse.Namespace, citizen: Citizen | None, connect: Connec
     with SignalWatch(node.stop) as watch:
         if citizen is not None:
             node.introduce(citizen)
-        _say(f"base understands for {args.robot} on {_place(args)}: user_input → chatgpt_node")
-        node.run(lambda: watch.is_leaving)
+        ready = f"base understands for {args.robot} on {_place(args)}: user_input → chatgpt_node"
+        node.run(lambda: watch.is_leaving, lambda: _say(ready))
     return STOPPED
 
 
@@ -135,23 +138,6 @@ def _profile(args: argparse.Namespace) -> str:
 
 def _world(args: argparse.Namespace) -> str:
     return args.world or "empty"
-
-
-def _parameters(ros_args: list[str]) -> dict[str, bool]:
-    """The values of `-p NAME:=VALUE`, by name, for a node that is none of ROS's."""
-    values = dict.fromkeys(_PARAMETERS, False)
-    words = iter(ros_args)
-    for word in words:
-        parameter = next(words, "") if word in ("-p", "--param") else word
-        name, _, value = parameter.partition(":=")
-        if word == parameter or name not in values or value.lower() not in _VALUES:
-            raise UsageError(
-                f"{parameter!r} is no parameter of this node without --on ros",
-                where="-p",
-                allowed="generate_code:=True, revChatGPT:=True",
-            )
-        values[name] = _VALUES[value.lower()]
-    return values
 
 
 def _say(text: str) -> None:

@@ -25,8 +25,14 @@ def open_citizen(args: argparse.Namespace, address: str, ros_args: list[str]) ->
         "robot": args.robot,
         "world": args.world or "empty",
         "config_dir": args.config_dir or "",
+        "interpreter": args.interpreter,
+        "model": args.model,
+        "rounds": args.rounds,
+        "budget_tokens": args.budget_tokens,
+        "budget_s": float(args.budget_s),
         "allow_release": args.allow_release,
         "accept_others": args.accept_others,
+        "on_robot": args.on_robot,
     }
     domain_id, namespace = domain_and_namespace(address)
     citizen = Citizen(

@@ -194,6 +194,43 @@ class Remembered(Event):
 
 
 @dataclass(frozen=True)
+class Streamed(Event):
+    """A step of a plan that still comes in, as it goes to Motion; `interpreted` has the whole plan at its end."""
+
+    name: ClassVar[str] = "streamed"
+    plan_text: str
+
+
+@dataclass(frozen=True)
+class Looked(Event):
+    """What the lidar sees, by eight sectors of 45 degrees, from straight ahead counter-clockwise.
+
+    Metres from the robot's edge to the nearest thing; None where nothing is seen; empty without a lidar.
+    """
+
+    name: ClassVar[str] = "looked"
+    sectors_m: tuple[float | None, ...] = ()
+
+
+@dataclass(frozen=True)
+class ModelCalled(Event):
+    """One call of a language model has ended: what it cost. `round` counts the calls of a turn from 1.
+
+    Tokens are the provider's count, an estimate where `counted` is False. `cost_usd` is None where no price is known.
+    """
+
+    name: ClassVar[str] = "model_called"
+    model: str
+    round: int
+    prompt_tokens: int
+    cached_tokens: int
+    reply_tokens: int
+    cost_usd: float | None
+    counted: bool
+    duration_s: float
+
+
+@dataclass(frozen=True)
 class Notice(Event):
     """Something a person should know that ends nothing."""
 
@@ -284,6 +321,7 @@ _READERS: Mapping[str, Any] = {
     "Reason": _reason,
     "Reason | None": _reason,
     "tuple[int, ...]": tuple,
+    "tuple[float | None, ...]": tuple,
     "tuple[str, ...]": tuple,
     "tuple[FindingSeen, ...]": lambda value: tuple(event_from_json(item) for item in value),
     "tuple[tuple[float, float, float], ...]": lambda value: tuple(tuple(item) for item in value),
@@ -293,6 +331,6 @@ EVENT_TYPES: Mapping[str, type[Event]] = {
     kind.name: kind
     for kind in (
         Interpreted, FindingSeen, Rehearsed, Started, Progress, Telemetry, TruePose, Limited, Said, Remembered,
-        Notice, Finished, Result, ProgramWritten, ProgramRehearsed, ProgramLog,
+        Streamed, Looked, ModelCalled, Notice, Finished, Result, ProgramWritten, ProgramRehearsed, ProgramLog,
     )
 }  # fmt: skip

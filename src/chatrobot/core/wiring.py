@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+RELAY_TOPIC = "chatrobot/cmd_vel"
+"""Where other programs may send velocities for us to govern; of the same type as the robot's own."""
+
 
 @dataclass(frozen=True)
 class Wiring:

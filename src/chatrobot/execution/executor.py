@@ -19,7 +19,7 @@ from chatrobot.execution.sensors import Sensors
 from chatrobot.execution.tracking import feedback
 from chatrobot.plan.context import Impossible
 from chatrobot.plan.core_motion import CoreMotion, Emit, Pause, RampedTwist
-from chatrobot.plan.lowering import CoreWalk
+from chatrobot.plan.lowering import NotYet, Walk
 from chatrobot.plan.trajectory import Segment
 from chatrobot.robots.profile import RobotProfile
 
@@ -69,13 +69,17 @@ class Executor:
         self._barred_since_s: float | None = None
         self._begin: tuple[Pose, float] = (Pose(), 0.0)
 
-    def start(self, turn: int, walk: CoreWalk, duration_s: float, now_s: float) -> None:
+    def start(self, turn: int, walk: Walk, duration_s: float, now_s: float) -> None:
         """Begin `walk` at its pose, the one the plan was rehearsed from; rehearsal expects `duration_s`."""
         self._turn = turn
         self._walk = walk
         self._duration_s = duration_s
         self._reference = walk.pose
         self._started_s = now_s
+
+    def expect(self, duration_s: float) -> None:
+        """The walk has become longer: `duration_s` in all."""
+        self._duration_s = duration_s
 
     # --- what Motion reads ---
 
@@ -131,25 +135,32 @@ class Executor:
             elif self._settle_since_s is not None:
                 return self._settle(now_s)
             else:
-                self._take_next(now_s)
+                if not self._take_next(now_s):
+                    return ZERO_TWIST
                 continue
             if asked is not None:
                 return asked
         return ZERO_TWIST
 
-    def _take_next(self, now_s: float) -> None:
+    def _take_next(self, now_s: float) -> bool:
+        """Begin what comes next; False where that is still to come."""
         if self._ending is not None:
             self._end("stopped", self._ending)
-            return
-        item = next(self._walk, None)
-        if item is None:
+            return True
+        try:
+            item = next(self._walk)
+        except StopIteration:
             self._settle_since_s = now_s
-        elif isinstance(item, Impossible):
+            return True
+        if isinstance(item, NotYet):
+            return False
+        if isinstance(item, Impossible):
             self._end("failed", item.reason)
         else:
             self.step, self.steps = item.number, item.total
             self._reference = item.start
             self._begin_motion(item.motion, now_s)
+        return True
 
     def _begin_motion(self, motion: CoreMotion | None, now_s: float) -> None:
         if isinstance(motion, Emit):

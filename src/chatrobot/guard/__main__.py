@@ -14,6 +14,7 @@ import time
 
 from chatrobot.core.clock import awake_or_not_s
 from chatrobot.core.errors import WireError
+from chatrobot.core.memory_pressure import GUARD, prefer
 from chatrobot.core.wiring import Wiring
 from chatrobot.guard.watch import BEAT_S, GOODBYE, TRIPPED, Watch
 from chatrobot.wire.connect import advertise, comes_back, connect_wire
@@ -56,8 +57,7 @@ class Guard:
         self._standing = Standing()
         self._motion_is_gone = False
         advertise(wire, cmd_vel_topic, TwistMessage)
-        if odom_topic:
-            wire.subscribe(odom_topic, Odometry, self._standing.on_odometry)
+        self._unheard_odom_topic = odom_topic
 
     def run(self) -> None:
         """Until Motion says goodbye, or is gone and the robot stands."""
@@ -82,8 +82,15 @@ class Guard:
                 raise
 
     def _may_leave(self, now_s: float, tripped_at_s: float) -> bool:
+        self._hear_odometry()
         halted_s = now_s - tripped_at_s
         return halted_s > GIVE_UP_S or (halted_s > STANDING_S and self._standing.for_s(now_s) > STANDING_S)
+
+    def _hear_odometry(self) -> None:
+        """From the first question on: hearing what nobody asks would cost more than all else the guard does."""
+        topic, self._unheard_odom_topic = self._unheard_odom_topic, ""
+        if topic:
+            self._wire.subscribe(topic, Odometry, self._standing.on_odometry)
 
     def _listen(self, timeout_s: float) -> bool:
         """Take in Motion's words for up to `timeout_s`; True for a goodbye."""
@@ -111,12 +118,6 @@ class Guard:
         return False
 
 
-def _die_last() -> None:
-    """Ask the kernel to take others first when memory runs out; only root may, and nothing hangs on it."""
-    with contextlib.suppress(OSError), open("/proc/self/oom_score_adj", "w", encoding="ascii") as score:
-        score.write("-900")
-
-
 def _wiring(options: dict[str, str]) -> Wiring:
     return Wiring(
         cmd_vel_topic=options["--topic"],
@@ -130,7 +131,7 @@ def main(arguments: list[str]) -> int:
     options = dict(zip(arguments[::2], arguments[1::2]))
     for name in ("SIGINT", "SIGTSTP", "SIGHUP", "SIGTTIN", "SIGTTOU", "SIGPIPE", "SIGTERM"):
         signal.signal(getattr(signal, name), signal.SIG_IGN)
-    _die_last()
+    prefer(*GUARD)
     line = socket.socket(fileno=int(options["--fd"]))
     try:
         wiring = _wiring(options)

@@ -9,6 +9,7 @@ from functools import cache
 from chatrobot.core.reason import Reason, Value
 from chatrobot.language.data_files import load_table
 from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, RawTwist, Remember, Repeat, Say, Step, Turn, Wait
+from chatrobot.plan.text import format_step
 
 _TABLES = ("phrases", "outcomes")
 _SHOWN = 6
@@ -111,5 +112,6 @@ def _step(step: Step, language: str) -> str:
         return step.text
     if isinstance(step, Remember):
         return spoken("step_remember", place=step.place)
-    assert isinstance(step, Repeat)
-    return spoken("step_repeat", count=step.count, text=describe_steps(step.steps, language))
+    if isinstance(step, Repeat):
+        return spoken("step_repeat", count=step.count, text=describe_steps(step.steps, language))
+    return format_step(step)  # somebody else's primitive

@@ -26,6 +26,7 @@ _CORNER_DEG = 90.0
 _CORNER_SLACK_DEG = 3.0
 _NAME_WORDS = 4
 _NAME_CHARS = 30
+_NEVER_LAST = frozenset({"a", "an", "the", "to", "of", "in", "like", "my"})
 
 
 @dataclass(frozen=True)
@@ -181,5 +182,7 @@ def _name(text: str, plain: str, body: str, tables: _Tables) -> str:
         if pattern.search(plain):
             return name
     first = re.split(r"\d|\b(?:and|then|until|for|at)\b|[,.;:!?]", body, maxsplit=1)[0]
-    words = re.findall(r"[^\W\d_]+", first)
-    return " ".join(words[:_NAME_WORDS])[:_NAME_CHARS].strip() or "program"
+    words = re.findall(r"[^\W\d_]+", first)[:_NAME_WORDS]
+    while words and words[-1] in _NEVER_LAST:
+        words.pop()
+    return " ".join(words)[:_NAME_CHARS].strip() or "program"

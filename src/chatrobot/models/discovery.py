@@ -10,17 +10,14 @@ from typing import Any
 from urllib.parse import SplitResult, urlsplit
 
 from chatrobot.models.config import ModelConfig
-from chatrobot.models.providers import Provider, providers
+from chatrobot.models.providers import LOCAL, Provider, providers
 from chatrobot.models.secret import Secret
 
 PROBE_S = 0.4
 LIST_S = 10.0
 LOOPBACK = frozenset({"127.0.0.1", "localhost", "::1"})
 _LIST_BYTES = 5_000_000
-_LOCAL = ("ollama", "llamacpp", "vllm")
-_OTHER = "openai-compatible"
-_OTHER_ADDRESS = "http://127.0.0.1:1234/v1"
-"""Where LM Studio listens, unless OPENAI_BASE_URL names a place."""
+_LOCAL = (*LOCAL, "openai-compatible")
 
 
 @dataclass(frozen=True)
@@ -35,7 +32,6 @@ class LocalServer:
 def find_local(config: ModelConfig, *, timeout_s: float = PROBE_S) -> list[LocalServer]:
     """Every model server on loopback that answers in time, in the order of our table."""
     places = [(name, providers()[name].address(config)) for name in _LOCAL if name in providers()]
-    places.append((_OTHER, providers()[_OTHER].address(config) or _OTHER_ADDRESS))
     found: dict[int, LocalServer] = {}
 
     def probe(index: int, provider: str, address: str) -> None:

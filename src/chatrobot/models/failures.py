@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from urllib.parse import urlsplit
@@ -12,6 +13,10 @@ from chatrobot.models.providers import Provider
 from chatrobot.models.secret import Secret, scrub
 
 SAID_CHARS = 200
+MOST_CHARS = 5000
+SUGGESTED_WAIT_S = 30
+"""After a refusal for too many calls that does not say how long."""
+_TAG = re.compile(r"<(?:script|style).*?</|<[^>]*>", re.DOTALL | re.IGNORECASE)
 _UNREACHABLE = frozenset(
     {"ConnectError", "ConnectTimeout", "PoolTimeout", "ProxyError", "UnsupportedProtocol"}
 )
@@ -45,8 +50,8 @@ class Place:
         return Reason(code, {**self.values, **values})
 
     def quote(self, text: str) -> str:
-        """What a provider said: one line, short, without the key."""
-        line = " ".join(scrub(text, self.secret).split())
+        """What a provider said: one line, short, without the key and without the tags of a web page."""
+        line = " ".join(scrub(_TAG.sub(" ", text[:MOST_CHARS]), self.secret).split())
         return line if len(line) <= SAID_CHARS else line[: SAID_CHARS - 1] + "…"
 
 
@@ -79,7 +84,7 @@ def reason_of(error: BaseException, place: Place) -> Reason:
 
 
 def _of_status(status: int, error: BaseException, place: Place) -> Reason:
-    said = _said(error)
+    said = _said(error) or f"HTTP {status}"
     lower = f"{said} {getattr(error, 'body', '')}".lower()
     if status == 402 or (status in (400, 403, 429) and any(word in lower for word in _NO_CREDIT)):
         return place.reason("model_no_credit", said)
@@ -89,7 +94,9 @@ def _of_status(status: int, error: BaseException, place: Place) -> Reason:
         return place.reason("model_not_found", said)
     if status == 429:
         after_s = _retry_after_s(error)
-        return place.reason("model_rate_limit", said, retry_after_s=after_s if after_s is not None else "?")
+        return place.reason(
+            "model_rate_limit", said, retry_after_s=SUGGESTED_WAIT_S if after_s is None else after_s
+        )
     if status >= 500 or status == 408:
         return place.reason("model_server_error", said, status=status)
     if status < 400:
@@ -134,6 +141,7 @@ def _retry_after_s(error: BaseException) -> float | None:
         headers = getattr(error, "headers", None) or {}
         told = headers.get("retry-after")
     try:
-        return round(float(told), 1) if told is not None else None
+        wait_s = round(float(told), 1) if told is not None else None
     except ValueError:
         return None
+    return int(wait_s) if wait_s is not None and wait_s.is_integer() else wait_s

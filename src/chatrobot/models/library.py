@@ -32,6 +32,8 @@ from chatrobot.models.secret import Secret
 from chatrobot.models.web_client import allow, web_client
 
 warnings.filterwarnings("ignore", module=r"pydantic_ai\.")
+SPARE_S = 5.0
+"""The library's own time limit comes after ours, which has the better words."""
 NO_KEY = "none"
 """Local servers want no key, but the clients want something to send."""
 
@@ -139,7 +141,7 @@ async def stream(model: Any, provider: Provider, request: Request) -> AsyncItera
 def _settings(provider: Provider, request: Request) -> Any:
     settings: dict[str, Any] = {
         "max_tokens": request.limits.reply_tokens,
-        "timeout": request.limits.total_s,
+        "timeout": request.limits.total_s + SPARE_S,
         "thinking": False,
         **provider.settings,
     }

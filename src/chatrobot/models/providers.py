@@ -94,6 +94,11 @@ _BUILT_IN = (
         base_url_variables=("VLLM_BASE_URL",), example="Qwen/Qwen3-8B", settings=_TEMPLATED,
     ),
     Provider(
+        "lmstudio", "LM Studio on this machine", key_variables=("LMSTUDIO_API_KEY",), needs_key=False,
+        base_url="http://127.0.0.1:1234/v1", base_url_variables=("LMSTUDIO_BASE_URL",), example="NAME",
+        settings=_TEMPLATED,
+    ),
+    Provider(
         "deepseek", "DeepSeek", library="deepseek:DeepSeekProvider", key_variables=("DEEPSEEK_API_KEY",),
         key_page="https://platform.deepseek.com/api_keys", base_url="https://api.deepseek.com",
         base_url_variables=("DEEPSEEK_BASE_URL",), example="deepseek-chat",
@@ -116,6 +121,8 @@ _BUILT_IN = (
     ),
 )  # fmt: skip
 
+LOCAL = ("ollama", "llamacpp", "vllm", "lmstudio")
+"""Those that usually run on one's own machine."""
 _registered: dict[str, Provider] = {}
 
 

@@ -8,7 +8,7 @@ import json
 import sys
 import time
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,9 +22,11 @@ from chatrobot.core.events import (
     ProgramWritten,
     Rehearsed,
     Result,
+    Said,
 )
 from chatrobot.language.consent import read_consent
 from chatrobot.language.phrases import render_reason, say
+from chatrobot.models.seam import Model
 from chatrobot.nodes.operator import Operators
 from chatrobot.plan.context import RoutePlanner
 from chatrobot.plan.route import GridRoutePlanner
@@ -33,7 +35,10 @@ from chatrobot.reflex import is_release
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.authoring import Authoring
+from chatrobot.session.model_choice import warm_up
+from chatrobot.session.model_terms import ModelOptions
 from chatrobot.session.session import Options, Session
+from chatrobot.session.thinking import Interpreter, Mind
 from chatrobot.session.topic_joint import TopicJoint
 from chatrobot.session.topics import CHATGPT_NODE, EVENTS, OPERATOR, REPLY, STOP, USER_INPUT
 from chatrobot.session.understanding import Understanding
@@ -54,7 +59,8 @@ LOOK_S = 1.0
 
 @dataclass(frozen=True)
 class BaseOptions:
-    """`folder` is where places live; None for nowhere. The two flags are the tutorial's parameters."""
+    """`folder` is where places live; None for nowhere. The two flags are the tutorial's parameters. `model`
+    is asked what is not understood without one."""
 
     wire: str
     profile: str
@@ -62,6 +68,9 @@ class BaseOptions:
     folder: Path | None = None
     generate_code: bool = False
     rev_chatgpt: bool = False
+    interpreter: Interpreter = "auto"
+    model: Model | None = None
+    model_options: ModelOptions = field(default_factory=ModelOptions)
 
 
 class BaseNode:
@@ -91,11 +100,23 @@ class BaseNode:
         self._has_twin = False
         self._asked_turn: int | None = None
         authoring = self._authoring(profile, world, understanding) if options.generate_code else None
-        self._session = Session(self._joint, understanding, self._hear_event, Options(), authoring)
+        session_options = Options(interpreter=options.interpreter)
+        mind = self._mind(profile)
+        self._session = Session(
+            self._joint, understanding, self._hear_event, session_options, authoring, mind
+        )
         self._operators = Operators(lambda: self._session.is_idle, self._lose_operator)
 
-    def run(self, is_leaving: Callable[[], bool]) -> None:
-        """Until `is_leaving`. Understands and pumps in the calling thread.
+    def _mind(self, profile: RobotProfile) -> Mind | None:
+        """Plans come in parts where the profile allows it; there is nobody here to ask for a yes."""
+        options = self._options
+        if options.model is None:
+            return None
+        streams = profile.approval == "stream" and profile.can_turn_on_the_spot
+        return Mind(options.model, replace(options.model_options, streams=streams), profile)
+
+    def run(self, is_leaving: Callable[[], bool], on_ready: Callable[[], None]) -> None:
+        """Until `is_leaving`; `on_ready` is called once it listens. Understands and pumps in the calling thread.
 
         Raises:
             JointError: the wire is gone.
@@ -103,6 +124,7 @@ class BaseNode:
         for topic in (REPLY, EVENTS):
             advertise(self._wire, topic, Text)
         self._joint.open()
+        warm_up(self._options.model)
         self._wire.subscribe(STOP, Flag, self._hear_stop)
         self._wire.subscribe(OPERATOR, Text, self._operators.hear_beat)
         self._operators.start()
@@ -110,6 +132,7 @@ class BaseNode:
         self._explain_parameters()
         gc.collect()
         gc.freeze()  # the words are many, and stay
+        on_ready()
         while not is_leaving():
             self._session.pump(PUMP_S)
             self._look_for_twins()
@@ -137,7 +160,7 @@ class BaseNode:
     def _diagnose(self) -> Diagnosis:
         from chatrobot.nodes.citizen import Diagnosis
 
-        values = {"interpreter": "offline", "profile": self._options.profile}
+        values = {"interpreter": self._options.interpreter, "profile": self._options.profile}
         if not self._joint.has_control:
             return Diagnosis("warn", "no_control", values)
         return Diagnosis("ok", "ready", values)
@@ -175,7 +198,9 @@ class BaseNode:
         if self._options.generate_code:
             self._say(say(language, "generate_code_on"))
         if self._options.rev_chatgpt:
-            self._say(say(language, "revchatgpt_gone"))
+            model = self._options.model
+            code = "revchatgpt_gone" if model is not None else "revchatgpt_no_model"
+            self._say(say(language, code, model=model.name if model is not None else ""))
 
     def _look_for_twins(self) -> None:
         """Two bases would do everything twice: say so, where the wire knows names."""
@@ -194,6 +219,8 @@ class BaseNode:
             self._publish(EVENTS, json.dumps(event.to_json(), separators=(",", ":"), ensure_ascii=False))
         if (isinstance(event, Interpreted) and event.plan_text) or isinstance(event, Result):
             self._say(event.reply)
+        elif isinstance(event, Said):
+            self._say(event.text)
         elif isinstance(event, Notice):
             self._say(event.text or render_reason(event.reason, language))
         elif isinstance(event, ProgramWritten):
@@ -216,7 +243,15 @@ class BaseNode:
         def routes() -> RoutePlanner | None:
             return None if world.is_empty else GridRoutePlanner(world, profile)
 
-        return Authoring(profile, Library(self._options.folder), understanding.interpret, routes=routes)
+        options = self._options
+        return Authoring(
+            profile,
+            Library(options.folder),
+            understanding.interpret,
+            model=options.model,
+            prefers_model=options.interpreter == "model",
+            routes=routes,
+        )
 
     def _say(self, text: str) -> None:
         if text:

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, NamedTuple
 
-from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.clock import Clock, ClockType
 from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
 
@@ -109,13 +109,21 @@ class Citizen:
 
     def _declare(self, parameter: Parameter, default: Value) -> Any:
         descriptor = ParameterDescriptor(description=parameter.description, read_only=True)
+        if parameter.choices:
+            descriptor.additional_constraints = f"one of {', '.join(parameter.choices)}"
         if parameter.bounds is not None:
             lowest, highest = parameter.bounds
-            descriptor.floating_point_range = [FloatingPointRange(from_value=lowest, to_value=highest)]
+            if isinstance(parameter.default, float):
+                descriptor.floating_point_range = [FloatingPointRange(from_value=lowest, to_value=highest)]
+            else:
+                descriptor.integer_range = [IntegerRange(from_value=int(lowest), to_value=int(highest))]
         try:
-            return self.node.handle.declare_parameter(parameter.name, default, descriptor).value
+            value = self.node.handle.declare_parameter(parameter.name, default, descriptor).value
         except (InvalidParameterTypeException, InvalidParameterValueException) as error:
             raise UsageError(str(error), where=parameter.name, allowed=parameter.description) from error
+        if parameter.choices and value not in parameter.choices:
+            raise UsageError(f"{value!r} is none", where=parameter.name, allowed=", ".join(parameter.choices))
+        return value
 
 
 def _as_fields(name: str, hardware: str, diagnosis: Diagnosis, now: Any) -> dict[str, Any]:

@@ -88,6 +88,7 @@ class Operators:
         self._claims: dict[str, tuple[int, str, float]] = {}
         self._silent_at_s: dict[str, float] = {}
         self._bound: set[str] = set()
+        self._looked_s = now_s()
 
     def start(self) -> None:
         threading.Thread(target=self._watch, name="operators", daemon=True).start()
@@ -129,9 +130,16 @@ class Operators:
                 self._bind(operator, said, now_s, now_s)
 
     def look(self) -> None:
-        """Stop, once, where somebody bound has fallen silent."""
+        """Stop, once, where somebody bound has fallen silent.
+
+        Where this process was held up (it may be loading a library) it is we who did not listen: that time does not
+        count. Motion sees by our own beats whether we are there.
+        """
         now_s = self._now_s()
         with self._lock:
+            late_s, self._looked_s = now_s - self._looked_s - 2.0 * LOOK_S, now_s
+            if late_s > 0.0:
+                self._silent_at_s = {name: at_s + late_s for name, at_s in self._silent_at_s.items()}
             gone = {operator for operator in self._bound if now_s > self._silent_at_s.get(operator, 0.0)}
             self._bound -= gone
             for operator in gone:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Union
 
-Value = Union[bool, float, str]
+Value = Union[bool, int, float, str]
 
 
 @dataclass(frozen=True)
@@ -18,12 +18,14 @@ class Parameter:
     Attributes:
         default: also says the type.
         bounds: lowest and highest value of a number.
+        choices: the words allowed; empty for any.
     """
 
     name: str
     default: Value
     description: str
     bounds: tuple[float, float] | None = None
+    choices: tuple[str, ...] = ()
 
 
 _ROBOT = (
@@ -37,14 +39,26 @@ _ROBOT = (
 )
 BASE = (
     Parameter("generate_code", False, "The tutorial's: have requests for programs answered by a program."),
-    Parameter("revChatGPT", False, "The tutorial's: that service no longer exists, so it changes nothing."),
+    Parameter(
+        "revChatGPT", False, "The tutorial's: the model's server keeps the conversation, as that service did."
+    ),
     *_ROBOT,
+    Parameter(
+        "interpreter", "auto", "Who understands: auto, offline or model.", None, ("auto", "offline", "model")
+    ),
+    Parameter("model", "", "The language model, PROVIDER:NAME; empty for the one that was set up, if any."),
+    Parameter("rounds", 6, "How often a model may look and go on in one turn.", (1, 100)),
+    Parameter("budget_tokens", 20_000, "How many tokens all calls of one turn may use.", (100, 10_000_000)),
+    Parameter("budget_s", 600.0, "How long one turn may take in all, seconds.", (1.0, 86_400.0)),
     Parameter("config_dir", "", "Where places and robot profiles live; empty for the user's own folder."),
 )
 CONTROL = (
     *_ROBOT,
     Parameter("allow_release", False, "An emergency stop may be released over ROS; offers ~/release."),
     Parameter("accept_others", False, "Drive though another ChatRobot is on the same robot."),
+    Parameter(
+        "on_robot", False, "This machine is the robot's own: no network lies between control and base."
+    ),
 )
 INPUT: tuple[Parameter, ...] = ()
 PARAMETERS = {"input": INPUT, "base": BASE, "control": CONTROL}

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Union
+from typing import Final, Protocol, Union
 
 from chatrobot.core.geometry import Pose
 from chatrobot.plan.base import Block, Step
@@ -58,6 +58,31 @@ class PlannedMotion:
 
 
 CoreItem = Union[PlannedMotion, Impossible]
+
+
+class NotYet:
+    """In place of an item: the next one is still to come."""
+
+
+NOT_YET: Final = NotYet()
+WalkItem = Union[CoreItem, NotYet]
+
+
+class Walk(Protocol):
+    """What an executor walks; `CoreWalk` is the one through a whole plan."""
+
+    @property
+    def pose(self) -> Pose:
+        """Where the last motion ends, or the first one will begin."""
+        ...
+
+    def __next__(self) -> WalkItem:
+        """Raises StopIteration at the end."""
+        ...
+
+    def ended_at(self, pose: Pose) -> None:
+        """The last motion really ended at `pose`."""
+        ...
 
 
 class CoreWalk(Iterator[CoreItem]):

@@ -78,6 +78,11 @@ class StreamParser:
         self._steps_done = 0
         self._error: PlanTextError | None = None
 
+    @property
+    def in_block(self) -> bool:
+        """A block is open: its `end` has not been read."""
+        return bool(self._open)
+
     def feed(self, chunk: str) -> list[Step]:
         """The top-level steps that this piece of text completed.
 

@@ -24,8 +24,12 @@ ROBOT_MODULES = frozenset(
         "rclpy", "rclpy.node", "rclpy.qos", "rclpy.duration", "rclpy.time", "rclpy.clock", "rclpy.executors",
         "rclpy.callback_groups", "rclpy.parameter", "rclpy.logging", "rclpy.signals", "rclpy.timer",
         "rclpy.publisher", "rclpy.subscription", "rclpy.exceptions", "rclpy.task", "rclpy.utilities",
+        "rclpy.action", "rclpy.client", "rclpy.clock_type", "rclpy.constants", "rclpy.context", "rclpy.event_handler",
+        "rclpy.guard_condition", "rclpy.impl", "rclpy.impl.logging_severity", "rclpy.impl.rcutils_logger",
+        "rclpy.service", "rclpy.wait_for_message", "rclpy._rclpy_pybind11",
         "geometry_msgs.msg", "std_msgs.msg", "sensor_msgs.msg", "nav_msgs.msg", "std_srvs.srv",
-        "builtin_interfaces.msg", "rcl_interfaces.msg", "turtlesim.msg", "tf_transformations",
+        "builtin_interfaces.msg", "rcl_interfaces.msg", "turtlesim.msg", "tf_transformations", "turtlesim.srv",
+        "example_interfaces.msg", "example_interfaces.srv",
     }
 )  # fmt: skip
 """What stands in the box for ROS 2."""

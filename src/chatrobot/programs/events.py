@@ -13,12 +13,12 @@ from typing import Any, Literal, NamedTuple, Union
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
 from chatrobot.programs.frames import PipeError
+from chatrobot.programs.settings import LATEST_S as LATEST_S
 
 SENSORS = ("odom", "scan", "imu", "battery", "bumper")
 LEVELS = ("DEBUG", "INFO", "WARN", "ERROR", "FATAL")
 LONGEST_TEXT = 16 * 1024
 LONGEST_NAME = 512
-LATEST_S = 1e6
 
 
 class Ready(NamedTuple):

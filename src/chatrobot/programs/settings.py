@@ -10,6 +10,9 @@ from typing import Any, Literal
 
 from chatrobot.core.wiring import Wiring
 
+LATEST_S = 1e6
+"""No program lives longer: eleven days."""
+
 Mode = Literal["virtual", "live"]
 
 

@@ -11,17 +11,22 @@ from chatrobot.core.wiring import Wiring
 from chatrobot.wire.connect import Endpoint
 
 ODOMETRY, TURTLE_POSE = "nav_msgs/msg/Odometry", "turtlesim/msg/Pose"
+IMU, SCAN = "sensor_msgs/msg/Imu", "sensor_msgs/msg/LaserScan"
 TWIST, TWIST_STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
 FullName = Callable[[str], str]
 """A topic of the profile as the wire lists it: absolute, with the robot's namespace."""
 
 
 def is_complete(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullName) -> bool:
-    """The robot is there as its profile says: it listens for velocities, and tells its odometry."""
-    seen = set(endpoints)
-    return Endpoint(full_name(wiring.cmd_vel_topic), _cmd_vel_type(wiring), "listens") in seen and (
-        Endpoint(full_name(wiring.odom_topic), _odom_type(wiring), "publishes") in seen
-    )
+    """The robot is there as its profile says: it listens for velocities, and tells odometry, gyro and scan."""
+    wanted = [
+        Endpoint(full_name(wiring.cmd_vel_topic), _cmd_vel_type(wiring), "listens"),
+        Endpoint(full_name(wiring.odom_topic), _odom_type(wiring), "publishes"),
+    ]
+    for topic, type_name in ((wiring.imu_topic, IMU), (wiring.scan_topic, SCAN)):
+        if topic:
+            wanted.append(Endpoint(full_name(topic), type_name, "publishes"))
+    return set(wanted) <= set(endpoints)
 
 
 def fit(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullName) -> tuple[Wiring, list[Reason]]:
@@ -31,9 +36,46 @@ def fit(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullName) -> t
         endpoints: of others.
     """
     seen = list(endpoints)
-    fitted, said = _fit_velocities(wiring, seen, full_name(wiring.cmd_vel_topic))
-    fitted, more = _fit_odometry(fitted, seen, full_name(wiring.odom_topic))
-    return fitted, [*said, *more]
+    cmd_vel = full_name(wiring.cmd_vel_topic)
+    fitted, said = _fit_velocities(wiring, seen, cmd_vel)
+    sensors = _Sensors(seen, full_name("x")[:-1], cmd_vel)
+    fitted, more = _fit_odometry(fitted, sensors, full_name(wiring.odom_topic))
+    said += more
+    if wiring.imu_topic:
+        found, more = sensors.elsewhere(full_name(wiring.imu_topic), IMU)
+        fitted, said = replace(fitted, imu_topic=found or wiring.imu_topic), [*said, *more]
+    if wiring.scan_topic:
+        found, more = sensors.elsewhere(full_name(wiring.scan_topic), SCAN)
+        fitted, said = replace(fitted, scan_topic=found or wiring.scan_topic), [*said, *more]
+    return fitted, said
+
+
+class _Sensors:
+    """What is told, and what of it may be this robot's: in its namespace, and in none where another robot listens."""
+
+    def __init__(self, seen: list[Endpoint], prefix: str, cmd_vel: str) -> None:
+        self._told = [end for end in seen if end.role == "publishes"]
+        others = {
+            f"{end.topic.rpartition('/')[0]}/"
+            for end in seen
+            if end.role == "listens" and end.type_name in (TWIST, TWIST_STAMPED) and end.topic != cmd_vel
+        }
+        self._prefix = prefix
+        self._others = tuple(other for other in others if not prefix.startswith(other))
+
+    def topics(self, type_name: str) -> list[str]:
+        """Where messages of that type are told, by whomever."""
+        return sorted({end.topic for end in self._told if end.type_name == type_name})
+
+    def elsewhere(self, topic: str, type_name: str) -> tuple[str, list[Reason]]:
+        """Where a sensor is that `topic` does not tell; empty where it is there, or nothing is plain."""
+        told = self.topics(type_name)
+        if topic in told or not told:
+            return "", []
+        ours = [at for at in told if at.startswith(self._prefix) and not at.startswith(self._others)]
+        if len(ours) == 1:
+            return ours[0], [Reason("sensor_found", {"topic": topic, "found": ours[0]})]
+        return "", [Reason("sensor_unclear", {"topic": topic, "found": ", ".join(told)})]
 
 
 def _fit_velocities(wiring: Wiring, seen: list[Endpoint], topic: str) -> tuple[Wiring, list[Reason]]:
@@ -52,22 +94,16 @@ def _fit_velocities(wiring: Wiring, seen: list[Endpoint], topic: str) -> tuple[W
     return wiring, []
 
 
-def _fit_odometry(wiring: Wiring, seen: list[Endpoint], topic: str) -> tuple[Wiring, list[Reason]]:
-    told = {end.topic: end.type_name for end in seen if end.role == "publishes" and end.type_name == ODOMETRY}
-    poses = {end.topic for end in seen if end.role == "publishes" and end.type_name == TURTLE_POSE}
+def _fit_odometry(wiring: Wiring, sensors: _Sensors, topic: str) -> tuple[Wiring, list[Reason]]:
+    told, poses = sensors.topics(ODOMETRY), sensors.topics(TURTLE_POSE)
     if topic in (told if wiring.odom_type == "Odometry" else poses):
         return wiring, []
     if topic in poses or topic in told:
         kind: Literal["Odometry", "turtlesim/Pose"] = "turtlesim/Pose" if topic in poses else "Odometry"
         said = Reason("odom_type_found", {"topic": topic, "type": kind, "instead": wiring.odom_type})
         return replace(wiring, odom_type=kind), [said]
-    if len(told) == 1:
-        found = next(iter(told))
-        said = Reason("odom_found", {"topic": topic, "found": found})
-        return replace(wiring, odom_topic=found, odom_type="Odometry"), [said]
-    if told:
-        return wiring, [Reason("odom_unclear", {"topic": topic, "found": ", ".join(sorted(told))})]
-    return wiring, []
+    found, more = sensors.elsewhere(topic, ODOMETRY)
+    return (replace(wiring, odom_topic=found, odom_type="Odometry") if found else wiring), more
 
 
 def _cmd_vel_type(wiring: Wiring) -> str:

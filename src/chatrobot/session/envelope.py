@@ -11,7 +11,8 @@ from typing import Any, Literal
 Word = Literal[
     "hello",  # opens the lease: {"term_s": …}
     "beat",  # keeps it; any word that names its term opens it for a Motion that came after the hello
-    "plan",  # {"plan_text", "mode": queue|replace|append, "approve": bool, "rehearse_only": bool, "longest_s": …}
+    "plan",  # {"plan_text", "mode", "more": bool, "approve": bool, "rehearse_only": bool, "longest_s": …}
+    "look",  # asks for a `looked` event of this turn
     "program",  # {"code", "name", "remap": {from: to}, "mode", "approve", "ask_findings", "strict", "rehearse_only"}
     "approve",  # {"yes": bool} answers a Rehearsed event that needs approval
     "stop",  # {"why": …}; makes void what belongs to this turn and those before
@@ -19,7 +20,9 @@ Word = Literal[
     "release",
     "goodbye",  # an orderly end: what is queued is still done, then the lease ends
 ]
-MODES = ("queue", "replace", "append")
+MODES = ("queue", "replace", "append", "extend")
+"""What becomes of what runs already. `extend`: the next part of a plan of this very turn that was sent with `more`; the
+part without `more` is the last and may be empty. What is to be approved, or only rehearsed, comes whole."""
 
 
 def _is_text(value: object) -> bool:
@@ -66,14 +69,16 @@ PAYLOADS: Mapping[str, Mapping[str, Callable[[object], bool]]] = {
         "mode": lambda value: value in MODES,
         "approve": _is_flag,
         "rehearse_only": _is_flag,
+        "more": _is_flag,
         "term_s": _is_term,
         "longest_s": _is_term,
     },
+    "look": {},
     "program": {
         "code": _is_code,
         "name": _is_name,
         "remap": _is_remap,
-        "mode": lambda value: value in MODES,
+        "mode": lambda value: value in MODES and value != "extend",
         "approve": _is_flag,
         "ask_findings": _is_flag,
         "strict": _is_flag,

@@ -8,16 +8,19 @@ from dataclasses import dataclass
 from chatrobot.core.events import Finished, Outcome
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.core.reason import Reason
+from chatrobot.plan.lowering import Walk
 from chatrobot.session.approval import Approval
 from chatrobot.session.envelope import Envelope, seconds
 from chatrobot.session.planner import Planned
+from chatrobot.session.stream import Stream
 
 
 @dataclass
 class Job:
     """`epoch` is the stop epoch it was received in: a later stop makes it void. `start` is where it begins.
 
-    `longest_s` is what the source may take: a plan that rehearsal expects to last longer is refused.
+    `longest_s` is what the source may take: a plan that rehearsal expects to last longer is refused. `stream` holds
+    what comes after `plan_text` where the plan comes in parts.
     """
 
     turn: int
@@ -31,11 +34,14 @@ class Job:
     start: Pose = ORIGIN
     planned: Planned | None = None
     approval: Approval | None = None
+    stream: Stream | None = None
 
     @classmethod
     def of(cls, envelope: Envelope, epoch: int, now_s: float) -> Job:
         """The job that a `plan` envelope asks for."""
         payload = envelope.payload
+        longest_s = seconds(payload.get("longest_s"), math.inf)
+        comes_whole = payload.get("approve") or payload.get("rehearse_only") or not payload.get("more")
         return cls(
             turn=envelope.turn,
             lease=envelope.lease,
@@ -44,7 +50,8 @@ class Job:
             rehearse_only=bool(payload.get("rehearse_only")),
             epoch=epoch,
             received_s=now_s,
-            longest_s=seconds(payload.get("longest_s"), math.inf),
+            longest_s=longest_s,
+            stream=None if comes_whole else Stream(longest_s),
         )
 
     @property
@@ -55,6 +62,18 @@ class Job:
         if self.planned.ok and self.planned.duration_s > self.longest_s:
             return Reason("lasts_too_long", {"duration_s": self.planned.duration_s, "max_s": self.longest_s})
         return self.planned.refusal
+
+    def take(self, planned: Planned) -> Reason | None:
+        """What it begins with, rehearsed; why it may not run."""
+        self.planned = planned
+        return self.stream.accept(planned) if self.stream is not None else self.refusal
+
+    def walk(self) -> Walk:
+        """What is to be driven; `take` has accepted its beginning."""
+        if self.stream is not None and self.stream.walk is not None:
+            return self.stream.walk
+        assert self.planned is not None
+        return self.planned.walk()
 
     def unmoved(self, outcome: Outcome, reason: Reason | None, pose: Pose) -> Finished:
         """Its end where nothing moved."""

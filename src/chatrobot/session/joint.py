@@ -25,6 +25,8 @@ class Joint(Protocol):
     """
 
     beats: bool
+    is_simulated: bool
+    """Time passes only while somebody waits for an event."""
 
     def send(self, word: Word, turn: int = 0, **payload: Any) -> None:
         """Say one word.
@@ -99,6 +101,7 @@ class SimulatedJoint:
         self._sender = Sender(source)
         self._closed = False
         self.beats = True
+        self.is_simulated = True
         self._motion.start(wire)
         self.send("hello")
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import time
 from collections.abc import Callable
 from typing import NamedTuple
@@ -30,14 +29,25 @@ LOOK_S = 0.05
 
 
 class PatientWire:
-    """A wire whose other end may return: what cannot be sent meanwhile is dropped, as on every other wire."""
+    """A wire whose other end may return: what cannot be sent meanwhile is dropped, as on every other wire.
+
+    `on_gone` is called once for each time that it goes, by whatever thread finds out.
+    """
 
     def __init__(self, wire: Wire) -> None:
         self._wire = wire
+        self._is_gone = False
+        self.on_gone: Callable[[], None] = lambda: None
 
     def publish(self, topic: str, message: Message) -> None:
-        with contextlib.suppress(WireError):
+        try:
             self._wire.publish(topic, message)
+        except WireError:
+            was_gone, self._is_gone = self._is_gone, True
+            if not was_gone:
+                self.on_gone()
+        else:
+            self._is_gone = False
 
     def subscribe(self, topic: str, kind: type[M], callback: Callable[[M], None]) -> None:
         self._wire.subscribe(topic, kind, callback)

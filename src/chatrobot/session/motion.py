@@ -10,10 +10,11 @@ from collections import deque
 from collections.abc import Callable, Collection
 
 from chatrobot.core.clock import Clock
-from chatrobot.core.events import Event, Notice, Outcome, Started, Telemetry
+from chatrobot.core.events import Event, Looked, Notice, Outcome, Started, Telemetry
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose
 from chatrobot.core.governed import StopEpoch
 from chatrobot.core.reason import Reason
+from chatrobot.core.wiring import RELAY_TOPIC
 from chatrobot.execution.lookahead import nearest_m
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
@@ -29,10 +30,13 @@ from chatrobot.session.planner import Planned, Planner
 from chatrobot.session.program_box import NoBox, ProgramBox
 from chatrobot.session.program_job import ProgramJob, job_of, needs_approval
 from chatrobot.session.program_run import LiveProgram, ProgramRun
+from chatrobot.session.relay import Relay
 from chatrobot.session.run import Run, sensed_by
+from chatrobot.session.sectors import sectors_m
+from chatrobot.session.stream import Stream
 from chatrobot.session.zeroing import Zeroing
 from chatrobot.transports.transport import WireTransport
-from chatrobot.wire.messages import LaserScan
+from chatrobot.wire.messages import LaserScan, TwistMessage
 from chatrobot.wire.wire import Wire
 
 FROZEN_S = 0.12
@@ -86,6 +90,14 @@ class Motion:
         self._current: Job | None = None
         self._run: Run | ProgramRun | None = None
         self.zeroing = Zeroing(self._sensors, self._send_zero, lambda reason: emit(Notice(0, reason)))
+        self._relay = Relay(
+            clock,
+            self._governor,
+            self._transport,
+            self._sensors,
+            lambda: self.zeroing.begin(clock.now_s()),
+            lambda reason: emit(Notice(0, reason)),
+        )
         self._last_tick_s: float | None = None
         self._suspended_s = clock.suspended_s()
         self._next_telemetry_s = 0.0
@@ -128,6 +140,7 @@ class Motion:
         """Listen to the robot and shake hands with the guard."""
         self._sensors.attach(wire)
         self._programs.attach(wire)
+        wire.subscribe(RELAY_TOPIC, TwistMessage, self._relay.hear)
         self._guard.handshake()
 
     @property
@@ -179,6 +192,8 @@ class Motion:
             self._governor.leases.open(envelope.lease, envelope.source, term_s, now_s)
         elif envelope.word in ("plan", "program"):
             self._accept(envelope, epoch)
+        elif envelope.word == "look":
+            self._emit(Looked(envelope.turn, sectors_m(self._profile, self._sensors.scan)))
         elif envelope.word == "approve":
             if priority_of(envelope.source) >= Priority.PLAN:  # a person's word, not an agent's
                 self._approve(envelope.turn, bool(envelope.payload.get("yes")))
@@ -213,6 +228,7 @@ class Motion:
         self._drive(now_s)
         if self._run is None:
             self.zeroing.tick(now_s)
+        self._relay.tick(now_s, self._is_free())
         self._begin_next(now_s)
         self._tell(now_s)
 
@@ -229,6 +245,9 @@ class Motion:
     # --- plans -----------------------------------------------------------------------------------------------
 
     def _accept(self, envelope: Envelope, epoch: int) -> None:
+        if envelope.payload.get("mode") == "extend":
+            self._extend(envelope)
+            return
         job = job_of(envelope, epoch, self._clock.now_s())
         declined = self._give_way(job)
         if declined is None and envelope.payload.get("mode") == "replace":
@@ -268,7 +287,7 @@ class Motion:
         if self.zeroing.disobeyed is not None:
             for job in self._intake.take_all():
                 self._finish_unmoved(job, "refused", self.zeroing.disobeyed)
-        if self._current is not None or not jobs or self.zeroing.is_active:
+        if self._current is not None or not jobs or self.zeroing.is_active or self._relay.is_driving:
             return
         job = jobs[0]
         if self._is_waiting_for_odometry(job, now_s):
@@ -299,8 +318,7 @@ class Motion:
     def _on_planned(self, job: Job, planned: Planned) -> None:
         if self._current is not job:
             return  # stopped or replaced meanwhile; its end has been told
-        job.planned = planned
-        refusal = job.refusal
+        refusal = job.take(planned)
         asks = needs_approval(job, planned)
         for event in planned.events(asks):
             self._emit(event)
@@ -312,6 +330,40 @@ class Motion:
             job.approval = Approval(self._clock.now_s(), job.start)
         else:
             self._launch(job)
+            self._plan_part(job)
+
+    def _extend(self, envelope: Envelope) -> None:
+        """The next part of a plan that came with `more`; worth nothing once that plan has ended."""
+        jobs = [self._current, *self._intake.jobs] if self._current is not None else self._intake.jobs
+        for job in jobs:
+            if job.stream is not None and (job.turn, job.lease) == (envelope.turn, envelope.lease):
+                job.stream.add(str(envelope.payload.get("plan_text", "")), bool(envelope.payload.get("more")))
+                self._plan_part(job)
+                return
+
+    def _plan_part(self, job: Job) -> None:
+        """Rehearse the next part, if the one before it has been."""
+        stream = job.stream
+        if self._run is None or self._run.job is not job or stream is None or stream.walk is None:
+            return
+        text, start = stream.take(), stream.walk.end
+        if text is None:
+            return
+        plan_text = text
+
+        def plan() -> None:
+            planned = self._planner.plan(job.turn, plan_text, start, job.start)
+            self.post(lambda: self._on_part(job, stream, planned))
+
+        self._background(plan)
+
+    def _on_part(self, job: Job, stream: Stream, planned: Planned) -> None:
+        if not isinstance(self._run, Run) or self._run.job is not job:
+            return
+        self._emit(planned.part_event(stream.steps))
+        if stream.accept(planned) is None:
+            self._run.executor.expect(stream.duration_s)
+        self._plan_part(job)
 
     def _approve(self, turn: int, yes: bool) -> None:
         job = self._current
@@ -363,16 +415,24 @@ class Motion:
         self._drive(now_s)
 
     def _blocker(self, job: Job, now_s: float) -> Reason | None:
+        """Why it may not move just now."""
+        barrier = self._barrier()
+        if barrier is None and not self._governor.leases.is_valid(job.lease, now_s):
+            return Reason("lease_lapsed", {"source": self._governor.leases.source_of(job.lease)})
+        return barrier
+
+    def _barrier(self) -> Reason | None:
         """Why nothing may move just now."""
         if self._governor.latched is not None:
             return self._governor.latched
         if self.obstruction is not None:
             return self.obstruction
-        if not self._guard.is_alive():
-            return Reason("guard_lost")
-        if not self._governor.leases.is_valid(job.lease, now_s):
-            return Reason("lease_lapsed", {"source": self._governor.leases.source_of(job.lease)})
-        return None
+        return None if self._guard.is_alive() else Reason("guard_lost")
+
+    def _is_free(self) -> bool:
+        """Nothing of ours drives, waits or stops the robot, and nothing keeps it from moving."""
+        is_taken = self._current or self._intake.jobs or self.zeroing.is_active or self._sensors.bumped
+        return not is_taken and self._barrier() is None
 
     # --- a running plan --------------------------------------------------------------------------------------
 
@@ -402,6 +462,9 @@ class Motion:
             self.halt(reason or Reason("stopped"))
             self._seen_epoch = self._epoch.value
             self.zeroing.begin(self._clock.now_s())
+        stream = run.job.stream
+        if outcome == "completed" and stream is not None and stream.refusal is not None:
+            outcome, reason = "refused", stream.refusal  # what came before it has been done
         self._emit(run.finished(outcome, reason))
 
     def _finish_current(self, outcome: Outcome, reason: Reason | None) -> None:
@@ -461,7 +524,8 @@ class Motion:
         gap_s = suspended_s + (now_s - self._last_tick_s if self._last_tick_s is not None else 0.0)
         tripped = self._guard.was_tripped()
         slept = suspended_s > FROZEN_S and self._current is not None
-        if slept or (self._run is not None and (gap_s > FROZEN_S or tripped)):
+        is_driven = self._run is not None or self._relay.is_driving
+        if slept or (is_driven and (gap_s > FROZEN_S or tripped)):
             self.halt(Reason("motion_froze", {"gap_s": round(gap_s, 2)}))
         if tripped or gap_s > FROZEN_S:
             self._guard.handshake()

@@ -21,6 +21,7 @@ from dataclasses import replace
 from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Notice
+from chatrobot.core.memory_pressure import MOTION, prefer
 from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import Wiring
 from chatrobot.governor.governor import TICK_S
@@ -30,14 +31,14 @@ from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import load_profile
 from chatrobot.session.envelope import Envelope
 from chatrobot.session.guard_link import GuardProcess
-from chatrobot.session.link import is_up, reach
+from chatrobot.session.link import PatientWire, is_up, reach
 from chatrobot.session.motion import Motion
 from chatrobot.session.planner import Planner
 from chatrobot.session.program_host import ProgramHost
 from chatrobot.session.rivals import BEAT_S, Rivals
 from chatrobot.session.topics import STOP, USER_INPUT
 from chatrobot.sim.load import load_world
-from chatrobot.wire.connect import Connect, clock_of, connect_wire, is_on_this_machine, resolved
+from chatrobot.wire.connect import Connect, Knowing, clock_of, connect_wire, is_on_this_machine, resolved
 from chatrobot.wire.messages import Flag, Text
 from chatrobot.wire.runtime_dir import stop_socket_path
 from chatrobot.wire.wire import Wire
@@ -82,6 +83,7 @@ class MotionRunner:
         connect: Connect = connect_wire,
     ) -> None:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
+        prefer(MOTION)
         given = load_profile(profile)
         known_world = load_world(world)
         self.wire, wiring, said = reach(connect, address, given.wiring, node)
@@ -110,6 +112,8 @@ class MotionRunner:
             releasers,
             self.programs,
         )
+        if isinstance(self.wire, PatientWire):  # a robot that nobody reaches holds what it heard last
+            self.wire.on_gone = lambda: self.motion.halt(Reason("wire_gone"))
         self._rivals = Rivals(self.wire, node, self.profile.wiring.cmd_vel_topic)
         if not self._guard.wait_until_alive(GUARD_S):
             raise WireError("the guard did not start")
@@ -119,6 +123,9 @@ class MotionRunner:
         for reason in said:
             self.notice(reason)
         self._look_around()
+        if isinstance(self.wire, Knowing):  # whoever else drives is named before anything moves
+            time.sleep(BEAT_S)
+            self._look_around()
 
     def run(self, has_left: Callable[[], bool], each_tick: Callable[[], None]) -> None:
         """The control loop, until `has_left`; then the guard is told goodbye."""

@@ -10,6 +10,8 @@ from pathlib import Path
 from chatrobot.core.errors import InputError
 from chatrobot.core.geometry import Pose
 from chatrobot.language.context import Place
+from chatrobot.plan.primitives.go import MAX_PLACE_CHARS
+from chatrobot.session.quoting import one_line
 
 _FILE = "places.json"
 
@@ -28,11 +30,21 @@ class Places:
         self._robot = robot
         self._epoch = epoch
         self._kept: dict[str, dict[str, object]] = self._load()
+        self._unkept = ""
 
     def add(self, name: str, pose: Pose) -> None:
         """Remember `pose` under `name`; an older place of that name is replaced."""
-        self._kept[name] = {"x_m": pose.x_m, "y_m": pose.y_m, "yaw_rad": pose.yaw_rad, "epoch": self._epoch}
-        self._save()
+        tidy = one_line(name, MAX_PLACE_CHARS)
+        self._kept[tidy] = {"x_m": pose.x_m, "y_m": pose.y_m, "yaw_rad": pose.yaw_rad, "epoch": self._epoch}
+        try:
+            self._save()
+        except OSError as error:  # a full disk is no reason to stop a robot
+            self._unkept = error.strerror or str(error)
+
+    def take_unkept(self) -> str:
+        """Why the last place is remembered for this session only; said once, empty where it was kept."""
+        unkept, self._unkept = self._unkept, ""
+        return unkept
 
     def all(self) -> Mapping[str, Place]:
         """Every place by name."""
@@ -47,7 +59,8 @@ class Places:
             return {}
         try:
             robots = json.loads(self._path.read_text(encoding="utf-8"))
-            kept: dict[str, dict[str, object]] = dict(robots.get(self._robot, {}))
+            found: dict[str, dict[str, object]] = dict(robots.get(self._robot, {}))
+            kept = {one_line(name, MAX_PLACE_CHARS): entry for name, entry in found.items()}
             for entry in kept.values():
                 self._place(entry)
         except (ValueError, KeyError, AttributeError, TypeError) as error:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Event, FindingSeen, Rehearsed
@@ -62,6 +62,12 @@ class Planned:
         """All that is told of it."""
         return (self.event(needs_approval),)
 
+    def part_event(self, steps_before: int) -> Rehearsed:
+        """As `event`, for a part that goes on after so many steps of the same turn."""
+        event = self.event(False)
+        findings = tuple(replace(found, step=_later(found.step, steps_before)) for found in event.findings)
+        return replace(event, findings=findings)
+
     def event(self, needs_approval: bool) -> Rehearsed:
         """What the faces show of it."""
         rehearsal = self.rehearsal
@@ -83,6 +89,11 @@ class Planned:
             tuple((row[1], row[2], row[3]) for row in rows),
             needs_approval,
         )
+
+
+def _later(step: tuple[int, ...], steps_before: int) -> tuple[int, ...]:
+    """The path of a step that comes after so many others."""
+    return (step[0] + steps_before, *step[1:]) if step else ()
 
 
 class Planner:
@@ -109,13 +120,23 @@ class Planner:
         """Corners, in `odom`, of where the world lets a robot be; None where it says nothing."""
         return self._world.allowed_area.points if self._world.allowed_area is not None else None
 
-    def plan(self, turn: int, plan_text: str, start: Pose) -> Planned:
-        """Read and rehearse `plan_text` from `start` (odom frame). Never raises for what a person or model wrote."""
+    def plan(self, turn: int, plan_text: str, start: Pose, plan_start: Pose | None = None) -> Planned:
+        """Read and rehearse `plan_text` from `start` (odom frame). Never raises for what a person or model wrote.
+
+        Args:
+            plan_start: where the whole began that this is a part of, if it did not begin here.
+        """
         try:
             plan = parse_plan(plan_text)
         except PlanTextError as error:
             return Planned(turn, None, Reason("plan_text", {"problem": str(error)}))
         rehearsal = rehearse(
-            plan, self._profile, self._world, start, self._kernel, route_planner=self._routes
+            plan,
+            self._profile,
+            self._world,
+            start,
+            self._kernel,
+            plan_start=plan_start,
+            route_planner=self._routes,
         )
         return Planned(turn, rehearsal)

@@ -32,6 +32,8 @@ from chatrobot.sim.world import EMPTY_WORLD, World
 HORIZON_S = 60.0
 WALL_LIMIT_S = 10.0
 LIMITS = BoxLimits(cpu_s=10)
+_HARMLESS = ("box_tried_files", "box_tried_memory", "box_tried_threads")
+"""Honest programs try these, and some can do without."""
 _TWISTS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
 _SENSOR_TYPES = (
     "nav_msgs/msg/Odometry",
@@ -158,7 +160,7 @@ def _about_the_end(played: Played, horizon_s: float) -> Iterator[Finding]:
     elif end.exit_code != 0:
         yield _found("warn", "program_exit_code", end.t_s, code=end.exit_code)
     for attempt in played.attempts:
-        yield Finding("refuse", attempt, t_s=played.duration_s)
+        yield Finding("warn" if attempt.code in _HARMLESS else "refuse", attempt, t_s=played.duration_s)
 
 
 def _about_motion(played: Played, stage: ProgramStage) -> Iterator[Finding]:

@@ -118,7 +118,7 @@ class ProgramStage:
             tick_s += STEADY_STEP_S - TICK_S
         end_s = min(until_s, tick_s)
         expires_s = self._held.ends_s
-        if self.now_s < expires_s < end_s and not self._held.at(self.now_s).is_zero:
+        if self.now_s < expires_s <= end_s and not self._held.at(self.now_s).is_zero:
             end_s = expires_s
             self._is_steady = False
         self.robot.step(end_s - self.now_s)

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from chatrobot.core.events import Finished
 from chatrobot.language.phrases import render_reason, say
+
+if TYPE_CHECKING:
+    from chatrobot.session.model_terms import Ended
 
 LEAST_DISTANCE_M = 0.005
 LEAST_ANGLE_RAD = math.radians(0.5)
@@ -21,6 +25,24 @@ def describe_end(finished: Finished, language: str) -> str:
         return reason
     code = "stopped_after" if finished.outcome == "stopped" else "failed_after"
     return say(language, code, moved=moved or say(language, "nothing_moved"), reason=reason)
+
+
+def describe_model_end(ended: Ended, language: str) -> str:
+    """What a turn that a model planned came to."""
+    finished, reason = ended.finished, ended.reason
+    if ended.outcome == "answered":
+        return ended.said or say(language, "done_standing")
+    if ended.outcome == "completed":
+        return describe_end(finished, language) if finished is not None else say(language, "done_standing")
+    why = render_reason(reason, language) if reason is not None else ""
+    moved = _measured(finished, language) if finished is not None else ""
+    if ended.outcome == "stopped":
+        return say(language, "stopped_after", moved=moved or say(language, "nothing_moved"), reason=why)
+    if ended.outcome == "failed" and finished is not None and finished.outcome == "failed":
+        return describe_end(finished, language)
+    if ended.outcome == "unclear":
+        why = say(language, "model_no_plan", problem=why, said=ended.said)
+    return say(language, "model_so_far", reason=why, moved=moved) if moved else why
 
 
 def _measured(finished: Finished, language: str) -> str:

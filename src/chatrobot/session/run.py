@@ -76,7 +76,7 @@ class Run:
         self._start_path_m = sensors.estimate.path_m if sensors.estimate is not None else 0.0
         self._told: set[tuple[int, str]] = set()
         self.executor = Executor(profile, sensors, emit)
-        self.executor.start(job.turn, job.planned.walk(), job.planned.duration_s, now_s)
+        self.executor.start(job.turn, job.walk(), job.planned.duration_s, now_s)
 
     def tick(self, now_s: float) -> None:
         """One period: what the executor asks, as far as the governor allows it."""

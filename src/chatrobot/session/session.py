@@ -6,20 +6,25 @@
 from __future__ import annotations
 
 import threading
+import time
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal
 
 from chatrobot.core.errors import JointError, PlanTextError
-from chatrobot.core.events import Event, Finished, Interpreted, Outcome, Remembered, Result, Telemetry
+from chatrobot.core.events import Event, Finished, Interpreted, Notice, Outcome, Remembered, Result, Telemetry
+from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
 from chatrobot.session.authoring import Authoring
 from chatrobot.session.draft import Draft
 from chatrobot.session.joint import Joint
+from chatrobot.session.model_terms import Ended
+from chatrobot.session.observations import measured
 from chatrobot.session.program_turns import Hooks, ProgramTurns
+from chatrobot.session.thinking import Interpreter, Mind, Thinking
 from chatrobot.session.understanding import Understanding
 
 QUEUE_LIMIT = 10
@@ -33,6 +38,7 @@ class Options:
     `while_moving` decides what a new instruction does to a running one: `queue` (pipes, programs) or `replace`
     (a person at the keyboard). `approve` asks for a yes before each plan; `rehearse_only` moves nothing. Of programs,
     `ask_findings` asks where rehearsal found something, `ask_new` before each that was written just now.
+    `interpreter`: who understands; with `auto` a model is asked what is not understood without it.
     """
 
     while_moving: Literal["queue", "replace"] = "queue"
@@ -40,6 +46,7 @@ class Options:
     rehearse_only: bool = False
     ask_findings: bool = True
     ask_new: bool = False
+    interpreter: Interpreter = "auto"
 
 
 _Kind = Literal["text", "plan", "program", "draft", "stop", "emergency_stop", "too_many"]
@@ -51,6 +58,7 @@ class _Said:
     turn: int
     text: str
     kind: _Kind = "text"
+    at_s: float = 0.0
 
 
 class Session:
@@ -59,6 +67,7 @@ class Session:
     Args:
         on_event: hears every event, in order; it only reads.
         authoring: writes and keeps programs; None where requests for one are driven as plans.
+        mind: the language model to ask, None for none.
     """
 
     def __init__(
@@ -68,6 +77,7 @@ class Session:
         on_event: Callable[[Event], None],
         options: Options,
         authoring: Authoring | None = None,
+        mind: Mind | None = None,
     ) -> None:
         self._joint = joint
         self.understanding = understanding
@@ -79,6 +89,9 @@ class Session:
         self._void_turn = 0
         self._lock = threading.Lock()
         self.results: dict[int, Result] = {}
+        self._thinking = Thinking(
+            mind, options.interpreter, joint, understanding, self._emit, self._conclude_model_turn
+        )
         self._asked: dict[int, Draft | str] = {}
         self.authoring = authoring
         hooks = Hooks(self._emit, self._conclude, self._track, self._send_program, self._is_void_turn)
@@ -123,7 +136,7 @@ class Session:
                 self._asked[turn] = program
             if kind in _WAITING and self._count_waiting() >= QUEUE_LIMIT and self.is_moving:
                 kind = "too_many"
-            self._texts.append(_Said(turn, text, kind))
+            self._texts.append(_Said(turn, text, kind, time.monotonic()))
         self._joint.wake()
         return turn
 
@@ -131,6 +144,7 @@ class Session:
         """Stop the robot and drop what was said before this moment."""
         self._void_turn = self._turns  # no lock: a stop waits for nothing
         self._joint.send("stop", self._void_turn, why=why)
+        self._thinking.cancel()
         if self.authoring is not None:
             self.authoring.cancel()
 
@@ -138,6 +152,7 @@ class Session:
         """Stop the robot and keep it stopped until `release`."""
         self._void_turn = self._turns
         self._joint.send("emergency_stop", self._void_turn, why=why)
+        self._thinking.cancel()
 
     def release(self) -> None:
         """Release an emergency stop. For the local console alone."""
@@ -150,11 +165,11 @@ class Session:
     @property
     def is_moving(self) -> bool:
         """True while a plan of ours runs, or is on its way to."""
-        return bool(self._in_flight)
+        return bool(self._in_flight) or self._thinking.is_moving
 
     @property
     def is_idle(self) -> bool:
-        return not self._in_flight and not self._texts
+        return not self._in_flight and not self._texts and not self._thinking.is_busy
 
     # --- the pumping thread ---
 
@@ -171,11 +186,17 @@ class Session:
         Raises:
             JointError: Motion is gone.
         """
+        self._thinking.pump()
         self._take_texts()
-        event = self._joint.next_event(0.0 if self._can_take_text() else timeout_s)
+        if self._thinking.is_calling and self._joint.is_simulated and not self._in_flight:
+            self._thinking.wait(timeout_s)  # a model thinks in no time at all
+            self._thinking.pump()
+            timeout_s = 0.0
+        event = self._joint.next_event(0.0 if self._next_text() is not None else timeout_s)
         while event is not None:
             self._hear(event)
             event = self._joint.next_event(0.0)
+        self._thinking.pump()
         if self._joint.is_lost:
             raise JointError("Motion is gone; its guard has halted the robot. Start chatrobot again.")
         self._take_texts()
@@ -187,12 +208,23 @@ class Session:
     def _count_waiting(self) -> int:
         return sum(said.kind in _WAITING and not self._is_void(said) for said in self._texts)
 
-    def _can_take_text(self) -> bool:
-        return bool(self._texts) and (
-            self._texts[0].kind not in _WAITING
-            or self._is_void(self._texts[0])
-            or not self._in_flight
-            or self._options.while_moving == "replace"
+    def _next_text(self) -> _Said | None:
+        """The one to take now: the first, unless it has to wait for what runs or is thought about."""
+        for said in tuple(self._texts):
+            if said.kind not in _WAITING or self._is_void(said) or self._options.while_moving == "replace":
+                return said
+            if self._in_flight:
+                return None
+            if not self._thinking.is_busy or self._overtakes(said):
+                return said
+        return None
+
+    def _overtakes(self, said: _Said) -> bool:
+        """It needs no model, and the one that is being asked says nothing."""
+        if not self._thinking.may_be_overtaken(said.at_s):
+            return False
+        return said.kind == "plan" or not self._thinking.wants(
+            said.text, self.understanding.interpret(said.text)
         )
 
     def _is_void(self, said: _Said) -> bool:
@@ -210,9 +242,9 @@ class Session:
 
     def _take_texts(self) -> None:
         self._refuse_overflow()
-        while self._can_take_text():
+        while (said := self._next_text()) is not None:
             with self._lock:
-                said = self._texts.popleft()
+                self._texts.remove(said)
             if self._is_void(said):
                 self._conclude(said.turn, "stopped", self.understanding.say("dropped_by_stop", said.text))
             elif said.kind == "text":
@@ -239,6 +271,10 @@ class Session:
         if self._programs is not None and self._programs.begin(said.turn, said.text):
             return
         meant = self.understanding.interpret(said.text)
+        if self._thinking.wants(said.text, meant):
+            self._ask_model(said, meant)
+            return
+        meant = self._thinking.without_model(said.text, meant)
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         interpreted = Interpreted(said.turn, "offline", plan_text, meant.reply)
         if meant.outcome == "plan":
@@ -253,7 +289,27 @@ class Session:
             self._conclude(said.turn, "stopped", meant.reply)
         else:
             self.understanding.note_unmoved(said.text, meant)
+            self._thinking.note(said.text, "", f"{meant.outcome}: {meant.reply}")
             self._conclude(said.turn, meant.outcome, meant.reply)
+
+    def _ask_model(self, said: _Said, meant: Interpretation) -> None:
+        options = self._options
+        if options.while_moving == "replace":
+            self._thinking.replace()
+        self._thinking.begin(
+            said.turn,
+            said.text,
+            meant,
+            options.while_moving,
+            approve=options.approve,
+            rehearse_only=options.rehearse_only,
+        )
+        if self._is_void_turn(said.turn):
+            self._thinking.cancel()  # a stop came while it was being understood
+
+    def _conclude_model_turn(self, turn: int, text: str, ended: Ended) -> None:
+        reply = self.understanding.note_model_turn(text, ended, self._options.rehearse_only)
+        self._conclude(turn, ended.outcome, reply, ended.finished, ended.reason)
 
     def _read_plan(self, said: _Said) -> None:
         try:
@@ -271,6 +327,8 @@ class Session:
 
     def _send_plan(self, said: _Said, meant: Interpretation, plan_text: str) -> None:
         mode = "append" if meant.append else self._options.while_moving
+        if mode == "replace":
+            self._thinking.replace()
         self._in_flight[said.turn] = (said.text, meant)
         self._joint.send(
             "plan",
@@ -288,14 +346,16 @@ class Session:
         return turn <= self._void_turn
 
     def _send_program(self, turn: int, payload: dict[str, Any]) -> None:
-        is_new = payload.pop("is_new")
+        options = self._options
+        asks_new = payload.pop("is_new") and options.ask_new
+        asks_remap = payload.pop("is_led_elsewhere") and options.ask_findings
         self._joint.send(
             "program",
             turn,
-            mode=self._options.while_moving,
-            approve=self._options.approve or (is_new and self._options.ask_new),
-            ask_findings=self._options.ask_findings,
-            rehearse_only=self._options.rehearse_only,
+            mode=options.while_moving,
+            approve=options.approve or asks_new or asks_remap,
+            ask_findings=options.ask_findings,
+            rehearse_only=options.rehearse_only,
             **payload,
         )
 
@@ -307,17 +367,30 @@ class Session:
         self._emit(event)
         if self._programs is not None and self._programs.hear(event):
             return  # the next version of a program is on its way
+        self._thinking.hear(event)
         if isinstance(event, Finished) and event.turn in self._in_flight:
             text, meant = self._in_flight.pop(event.turn)
             reply = self.understanding.note_finished(text, meant, event, self._options.rehearse_only)
             if self._programs is not None:
                 reply = self._programs.ending(event.turn, reply)
+            plan_text = format_plan(meant.plan) if meant.plan is not None else ""
+            self._thinking.note(text, plan_text, f"{event.outcome}: {measured(event)}")
             self._conclude(event.turn, event.outcome, reply, event)
 
-    def _conclude(self, turn: int, outcome: Outcome, reply: str, finished: Finished | None = None) -> None:
+    def _conclude(
+        self,
+        turn: int,
+        outcome: Outcome,
+        reply: str,
+        finished: Finished | None = None,
+        reason: Reason | None = None,
+    ) -> None:
         self._in_flight.pop(turn, None)
         pose = self.understanding.pose
-        result = Result(turn, outcome, reply, pose)
+        unkept = self.understanding.places.take_unkept()
+        if unkept:
+            self._emit(Notice(turn, Reason("places_not_kept", {"why": unkept})))
+        result = Result(turn, outcome, reply, pose, reason=reason)
         if finished is not None:
             result = Result(
                 turn,
@@ -328,7 +401,7 @@ class Session:
                 finished.path_m,
                 finished.duration_s,
                 finished.paused_s,
-                finished.reason,
+                reason or finished.reason,
             )
         self.results[turn] = result
         self._emit(result)

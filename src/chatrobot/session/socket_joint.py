@@ -38,6 +38,7 @@ class SocketJoint:
         self._events: queue.SimpleQueue[Event | None] = queue.SimpleQueue()
         self._closed = threading.Event()
         self.is_lost = False
+        self.is_simulated = False
         self.beats = True
         self.process, self._line = spawn_with_line(
             "chatrobot.session.motion_process",

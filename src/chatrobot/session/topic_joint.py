@@ -64,6 +64,7 @@ class TopicJoint:
         self._in_flight: dict[int, str] = {}
         self._pose: Pose = ORIGIN
         self.beats = True
+        self.is_simulated = False
 
     def open(self) -> None:
         """Listen, and begin to beat."""
@@ -84,7 +85,7 @@ class TopicJoint:
         return self._present() is not None
 
     def send(self, word: Word, turn: int = 0, **payload: Any) -> None:
-        if word in ("plan", "program"):
+        if word == "program" or (word == "plan" and payload.get("mode") != "extend"):
             control = self._find_control()
             if control is None:
                 self._conclude(turn, "failed", Reason("no_control"))

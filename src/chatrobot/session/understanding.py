@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 import uuid
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from chatrobot.core.events import Finished, Outcome, Remembered, Telemetry
 from chatrobot.core.geometry import ZERO_TWIST, Pose
 from chatrobot.language.context import Context, Dialogue, RobotState, TurnRecord
 from chatrobot.language.interpretation import Interpretation, LanguageCode, OfflineInterpreter
 from chatrobot.language.normalise import has_chinese
-from chatrobot.language.phrases import say
-from chatrobot.plan.steps import Plan
+from chatrobot.language.phrases import describe_steps, say
+from chatrobot.plan.steps import Plan, Step
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.places import Places
-from chatrobot.session.replies import describe_end
+from chatrobot.session.replies import describe_end, describe_model_end
 from chatrobot.sim.world import World
+
+if TYPE_CHECKING:
+    from chatrobot.session.model_terms import Ended
 
 REMEMBERED_TURNS = 50
 """Older turns are forgotten: nobody says "again" about what was fifty instructions ago."""
@@ -35,6 +40,7 @@ class Understanding:
         self._dialogue = Dialogue()
         self._state = RobotState()
         self._world_places = {alias: world.places[main] for alias, main in world.aliases.items()}
+        self._main_places = dict(world.places)
         # The simulated robot's odometry begins anew with every session, as a real one's does at power-on.
         self._places = Places(folder, profile.name, uuid.uuid4().hex)
         self._started = False
@@ -52,6 +58,16 @@ class Understanding:
     @property
     def world_places(self) -> dict[str, Pose]:
         return self._world_places
+
+    @property
+    def main_places(self) -> dict[str, Pose]:
+        """The places of the world, each once."""
+        return self._main_places
+
+    @property
+    def usable_places(self) -> dict[str, Pose]:
+        """The places a person has named, as far as their coordinates still hold."""
+        return {name: place.pose for name, place in self._places.all().items() if place.usable}
 
     def warm(self) -> None:
         """Load the words now, while somebody waits for something else anyway: the first sentence is then quick."""
@@ -115,6 +131,24 @@ class Understanding:
             return say(meant.language, "only_rehearsed")
         return describe_end(finished, meant.language)
 
+    def describe(self, steps: Sequence[Step]) -> str:
+        """Steps in a few words."""
+        return describe_steps(steps, self.language)
+
+    def note_model_turn(self, text: str, ended: Ended, rehearse_only: bool) -> str:
+        """A turn that a model planned has ended. Returns the reply."""
+        finished = ended.finished
+        plan = _plan_of(ended.steps) if not rehearse_only else None
+        if finished is not None:
+            self._state = replace(self._state, pose=finished.pose, twist=ZERO_TWIST, moving=False)
+            self._record(TurnRecord(text, ended.outcome, plan, finished.start, finished.pose))
+        else:
+            self._record(TurnRecord(text, ended.outcome))
+        self._dialogue = replace(self._dialogue, pending="")
+        if rehearse_only and ended.outcome == "completed":
+            return say(self.language, "only_rehearsed")
+        return describe_model_end(ended, self.language)
+
     def _learn(self, meant: Interpretation) -> None:
         dialogue = self._dialogue
         self._dialogue = replace(
@@ -127,3 +161,11 @@ class Understanding:
     def _record(self, record: TurnRecord) -> None:
         turns = (*self._dialogue.turns, record)[-REMEMBERED_TURNS:]
         self._dialogue = replace(self._dialogue, turns=turns)
+
+
+def _plan_of(steps: Sequence[Step]) -> Plan | None:
+    """All of them as one plan; None where there is none, or it would be too large for one."""
+    try:
+        return Plan(tuple(steps))
+    except ValueError:
+        return None

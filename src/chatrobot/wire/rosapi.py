@@ -17,7 +17,7 @@ BRIDGES = ("rosbridge_websocket", "rosbridge_server")
 ASK_AGAIN_S = 30.0
 """A robot without `rosapi` is asked again after this long, not with every look."""
 
-_OF_INTEREST = ("Twist", "TwistStamped", "Odometry", "Pose")
+_OF_INTEREST = ("Twist", "TwistStamped", "Odometry", "Pose", "Imu", "LaserScan")
 """Only topics of these types are looked into: every topic costs two questions."""
 
 

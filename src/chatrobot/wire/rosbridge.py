@@ -37,7 +37,7 @@ UNACKNOWLEDGED_S = 1.0
 """A connection whose data is not acknowledged for this long is given up: when Wi-Fi comes back, the velocities of
 ten seconds must not pour out of the kernel's queue."""
 PING_S = 1.0
-FIRST_RETRY_S, LAST_RETRY_S = 0.2, 1.0
+FIRST_RETRY_S, LAST_RETRY_S = 0.05, 1.0
 """A robot whose base holds its last command waits for our zero all the while."""
 ANSWER_S = 0.5
 """A service of the robot's answers within this time, or is taken not to be there."""
@@ -281,5 +281,5 @@ def _queued_bytes(raw: socket.socket) -> int:
     """How much the other end has not acknowledged yet (tcp(7))."""
     try:
         return int(struct.unpack("i", fcntl.ioctl(raw.fileno(), _SIOCOUTQ, b"\0\0\0\0"))[0])
-    except OSError:
+    except (OSError, ValueError):  # ValueError: a socket that another thread has just closed has no number
         return 0  # closed: sending will say so

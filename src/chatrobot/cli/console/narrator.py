@@ -25,6 +25,7 @@ from chatrobot.core.events import (
     Remembered,
     Result,
     Said,
+    Streamed,
 )
 from chatrobot.core.geometry import Twist
 from chatrobot.language.phrases import render_reason, say
@@ -50,11 +51,14 @@ class Narrator:
     def __init__(self, words: Words) -> None:
         self._words = words
         self._plans: dict[int, Interpreted] = {}
+        self._streamed: dict[int, int] = {}
         self._programs: set[int] = set()
 
     def tell(self, event: Event) -> Iterator[RenderableType]:
         """The lines to print for `event`; none for most."""
         match event:
+            case Streamed():
+                return self._streamed_step(event)
             case Interpreted():
                 return self._interpreted(event)
             case Rehearsed():
@@ -112,7 +116,7 @@ class Narrator:
     # --- one method an event ---
 
     def _interpreted(self, event: Interpreted) -> Iterator[RenderableType]:
-        if event.plan_text:
+        if event.plan_text and event.turn not in self._streamed:
             self._plans[event.turn] = event
             if event.reply and (
                 event.by == "model" or self._words.language != "en"
@@ -123,6 +127,8 @@ class Narrator:
         understood = self._plans.pop(event.turn, None)
         if understood is not None:
             yield from self.plan(understood.plan_text, event, PLAN_LINES)
+        elif event.turn in self._streamed:
+            yield from self._findings(event)
         elif event.turn in self._programs:
             self._programs.discard(event.turn)
             facts = self._words.say(
@@ -130,6 +136,14 @@ class Narrator:
             )
             yield indented(Text(facts, "dim"))
             yield from self._findings(event)
+
+    def _streamed_step(self, event: Streamed) -> Iterator[RenderableType]:
+        """A step of a plan that is still coming in."""
+        if event.turn not in self._streamed:
+            yield Text("  ").append(self._words.say("plan"), "bold")
+        for line in event.plan_text.splitlines():
+            number = self._streamed[event.turn] = self._streamed.get(event.turn, 0) + 1
+            yield Text("  ").append(f"{number:>3}  ", "dim").append_text(_plan_line(line))
 
     def _program_written(self, event: ProgramWritten) -> Iterator[RenderableType]:
         self._programs.add(event.turn)
@@ -164,6 +178,7 @@ class Narrator:
 
     def _result(self, event: Result) -> Iterator[RenderableType]:
         self._plans.pop(event.turn, None)
+        self._streamed.pop(event.turn, None)
         mark, style = _MARKS[event.outcome]
         yield marked(mark, style, event.reply)
         if event.path_m > _LEAST_M or abs(event.turned_rad) > _LEAST_RAD:

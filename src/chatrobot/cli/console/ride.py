@@ -14,6 +14,7 @@ from chatrobot.core.events import (
     Progress,
     Rehearsed,
     Started,
+    Streamed,
     Telemetry,
 )
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
@@ -42,6 +43,7 @@ class Ride:
     program: ProgramWritten | None = None
     rehearsed: Rehearsed | None = None
     turn: int = 0
+    _streamed: int = 0
 
     def hear(self, event: Event) -> None:
         """Take one event in."""
@@ -51,18 +53,28 @@ class Ride:
             self._follow(event.pose)
         elif isinstance(event, Progress):
             self.step, self.of, self.fraction = event.step, event.of, event.fraction
+        elif isinstance(event, Streamed):
+            self._grow(event)
         elif isinstance(event, Interpreted) and event.plan_text:
             self.plan_text, self.program = event.plan_text, None
         elif isinstance(event, ProgramWritten):
             self.program = event
         elif isinstance(event, Rehearsed):
             self.rehearsed = event
-            self.path = tuple((x, y) for x, y, _ in event.path)
+            path = tuple((x, y) for x, y, _ in event.path)
+            goes_on = event.turn == self._streamed and self.is_moving
+            self.path = (*self.path, *path) if goes_on else path
         elif isinstance(event, Started):
             self.turn, self.is_moving, self.step, self.of, self.fraction = event.turn, True, 0, 0, 0.0
             self.pose, self.trail = event.pose, ((event.pose.x_m, event.pose.y_m),)
         elif isinstance(event, Finished):
             self._finish(event)
+
+    def _grow(self, event: Streamed) -> None:
+        """A plan that comes in step by step."""
+        goes_on = event.turn == self._streamed
+        self.plan_text = f"{self.plan_text}\n{event.plan_text}" if goes_on else event.plan_text
+        self._streamed = event.turn
 
     def _follow(self, pose: Pose) -> None:
         here = (pose.x_m, pose.y_m)

@@ -20,7 +20,7 @@ def run(args: argparse.Namespace) -> int:
     Raises:
         CorpusError: a file is not.
     """
-    setup = setup_from(args, options=Options(), world="empty")
+    setup = setup_from(args, options=Options(), world="empty", named_model=True)
     items = [item for file in args.files for item in load_corpus(Path(file))]
     began_s = time.monotonic()
     judged = []

@@ -11,10 +11,8 @@ from chatrobot.models.choice import store_choice
 from chatrobot.models.config import ModelConfig
 from chatrobot.models.discovery import find_local
 from chatrobot.models.keys import KeyringError, keyring_name, store_key, where_key_is
-from chatrobot.models.providers import Provider, providers
+from chatrobot.models.providers import LOCAL, Provider, providers
 from chatrobot.models.secret import Secret
-
-_LOCAL = ("ollama", "llamacpp", "vllm")
 
 
 def set_up(config: ModelConfig) -> int:
@@ -35,7 +33,7 @@ def _choose(config: ModelConfig) -> tuple[str, ModelConfig]:
     print("looking for model servers on this machine…", flush=True)
     servers = find_local(config)
     local = [f"{server.provider}:{name}" for server in servers for name in server.models]
-    rows: list[str | Provider] = [*local, *(row for row in providers().values() if row.name not in _LOCAL)]
+    rows: list[str | Provider] = [*local, *(row for row in providers().values() if row.name not in LOCAL)]
     for number, row in enumerate(rows, start=1):
         if isinstance(row, str):
             print(f"  {number:2d}  {row}  (on this machine: free, and nothing leaves it)")

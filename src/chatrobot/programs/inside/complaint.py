@@ -9,6 +9,14 @@ import traceback
 LONGEST_TEXT = 8 * 1024
 
 
+def preload() -> None:
+    """Have all imported that a traceback needs when it is shown: in the box it is too late."""
+    try:
+        sum([1, "2"])  # type: ignore[list-item]
+    except TypeError:
+        traceback.format_exc()
+
+
 def complaint(error: BaseException) -> tuple[str, str, str, int]:
     """(type, message, traceback, the program's line or 0). Opens no file for the lines of others."""
     told = traceback.TracebackException.from_exception(error, lookup_lines=False)

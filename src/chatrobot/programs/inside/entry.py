@@ -16,6 +16,7 @@ from typing import NoReturn
 
 from chatrobot.programs.inside import event_loop, top_level, virtual_time
 from chatrobot.programs.inside.complaint import complaint
+from chatrobot.programs.inside.complaint import preload as preload_complaint
 from chatrobot.programs.inside.link import set_link
 from chatrobot.programs.inside.live_link import LiveLink
 from chatrobot.programs.inside.output import PipeStream
@@ -28,6 +29,7 @@ AnyLink = VirtualLink | LiveLink
 def preload() -> None:
     """For the warm server, before it forks."""
     top_level.preload()
+    preload_complaint()
 
 
 def run(channel: socket.socket, payload: bytes) -> None:

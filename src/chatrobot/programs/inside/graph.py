@@ -58,12 +58,12 @@ def topic_types() -> list[tuple[str, list[str]]]:
 
 
 def add_service(service: Any) -> None:
-    _services[service.srv_name] = service
+    _services[service.service_name] = service
 
 
 def remove_service(service: Any) -> None:
-    if find_service(service.srv_name, service.srv_type) is service:
-        del _services[service.srv_name]
+    if find_service(service.service_name, service.srv_type) is service:
+        del _services[service.service_name]
 
 
 def find_service(name: str, srv_type: Any) -> Any:

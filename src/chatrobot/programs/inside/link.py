@@ -44,6 +44,9 @@ class Link:
         """`now_ns` for a program that asks what time it is, or whether something has happened."""
         raise NotImplementedError
 
+    def count_publish(self) -> None:
+        """The program publishes: that takes a little time too."""
+
     def send(self, word: str, *values: Any) -> None:
         """A word, with the time put first."""
         raise NotImplementedError
@@ -55,7 +58,7 @@ class Link:
         return self.settings.start_ns + self.look()
 
     def twist(self, vx_mps: float, vy_mps: float, wz_radps: float, planar: bool) -> None:
-        twist, now_ns = (vx_mps, vy_mps, wz_radps), self.look()
+        twist, now_ns = (vx_mps, vy_mps, wz_radps), self.now_ns()
         if twist == self._last_twist and now_ns - self._last_twist_ns < SAME_TWIST_NS:
             return
         self._last_twist, self._last_twist_ns = twist, now_ns

@@ -137,7 +137,7 @@ def _field(kind: str) -> Field:
         return _sequence(kind[:-2])
     if kind.endswith("]"):
         base, _, size = kind[:-1].partition("[")
-        return _fixed(base, int(size))
+        return _sequence(base, int(size[2:])) if size.startswith("<=") else _fixed(base, int(size))
     return _scalar(kind)
 
 
@@ -211,10 +211,10 @@ def _nested(kind: str) -> Field:
     return make, check
 
 
-def _sequence(base: str) -> Field:
+def _sequence(base: str, most: int | None = None) -> Field:
     _, check_one = _scalar(base)
     code = _code(base)
-    name = {"string": "str"}.get(base) or (
+    name = {"string": "str", "byte": "bytes"}.get(base) or (
         "float" if base in _FLOATS else "int" if code else base.split("/")[-1]
     )
 
@@ -232,7 +232,10 @@ def _sequence(base: str) -> Field:
                 check_one(field, item)
             except AssertionError as error:
                 raise AssertionError(problem) from error
-        return array(code, items) if code else items
+        assert most is None or len(items) <= most, problem
+        if code:
+            return array(code, value if isinstance(value, (bytes, bytearray)) else items)
+        return items
 
     return (lambda: array(code)) if code else list, check
 
@@ -277,6 +280,8 @@ def _ros_name(kind: str) -> str:
     if kind.endswith("[]"):
         return f"sequence<{_ros_name(kind[:-2])}>"
     base, bracket, rest = kind.partition("[")
+    if rest.startswith("<="):
+        return f"sequence<{_ros_name(base)}, {rest[2:-1]}>"
     return _ROS_NAMES.get(base, base) + bracket + rest
 
 
@@ -284,7 +289,7 @@ def _snake(name: str) -> str:
     out = ""
     for at, letter in enumerate(name):
         follows = at + 1 < len(name) and name[at + 1].islower()
-        if letter.isupper() and at and (name[at - 1].islower() or follows):
+        if letter.isupper() and at and (name[at - 1].islower() or name[at - 1].isdigit() or follows):
             out += "_"
         out += letter.lower()
     return out

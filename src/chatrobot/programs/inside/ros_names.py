@@ -5,7 +5,10 @@ Rules: design.ros2.org/articles/topic_and_service_names.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
+
+_SUBSTITUTION = re.compile(r"\{(\w*)\}")
 
 
 def node_name_problem(name: str) -> tuple[str, int] | None:
@@ -28,8 +31,6 @@ def topic_name_problem(name: str) -> tuple[str, int] | None:
         return bad
     if "~" in name[1:]:
         return "topic name must not have tilde '~' unless it is the first character", name.index("~", 1)
-    if name.startswith("~") and len(name) > 1 and name[1] != "/":
-        return "topic name must not have tilde '~' not followed by a forward slash '/'", 1
     if "//" in name:
         return "topic name must not contain repeated '/'", name.index("//") + 1
     at = 0
@@ -43,7 +44,15 @@ def topic_name_problem(name: str) -> tuple[str, int] | None:
 def namespace_problem(namespace: str) -> tuple[str, int] | None:
     if not namespace.startswith("/"):
         return "namespace must be absolute, it must lead with a '/'", 0
-    return None if namespace == "/" else topic_name_problem(namespace)
+    problem = None if namespace == "/" else topic_name_problem(namespace)
+    if problem is None:
+        return None
+    words = problem[0].replace(
+        "topic name token must not start", "namespace must not have a token that starts"
+    )
+    return words.replace("topic name", "namespace").replace("'_', '~', '{', or '}'", "'_', or '/'"), problem[
+        1
+    ]
 
 
 def resolve(name: str, node_name: str, namespace: str, remaps: Mapping[str, str]) -> str:
@@ -57,11 +66,19 @@ def resolve(name: str, node_name: str, namespace: str, remaps: Mapping[str, str]
 
 def _expand(name: str, node_name: str, namespace: str) -> str:
     base = namespace.rstrip("/")
+    name = _SUBSTITUTION.sub(lambda found: _substitute(name, found.group(1), node_name, base), name)
     if name.startswith("/"):
         return name
     if name.startswith("~"):
         return f"{base}/{node_name}{name[1:]}"
     return f"{base}/{name}"
+
+
+def _substitute(name: str, word: str, node_name: str, namespace: str) -> str:
+    values = {"node": node_name, "ns": namespace, "namespace": namespace}
+    if word not in values:
+        raise ValueError(f"topic name '{name}' is invalid: unknown substitution: {{{word}}}")
+    return values[word].lstrip("/")
 
 
 def _bad_character(what: str, name: str, also: str) -> tuple[str, int] | None:

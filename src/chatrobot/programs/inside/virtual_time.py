@@ -31,6 +31,7 @@ def install(scheduler: Scheduler, start_ns: int) -> None:
     _install_clocks(scheduler, start_ns)
     _install_dates(scheduler, start_ns)
     _install_locks(scheduler)
+    _install_queues(scheduler)
     _install_threads(scheduler)
     _install_select(scheduler)
 
@@ -76,6 +77,7 @@ def _install_clocks(scheduler: Scheduler, start_ns: int) -> None:
     timeit.default_timer = time.perf_counter
     for module, name in ((threading, "_time"), (queue, "time"), (sched, "_time")):
         setattr(module, name, time.monotonic)
+    cast(Any, sched.scheduler.__init__).__defaults__ = (time.monotonic, time.sleep)
 
 
 def _install_dates(scheduler: Scheduler, start_ns: int) -> None:
@@ -107,7 +109,6 @@ def _install_locks(scheduler: Scheduler) -> None:
     module = cast(Any, threading)
     module._allocate_lock = module.Lock = _thread.allocate_lock = VirtualLock  # type: ignore[assignment]
     module.RLock = module._PyRLock
-    queue.SimpleQueue = queue._PySimpleQueue  # type: ignore[attr-defined,misc]
     # Made at import, by the real lock.
     cast(Any, concurrent.futures.thread)._global_shutdown_lock = VirtualLock()
 
@@ -116,6 +117,22 @@ def _install_locks(scheduler: Scheduler) -> None:
         return bool(event._flag)
 
     cast(Any, threading.Event).is_set = is_set
+
+
+def _install_queues(scheduler: Scheduler) -> None:
+    def looking(real: Callable[..., Any]) -> Callable[..., Any]:
+        def look_at(*args: Any, **kwargs: Any) -> Any:
+            scheduler.look(weight=GLANCE)
+            return real(*args, **kwargs)
+
+        return look_at
+
+    module = cast(Any, queue)
+    module.SimpleQueue = module._PySimpleQueue
+    for kind in (queue.Queue, module.SimpleQueue):
+        for name in ("empty", "full", "qsize", "get_nowait"):
+            if hasattr(kind, name):
+                setattr(kind, name, looking(getattr(kind, name)))
 
 
 def _install_threads(scheduler: Scheduler) -> None:

@@ -51,7 +51,7 @@ def write_lines(plan: Plan, context: LoweringContext) -> Body | Impossible:
         return found
     writer = _Writer(context, found, has_rests=_has_rests(plan.steps))
     writer.block(plan.steps, (), 0)
-    while writer.body.lines and writer.body.lines[-1].strip() == "self.rest()":
+    while writer.body.lines and writer.body.lines[-1] == "self.rest()":
         writer.body.lines.pop()  # the end of the program is a rest of its own
     if not any("self.rest()" in line for line in writer.body.lines):
         writer.body.uses.discard("rest")

@@ -13,6 +13,7 @@ import textwrap
 from chatrobot.plan.context import Impossible, LoweringContext
 from chatrobot.plan.steps import Plan
 from chatrobot.programs.writing import helpers
+from chatrobot.programs.writing.fold import folded
 from chatrobot.programs.writing.lines import Body, number, write_lines
 from chatrobot.programs.writing.wanted import Wanted
 from chatrobot.robots.profile import RobotProfile
@@ -28,7 +29,7 @@ def write_program(plan: Plan, profile: RobotProfile, wanted: Wanted) -> str | Im
     context = LoweringContext(
         profile, pose=wanted.start, plan_start=wanted.start, route_planner=wanted.routes
     )
-    body = write_lines(plan, context)
+    body = write_lines(Plan(folded(plan.steps)), context)
     if isinstance(body, Impossible):
         return body
     return _Program(body, profile, wanted).text()

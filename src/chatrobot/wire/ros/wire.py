@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, Literal
 
 from rclpy.exceptions import NameValidationException
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
@@ -13,6 +13,7 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPo
 from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import WireError
 from chatrobot.core.wiring import Wiring
+from chatrobot.wire.connect import Endpoint
 from chatrobot.wire.messages import Message
 from chatrobot.wire.ros.convert import message_class, to_message
 from chatrobot.wire.ros.node import RosNode
@@ -153,11 +154,32 @@ class RosWire:
         except (RuntimeError, NameValidationException) as error:
             raise WireError(f"cannot look at {topic}: {error}") from error
         names = [_full_name(info.node_namespace, info.node_name) for info in found]
-        own = _full_name(handle.get_namespace(), handle.get_name())
+        own = self._own_name()
         for known, _ in self._publishers:  # a second node may have our name: only as many as we have are ours
             if known == topic and own in names:
                 names.remove(own)
         return sorted(set(names))
+
+    def survey(self) -> list[Endpoint]:
+        """The endpoints of other nodes, found so far."""
+        handle, own = self.node.handle, self._own_name()
+
+        def others(topic: str, infos: list[Any], role: Literal["publishes", "listens"]) -> list[Endpoint]:
+            return [
+                Endpoint(topic, info.topic_type, role)
+                for info in infos
+                if _full_name(info.node_namespace, info.node_name) != own
+            ]
+
+        found: list[Endpoint] = []
+        for topic, _ in handle.get_topic_names_and_types():
+            found += others(topic, handle.get_publishers_info_by_topic(topic), "publishes")
+            found += others(topic, handle.get_subscriptions_info_by_topic(topic), "listens")
+        return found
+
+    def rewire(self, wiring: Wiring) -> None:
+        """Take the robot to be wired like this; before anything is published or listened to."""
+        self._wiring = wiring
 
     def resolve(self, topic: str) -> str:
         """The topic's full name, namespace and remappings applied."""
@@ -173,6 +195,9 @@ class RosWire:
 
     def close(self) -> None:
         self.node.close()
+
+    def _own_name(self) -> str:
+        return _full_name(self.node.handle.get_namespace(), self.node.handle.get_name())
 
     def _must_be_open(self) -> None:
         if self.node.is_closed:

@@ -13,7 +13,7 @@ ParameterType = message(
 ParameterValue = message(
     "rcl_interfaces/ParameterValue",
     "uint8 type; bool bool_value; int64 integer_value; float64 double_value; string string_value;"
-    "uint8[] byte_array_value;"
+    "byte[] byte_array_value;"
     "bool[] bool_array_value; int64[] integer_array_value; float64[] double_array_value; string[] string_array_value",
 )
 Parameter = message("rcl_interfaces/Parameter", "string name; rcl_interfaces/ParameterValue value")
@@ -24,7 +24,7 @@ IntegerRange = message("rcl_interfaces/IntegerRange", "int64 from_value; int64 t
 ParameterDescriptor = message(
     "rcl_interfaces/ParameterDescriptor",
     "string name; uint8 type; string description; string additional_constraints; bool read_only; bool dynamic_typing;"
-    "rcl_interfaces/FloatingPointRange[] floating_point_range; rcl_interfaces/IntegerRange[] integer_range",
+    "rcl_interfaces/FloatingPointRange[<=1] floating_point_range; rcl_interfaces/IntegerRange[<=1] integer_range",
 )
 SetParametersResult = message("rcl_interfaces/SetParametersResult", "bool successful; string reason")
 Log = message(

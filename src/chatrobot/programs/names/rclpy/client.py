@@ -24,24 +24,21 @@ class Client:
         self, node: Any, srv_type: Any, srv_name: str, qos_profile: QoSProfile, callback_group: Any
     ) -> None:
         self.srv_type = srv_type
-        self.srv_name: str = node.resolve_service_name(srv_name)
+        self.srv_name = srv_name
+        self.service_name: str = node.resolve_service_name(srv_name)
         self.qos_profile = qos_profile
         self.callback_group = callback_group
         self.is_destroyed = False
         self._node = node
         self._responses: deque[tuple[Future, Any]] = deque()
-        get_link().send("topic", "listens", self.srv_name, srv_type._type_name)
-
-    @property
-    def service_name(self) -> str:
-        return self.srv_name
+        get_link().send("topic", "listens", self.service_name, srv_type._type_name)
 
     def call_async(self, request: Any) -> Future:
         if not isinstance(request, self.srv_type.Request):
             raise TypeError
         self._check()
         future = Future()
-        service = graph.find_service(self.srv_name, self.srv_type)
+        service = graph.find_service(self.service_name, self.srv_type)
         if service is not None:
             service.receive(deepcopy(request), lambda response: self._receive(future, deepcopy(response)))
         return future
@@ -73,7 +70,7 @@ class Client:
     def service_is_ready(self) -> bool:
         self._check()
         get_link().look()
-        return graph.find_service(self.srv_name, self.srv_type) is not None
+        return graph.find_service(self.service_name, self.srv_type) is not None
 
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
         until_s = None if timeout_sec is None else time.monotonic() + timeout_sec

@@ -34,6 +34,10 @@ class Context:
         """As `ok`, at no cost of time."""
         return self._is_initialized and not self._is_shut_down
 
+    @property
+    def was_initialized(self) -> bool:
+        return self._is_initialized
+
     def on_shutdown(self, callback: Callable[[], Any]) -> None:
         if not callable(callback):
             raise TypeError("callback should be a callable")

@@ -36,6 +36,10 @@ class Executor:
 
     def __init__(self, *, context: Any = None) -> None:
         self._context = get_default_context() if context is None else context
+        if (
+            not self._context.was_initialized
+        ):  # in rclpy it has no handle then, and this is what comes of that
+            raise TypeError("'NoneType' object does not support the context manager protocol")
         self._nodes: list[Any] = []
         self._tasks: deque[Task] = deque()
         self._batch: Iterator[Task] = iter(())
@@ -58,7 +62,6 @@ class Executor:
     def remove_node(self, node: Any) -> None:
         if node in self._nodes:
             self._nodes.remove(node)
-            node.forget_executor(self)
 
     def get_nodes(self) -> list[Any]:
         return list(self._nodes)

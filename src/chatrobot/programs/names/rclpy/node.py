@@ -7,19 +7,20 @@ from typing import Any, TypeVar
 
 from chatrobot.programs.inside import graph, ros_names
 from chatrobot.programs.inside.link import get_link
+from chatrobot.programs.names.rclpy._rclpy_pybind11 import DESTROYED, InvalidHandle, RCLError
 from chatrobot.programs.names.rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
 from chatrobot.programs.names.rclpy.client import Client
 from chatrobot.programs.names.rclpy.clock import Clock, ROSClock
 from chatrobot.programs.names.rclpy.exceptions import (
     InvalidNamespaceException,
     InvalidNodeNameException,
-    InvalidServiceNameException,
-    InvalidTopicNameException,
     NotInitializedException,
 )
 from chatrobot.programs.names.rclpy.guard_condition import GuardCondition
 from chatrobot.programs.names.rclpy.impl.rcutils_logger import RcutilsLogger
 from chatrobot.programs.names.rclpy.logging import get_logger
+from chatrobot.programs.names.rclpy.node_checks import check_type, destroy, qos_of, raise_for
+from chatrobot.programs.names.rclpy.node_graph import NodeGraph
 from chatrobot.programs.names.rclpy.node_parameters import NodeParameters
 from chatrobot.programs.names.rclpy.publisher import Publisher
 from chatrobot.programs.names.rclpy.qos import QoSProfile, qos_profile_services_default
@@ -31,7 +32,7 @@ from chatrobot.programs.names.rclpy.utilities import get_default_context
 T = TypeVar("T")
 
 
-class Node(NodeParameters):
+class Node(NodeGraph, NodeParameters):
     """What a program's class derives from."""
 
     def __init__(
@@ -56,8 +57,8 @@ class Node(NodeParameters):
         self._name = get_link().settings.remaps.get("__node", node_name)
         space = namespace or ""
         self._namespace = space if space.startswith("/") else f"/{space}"
-        _raise_for(ros_names.node_name_problem(self._name), InvalidNodeNameException, self._name)
-        _raise_for(ros_names.namespace_problem(self._namespace), InvalidNamespaceException, self._namespace)
+        raise_for(ros_names.node_name_problem(self._name), InvalidNodeNameException, self._name)
+        raise_for(ros_names.namespace_problem(self._namespace), InvalidNamespaceException, self._namespace)
         self._publishers: list[Publisher] = []
         self._subscriptions: list[Subscription] = []
         self._clients: list[Client] = []
@@ -66,6 +67,7 @@ class Node(NodeParameters):
         self._guards: list[GuardCondition] = []
         self._rates: dict[int, Timer] = {}
         self._executor: Any = None
+        self._is_destroyed = False
         self._clock = ROSClock()
         self._logger = get_logger(self.get_fully_qualified_name().strip("/").replace("/", "."))
         self._default_callback_group = MutuallyExclusiveCallbackGroup()
@@ -78,6 +80,7 @@ class Node(NodeParameters):
     # --- what it is ---
 
     def get_name(self) -> str:
+        self._check_destroyed()
         return self._name
 
     def get_namespace(self) -> str:
@@ -95,6 +98,15 @@ class Node(NodeParameters):
     @property
     def context(self) -> Any:
         return self._context
+
+    @property
+    def handle(self) -> Any:
+        """There is none below this one."""
+        return self
+
+    @handle.setter
+    def handle(self, value: Any) -> None:
+        raise AttributeError("handle cannot be modified after node creation")
 
     @property
     def default_callback_group(self) -> CallbackGroup:
@@ -139,26 +151,9 @@ class Node(NodeParameters):
         if new_executor is not None:
             new_executor.add_node(self)
 
-    def forget_executor(self, executor: Any) -> None:
-        """`executor` has let go of this node."""
-        if self._executor is executor:
-            self._executor = None
-
     def _wake_executor(self) -> None:
         if self._executor is not None:
             self._executor.wake()
-
-    # --- names ---
-
-    def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
-        _raise_for(ros_names.topic_name_problem(topic), InvalidTopicNameException, topic)
-        remaps = {} if only_expand else get_link().settings.remaps
-        return ros_names.resolve(topic, self._name, self._namespace, remaps)
-
-    def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
-        _raise_for(ros_names.topic_name_problem(service), InvalidServiceNameException, service)
-        remaps = {} if only_expand else get_link().settings.remaps
-        return ros_names.resolve(service, self._name, self._namespace, remaps)
 
     # --- making ---
 
@@ -173,8 +168,10 @@ class Node(NodeParameters):
         qos_overriding_options: Any = None,
         publisher_class: type[Publisher] = Publisher,
     ) -> Publisher:
-        _check_type(msg_type, "_fields_and_field_types")
-        publisher = publisher_class(self, msg_type, topic, _qos(qos_profile), self._group(callback_group))
+        check_type("message", msg_type)
+        self._check_destroyed()
+        self._check_context("Failed to create publisher: rcl node's context is invalid")
+        publisher = publisher_class(self, msg_type, topic, qos_of(qos_profile), self._group(callback_group))
         self._publishers.append(publisher)
         return publisher
 
@@ -190,9 +187,11 @@ class Node(NodeParameters):
         qos_overriding_options: Any = None,
         raw: bool = False,
     ) -> Subscription:
-        _check_type(msg_type, "_fields_and_field_types")
+        check_type("message", msg_type)
+        self._check_destroyed()
+        self._check_context("Failed to create subscription: rcl node's context is invalid")
         group = self._group(callback_group)
-        subscription = Subscription(self, msg_type, topic, callback, _qos(qos_profile), group, raw)
+        subscription = Subscription(self, msg_type, topic, callback, qos_of(qos_profile), group, raw)
         return self._add(self._subscriptions, subscription, group)
 
     def create_client(
@@ -203,7 +202,9 @@ class Node(NodeParameters):
         qos_profile: QoSProfile = qos_profile_services_default,
         callback_group: CallbackGroup | None = None,
     ) -> Client:
-        _check_type(srv_type, "Request")
+        check_type("service", srv_type)
+        self._check_destroyed()
+        self._check_context("Failed to create client: rcl node's context is invalid")
         group = self._group(callback_group)
         return self._add(self._clients, Client(self, srv_type, srv_name, qos_profile, group), group)
 
@@ -216,7 +217,9 @@ class Node(NodeParameters):
         qos_profile: QoSProfile = qos_profile_services_default,
         callback_group: CallbackGroup | None = None,
     ) -> Service:
-        _check_type(srv_type, "Request")
+        check_type("service", srv_type)
+        self._check_destroyed()
+        self._check_context("Failed to create service: rcl node's context is invalid")
         group = self._group(callback_group)
         service = Service(self, srv_type, srv_name, callback, group, qos_profile)
         return self._add(self._services, service, group)
@@ -231,6 +234,10 @@ class Node(NodeParameters):
     ) -> Timer:
         group = self._group(callback_group)
         period_ns = int(float(timer_period_sec) * 1e9)
+        self._check_context(
+            "failed to create timer: the given context is not valid, either rcl_init() was not called or "
+            "rcl_shutdown() was called."
+        )
         clock = self._clock if clock is None else clock
         timer = Timer(
             callback,
@@ -260,22 +267,22 @@ class Node(NodeParameters):
     # --- destroying ---
 
     def destroy_publisher(self, publisher: Publisher) -> bool:
-        return _destroy(self._publishers, publisher)
+        return destroy(self._publishers, publisher)
 
     def destroy_subscription(self, subscription: Subscription) -> bool:
-        return _destroy(self._subscriptions, subscription)
+        return destroy(self._subscriptions, subscription)
 
     def destroy_client(self, client: Client) -> bool:
-        return _destroy(self._clients, client)
+        return destroy(self._clients, client)
 
     def destroy_service(self, service: Service) -> bool:
-        return _destroy(self._services, service)
+        return destroy(self._services, service)
 
     def destroy_timer(self, timer: Timer) -> bool:
-        return _destroy(self._timers, timer)
+        return destroy(self._timers, timer)
 
     def destroy_guard_condition(self, guard: GuardCondition) -> bool:
-        return _destroy(self._guards, guard)
+        return destroy(self._guards, guard)
 
     def destroy_rate(self, rate: Rate) -> bool:
         timer = self._rates.pop(id(rate), None)
@@ -290,7 +297,8 @@ class Node(NodeParameters):
             self._publishers, self._subscriptions, self._clients, self._services, self._timers, self._guards,
         ):  # fmt: skip
             for entity in tuple(entities):
-                _destroy(entities, entity)
+                destroy(entities, entity)
+        self._is_destroyed = True
         if self in graph.nodes:
             graph.nodes.remove(self)
 
@@ -300,69 +308,21 @@ class Node(NodeParameters):
     def __exit__(self, *_: object) -> None:
         self.destroy_node()
 
-    # --- who is there ---
-
-    def count_publishers(self, topic_name: str) -> int:
-        return graph.count_publishers(self.resolve_topic_name(topic_name))
-
-    def count_subscribers(self, topic_name: str) -> int:
-        name = self.resolve_topic_name(topic_name)
-        return graph.count_subscriptions(name) + (name == get_link().settings.topics.get("cmd_vel"))
-
-    def get_topic_names_and_types(self, no_demangle: bool = False) -> list[tuple[str, list[str]]]:
-        return graph.topic_types()
-
-    def get_service_names_and_types(self) -> list[tuple[str, list[str]]]:
-        return graph.service_types()
-
-    def get_node_names(self) -> list[str]:
-        return [node.get_name() for node in graph.nodes]
-
-    def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
-        return [(node.get_name(), node.get_namespace()) for node in graph.nodes]
-
     # --- inner ---
 
     def _group(self, group: CallbackGroup | None) -> CallbackGroup:
         return self._default_callback_group if group is None else group
+
+    def _check_destroyed(self) -> None:
+        if self._is_destroyed:
+            raise InvalidHandle(DESTROYED)
+
+    def _check_context(self, words: str) -> None:
+        if not self._context.is_valid:
+            raise RCLError(words)
 
     def _add(self, entities: list[T], entity: T, group: CallbackGroup) -> T:
         entities.append(entity)
         group.add_entity(entity)
         self._wake_executor()
         return entity
-
-
-def _destroy(entities: list[Any], entity: Any) -> bool:
-    if entity not in entities:
-        return False
-    entities.remove(entity)
-    entity.destroy()
-    return True
-
-
-def _raise_for(
-    problem: tuple[str, int] | None, kind: Callable[[str, str, int], Exception], name: str
-) -> None:
-    if problem is not None:
-        raise kind(name, *problem)
-
-
-def _qos(qos_or_depth: Any) -> QoSProfile:
-    if isinstance(qos_or_depth, QoSProfile):
-        return qos_or_depth
-    if isinstance(qos_or_depth, int):
-        if qos_or_depth < 0:
-            raise ValueError("history depth must be greater than or equal to zero")
-        return QoSProfile(depth=qos_or_depth)
-    raise TypeError(f"Expected QoSProfile or int, but received {type(qos_or_depth)!r}")
-
-
-def _check_type(kind: Any, mark: str) -> None:
-    """What is no ROS type at all fails as in rclpy."""
-    if not hasattr(kind, mark):
-        raise AttributeError(
-            f"type object '{getattr(kind, '__name__', kind)}' has no attribute '_TYPE_SUPPORT'. This might be a "
-            "ROS 1 message type but it should be a ROS 2 message type. Make sure to source your ROS 2 workspace "
-            "after your ROS 1 workspace."
-        )

@@ -41,11 +41,11 @@ class NodeParameters:
         self, name: str, value: Any = None, descriptor: Any = None, ignore_override: bool = False
     ) -> Parameter:
         if not isinstance(name, str):
-            raise TypeError("First element must be a string")
+            raise TypeError(f"First element {name} at index 0 in parameters list is not a str.")
         if not name or name.startswith(".") or name.endswith("."):
             raise InvalidParameterException(name)
         if name in self._parameters:
-            raise ParameterAlreadyDeclaredException(name)
+            raise ParameterAlreadyDeclaredException([name])
         descriptor = ParameterDescriptor() if descriptor is None else descriptor
         kind, value = _typed(value)
         if not ignore_override and name in self._overrides:
@@ -117,11 +117,11 @@ class NodeParameters:
         start = f"{prefix}." if prefix else ""
         return {name[len(start) :]: p for name, p in self._parameters.items() if name.startswith(start)}
 
-    def get_parameter_types(self, names: Sequence[str]) -> list[Parameter.Type]:
+    def get_parameter_types(self, names: Sequence[str]) -> list[int]:
         return [self.get_parameter_type(name) for name in names]
 
-    def get_parameter_type(self, name: str) -> Parameter.Type:
-        return self.get_parameter(name).type_
+    def get_parameter_type(self, name: str) -> int:
+        return int(self.get_parameter(name).type_.value)
 
     def describe_parameter(self, name: str) -> Any:
         if name not in self._descriptors:
@@ -140,7 +140,7 @@ class NodeParameters:
             raise TypeError(f"parameter must be instance of type '{Parameter!r}'")
         unknown = [parameter.name for parameter in parameters if parameter.name not in self._parameters]
         if unknown and not self._allow_undeclared:
-            raise ParameterNotDeclaredException(unknown)
+            raise ParameterNotDeclaredException([])  # rclpy has used up the names by then
         for parameter in parameters:
             problem = self._problem(parameter)
             if problem:
@@ -159,7 +159,7 @@ class NodeParameters:
         if descriptor is None:
             return ""
         if descriptor.read_only:
-            return "Trying to set a read-only parameter."
+            return f"Trying to set a read-only parameter: {parameter.name}."
         expected = Parameter.Type(descriptor.type)
         if not descriptor.dynamic_typing and expected is not _NOT_SET and not expected.check(parameter.value):
             return f"Wrong parameter type, expected '{expected}' got '{parameter.type_}'"
@@ -190,9 +190,9 @@ def _typed(value: Any) -> tuple[Parameter.Type, Any]:
 
 
 def _out_of_range(descriptor: Any, value: Any) -> str:
-    for bounds in (*descriptor.floating_point_range, *descriptor.integer_range):
-        if isinstance(value, (int, float)) and not bounds.from_value <= value <= bounds.to_value:
-            return (
-                f"Parameter {descriptor.name} out of range Min: {bounds.from_value}, Max: {bounds.to_value}"
-            )
+    for ranges, point in ((descriptor.floating_point_range, ""), (descriptor.integer_range, ".")):
+        for bounds in ranges:
+            if isinstance(value, (int, float)) and not bounds.from_value <= value <= bounds.to_value:
+                limits = f"Min: {bounds.from_value}, Max: {bounds.to_value}, value: {value}"
+                return f"Parameter {descriptor.name} out of range{point} {limits}"
     return ""

@@ -36,10 +36,9 @@ class Publisher:
             raise TypeError(f"Expected {self.msg_type}, got {type(msg)}")
         if not self._node.context.is_valid:
             raise RCLError("Failed to publish: publisher's context is invalid, at ./src/rcl/publisher.c:389")
+        get_link().count_publish()
         if self._send is not None:
             self._send(msg)
-        else:
-            get_link().look()
         if self.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL:
             self._kept.append(deepcopy(msg))
         graph.publish(self, msg)

@@ -23,7 +23,8 @@ class Service:
         qos_profile: QoSProfile,
     ) -> None:
         self.srv_type = srv_type
-        self.srv_name: str = node.resolve_service_name(srv_name)
+        self.srv_name = srv_name
+        self.service_name: str = node.resolve_service_name(srv_name)
         self.callback = callback
         self.callback_group = callback_group
         self.qos_profile = qos_profile
@@ -31,10 +32,6 @@ class Service:
         self._node = node
         self._queue: deque[tuple[Any, Any]] = deque()
         graph.add_service(self)
-
-    @property
-    def service_name(self) -> str:
-        return self.srv_name
 
     def receive(self, request: Any, answer: Any) -> None:
         """A request; `answer` takes the response."""

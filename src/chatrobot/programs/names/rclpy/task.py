@@ -27,7 +27,7 @@ class Future:
     def cancel(self) -> None:
         if not self._done:
             self._cancelled = True
-            self._finish()
+            self._call_back()
 
     def cancelled(self) -> bool:
         return self._cancelled
@@ -66,6 +66,9 @@ class Future:
 
     def _finish(self) -> None:
         self._done = True
+        self._call_back()
+
+    def _call_back(self) -> None:
         callbacks, self._callbacks = self._callbacks, []
         for callback in callbacks:
             callback(self)

@@ -6,7 +6,7 @@ import threading
 from typing import Any
 
 from chatrobot.programs.inside.link import get_link
-from chatrobot.programs.names.rclpy._rclpy_pybind11 import DESTROYED, InvalidHandle
+from chatrobot.programs.names.rclpy._rclpy_pybind11 import DESTROYED, InvalidHandle, RCLError
 from chatrobot.programs.names.rclpy.exceptions import ROSInterruptException
 
 
@@ -25,7 +25,7 @@ class Timer:
         wake: Any = None,
     ) -> None:
         if timer_period_ns < 0:
-            raise ValueError("timer period must not be negative")
+            raise RCLError("failed to create timer: timer period must be non-negative")
         self.callback = callback
         self.callback_group = callback_group
         self._period_ns = int(timer_period_ns)

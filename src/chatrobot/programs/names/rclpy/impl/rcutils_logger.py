@@ -9,7 +9,7 @@ from chatrobot.programs.inside.link import get_link
 from chatrobot.programs.names.rclpy.impl.logging_severity import LoggingSeverity
 
 _levels: dict[str, LoggingSeverity] = {}
-_OPTIONS = {"throttle_duration_sec", "throttle_time_source_type", "skip_first", "once", "name"}
+_OPTIONS = ["throttle_duration_sec", "throttle_time_source_type", "skip_first", "once"]
 
 
 class RcutilsLogger:
@@ -41,21 +41,28 @@ class RcutilsLogger:
 
     def log(self, message: str, severity: int, **options: Any) -> bool:
         """Whether the line went out."""
-        unknown = sorted(set(options) - _OPTIONS)
-        if unknown:
-            raise RuntimeError(f"The following keyword arguments were unused: {unknown}")
+        for option in options:
+            if option not in (*_OPTIONS, "name"):
+                raise TypeError(
+                    f'parameter "{option}" is not one of the recognized logging options "{_OPTIONS}"'
+                )
+        if not isinstance(message, str):
+            raise TypeError(
+                "rclpy_logging_rcutils_log(): incompatible function arguments. The following argument types are "
+                f"supported:\n    a str\n\nInvoked with: {message!r}"
+            )
         severity = LoggingSeverity(severity)
         if not self.is_enabled_for(severity) or not self._passes(options):
             return False
-        get_link().log(severity.name, options.get("name") or self.name, str(message))
+        get_link().log(severity.name, options.get("name") or self.name, message)
         return True
 
     def _passes(self, options: dict[str, Any]) -> bool:
-        """`once`, `skip_first` and `throttle_duration_sec` count per line of the program."""
+        """`once`, `skip_first` and `throttle_duration_sec` count per place in the program."""
         if not (options.get("once") or options.get("skip_first") or "throttle_duration_sec" in options):
             return True
         frame = sys._getframe(3)
-        place, now_ns = (frame.f_code.co_filename, frame.f_lineno), get_link().now_ns()
+        place, now_ns = (frame.f_code.co_filename, frame.f_lasti), get_link().now_ns()
         last_ns = self._last_ns.get(place)
         if last_ns is not None and (
             options.get("once") or now_ns - last_ns < options.get("throttle_duration_sec", 0.0) * 1e9

@@ -1,0 +1,43 @@
+"""From what a person chose to the model that is asked."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+from chatrobot.models.seam import Model
+
+SERVER_HELD = {"openai": "openai-responses", "openai-compatible": "openai-responses"}
+"""Providers whose protocol also knows a conversation that the server holds."""
+
+
+def chosen_model(option: str, folder: Path | None, *, server_held: bool = False) -> Model | None:
+    """The model of `--model`, of CHATROBOT_MODEL or of the settings in `folder`; None where none is set up.
+
+    Args:
+        server_held: the conversation is to live at the server (`revChatGPT:=True`), where the provider can do that.
+
+    Raises:
+        ModelError: `model_unknown`.
+        InputError: the stored choice cannot be read.
+    """
+    from chatrobot.models.choice import resolve
+    from chatrobot.models.config import ModelConfig
+    from chatrobot.models.make import make_model
+
+    config = ModelConfig(folder, session=time.strftime("%Y-%m-%d %H:%M:%S"))
+    choice = resolve(option, config)
+    if choice is None or choice.name == "none":
+        return None
+    provider, colon, name = choice.name.partition(":")
+    if server_held:
+        provider = SERVER_HELD.get(provider, provider)
+    return make_model(f"{provider}{colon}{name}", config)
+
+
+def warm_up(model: Model | None) -> None:
+    """Load what it needs in the background, while a person still types."""
+    if model is not None:
+        from chatrobot.models.make import warm
+
+        warm(model)

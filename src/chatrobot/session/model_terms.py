@@ -1,0 +1,82 @@
+"""The terms of a turn that a model plans: how it may be used, what it needs to know, and how it ended."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from chatrobot.core.events import Finished, Looked, Outcome
+from chatrobot.core.reason import Reason
+from chatrobot.models.seam import CallLimits, Message
+from chatrobot.plan.base import Step
+
+
+@dataclass(frozen=True)
+class ModelOptions:
+    """How a model is used. `rounds` bounds the calls of one turn that are no corrections, `budget_tokens` what all of
+    its calls may use, `budget_s` how long it may take in all. `streams`: steps run as they come."""
+
+    streams: bool = True
+    rounds: int = 6
+    budget_tokens: int = 20_000
+    budget_s: float = 600.0
+    limits: CallLimits = field(default_factory=CallLimits)
+
+
+@dataclass(frozen=True)
+class Ended:
+    """What became of the turn. `finished` sums up its runs; None where nothing ran. `steps` are those that were done,
+    `answer` all that the model wrote, `said` what of it is for the person."""
+
+    outcome: Outcome
+    reason: Reason | None
+    finished: Finished | None
+    steps: tuple[Step, ...]
+    answer: str
+    said: str
+
+
+class Surroundings(Protocol):
+    """What a turn needs of the half that understands."""
+
+    def describe(self, steps: tuple[Step, ...]) -> str:
+        """The steps in a few words, in the person's language."""
+        ...
+
+    def observation(
+        self, looks: tuple[str, ...], looked: Looked | None, finished: Finished | None
+    ) -> Message:
+        """What the model asked to see."""
+        ...
+
+    def measured(self, finished: Finished | None) -> str:
+        """What was driven, in words."""
+        ...
+
+
+def told(problem: Reason) -> str:
+    """A reason as a model is told it: the exact error."""
+    if problem.code == "plan_text":
+        return str(problem.values.get("problem", ""))
+    values = ", ".join(f"{name} {value}" for name, value in problem.values.items() if name != "model")
+    return f"{problem.code}: {values}" if values else problem.code
+
+
+def summed(total: Finished, run: Finished) -> Finished:
+    """Two runs of one turn as one."""
+    return Finished(
+        run.turn,
+        run.outcome,
+        run.reason,
+        total.start,
+        run.pose,
+        turned_rad=total.turned_rad + run.turned_rad,
+        path_m=total.path_m + run.path_m,
+        duration_s=total.duration_s + run.duration_s,
+        paused_s=total.paused_s + run.paused_s,
+        planned_m=total.planned_m + run.planned_m,
+        planned_turn_rad=total.planned_turn_rad + run.planned_turn_rad,
+        steps_done=total.steps_done + run.steps_done,
+        steps=total.steps + run.steps,
+        measured=total.measured and run.measured,
+    )

@@ -1,0 +1,86 @@
+"""`chatrobot program …` as other programs run it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from chatrobot.programs.library import KeptProgram, Library
+from tests.cli.running import Command
+from tests.programs.requests import ROTATION, SQUARE
+from tests.programs.scripted_model import program
+
+FAST = ("--fast", "--world", "empty")
+
+
+@pytest.fixture
+def library(tmp_path: Path) -> Library:
+    """What the command keeps."""
+    return Library(tmp_path / "config" / "chatrobot")
+
+
+@pytest.mark.parametrize(
+    ("request_text", "turned_rad", "seconds"),
+    [(ROTATION, 3.0, 7.0), (SQUARE, 8.0, 21.0)],
+    ids=["rotation", "square"],
+)
+def test_the_tutorials_requests_word_for_word(
+    chatrobot: Command, library: Library, request_text: str, turned_rad: float, seconds: float
+) -> None:
+    done = chatrobot("program", "new", request_text, "--yes", "--json", "--trace", *FAST)
+    assert done.code == 0, done.err
+    names = [event["event"] for event in done.events if event["event"] not in ("pose", "progress")]
+    assert names == ["interpreted", "program_written", "program_rehearsed", "rehearsed", "started", "result"]
+    assert done.named("result")[0]["turned_rad"] == pytest.approx(turned_rad, abs=0.03)
+    assert done.named("rehearsed")[0]["duration_s"] == pytest.approx(seconds, abs=0.1)
+    assert done.named("pose")[-1]["wz_radps"] == 0.0
+    assert len(library.names()) == 1
+
+
+def test_what_rehearsal_finds_is_refused_where_nobody_can_be_asked(
+    chatrobot: Command, tmp_path: Path
+) -> None:
+    file = tmp_path / "rude.py"
+    file.write_text(program("self.drive(0.2, 0.0, 0.5)\nreturn"), encoding="utf-8")
+    done = chatrobot("program", "run", str(file), *FAST)
+    assert done.code == 4
+    assert "--yes" in done.err
+    assert chatrobot("program", "run", str(file), "--yes", *FAST).code == 0
+
+
+def test_a_traceback_is_shown_with_the_line(chatrobot: Command, tmp_path: Path) -> None:
+    file = tmp_path / "broken.py"
+    file.write_text(program("self.drvie(0.2)"), encoding="utf-8")
+    done = chatrobot("program", "run", str(file), *FAST)
+    assert done.code == 4
+    assert "drvie" in done.out
+    assert "AttributeError" in done.out
+
+
+def test_listed_shown_edited_renamed_exported_and_removed(
+    chatrobot: Command, library: Library, tmp_path: Path
+) -> None:
+    library.keep(KeptProgram("square dance", program("self.drive(0.2, 0.0, 1.0)")))
+    assert chatrobot("program", "list", "--json").named("program")[0]["name"] == "square dance"
+    assert "self.drive(0.2, 0.0, 1.0)" in chatrobot("program", "show", "square dance").out
+    new = tmp_path / "new.py"
+    new.write_text(program("self.drive(0.1, 0.0, 1.0)"), encoding="utf-8")
+    assert chatrobot("program", "edit", "square dance", "--file", str(new)).code == 0
+    assert "self.drive(0.1" in Library(tmp_path / "config" / "chatrobot").get("square dance").source
+    assert chatrobot("program", "rename", "square dance", "waltz").code == 0
+    folder = tmp_path / "ws"
+    assert chatrobot("program", "export", "waltz", str(folder)).code == 0
+    assert (folder / "src" / "waltz" / "package.xml").exists()
+    assert chatrobot("program", "remove", "waltz").code == 0
+    assert Library(tmp_path / "config" / "chatrobot").names() == ()
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [("program",), ("program", "rename", "x"), ("program", "run", "/no/such.py")],
+)
+def test_wrong_usage_is_one_sentence(chatrobot: Command, arguments: tuple[str, ...]) -> None:
+    done = chatrobot(*arguments)
+    assert done.code in (1, 2)
+    assert done.err.count("\n") == 1
