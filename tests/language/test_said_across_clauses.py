@@ -63,10 +63,54 @@ def test_undoing_goes_on_to_what_was_before() -> None:
 
 
 def test_a_bit_more_is_the_same_way_again() -> None:
-    assert [
-        (s.left, s.angle_rad) for s in _after("turn right a bit", "a bit more") if isinstance(s, Turn)
-    ] == [(False, pytest.approx(math.pi / 4))]
+    (step,) = _after("turn right a bit", "a bit more")
+    assert isinstance(step, Turn)
+    assert not step.left
+    assert step.angle_rad == pytest.approx(math.pi / 4)
 
 
 def test_another_motion_after_coming_back_is_not_its_amount() -> None:
     assert _lengths("a metre out at 30 degrees left, come back, and a metre forward")[-1] == 1.0
+
+
+@pytest.mark.parametrize(
+    ("said", "metres"),
+    [
+        ("go one metre forward if 2 is bigger than 3, otherwise one metre back", [-1.0]),
+        ("go one metre forward if 3 is bigger than 2, otherwise two metres back", [1.0]),
+        ("back 50 cm. then go one metre forward if 2 is bigger than 3, otherwise 20 cm back", [-0.5, -0.2]),
+        ("go one metre forward if 2 is bigger than 3", []),
+    ],
+)
+def test_a_condition_said_afterwards_holds_for_what_is_before_it(said: str, metres: list[float]) -> None:
+    assert _lengths(said) == metres
+
+
+@pytest.mark.parametrize("said", ["go to my room", "drive a few of those units forward", "face the start"])
+def test_what_is_not_known_is_asked_about(said: str) -> None:
+    assert _after(said) == []
+
+
+def test_the_same_radius_is_the_one_before() -> None:
+    steps = _after("quarter circle right of 1 m radius, then a quarter circle left of the same radius")
+    assert [getattr(step, "radius_m", None) for step in steps] == [1.0, 1.0]
+
+
+def test_the_way_back_is_as_long_as_all_that_was_repeated() -> None:
+    assert _lengths("forward 20 cm, three times, then come back") == [0.2, 0.2, 0.2, -0.2, -0.2, -0.2]
+
+
+def test_at_the_end_comes_after_what_was_put_first() -> None:
+    said = "Turn left 90 degrees, but before that go forward half a metre, and at the end go back 20 cm."
+    assert [type(step) for step in _after(said)] == [Drive, Turn, Drive]
+
+
+def test_a_turn_is_undone_only_where_the_last_motion_was_one() -> None:
+    assert len(_after("forward 1 m", "left 90", "undo the turn")) == 1
+    assert _after("left 90", "forward 1 m", "undo the turn") == []
+
+
+def test_brackets_are_read_in_chinese_too() -> None:
+    once = [Turn, Drive]
+    steps = _after("两遍（左转90度，前进1米），之后后退半米")
+    assert [type(step) for step in steps] == [*once, *once, Drive]

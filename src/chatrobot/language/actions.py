@@ -213,6 +213,9 @@ _REFERRING = {
 }
 
 
+_COUNTED = {"tile", "step"}
+"""What is counted: as a word without its count it says nothing."""
+
 _OUTLINES = {"short", "apart", "circumference", "ends", "straights", "diagonal"}
 """Measures that only a drawn shape has."""
 
@@ -224,6 +227,8 @@ def _all_used(frame: Frame, kind: str) -> None:
         raise Unclear("unclear_motion", f"{frame.text}")
     if "each" in frame.flags and "time" in frame.q and kind != "still" and len(frame.q) > 1:
         raise Unclear("unclear_motion", frame.text)
+    if _COUNTED & set(frame.roles):
+        raise Unclear("unclear_motion", frame.text)  # `a few of those units`: how many, of what?
     if _REFERRING & frame.flags or (kind in ("drive", "heading") and (frame.rot or frame.direction2)):
         raise Unclear("unclear_motion", frame.text)
 
@@ -345,7 +350,8 @@ def _drive(frame: Frame, state: State, pace: Pace) -> list[Step]:
     diagonal = "diagonal" in frame.flags
     if diagonal and direction not in DIAGONALS.values():
         raise Unclear("which_diagonal", frame.text)
-    if not direction and not frame.has_extent and any(text.endswith("到") for text in frame.texts):
+    aimed = any(text.endswith(("到", " to")) for text in frame.texts)
+    if not direction and not frame.has_extent and aimed:
         raise Unclear("which_place", frame.text)
     if not direction:
         if frame.verb == "slide" or "sideways" in frame.flags:

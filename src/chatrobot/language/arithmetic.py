@@ -10,8 +10,9 @@ from functools import lru_cache
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.numbers import read_number
 from chatrobot.language.tokens import Atom
+from chatrobot.language.unclear import Unclear
 
-_OPERATORS = {"plus": 1.0, "minus": -1.0}
+_CONTENT = ("verb", "dir", "rot", "q", "shape", "place")
 
 
 @lru_cache(maxsize=1)
@@ -63,9 +64,20 @@ def settle_condition(atoms: Sequence[Atom]) -> list[Atom]:
         (i for i in range(right[1], len(atoms)) if atoms[i].kind == "condition" and atoms[i].value == "else"),
         None,
     )
-    yes = list(atoms[right[1] : otherwise])
+    head, yes = list(atoms[:at]), list(atoms[right[1] : otherwise])
     no = [] if otherwise is None else list(atoms[otherwise + 1 :])
-    return [*atoms[:at], *(yes if holds else no)]
+    if not any(a.kind in _CONTENT for a in yes):
+        head, yes = _said_before(head)
+        if holds and any(a.kind == "q" for a in no) and not any(a.kind == "q" for a in yes):
+            raise Unclear("condition", " ".join(a.text for a in atoms[at : right[1]]))  # for both branches?
+    return [*head, *(yes if holds else no)]
+
+
+def _said_before(head: list[Atom]) -> tuple[list[Atom], list[Atom]]:
+    """`turn right if …, else …`: what comes before the sentence of the condition, and the branch before it."""
+    breaks = [i for i, a in enumerate(head) if a.value in ("strong", "then") and a.kind in ("sep", "conn")]
+    start = breaks[-1] + 1 if breaks else 0
+    return head[:start], head[start:]
 
 
 def _sum(atoms: Sequence[Atom], i: int) -> tuple[float, int] | None:

@@ -40,7 +40,7 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
         return None
     last = context.dialogue.last_motion
     if whole.verb == "undo":
-        return _undone(whole, context)
+        return _undone(whole, context, turning=any(frame.verb == "turn" for frame in frames[1:]))
     if "same_way" in whole.flags and (
         whole.verb in ("return", "", "go", "uturn") or whole.direction == "back"
     ):
@@ -66,13 +66,21 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     on = "more" in whole.flags or any(text.endswith(("more", "further", "farther")) for text in whole.texts)
     if on and "bit" in whole.flags <= {"bit", "more"} and not (whole.moves or whole.q or whole.roles):
         return [_a_bit_of(_last(last), whole, pace)]
+    if "again" in whole.flags and "both" in whole.texts[-1:] and not (whole.moves or whole.q):
+        both = [turn.plan for turn in context.dialogue.turns if turn.plan is not None][-2:]
+        if len(both) < 2:
+            raise Unclear("nothing_before", whole.text)
+        return [step for plan in both for step in plan.steps]
     if _is_change(whole):
         return _changed(_last(last), whole, pace)
     return None
 
 
-def _undone(whole: Frame, context: Context) -> list[Step]:
-    """`undo that`; `undo both`, `undo the last three`: so many turns that moved, the last one first."""
+def _undone(whole: Frame, context: Context, *, turning: bool) -> list[Step]:
+    """`undo that`; `undo both`, `undo the last three`: so many turns that moved, the last one first.
+
+    `turning`: it is said to have been a turn.
+    """
     counts = [whole.q[name] for name in ("number", "count", "times") if name in whole.q]
     both = any(text.split()[-1] in ("both", "two") for text in whole.texts)
     count = counts[0].number if counts else 2.0 if both else 1.0
@@ -82,6 +90,8 @@ def _undone(whole: Frame, context: Context) -> list[Step]:
     if len(moved) < count:
         raise Unclear("nothing_before", whole.text)
     steps = [step for turn in moved[-int(count) :] if turn.plan for step in turn.plan.steps]
+    if turning and not all(isinstance(step, Turn) for step in steps):
+        raise Unclear("unclear_motion", whole.text)
     return inverse(steps)
 
 

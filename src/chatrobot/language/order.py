@@ -23,6 +23,9 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
         return _swapped(head, tail)
     if word.value == "preceding" and not leads and _is_told_again(head, tail):
         return tail
+    end = next((i for i, a in enumerate(tail) if (a.kind, a.value) == ("flag", "finally")), None)
+    if word.value == "preceding" and end and not leads:  # `A, but before that B, and at the end C`
+        return [*tail[: end - 1], _THEN, *head, *tail[end - 1 :]]
     if word.value == "preceding":  # A 之前 B
         return [*tail, _THEN, *head] if not leads else list(atoms)
     if leads:

@@ -304,6 +304,7 @@ def _act(script: Script, frame: Frame) -> None:
         if split:
             each = _part(each, count)
     each = _relative_to_last(each, script)
+    script.state.steps = script.steps()  # what was repeated, too: the way back is as long as all of it
     steps = _known(each, script) or act(each, script.state, script.pace)
     script.state.steps.extend(steps * count)
     script.units.extend([steps] * count if steps else [])

@@ -133,6 +133,7 @@ def _measure(parts: list[Frame], pace: Pace) -> Measures:
                 raise Unclear("bad_number", quantity.text)
             if name == "length":
                 roles = list(part.roles) + (["side"] if "each" in part.flags or "all" in part.flags else [])
+                roles += ["circumference"] if "total" in part.flags else []
                 found.lengths.append((value, roles))
             elif name == "number" and parts[0].shape in ("eight", "racetrack", "sbend"):
                 continue  # "its two circles"
@@ -148,6 +149,8 @@ def _measure(parts: list[Frame], pace: Pace) -> Measures:
                 found.angle_rad = value
             elif name == "time":
                 found.seconds = value
+        if {"radius", "diameter"} & set(part.roles) and "again" in part.flags and "length" not in part.q:
+            raise Unclear("which_size", part.text)  # `of the same radius`
         if parts[0].shape == "sbend" and part.shape == "half_circle":
             found.angle_rad = math.pi
         if {"left_right", "right_left"} & part.flags:

@@ -94,6 +94,8 @@ def _headings(atoms: Sequence[Atom]) -> list[Atom]:
 def _settled(atoms: Sequence[Atom], i: int) -> Atom:
     """Words of numbers that turned out to be no number."""
     atom = atoms[i]
+    if atom.kind == "dir" and atom.text.endswith("straight") and is_kind(atoms, i + 1, "dir"):
+        return Atom("glue", "x", atom.text)  # `driving straight back`
     if atom.kind == "num":
         if atom.value == "point" and is_chinese(atom.text):
             return Atom("flag", "bit", atom.text)
@@ -212,7 +214,6 @@ def _fractions_of(atoms: Sequence[Atom]) -> list[Atom]:
         if (
             (fraction or is_kind(atoms, i, "q", "percent")) and any(a.text == "of" for a in atoms[i + 1 : j])
             and is_kind(atoms, j, "q") and atoms[j].value in ("length", "time", "turns", "angle")
-            and (not fraction or atoms[j].text.startswith(("a ", "an ", "one ")))
         ):  # fmt: skip
             out.append(
                 quantity(atoms[j].value, atom.number * atoms[j].number, f"{atom.text} of {atoms[j].text}")
