@@ -272,9 +272,9 @@ def test_schema_prints_the_json_schema_of_plans(chatrobot: Command) -> None:
     assert json.loads(done.out)["$id"].startswith("chatrobot-plan/")
 
 
-def test_a_folder_that_cannot_be_written_is_told_in_a_sentence(chatrobot: Command, tmp_path: Path) -> None:
+def test_a_folder_that_is_none_is_told_in_a_sentence(chatrobot: Command, tmp_path: Path) -> None:
     file = tmp_path / "file"
     file.write_text("", encoding="utf-8")
     done = chatrobot("do", "remember this place as home", "--config-dir", str(file), *FAST)
-    assert done.code == 1
-    assert "should not happen" not in done.err
+    assert done.code == 2
+    assert "is no folder" in done.err
