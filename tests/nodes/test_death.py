@@ -12,7 +12,7 @@ import pytest
 
 from tests.nodes.node_rig import NodeRig, running
 
-pytestmark = pytest.mark.realtime
+pytestmark = [pytest.mark.realtime, pytest.mark.alone]
 
 PROMISE_S = 0.25
 TIMES = 2
@@ -47,9 +47,9 @@ def test_when_one_freezes_the_robot_stands_within_250_ms(rig: NodeRig, whom: str
         rig.drive()
         took_s = rig.seconds_to_zero(rig.nodes[whom].strike("SIGSTOP"))
         rig.nodes[whom].strike("SIGCONT")
+        rig.rest()
         print(f"SIGSTOP {whom}: {took_s * 1e3:.0f} ms")
         assert took_s <= PROMISE_S
-        rig.rest()
 
 
 def test_a_base_that_thaws_drives_again_when_told_and_not_before(rig: NodeRig) -> None:
@@ -66,19 +66,21 @@ def test_when_one_is_killed_the_robot_stands_within_250_ms(rig: NodeRig, whom: s
     for _ in range(TIMES):
         rig.drive()
         took_s = rig.seconds_to_zero(rig.nodes[whom].strike("SIGKILL"))
-        print(f"SIGKILL {whom}: {took_s * 1e3:.0f} ms")
-        assert took_s <= PROMISE_S
         rig.replace(whom, *REPLACEMENT.get(whom, ()))
         rig.rest()
+        print(f"SIGKILL {whom}: {took_s * 1e3:.0f} ms")
+        assert took_s <= PROMISE_S
 
 
 @pytest.mark.parametrize("whom", NODES)
 def test_ctrl_c_stops_the_robot_first(rig: NodeRig, whom: str) -> None:
     rig.drive()
-    assert rig.seconds_to_zero(rig.nodes[whom].strike("SIGINT")) <= PROMISE_S
-    assert rig.nodes[whom].process.wait(10.0) == 5
+    took_s = rig.seconds_to_zero(rig.nodes[whom].strike("SIGINT"))
+    exit_code = rig.nodes[whom].process.wait(10.0)
     rig.replace(whom, *REPLACEMENT.get(whom, ()))
     rig.rest()
+    assert took_s <= PROMISE_S
+    assert exit_code == 5
 
 
 def test_a_control_that_is_gone_is_told_and_a_new_one_obeys(rig: NodeRig) -> None:

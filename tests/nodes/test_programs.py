@@ -14,7 +14,7 @@ from tests.nodes.node_rig import NodeRig
 from tests.programs.requests import ROTATION
 from tests.programs.scripted_model import program
 
-pytestmark = pytest.mark.realtime
+pytestmark = [pytest.mark.realtime, pytest.mark.alone]
 
 PROMISE_S = 0.25
 FOR_EVER = "Generate a ROS 2 Python program to drive forward at 0.3 m/s for 300 seconds."

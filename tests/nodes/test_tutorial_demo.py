@@ -155,7 +155,7 @@ def test_an_emergency_stop_is_not_released_over_the_wire_unless_that_is_switched
 
 def test_a_second_base_is_noticed(rig: NodeRig) -> None:
     second = rig.start("node", "base", "--on", "dds", "-p", "generate_code:=True", "-p", "revChatGPT:=True")
-    second.wait_for_line("no programs yet")
+    second.wait_for_line("generate_code is set")
     second.wait_for_line("no longer exists")
     second.wait_for_line("Another base")
     rig.nodes["base"].wait_for_line("Another base")

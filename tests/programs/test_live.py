@@ -26,7 +26,7 @@ from chatrobot.programs.events import (
 from chatrobot.programs.settings import ProgramSettings, robot_topics
 from chatrobot.robots.load import load_profile
 
-pytestmark = pytest.mark.realtime
+pytestmark = [pytest.mark.realtime, pytest.mark.alone]
 TOPICS = robot_topics(load_profile("wheeltec_mini_mec").wiring)
 PATIENCE_S = 10.0
 

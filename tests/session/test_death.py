@@ -12,7 +12,7 @@ import psutil
 import pytest
 from tests.realtime import RunningRobot
 
-pytestmark = pytest.mark.realtime
+pytestmark = [pytest.mark.realtime, pytest.mark.alone]
 
 PROMISE_S = 0.25
 TIMES = 2

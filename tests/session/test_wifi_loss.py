@@ -23,7 +23,7 @@ from chatrobot.wire.messages import Message, TwistMessage
 from chatrobot.wire.ros_messages import ros_form
 from chatrobot.wire.wire import M
 
-pytestmark = pytest.mark.realtime
+pytestmark = [pytest.mark.realtime, pytest.mark.alone]
 
 PATIENCE_S = 20.0
 PROFILE = load_profile("wheeltec_mini_mec")

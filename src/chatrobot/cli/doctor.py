@@ -47,7 +47,10 @@ def _checks(args: argparse.Namespace) -> Iterator[Check]:
     yield Check(
         "chatrobot", "ok", f"{__version__} on Python {platform.python_version()}, {platform.machine()}"
     )
-    yield _try("settings folder", lambda: _settings(args))
+    settings = _try("settings folder", lambda: _settings(args))
+    yield settings
+    if settings.state == "missing":
+        return  # everything else looks there first
     yield _try("simulated robot", lambda: _simulated_robot(args))
     yield _try("in real time", lambda: _in_real_time(args))
     yield _ros(args)
