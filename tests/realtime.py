@@ -15,9 +15,11 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
+
+import psutil
 
 from chatrobot.core.errors import WireError
 from chatrobot.wire.local import LocalWire
@@ -113,11 +115,18 @@ class RunningRobot:
     def close(self) -> None:
         """End what this started and nothing else."""
         self.ear.close()
-        for pid in (self.console.pid, self.motion_pid):
+        for pid in (self.console.pid, self.motion_pid, *self._guards()):
             with contextlib.suppress(ProcessLookupError):
                 os.kill(pid, signal.SIGCONT)
                 os.kill(pid, signal.SIGKILL)
         self.console.wait(PATIENCE_S)
+
+    def _guards(self) -> Iterator[int]:
+        """Guards that this robot's wire still has; one may be frozen, and would then stay for ever."""
+        for process in psutil.process_iter(["pid", "cmdline"]):
+            said = process.info["cmdline"] or []
+            if "chatrobot.guard" in said and any(str(self.folder) in word for word in said):
+                yield process.info["pid"]
 
     def _read(self) -> None:
         assert self.console.stdout is not None
