@@ -17,7 +17,9 @@ def config_folder(args: argparse.Namespace) -> Path:
     if args.config_dir is not None:
         folder = Path(args.config_dir).expanduser()
         if folder.exists() and not folder.is_dir():
-            raise UsageError(f"{folder} is no folder", where="--config-dir", allowed="a folder, made if need be")
+            raise UsageError(
+                f"{folder} is no folder", where="--config-dir", allowed="a folder, made if need be"
+            )
         return folder
     from platformdirs import user_config_path
 

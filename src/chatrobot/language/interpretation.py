@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from typing import Literal
 
 from chatrobot import reflex
@@ -144,7 +145,7 @@ class _Reading:
     def _with_earlier_unit(self, plain: str) -> str:
         """一步是三十厘米, said in a turn before: it holds for the steps that are counted now."""
         for turn in reversed(self.context.dialogue.turns):
-            unit = defined_unit(rephrased(normalise(turn.text), self.language))
+            unit = _unit_defined_in(turn.text, self.language)
             counted = unit and re.search(rf"(?:[零一二两三四五六七八九十百\d]|半) ?{unit[0]}", plain)
             if unit and counted:
                 defined_here = re.search(rf"一 ?{unit[0]}[^,。;]*(?:是|算|等于|为|按)", plain)
@@ -415,6 +416,12 @@ class _Reading:
                 places[name] = Go(place.pose.x_m, place.pose.y_m, place=name)
         words = {name: plan.steps for name, plan in dialogue.words.items()}
         return Memory(places, words, replace(state_after(self.context)))
+
+
+@lru_cache(maxsize=128)
+def _unit_defined_in(text: str, language: str) -> tuple[str, str] | None:
+    """Asked of every earlier turn at each sentence: so each is read once."""
+    return defined_unit(rephrased(normalise(text), language))
 
 
 def _frames(atoms: list[Atom]) -> list[Frame]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 
 from chatrobot.reflex import words_en, words_zh
 
@@ -21,7 +22,9 @@ _WIDE = {code: code - 0xFEE0 for code in range(0xFF01, 0xFF5F)}
 Phrase = tuple[str, ...]
 
 
+@lru_cache(maxsize=32)
 def _units(text: str) -> Phrase:
+    """Several questions are asked about one text: it is cut once."""
     lowered = text.translate(_WIDE).lower().replace("’", "'").replace("-", " ").translate(_TRADITIONAL)
     return tuple(_unstretched(word) for word in _WORD.findall(lowered))
 
