@@ -12,6 +12,7 @@ import chatrobot
 from chatrobot.core.errors import PlanTextError, ProfileError, UsageError
 from chatrobot.core.events import Event, Progress
 from chatrobot.plan.steps import Drive, Plan
+from tests.session.scripted_model import ScriptedModel
 
 
 @pytest.fixture
@@ -19,7 +20,7 @@ def runtime(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
 
 
-def fast(**options: str) -> chatrobot.Robot:
+def fast(**options: object) -> chatrobot.Robot:
     return chatrobot.connect(fast=True, world="empty", **options)  # type: ignore[arg-type]
 
 
@@ -130,3 +131,10 @@ def test_in_real_time_what_a_listener_raises_comes_out_of_do() -> None:
         with pytest.raises(ZeroDivisionError):
             robot.do("forward 10 m")
         assert robot.do("where are you?").outcome == "answered"
+
+
+def test_a_model_is_shown_the_picture_of_the_camera_that_was_passed() -> None:
+    model = ScriptedModel("look camera", 'say "a red ball"')
+    with fast(model=model, interpreter="model", camera=lambda: b"\x89PNG") as robot:
+        assert robot.do("what do you see?").outcome in ("completed", "answered")
+    assert any(message.image_png == b"\x89PNG" for message in model.asked[-1])

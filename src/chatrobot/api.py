@@ -41,6 +41,7 @@ def connect(
     config_dir: Path | str | None = None,
     model: Model | str | None = None,
     interpreter: Interpreter = "auto",
+    camera: Callable[[], bytes | None] | None = None,
 ) -> Robot:
     """Connect to a robot; by default to the simulated one, in a furnished flat. The options of the command line.
 
@@ -53,6 +54,7 @@ def connect(
         model: the language model that is asked what is not understood without one: `PROVIDER:NAME`, or anything
             with the methods of `chatrobot.models.seam.Model`. None: no model.
         interpreter: `auto`, `offline`, or `model` to ask it about everything.
+        camera: takes a picture, as PNG, for a model that asks to see one; None where there is none just now.
         config_dir: where remembered places and the user's own profiles live; None keeps nothing.
 
     Raises:
@@ -66,7 +68,7 @@ def connect(
     return Robot(
         Setup(
             on=on, robot=robot, world=world, sim=sim, fast=fast, trace=trace, folder=folder, model=chosen,
-            options=options,
+            options=options, camera=camera,
         )
     )  # fmt: skip
 
