@@ -96,13 +96,16 @@ def check(source: str, profile: RobotProfile) -> Checked:
         values = {"characters": len(source), "limit": MAX_SOURCE_CHARS}
         return Checked((Mark("refuse", 0, Reason("program_too_long", values)),))
     try:
-        tree = ast.parse(source)
+        reader = _Reader(ast.parse(source), profile)
+        found = {(mark.line, str(mark.reason)): mark for mark in reader.marks()}
     except SyntaxError as error:
         return Checked((_syntax(error),))
-    except (ValueError, RecursionError, MemoryError):
+    except (
+        ValueError,
+        RecursionError,
+        MemoryError,
+    ):  # nested beyond what this Python's parser or ours can follow
         return Checked((Mark("refuse", 0, Reason("program_unreadable")),))
-    reader = _Reader(tree, profile)
-    found = {(mark.line, str(mark.reason)): mark for mark in reader.marks()}
     return Checked(tuple(found[key] for key in sorted(found)), tuple(sorted(reader.remap.items())))
 
 
