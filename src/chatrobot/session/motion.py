@@ -23,6 +23,7 @@ from chatrobot.governor.priority import RELEASERS, Priority, priority_of
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.approval import Approval
 from chatrobot.session.envelope import Envelope, seconds
+from chatrobot.session.governed_motion import sensed_by
 from chatrobot.session.guard_link import GuardLink
 from chatrobot.session.intake import Intake
 from chatrobot.session.job import Job
@@ -31,7 +32,7 @@ from chatrobot.session.program_box import NoBox, ProgramBox
 from chatrobot.session.program_job import ProgramJob, job_of, needs_approval
 from chatrobot.session.program_run import LiveProgram, ProgramRun
 from chatrobot.session.relay import Relay
-from chatrobot.session.run import Run, sensed_by
+from chatrobot.session.run import Run
 from chatrobot.session.sectors import sectors_m
 from chatrobot.session.stream import Stream
 from chatrobot.session.zeroing import Zeroing
@@ -404,7 +405,6 @@ class Motion:
             if not isinstance(program, Reason):
                 program.close()  # stopped meanwhile
             elif self._current is job:
-                self._governor.end(job.lease)
                 self._finish_current("refused", program)
             return
         now_s = self._clock.now_s()
@@ -471,6 +471,7 @@ class Motion:
         """End the current job, which has not begun to move."""
         job, self._current = self._current, None
         assert job is not None
+        self._governor.end(job.lease)  # it may have taken the wheel already: a program that is being launched
         self._finish_unmoved(job, outcome, reason)
 
     def _finish_unmoved(self, job: Job, outcome: Outcome, reason: Reason | None) -> None:

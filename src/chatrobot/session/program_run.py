@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Protocol
 
-from chatrobot.core.events import Event, Finished, Limited, Outcome, ProgramLog, Progress
+from chatrobot.core.events import Event, Finished, Outcome, ProgramLog, Progress
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.execution.sensors import Sensors
@@ -19,8 +19,8 @@ from chatrobot.programs.events import Died, Ended, Log, Output, ProgramEvent, Ra
 from chatrobot.programs.held_twist import HeldTwist
 from chatrobot.programs.raised import raised_reason
 from chatrobot.robots.profile import RobotProfile
+from chatrobot.session.governed_motion import GovernedMotion, is_worth_telling
 from chatrobot.session.program_job import ProgramJob
-from chatrobot.session.run import Stopwatch, is_worth_telling, sensed_by
 from chatrobot.session.soft_zero import softened
 from chatrobot.transports.transport import Transport
 
@@ -64,11 +64,8 @@ class ProgramRun:
         self.reason: Reason | None = None
         self._program = program
         self._sensors = sensors
-        self._governor = governor
-        self._transport = transport
         self._emit = emit
-        self._stopwatch = Stopwatch(now_s)
-        self._start_path_m = sensors.estimate.path_m if sensors.estimate is not None else 0.0
+        self._motion = GovernedMotion(job, sensors, governor, transport, now_s)
         self._began_s = self._now_s = now_s
         self._heard_s = now_s + STARTING_S - TERM_S
         self._sent = ZERO_TWIST
@@ -88,14 +85,11 @@ class ProgramRun:
         asked = self._held.at(now_s) if self._ended_s is None else ZERO_TWIST
         if self.outcome == "completed":
             asked = softened(asked, self._sent, self._limits, now_s - since_s)
-        estimate = self._sensors.estimate
-        pose = estimate.pose if estimate is not None else None
-        verdict = self._governor.govern(asked, self.job.lease, now_s, pose, sensed_by(self._sensors))
-        self._transport.send(verdict.sent)
+        verdict = self._motion.send(asked, now_s)
         self._sent = verdict.sent.twist
-        self._stopwatch.count(verdict.sent.twist.is_zero, now_s)
         self._tell(verdict)
         if self._ended_s is not None and verdict.sent.twist.is_zero:
+            estimate = self._sensors.estimate
             standing = estimate is None or estimate.is_standing
             self.is_done = standing or now_s - self._ended_s > SETTLE_S
 
@@ -118,24 +112,14 @@ class ProgramRun:
 
     def finished(self, outcome: Outcome, reason: Reason | None) -> Finished:
         """The end, as odometry measured it."""
-        start, estimate = self.job.start, self._sensors.estimate
-        pose = estimate.pose if estimate is not None else start
         planned = self.job.planned
-        return Finished(
-            self.job.turn,
+        return self._motion.finished(
             outcome,
             reason,
-            start=start,
-            pose=pose,
-            turned_rad=pose.yaw_rad - start.yaw_rad,
-            path_m=(estimate.path_m - self._start_path_m) if estimate is not None else 0.0,
-            duration_s=self._stopwatch.moving_s,
-            paused_s=self._stopwatch.paused_s,
             planned_m=planned.length_m if planned is not None else 0.0,
-            planned_turn_rad=pose.yaw_rad - start.yaw_rad,
+            planned_turn_rad=self._motion.turned_rad(),  # a program promises none
             steps_done=1 if outcome == "completed" else 0,
             steps=1,
-            measured=self._sensors.has_odometry,
         )
 
     # --- what it says ---
@@ -177,10 +161,8 @@ class ProgramRun:
             self._emit(ProgramLog(self.job.turn, round(now_s - self._began_s, 3), level, text))
 
     def _tell(self, verdict: Verdict) -> None:
-        """Say once for each velocity and rule that something was limited; ramps are no news."""
+        """Say once for each velocity and rule that something was limited."""
         key = (verdict.rule, verdict.asked)
-        if verdict.action != "limited" or verdict.rule == "acceleration" or key in self._told:
-            return
-        if is_worth_telling(verdict) and len(self._told) < LOG_LINES:
+        if is_worth_telling(verdict) and key not in self._told and len(self._told) < LOG_LINES:
             self._told.add(key)
-            self._emit(Limited(self.job.turn, verdict.rule, verdict.asked, verdict.allowed, verdict.reason))
+            self._emit(self._motion.limited(verdict))

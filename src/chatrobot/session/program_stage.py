@@ -16,7 +16,7 @@ from chatrobot.governor.governor import TICK_S, Governor, Verdict
 from chatrobot.governor.rule import Sensed
 from chatrobot.programs.held_twist import HeldTwist
 from chatrobot.robots.profile import Point, RobotProfile
-from chatrobot.session.run import WORTH_TELLING_MPS, WORTH_TELLING_RADPS
+from chatrobot.session.governed_motion import is_cut_short
 from chatrobot.session.soft_zero import softened
 from chatrobot.sim.lies import HONEST
 from chatrobot.sim.robot import SimRobot
@@ -142,9 +142,7 @@ class ProgramStage:
         self._note(verdict)
 
     def _note(self, verdict: Verdict) -> None:
-        lost = abs(verdict.asked.speed_mps - verdict.allowed.speed_mps)
-        lost_turn = abs(verdict.asked.wz_radps - verdict.allowed.wz_radps)
-        if not verdict.asked.is_finite or lost > WORTH_TELLING_MPS or lost_turn > WORTH_TELLING_RADPS:
+        if not verdict.asked.is_finite or is_cut_short(verdict):
             self.limited.setdefault(verdict.rule, (self.now_s, verdict))
 
     def _hear(self, sensor: str) -> Callable[[Any], None]:

@@ -16,7 +16,7 @@ from chatrobot.core.wiring import RELAY_TOPIC
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
 from chatrobot.governor.lease import TERM_S
-from chatrobot.session.run import sensed_by
+from chatrobot.session.governed_motion import sensed_by
 from chatrobot.transports.transport import Transport
 from chatrobot.wire.messages import TwistMessage
 

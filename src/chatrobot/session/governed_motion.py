@@ -1,0 +1,116 @@
+"""What every motion of ours has in common: it is asked for, governed, sent, and in the end measured."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from chatrobot.core.events import Finished, Limited, Outcome
+from chatrobot.core.geometry import Twist
+from chatrobot.core.reason import Reason
+from chatrobot.execution.sensors import Sensors
+from chatrobot.governor.governor import Governor, Verdict
+from chatrobot.governor.rule import Sensed
+from chatrobot.session.job import Job
+from chatrobot.transports.transport import Transport
+
+WORTH_TELLING_MPS = 0.02
+WORTH_TELLING_RADPS = 0.05
+"""What feedback asks a little too much is trimmed without a word."""
+
+
+@dataclass
+class Stopwatch:
+    """Time in motion, and time standing between two motions: the last pause counts once motion follows."""
+
+    counted_to_s: float
+    moving_s: float = 0.0
+    paused_s: float = 0.0
+    _pending_s: float = 0.0
+    _has_moved: bool = False
+
+    def count(self, standing: bool, now_s: float) -> None:
+        elapsed_s, self.counted_to_s = now_s - self.counted_to_s, now_s
+        if not standing:
+            self._has_moved = True
+            self.moving_s += elapsed_s
+            self.paused_s += self._pending_s
+            self._pending_s = 0.0
+        elif self._has_moved:
+            self._pending_s += elapsed_s
+
+
+def sensed_by(sensors: Sensors) -> Sensed:
+    """What the governor's rules want to know of the sensors."""
+    return Sensed(sensors.ages_s(), sensors.battery_percent)
+
+
+def is_cut_short(verdict: Verdict) -> bool:
+    """More than a trifle of what was asked is not allowed."""
+    lost = abs(verdict.asked.speed_mps - verdict.allowed.speed_mps)
+    lost_turn = abs(verdict.asked.wz_radps - verdict.allowed.wz_radps)
+    return lost >= WORTH_TELLING_MPS or lost_turn >= WORTH_TELLING_RADPS
+
+
+def is_worth_telling(verdict: Verdict) -> bool:
+    """Cut short by a limit: ramps are no news."""
+    return verdict.action == "limited" and verdict.rule != "acceleration" and is_cut_short(verdict)
+
+
+class GovernedMotion:
+    """The motion of `job`: what it asks for goes through the governor; how far and how long it went is kept."""
+
+    def __init__(
+        self, job: Job, sensors: Sensors, governor: Governor, transport: Transport, now_s: float
+    ) -> None:
+        self._job = job
+        self._sensors = sensors
+        self._governor = governor
+        self._transport = transport
+        self._stopwatch = Stopwatch(now_s)
+        self._start_path_m = sensors.estimate.path_m if sensors.estimate is not None else 0.0
+
+    def send(self, asked: Twist, now_s: float) -> Verdict:
+        """Send what the governor allows of `asked`, to a robot that is by now where odometry saw it going."""
+        pose, sensed = self._sensors.pose_now(), sensed_by(self._sensors)
+        verdict = self._governor.govern(asked, self._job.lease, now_s, pose, sensed)
+        self._transport.send(verdict.sent)
+        self._stopwatch.count(verdict.sent.twist.is_zero, now_s)
+        return verdict
+
+    def limited(self, verdict: Verdict) -> Limited:
+        """What a person is told of a limit."""
+        return Limited(self._job.turn, verdict.rule, verdict.asked, verdict.allowed, verdict.reason)
+
+    def turned_rad(self) -> float:
+        """How far it has turned since its start, as measured; radians, counter-clockwise positive."""
+        estimate = self._sensors.estimate
+        return estimate.pose.yaw_rad - self._job.start.yaw_rad if estimate is not None else 0.0
+
+    def finished(
+        self,
+        outcome: Outcome,
+        reason: Reason | None,
+        *,
+        planned_m: float,
+        planned_turn_rad: float,
+        steps_done: int,
+        steps: int,
+    ) -> Finished:
+        """The end, as odometry measured it."""
+        start, estimate = self._job.start, self._sensors.estimate
+        return Finished(
+            self._job.turn,
+            outcome,
+            reason,
+            start=start,
+            pose=estimate.pose if estimate is not None else start,
+            turned_rad=self.turned_rad(),
+            path_m=(estimate.path_m - self._start_path_m) if estimate is not None else 0.0,
+            duration_s=self._stopwatch.moving_s,
+            paused_s=self._stopwatch.paused_s,
+            planned_m=planned_m,
+            planned_turn_rad=planned_turn_rad,
+            steps_done=steps_done,
+            steps=steps,
+            measured=self._sensors.has_odometry,
+        )
