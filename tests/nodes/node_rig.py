@@ -9,14 +9,12 @@ import contextlib
 import itertools
 import json
 import os
-import queue
 import random
 import signal
 import subprocess
 import sys
-import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -30,77 +28,21 @@ from chatrobot.core.wiring import Wiring
 from chatrobot.wire.dds.discovery import Discovery
 from chatrobot.wire.dds.wire import DdsWire
 from chatrobot.wire.messages import Flag, Odometry, Text, TwistMessage
+from tests.talking import PATIENCE_S, Heard, TalkingProcess
 
-PATIENCE_S = 30.0
 _STRANGER = Path(__file__).with_name("stranger.py")
 _WORKER = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
-_domains = itertools.count(random.Random(os.getpid()).randrange(1, 20) + 45 * (_WORKER % 2))
+_domains = itertools.cycle(
+    random.Random(os.getpid()).sample(range(1 + 45 * (_WORKER % 2), 45 + 45 * (_WORKER % 2)), 44)
+)
 """Domains of this run's own, and of this worker's where two run side by side."""
 
 
-class Heard:
-    """Messages of one topic with the time they came."""
-
-    def __init__(self) -> None:
-        self._changed = threading.Condition()
-        self.all: list[tuple[float, Any]] = []
-
-    def __call__(self, message: Any) -> None:
-        now_s = time.monotonic()
-        with self._changed:
-            self.all.append((now_s, message))
-            self._changed.notify_all()
-
-    def wait_for(
-        self, wanted: Callable[[Any], bool], since_s: float = 0.0, timeout_s: float = PATIENCE_S
-    ) -> tuple[float, Any]:
-        """The first wanted message since then."""
-        ends_s = time.monotonic() + timeout_s
-        with self._changed:
-            seen = 0
-            while True:
-                for at_s, message in self.all[seen:]:
-                    if at_s >= since_s and wanted(message):
-                        return at_s, message
-                seen = len(self.all)
-                if not self._changed.wait(max(0.0, ends_s - time.monotonic())):
-                    raise AssertionError(f"it did not come; last heard: {self.all[-3:]}")
-
-
-class Node:
-    """A process of ours; its standard input is a pipe, its output is read."""
+class Node(TalkingProcess):
+    """A process of ours."""
 
     def __init__(self, arguments: list[str], environment: dict[str, str]) -> None:
-        self.process = subprocess.Popen(
-            [sys.executable, *arguments],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            env=environment,
-            start_new_session=True,
-            text=True,
-        )
-        self.lines: list[str] = []
-        self._queue: queue.SimpleQueue[str | None] = queue.SimpleQueue()
-        threading.Thread(target=self._read, daemon=True).start()
-
-    def wait_for_line(self, part: str, timeout_s: float = PATIENCE_S) -> str:
-        ends_s = time.monotonic() + timeout_s
-        while True:
-            try:
-                line = self._queue.get(timeout=max(0.0, ends_s - time.monotonic()))
-            except queue.Empty:
-                line = None
-            assert line is not None, f"{part!r} was not said: {self.lines}"
-            if part in line:
-                return line
-
-    def say(self, line: str) -> float:
-        assert self.process.stdin is not None
-        now_s = time.monotonic()
-        self.process.stdin.write(f"{line}\n")
-        self.process.stdin.flush()
-        return now_s
+        super().__init__([sys.executable, *arguments], environment)
 
     def strike(self, name: str) -> float:
         now_s = time.monotonic()
@@ -117,13 +59,6 @@ class Node:
         except subprocess.TimeoutExpired:
             self.process.kill()
             self.process.wait(10.0)
-
-    def _read(self) -> None:
-        assert self.process.stdout is not None
-        for line in self.process.stdout:
-            self.lines.append(line.rstrip())
-            self._queue.put(line)
-        self._queue.put(None)
 
 
 class NodeRig:

@@ -8,18 +8,17 @@ from __future__ import annotations
 import contextlib
 import itertools
 import os
-import queue
 import random
 import signal
 import subprocess
 import sys
-import threading
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.talking import Heard, TalkingProcess
 
 PACKAGES = Path(__file__).parents[2] / "ros"
 SOURCE = Path(__file__).parents[2] / "src"
@@ -33,70 +32,10 @@ def next_domain() -> str:
     return str(next(_domains))
 
 
-class Heard:
-    """Messages of one topic with the monotonic time they came."""
+class Process(TalkingProcess):
+    """A process of ROS's or ours."""
 
-    def __init__(self) -> None:
-        self._changed = threading.Condition()
-        self.all: list[tuple[float, Any]] = []
-
-    def __call__(self, message: Any) -> None:
-        now_s = time.monotonic()
-        with self._changed:
-            self.all.append((now_s, message))
-            self._changed.notify_all()
-
-    def since(self, since_s: float) -> list[tuple[float, Any]]:
-        return [entry for entry in tuple(self.all) if entry[0] >= since_s]
-
-    def wait_for(
-        self, wanted: Callable[[Any], bool], since_s: float = 0.0, timeout_s: float = PATIENCE_S
-    ) -> tuple[float, Any]:
-        """The first wanted message since then."""
-        ends_s = time.monotonic() + timeout_s
-        with self._changed:
-            while True:
-                for at_s, message in self.all:
-                    if at_s >= since_s and wanted(message):
-                        return at_s, message
-                if not self._changed.wait(max(0.0, ends_s - time.monotonic())):
-                    raise AssertionError(f"it did not come; last heard: {self.all[-3:]}")
-
-
-class Process:
-    """A process in a session of its own whose output is read."""
-
-    def __init__(self, arguments: list[str], environment: Mapping[str, str]) -> None:
-        self.process = subprocess.Popen(
-            arguments,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            env=dict(environment),
-            start_new_session=True,
-            text=True,
-        )
-        self.lines: list[str] = []
-        self._queue: queue.SimpleQueue[str | None] = queue.SimpleQueue()
-        threading.Thread(target=self._read, daemon=True).start()
-
-    def wait_for_line(self, part: str, timeout_s: float = PATIENCE_S) -> str:
-        ends_s = time.monotonic() + timeout_s
-        while True:
-            try:
-                line = self._queue.get(timeout=max(0.0, ends_s - time.monotonic()))
-            except queue.Empty:
-                line = None
-            assert line is not None, f"{part!r} was not said: {self.lines}"
-            if part in line:
-                return line
-
-    def say(self, line: str) -> float:
-        assert self.process.stdin is not None
-        now_s = time.monotonic()
-        self.process.stdin.write(f"{line}\n")
-        self.process.stdin.flush()
-        return now_s
+    patience_s = PATIENCE_S
 
     def interrupt(self) -> float:
         """Ctrl-C: to the whole group, as a terminal does it."""
@@ -115,13 +54,6 @@ class Process:
             os.killpg(self.process.pid, signal.SIGKILL)
             self.process.wait()
             raise
-
-    def _read(self) -> None:
-        assert self.process.stdout is not None
-        for line in self.process.stdout:
-            self.lines.append(line.rstrip())
-            self._queue.put(line)
-        self._queue.put(None)
 
 
 class Workspace:
@@ -181,7 +113,7 @@ class Rig:
             self.ear: Any = connect_ros(f"ros://{self.domain}", self.wiring, "ear", ear_args)
 
     def hear(self, topic: str, kind: Any) -> Heard:
-        heard = Heard()
+        heard = Heard(PATIENCE_S)
         self.ear.subscribe(topic, kind, heard)
         return heard
 

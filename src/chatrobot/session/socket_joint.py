@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import json
-import queue
 import socket
 import subprocess
 import threading
@@ -12,10 +11,11 @@ import time
 from typing import Any
 
 from chatrobot.core.errors import JointError
-from chatrobot.core.events import Event, event_from_json
+from chatrobot.core.events import event_from_json
 from chatrobot.governor.lease import LOCAL_BEAT_HZ, LOCAL_TERM_S
 from chatrobot.session.child import spawn_with_line
 from chatrobot.session.envelope import READY, Word
+from chatrobot.session.event_queue import EventQueue
 from chatrobot.session.joint import Sender
 from chatrobot.wire.local import PACKET_BYTES
 
@@ -23,7 +23,7 @@ START_TIMEOUT_S = 20.0
 END_TIMEOUT_S = 5.0
 
 
-class SocketJoint:
+class SocketJoint(EventQueue):
     """Spawns Motion (in a session of its own: no terminal signal reaches it) and talks to it.
 
     A thread beats the lease; a thread reads events. If this process freezes or dies, the beats end and Motion
@@ -34,8 +34,8 @@ class SocketJoint:
     """
 
     def __init__(self, wire_path: str, profile: str, world: str, source: str = "console") -> None:
+        super().__init__()
         self._sender = Sender(source)
-        self._events: queue.SimpleQueue[Event | None] = queue.SimpleQueue()
         self._closed = threading.Event()
         self.is_lost = False
         self.is_simulated = False
@@ -67,15 +67,6 @@ class SocketJoint:
             self._line.send(packet, socket.MSG_NOSIGNAL)
         except OSError as error:
             raise JointError("Motion is gone") from error
-
-    def next_event(self, timeout_s: float) -> Event | None:
-        try:
-            return self._events.get(timeout=timeout_s)
-        except queue.Empty:
-            return None
-
-    def wake(self) -> None:
-        self._events.put(None)
 
     def abandon(self) -> None:
         self._closed.set()

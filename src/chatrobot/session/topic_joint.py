@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import json
-import queue
 import threading
 import time
 from typing import Any
 
 from chatrobot.core.errors import JointError, WireError
 from chatrobot.core.events import (
-    Event,
     Finished,
     Interpreted,
     Outcome,
@@ -24,6 +22,7 @@ from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.core.reason import Reason
 from chatrobot.governor.lease import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S
 from chatrobot.session.envelope import Envelope, Word
+from chatrobot.session.event_queue import EventQueue
 from chatrobot.session.joint import Sender
 from chatrobot.session.rivals import read_beat
 from chatrobot.session.topics import CHATGPT_NODE, CONTROL, EVENTS
@@ -41,7 +40,7 @@ FROZEN_S = 0.5
 """After a gap this long in our own beats it is we who were silent, and what control said is still to be read."""
 
 
-class TopicJoint:
+class TopicJoint(EventQueue):
     """Talks to whichever control node is there; it may come, go and come again.
 
     A thread beats the lease. If this process freezes or dies, the beats end and Motion stops the robot. `open`
@@ -53,11 +52,11 @@ class TopicJoint:
     """
 
     def __init__(self, wire: Wire, source: str, *, is_on_this_machine: bool) -> None:
+        super().__init__()
         self._wire = wire
         self._sender = Sender(source)
         self._period_s = 1.0 / (LOCAL_BEAT_HZ if is_on_this_machine else BEAT_HZ)
         self._term_s = LOCAL_TERM_S if is_on_this_machine else TERM_S
-        self._events: queue.SimpleQueue[Event | None] = queue.SimpleQueue()
         self._closed = threading.Event()
         self._controls: dict[str, float] = {}
         self._control_came = threading.Condition()
@@ -92,15 +91,6 @@ class TopicJoint:
                 return
             self._in_flight[turn] = control
         self._publish(self._sender.envelope(word, turn, **payload))
-
-    def next_event(self, timeout_s: float) -> Event | None:
-        try:
-            return self._events.get(timeout=timeout_s)
-        except queue.Empty:
-            return None
-
-    def wake(self) -> None:
-        self._events.put(None)
 
     def abandon(self) -> None:
         self._closed.set()

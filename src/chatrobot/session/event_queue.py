@@ -1,0 +1,25 @@
+"""What a joint hears from Motion, on its way to the thread that pumps."""
+
+from __future__ import annotations
+
+import queue
+
+from chatrobot.core.events import Event
+
+
+class EventQueue:
+    """Events in order, from any thread; a joint is one of these that knows where they come from."""
+
+    def __init__(self) -> None:
+        self._events: queue.SimpleQueue[Event | None] = queue.SimpleQueue()
+
+    def next_event(self, timeout_s: float) -> Event | None:
+        """The next event; None after so long, or when `wake` was called."""
+        try:
+            return self._events.get(timeout=timeout_s)
+        except queue.Empty:
+            return None
+
+    def wake(self) -> None:
+        """End a wait for an event now; from any thread."""
+        self._events.put(None)
