@@ -21,7 +21,7 @@ class Intake:
 
     def void_turn(self, lease: str, turn: int) -> None:
         """A stop said after that turn: plans of it and of earlier ones may still be on their way."""
-        self._void_turns[lease] = turn
+        self._void_turns[lease] = max(turn, self._void_turns.get(lease, turn))
 
     def is_old(self, envelope: Envelope) -> bool:
         """A later one of the same lease was here before. Beats, sent by a thread of their own, count for themselves."""

@@ -82,6 +82,8 @@ class Motion:
         self._epoch = StopEpoch()
         self._seen_epoch = 0
         self._stop_reason = Reason("stopped")
+        self._asked_stop = self._booked_stop = object()
+        self._emergency: Envelope | None = None
         self._transport = WireTransport(wire, profile.wiring, self._epoch)
         self._governor = Governor(profile, self._epoch, planner.allowed_area, releasers)
         self._sensors = Sensors(profile, clock)
@@ -111,23 +113,30 @@ class Motion:
     def halt(self, why: Reason) -> None:
         """Stop now: the zero is out before this returns. What runs and what is queued ends as `stopped`."""
         self._stop_reason = why
+        self._asked_stop = object()
         self._transport.halt()
 
     def post(self, action: Callable[[], None]) -> None:
         """Have `action` done on the control thread with the next tick."""
         self._inbox.append(action)
 
-    def receive(self, envelope: Envelope) -> None:
-        """Take in an envelope. A stop is out before this returns; the rest is done with the next tick."""
+    def receive(self, envelope: Envelope, said_in: int | None = None) -> None:
+        """Take in an envelope. A stop is out before this returns; the rest is done with the next tick.
+
+        Args:
+            said_in: what `stops` was when it was said, where that was before it came here.
+        """
         if envelope.word == "emergency_stop":
+            self._emergency = envelope
             self._governor.latch(envelope.source, str(envelope.payload.get("why", "")))
         if envelope.word in ("stop", "emergency_stop"):
             why = str(envelope.payload.get("why", ""))
             self._intake.void_turn(envelope.lease, envelope.turn)
             self.halt(Reason("stopped_by", {"source": envelope.source, "why": why}))
         # What was said before a stop must not run after it, however late it is handled.
-        epoch = self._epoch.value
-        self.post(lambda: self._handle(envelope, epoch))
+        epoch = self._epoch.value if said_in is None else said_in
+        emergency = self._emergency
+        self.post(lambda: self._handle(envelope, epoch, emergency))
 
     def lose(self, lease: str) -> None:
         """The source behind `lease` is gone without a goodbye: a loss, and it stops. From any thread."""
@@ -147,12 +156,11 @@ class Motion:
     @property
     def is_busy(self) -> bool:
         """True while anything is moving, queued, being rehearsed, awaited or zeroed."""
-        unbooked_stop = self._seen_epoch != self._epoch.value
         return bool(
             self._current
             or self._intake.jobs
             or self._inbox
-            or unbooked_stop
+            or self._is_stopped
             or (self.zeroing.is_active and self.zeroing.disobeyed is None)
         )
 
@@ -175,8 +183,11 @@ class Motion:
     def sensors(self) -> Sensors:
         return self._sensors
 
-    def _handle(self, envelope: Envelope, epoch: int) -> None:
-        """One envelope, received in that stop epoch. Stops have been heard already; here they are only booked."""
+    def _handle(self, envelope: Envelope, epoch: int, emergency: Envelope | None) -> None:
+        """One envelope, received in that stop epoch, after that emergency stop.
+
+        Stops have been heard already; here they are only booked.
+        """
         if self._intake.is_old(envelope):
             if envelope.word in (
                 "plan",
@@ -199,14 +210,21 @@ class Motion:
             if priority_of(envelope.source) >= Priority.PLAN:  # a person's word, not an agent's
                 self._approve(envelope.turn, bool(envelope.payload.get("yes")))
         elif envelope.word == "release":
-            self._release(envelope)
+            self._release(envelope, emergency)
         elif envelope.word == "goodbye":
             self._governor.leases.entrust(envelope.lease)
             self._leaving.add(envelope.lease)
 
-    def _release(self, envelope: Envelope) -> None:
+    def _release(self, envelope: Envelope, emergency: Envelope | None) -> None:
+        """Release what was set when the release was said; an emergency stop that came after it holds."""
+        if self._emergency is not emergency:
+            return
         who = {"source": envelope.source}
-        if not self._governor.release(envelope.source):
+        released = self._governor.release(envelope.source)
+        newer = self._emergency
+        if newer is not None and newer is not emergency:  # it came in between, and may have seen the old one set
+            self._governor.latch(newer.source, str(newer.payload.get("why", "")))
+        elif not released:
             self._emit(Notice(envelope.turn, Reason("release_refused", who)))
         elif envelope.source != "console":  # the person there sees it
             self._emit(Notice(envelope.turn, Reason("released", who)))
@@ -229,7 +247,7 @@ class Motion:
         self._drive(now_s)
         if self._run is None:
             self.zeroing.tick(now_s)
-        self._relay.tick(now_s, self._is_free())
+        self._relay.tick(now_s, self._is_free)
         self._begin_next(now_s)
         self._tell(now_s)
 
@@ -383,10 +401,14 @@ class Motion:
         blocker = blocker or self._governor.begin(job.lease, now_s, sensed_by(self._sensors)).refusal
         if blocker is not None:
             self._finish_current("refused", blocker)
-            return
-        if isinstance(job, ProgramJob):
+        elif self._is_stopped:
+            return  # a moment ago, from another thread: the wheel was taken after it, and the job ends as stopped
+        elif isinstance(job, ProgramJob):
             self._launch_program(job)
-            return
+        else:
+            self._launch_plan(job, now_s)
+
+    def _launch_plan(self, job: Job, now_s: float) -> None:
         self._run = Run(job, self._profile, self._sensors, self._governor, self._transport, self._emit, now_s)
         self._emit(Started(job.turn, job.start))
         self._drive(now_s)
@@ -432,7 +454,12 @@ class Motion:
     def _is_free(self) -> bool:
         """Nothing of ours drives, waits or stops the robot, and nothing keeps it from moving."""
         is_taken = self._current or self._intake.jobs or self.zeroing.is_active or self._sensors.bumped
-        return not is_taken and self._barrier() is None
+        return not is_taken and not self._is_stopped and self._barrier() is None
+
+    @property
+    def _is_stopped(self) -> bool:
+        """A stop has gone out that is not booked yet."""
+        return self._seen_epoch != self._epoch.value
 
     # --- a running plan --------------------------------------------------------------------------------------
 
@@ -459,8 +486,10 @@ class Motion:
         run.close()
         self._governor.end(run.job.lease)
         if outcome != "completed":
-            self.halt(reason or Reason("stopped"))
-            self._seen_epoch = self._epoch.value
+            self._transport.halt()
+            epoch = self._epoch.value
+            if self._asked_stop is self._booked_stop:  # else somebody's stop came at this very moment
+                self._seen_epoch = epoch
             self.zeroing.begin(self._clock.now_s())
         stream = run.job.stream
         if outcome == "completed" and stream is not None and stream.refusal is not None:
@@ -494,8 +523,9 @@ class Motion:
 
     def _book_stop(self) -> None:
         """A stop has gone out, from whatever thread: end what ran and what waited, then see the robot stand."""
-        if self._seen_epoch == self._epoch.value:
+        if not self._is_stopped:
             return
+        self._booked_stop = self._asked_stop
         self._seen_epoch = self._epoch.value
         self.zeroing.begin(self._clock.now_s())
         why = self._stop_reason

@@ -150,9 +150,9 @@ class MotionRunner:
 
     # --- from any thread ---
 
-    def receive(self, envelope: Envelope) -> None:
-        """Take in an envelope; a stop is out before this returns."""
-        self.motion.receive(envelope)
+    def receive(self, envelope: Envelope, said_in: int | None = None) -> None:
+        """Take in an envelope; a stop is out before this returns. `said_in`: see `Motion.receive`."""
+        self.motion.receive(envelope, said_in)
         self._rivals.note_source(envelope.lease)
         if envelope.word != "beat":
             self._wake.set()
