@@ -12,6 +12,7 @@ from typing import Protocol
 from chatrobot.core.events import Event, Finished, Outcome, ProgramLog, Progress
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.reason import Reason
+from chatrobot.execution.health import sensor_fault
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor, Verdict
 from chatrobot.governor.lease import TERM_S
@@ -82,6 +83,7 @@ class ProgramRun:
             for event in self._program.poll_until(now_s - self._began_s):
                 self._hear(event, now_s)
             self._notice_silence(now_s)
+            self._notice_fault()
         asked = self._held.at(now_s) if self._ended_s is None else ZERO_TWIST
         if self.outcome == "completed":
             asked = softened(asked, self._sent, self._limits, now_s - since_s)
@@ -152,6 +154,12 @@ class ProgramRun:
     def _notice_silence(self, now_s: float) -> None:
         if self._ended_s is None and now_s - self._heard_s > TERM_S:
             self._end("failed", Reason("program_silent"))
+
+    def _notice_fault(self) -> None:
+        """As for a plan: nobody sees any more where the robot goes, its fence included."""
+        fault = sensor_fault(self._sensors)
+        if fault is not None:
+            self._end("failed", fault)
 
     # --- telling ---
 

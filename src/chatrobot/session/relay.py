@@ -13,6 +13,7 @@ from chatrobot.core.clock import Clock
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import RELAY_TOPIC
+from chatrobot.execution.health import sensor_fault
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
 from chatrobot.governor.lease import TERM_S
@@ -74,7 +75,8 @@ class Relay:
 
     def _begin(self, now_s: float, is_free: Callable[[], bool]) -> None:
         self._governor.leases.open(_LEASE, RELAY_TOPIC, TERM_S, now_s)
-        refusal = self._governor.begin(_LEASE, now_s, sensed_by(self._sensors)).refusal
+        refusal = sensor_fault(self._sensors)
+        refusal = refusal or self._governor.begin(_LEASE, now_s, sensed_by(self._sensors)).refusal
         if refusal is not None:
             self._has_to_let_go = True
             self._tell(refusal)
@@ -84,6 +86,12 @@ class Relay:
         self.is_driving = not self._has_to_let_go
 
     def _drive(self, twist: Twist, at_s: float, now_s: float) -> None:
+        fault = sensor_fault(self._sensors)
+        if fault is not None:  # nobody sees any more where it goes
+            self._has_to_let_go = True
+            self._tell(fault)
+            self._end()
+            return
         self._governor.leases.beat(_LEASE, at_s)
         sensed = sensed_by(self._sensors)
         verdict = self._governor.govern(twist, _LEASE, now_s, self._sensors.pose_now(), sensed)
