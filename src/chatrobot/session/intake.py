@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Collection
 
 from chatrobot.core.reason import Reason
 from chatrobot.session.envelope import Envelope
@@ -46,6 +47,13 @@ class Intake:
         for job in void:
             self.jobs.remove(job)
         return void
+
+    def take(self, jobs: Collection[Job]) -> list[Job]:
+        """Remove and return those of `jobs` that wait."""
+        taken = [job for job in self.jobs if any(job is one for one in jobs)]
+        for job in taken:
+            self.jobs.remove(job)
+        return taken
 
     def take_all(self) -> list[Job]:
         """Remove and return everything."""

@@ -199,16 +199,16 @@ class Motion:
             return
         now_s = self._clock.now_s()
         self._governor.leases.beat(envelope.lease, now_s)
-        if envelope.word == "hello" or self._opens_lease(envelope):
+        if (envelope.word == "hello" or self._opens_lease(envelope)) and envelope.lease not in self._leaving:
             term_s = min(seconds(envelope.payload.get("term_s"), LOCAL_TERM_S), LONGEST_TERM_S)
             self._governor.leases.open(envelope.lease, envelope.source, term_s, now_s)
-        elif envelope.word in ("plan", "program"):
+        if envelope.word in ("plan", "program"):
             self._accept(envelope, epoch)
         elif envelope.word == "look":
             self._emit(Looked(envelope.turn, sectors_m(self._profile, self._sensors.scan)))
         elif envelope.word == "approve":
             if priority_of(envelope.source) >= Priority.PLAN:  # a person's word, not an agent's
-                self._approve(envelope.turn, bool(envelope.payload.get("yes")))
+                self._approve(envelope, bool(envelope.payload.get("yes")))
         elif envelope.word == "release":
             self._release(envelope, emergency)
         elif envelope.word == "goodbye":
@@ -268,7 +268,7 @@ class Motion:
             self._extend(envelope)
             return
         job = job_of(envelope, epoch, self._clock.now_s())
-        declined = self._give_way(job)
+        declined = self._decline_who_left(envelope) or self._give_way(job)
         if declined is None and envelope.payload.get("mode") == "replace":
             self._replace(Reason("replaced"))
         declined = declined or self._intake.add(job, self._epoch.value)
@@ -278,24 +278,37 @@ class Motion:
             return
         self._begin_next(self._clock.now_s())
 
+    def _decline_who_left(self, envelope: Envelope) -> Reason | None:
+        """After a goodbye no beat is waited for: what is said later could never lapse."""
+        has_left = envelope.lease in self._leaving
+        return Reason("lease_lapsed", {"source": envelope.source}) if has_left else None
+
     def _give_way(self, job: Job) -> Reason | None:
         """A source of higher priority takes over at once; one of lower priority is refused, with the reason."""
-        current, leases = self._current, self._governor.leases
-        if current is None or current.lease == job.lease:
-            return None
-        holder, comer = leases.source_of(current.lease), leases.source_of(job.lease)
-        if leases.priority_of(job.lease) < leases.priority_of(current.lease):
-            return Reason("outranked", {"source": holder})
-        if leases.priority_of(job.lease) > leases.priority_of(current.lease):
-            handed_over = Reason("handed_over", {"source": holder, "to": comer})
+        leases = self._governor.leases
+        priority = leases.priority_of(job.lease)
+        before = [other for other in (self._current, *self._intake.jobs) if other is not None]
+        for other in before:
+            if leases.priority_of(other.lease) > priority:
+                return Reason("outranked", {"source": leases.source_of(other.lease)})
+        lower = [other for other in before if leases.priority_of(other.lease) < priority]
+        if lower:
+            names = {"source": leases.source_of(lower[0].lease), "to": leases.source_of(job.lease)}
+            handed_over = Reason("handed_over", names)
             self._emit(Notice(job.turn, handed_over))
-            self._replace(handed_over)
+            for waiting in self._intake.take(lower):
+                self._finish_unmoved(waiting, "stopped", handed_over)
+            if self._current in lower:
+                self._end_current_gently(handed_over)
         return None
 
     def _replace(self, why: Reason) -> None:
         """New motion takes the place of the old, after a controlled stop; what was queued is dropped."""
         for job in self._intake.take_all():
             self._finish_unmoved(job, "stopped", why)
+        self._end_current_gently(why)
+
+    def _end_current_gently(self, why: Reason) -> None:
         if self._run is not None:
             self._run.ramp_down(why)
         elif self._current is not None:
@@ -384,10 +397,13 @@ class Motion:
             self._run.executor.expect(stream.duration_s)
         self._plan_part(job)
 
-    def _approve(self, turn: int, yes: bool) -> None:
+    def _approve(self, envelope: Envelope, yes: bool) -> None:
         job = self._current
-        if job is None or job.approval is None or job.turn != turn:
+        if job is None or job.approval is None or job.turn != envelope.turn:
             return
+        is_theirs = self._governor.leases.priority_of(job.lease) >= Priority.PLAN
+        if is_theirs and job.lease != envelope.lease:
+            return  # another person was asked, about another plan that happens to have this number
         approval, job.approval = job.approval, None
         lapse = approval.lapsed(self._clock.now_s(), self._pose())
         if not yes or lapse is not None:
