@@ -577,6 +577,25 @@ class Motion:
         if tripped or gap_s > FROZEN_S:
             self._guard.handshake()
 
+    # --- the end ---------------------------------------------------------------------------------------------
+
+    def give_up(self, why: Reason) -> None:
+        """The wire is closed for good, and with it the way to the robot: all that was asked for ends as failed."""
+        run, current = self._run, self._current
+        self._run = self._current = None
+        if run is not None:
+            run.close()
+            self._emit(run.finished("failed", why))
+        elif current is not None:
+            self._finish_unmoved(current, "failed", why)
+        for job in self._intake.take_all():
+            self._finish_unmoved(job, "failed", why)
+
+    def leave(self) -> None:
+        """Goodbye to the guard; where the robot is out of sight no word is said, so that it goes on sending zeros."""
+        if not self.zeroing.has_lost_sight:
+            self._guard.goodbye()
+
     # --- telling ---------------------------------------------------------------------------------------------
 
     def _tell(self, now_s: float) -> None:

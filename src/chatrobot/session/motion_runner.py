@@ -128,7 +128,11 @@ class MotionRunner:
             self._look_around()
 
     def run(self, has_left: Callable[[], bool], each_tick: Callable[[], None]) -> None:
-        """The control loop, until `has_left`; then the guard is told goodbye."""
+        """The control loop, until `has_left`; then the guard is told goodbye.
+
+        Raises:
+            WireError: the wire is closed for good. What was under way has been told to have failed.
+        """
         for target in (self._plan, self._listen_for_stop, self._watch):
             threading.Thread(target=target, daemon=True).start()
         _settle_memory()
@@ -141,7 +145,12 @@ class MotionRunner:
                 each_tick()
                 if time.monotonic() >= next_s:  # not where an event drove this tick before its time
                     next_s = max(next_s, time.monotonic() - TICK_S) + TICK_S
-            self._guard.goodbye()
+        except WireError:
+            self.motion.give_up(Reason("wire_gone"))
+            each_tick()
+            raise
+        else:
+            self.motion.leave()
             self.wire.close()
         finally:
             self.programs.close()

@@ -44,6 +44,11 @@ class Zeroing:
         """Zeros are being sent."""
         return self._since_s is not None
 
+    @property
+    def has_lost_sight(self) -> bool:
+        """Nobody saw it stand after the last stop, and it has not been seen since."""
+        return self._was_out_of_sight
+
     def begin(self, now_s: float) -> None:
         self._since_s = now_s
         self._was_out_of_sight = False
