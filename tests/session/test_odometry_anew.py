@@ -6,11 +6,11 @@ import math
 from dataclasses import replace
 
 import pytest
+from tests.session.test_robots_come_and_go import Rig
 
 from chatrobot.core.geometry import Pose
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.messages import Odometry, TwistMessage
-from tests.session.test_robots_come_and_go import Rig
 
 
 def without_gyro(profile: RobotProfile) -> RobotProfile:
@@ -46,7 +46,9 @@ def seen(rig: Rig) -> Pose:
 
 
 @pytest.mark.parametrize("gap_s", [0.1, 0.6, 3.0, 60.0])
-@pytest.mark.parametrize(("plan_text", "code"), [("drive 1 m", "odometry_jumped"), ("turn left 90 deg", "odometry_swung")])
+@pytest.mark.parametrize(
+    ("plan_text", "code"), [("drive 1 m", "odometry_jumped"), ("turn left 90 deg", "odometry_swung")]
+)
 def test_a_robot_that_stands_is_where_it_was(rig: Rig, gap_s: float, plan_text: str, code: str) -> None:
     rig.do(plan_text)
     before = seen(rig)
@@ -82,4 +84,6 @@ def test_a_robot_that_drove_on_unseen_has_not_jumped(rig: Rig, velocity: tuple[f
     rig.pass_time(0.4)
     assert rig.motion.sensors.estimator.fault is None
     assert seen(rig).distance_to(rig.robot.true_pose) < 0.02
-    assert math.remainder(seen(rig).yaw_rad - rig.robot.true_pose.yaw_rad, math.tau) == pytest.approx(0.0, abs=0.02)
+    assert math.remainder(seen(rig).yaw_rad - rig.robot.true_pose.yaw_rad, math.tau) == pytest.approx(
+        0.0, abs=0.02
+    )

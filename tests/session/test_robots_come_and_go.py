@@ -215,7 +215,9 @@ def test_where_the_wire_is_closed_for_good_all_that_was_asked_for_has_failed(rig
     rig.motion.give_up(Reason("wire_gone"))
     rig.events += rig.joint._events  # type: ignore[attr-defined]
     ends = [rig.end_of(turn) for turn in (1, 2)]
-    assert [(end.outcome, end.reason and end.reason.code) for end in ends if end] == [("failed", "wire_gone")] * 2
+    assert [(end.outcome, end.reason and end.reason.code) for end in ends if end] == [
+        ("failed", "wire_gone")
+    ] * 2
     assert ends[0] is not None
     assert ends[0].path_m > 0.1, "what it has done is told"
 
@@ -295,6 +297,18 @@ def test_a_robot_that_does_not_answer_is_said_not_to() -> None:
     deaf = Rig(lambda profile: replace(profile, wiring=replace(profile.wiring, cmd_vel_topic="nobody")))
     end = deaf.do("drive 1 m")
     assert (end.outcome, end.reason and end.reason.code) == ("failed", "does_not_move")
+
+
+def test_a_plan_whose_robot_moves_on_at_its_end_is_not_completed(rig: Rig) -> None:
+    somebody = rig.hub.connect()
+    rig.begin("drive 0.3 m")
+    rig.pass_time(0.8)
+    rig.each_step = lambda: somebody.publish("cmd_vel", TwistMessage(0.0, 0.0, 0.4))
+    rig.pass_time(5.0)
+    end = rig.end_of(1)
+    assert end is not None
+    assert (end.outcome, end.reason and end.reason.code) == ("failed", "moves_on")
+    assert rig.motion.zeroing.is_active, "zeros go on"
 
 
 class TestTwoPublishers:

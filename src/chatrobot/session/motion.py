@@ -222,7 +222,9 @@ class Motion:
         who = {"source": envelope.source}
         released = self._governor.release(envelope.source)
         newer = self._emergency
-        if newer is not None and newer is not emergency:  # it came in between, and may have seen the old one set
+        if (
+            newer is not None and newer is not emergency
+        ):  # it came in between, and may have seen the old one set
             self._governor.latch(newer.source, str(newer.payload.get("why", "")))
         elif not released:
             self._emit(Notice(envelope.turn, Reason("release_refused", who)))
@@ -501,6 +503,8 @@ class Motion:
         self._current = self._run = None
         run.close()
         self._governor.end(run.job.lease)
+        if outcome == "completed" and self.zeroing.is_seen_moving:  # told to stand, and waited for
+            outcome, reason = "failed", self.zeroing.disobedience
         if outcome != "completed":
             self._transport.halt()
             epoch = self._epoch.value

@@ -61,7 +61,7 @@ class Zeroing:
             self._end()
         elif now_s - self._since_s <= PATIENCE_S:
             self._send_zero(now_s)
-        elif self._is_seen_moving():
+        elif self.is_seen_moving:
             self._send_zero(now_s)
             self._complain()
         else:
@@ -77,14 +77,14 @@ class Zeroing:
         if not self._was_out_of_sight or not self._is_in_sight():
             return
         self._was_out_of_sight = False
-        if self._is_seen_moving():
+        if self.is_seen_moving:
             self.begin(now_s)
             self._send_zero(now_s)
 
     def _complain(self) -> None:
         if self.disobeyed is not None:
             return
-        self.disobeyed = Reason("not_ours_alone", {"who": self.others}) if self.others else Reason("moves_on")
+        self.disobeyed = self.disobedience
         self._tell(self.disobeyed)
 
     def _is_in_sight(self) -> bool:
@@ -99,7 +99,14 @@ class Zeroing:
             and self._sensors.odometry_age_s() < FRESH_S
         )
 
-    def _is_seen_moving(self) -> bool:
+    @property
+    def disobedience(self) -> Reason:
+        """What to say of a robot that moves though it has been told to stand."""
+        return Reason("not_ours_alone", {"who": self.others}) if self.others else Reason("moves_on")
+
+    @property
+    def is_seen_moving(self) -> bool:
+        """Odometry shows clearly, and just now, that it moves."""
         estimate = self._sensors.estimate
         if estimate is None or not self._is_in_sight():
             return False
