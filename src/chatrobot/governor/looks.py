@@ -78,7 +78,9 @@ class Looks:
     def covered_lately(self, points: Floats) -> Flags:
         """Which of them the latest or an earlier look took in."""
         covered = self.covers_now(points)
-        for _, look in self._earlier:
+        for _, look in reversed(self._earlier):  # the newest have most likely seen them
+            if covered.all():
+                break
             covered |= look.covers(points)
         return covered
 
