@@ -59,8 +59,8 @@ def test_each_point_is_judged_by_itself() -> None:
     points = np.concatenate([towards(0.0), towards(90.0), towards(10.0)])
     assert look(-20.0, 61).covers(points).tolist() == [True, False, True]
     assert look(-180.0, 360).covers(points).tolist() == [True, True, True]
-    assert Looks().covers_now(points).tolist() == [False, False, False]
-    assert Looks().covered_lately(points).tolist() == [False, False, False]
+    assert repr(Looks().covers_now(points).tolist()) == "[False, False, False]"
+    assert repr(Looks().covered_lately(points).tolist()) == "[False, False, False]"
 
 
 AHEAD = towards(0.0)
@@ -83,6 +83,7 @@ def test_now_is_the_latest_look_and_lately_is_the_earlier_ones_too() -> None:
     assert looks.covers_now(beside).all()
     assert looks.covered_lately(beside).all()
     assert looks.covered_lately(np.concatenate([AHEAD, towards(-90.0)])).tolist() == [True, False]
+    assert looks.covered_lately(np.concatenate([AHEAD, beside])).tolist() == [True, True]
 
 
 @pytest.mark.parametrize(
