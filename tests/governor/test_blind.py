@@ -234,3 +234,8 @@ def test_where_it_stands_makes_no_difference() -> None:
     there = Situation(pose, FRESH.sensed)
     assert share(BlindRule(ROBOT, seen), Twist(0.5, 0.0, 0.0), there) == 1.0
     assert share(BlindRule(ROBOT, seen), Twist(-0.5, 0.0, 0.0), there) == pytest.approx(0.2)
+    # Half of what is around, from straight ahead to straight back over the left: only leftwards is seen.
+    seen.take(EVERYWHERE, pose)
+    seen.take(sector(0.0, 180.0), pose)
+    assert share(BlindRule(ROBOT, seen), Twist(0.0, 0.5, 0.0), there) == 1.0
+    assert share(BlindRule(ROBOT, seen), Twist(0.0, -0.5, 0.0), there) == pytest.approx(0.2)
