@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from chatrobot.core.events import Notice
+from chatrobot.core.events import Limited, Notice
 from chatrobot.core.geometry import Twist
 from chatrobot.programs.events import ProgramEvent, TwistAsked
 from chatrobot.robots.profile import Circle, RobotProfile
@@ -84,6 +84,37 @@ def test_a_robot_whose_odometry_falls_silent_is_stopped(change: Any, source: str
         assert end.outcome == "failed"
         assert end.reason is not None
         assert end.reason.code == "odometry_silent"
+
+
+def test_it_is_told_to_stand_in_time_and_goes_on_where_the_silence_was_short() -> None:
+    rig = Rig()
+    rig.begin("drive 1 m")
+    rig.pass_time(1.5)
+    rig.network.holds_back = True
+    rig.pass_time(0.22)
+    assert rig.velocities[-1] == TwistMessage(0.0, 0.0, 0.0), "the robot then stands within 250 ms"
+    rig.pass_time(0.16)
+    assert rig.robot.true_twist.is_zero
+    rig.network.let_go()
+    rig.pass_time(6.0)
+    end = rig.end_of(1)
+    assert end is not None
+    assert end.outcome == "completed"
+    assert rig.robot.true_pose.x_m == pytest.approx(1.0, abs=0.02)
+    assert "odometry" in [event.rule for event in rig.events if isinstance(event, Limited)], "and it is told"
+
+
+def test_with_news_that_grows_old_it_only_ever_goes_slower() -> None:
+    rig = Rig()
+    rig.begin("drive 2 m")
+    rig.pass_time(2.0)
+    rig.network.holds_back = True
+    before = len(rig.velocities)
+    rig.pass_time(0.6)
+    speeds = [velocity.vx_mps for velocity in rig.velocities[before:]]
+    assert speeds == sorted(speeds, reverse=True)
+    assert any(0.0 < speed < 0.25 for speed in speeds)
+    assert speeds[-1] == 0.0
 
 
 def test_what_others_send_is_let_through_again_once_odometry_is_back() -> None:

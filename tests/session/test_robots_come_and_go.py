@@ -304,7 +304,7 @@ def test_a_plan_whose_robot_moves_on_at_its_end_is_not_completed(rig: Rig) -> No
     rig.begin("drive 0.3 m")
     rig.pass_time(0.8)
     rig.each_step = lambda: somebody.publish("cmd_vel", TwistMessage(0.0, 0.0, 0.4))
-    rig.pass_time(5.0)
+    rig.pass_time(8.0)
     end = rig.end_of(1)
     assert end is not None
     assert (end.outcome, end.reason and end.reason.code) == ("failed", "moves_on")

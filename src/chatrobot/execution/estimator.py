@@ -24,6 +24,7 @@ PUSHED_RATE_RADPS = 0.06
 """Above this a "standing" robot is being turned by hand, and that is motion, not bias."""
 
 IMU_SILENT_S = 0.2
+REORDERED_S = 1.0
 HISTORY = 100
 """Estimates kept to tell where a scan was made: a second of them."""
 
@@ -93,6 +94,8 @@ class PoseEstimator:
     def on_imu(self, message: Imu) -> None:
         """A gyro sample: integrated while moving, averaged into the bias while standing."""
         dt = message.stamp_s - self._imu_at_s
+        if -REORDERED_S < dt <= 0.0:
+            return  # overtaken on its way: its time has been counted
         self._imu_at_s = message.stamp_s
         if not math.isfinite(message.wz_radps):
             return

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from chatrobot.core.events import Finished, Limited, Outcome
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
+from chatrobot.execution.executor import RAMP_RULES
+from chatrobot.execution.health import freshness, silence
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor, Verdict
 from chatrobot.governor.rule import Sensed
@@ -15,6 +17,8 @@ from chatrobot.transports.transport import Transport
 
 WORTH_TELLING_MPS = 0.02
 WORTH_TELLING_RADPS = 0.05
+LATE_ODOMETRY = "odometry"
+"""The rule in whose name we ask for less than a plan or a program wanted."""
 """What feedback asks a little too much is trimmed without a word."""
 
 
@@ -70,7 +74,20 @@ class GovernedMotion:
         self._start_path_m = sensors.estimate.path_m if sensors.estimate is not None else 0.0
 
     def send(self, asked: Twist, now_s: float) -> Verdict:
-        """Send what the governor allows of `asked`, to a robot that is by now where odometry saw it going."""
+        """Send what the governor allows of `asked`, to a robot that is by now where odometry saw it going.
+
+        With news that grows old it goes slower, and stands where nobody sees any more where it goes.
+        """
+        share = freshness(self._sensors)
+        if share < 1.0:
+            verdict = self._send(asked.scaled(share), now_s)
+            if verdict.rule in RAMP_RULES:
+                late = silence(self._sensors)
+                return replace(verdict, action="limited", rule=LATE_ODOMETRY, asked=asked, reason=late)
+            return verdict
+        return self._send(asked, now_s)
+
+    def _send(self, asked: Twist, now_s: float) -> Verdict:
         pose, sensed = self._sensors.pose_now(), sensed_by(self._sensors)
         verdict = self._governor.govern(asked, self._job.lease, now_s, pose, sensed)
         self._transport.send(verdict.sent)

@@ -12,7 +12,7 @@ from typing import Protocol
 from chatrobot.core.events import Event, Finished, Outcome, ProgramLog, Progress
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.reason import Reason
-from chatrobot.execution.health import sensor_fault
+from chatrobot.execution.health import STANDS_LATE_S, is_seen_moving, sensor_fault
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor, Verdict
 from chatrobot.governor.lease import TERM_S
@@ -26,7 +26,7 @@ from chatrobot.session.soft_zero import softened
 from chatrobot.transports.transport import Transport
 
 SETTLE_S = 1.0
-"""A robot that is told to stand is waited for no longer than this."""
+"""A robot that is told to stand is waited for no longer than this, where it is not seen moving."""
 STARTING_S = 3.0
 """A program that says nothing for so long after its launch is not coming."""
 LOG_LINES = 500
@@ -93,7 +93,8 @@ class ProgramRun:
         if self._ended_s is not None and verdict.sent.twist.is_zero:
             estimate = self._sensors.estimate
             standing = estimate is None or estimate.is_standing
-            self.is_done = standing or now_s - self._ended_s > SETTLE_S
+            patience_s = STANDS_LATE_S if is_seen_moving(self._sensors) else SETTLE_S
+            self.is_done = standing or now_s - self._ended_s > patience_s
 
     def ramp_down(self, why: Reason) -> None:
         """A controlled stop: the program is ended, the robot brought to stand."""

@@ -13,7 +13,7 @@ from chatrobot.core.clock import Clock
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import RELAY_TOPIC
-from chatrobot.execution.health import sensor_fault
+from chatrobot.execution.health import freshness, sensor_fault
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
 from chatrobot.governor.lease import TERM_S
@@ -94,6 +94,7 @@ class Relay:
             return
         self._governor.leases.beat(_LEASE, at_s)
         sensed = sensed_by(self._sensors)
+        twist = twist.scaled(freshness(self._sensors))
         verdict = self._governor.govern(twist, _LEASE, now_s, self._sensors.pose_now(), sensed)
         if verdict.action == "refused":
             self._has_to_let_go = True

@@ -5,17 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from chatrobot.core.reason import Reason
+from chatrobot.execution.health import FRESH_S, STANDS_LATE_S, is_seen_moving
 from chatrobot.execution.sensors import Sensors
 
-PATIENCE_S = 2.0
+PATIENCE_S = STANDS_LATE_S
 """So long zeros are sent where nobody can see whether they help; a robot that moves on meanwhile does not obey."""
-
-FRESH_S = 0.3
-"""Odometry older than this shows nothing."""
-
-MOVING_MPS = 0.03
-MOVING_RADPS = 0.1
-"""Above these it clearly moves; noise of a standing robot is below."""
 
 
 class Zeroing:
@@ -107,7 +101,4 @@ class Zeroing:
     @property
     def is_seen_moving(self) -> bool:
         """Odometry shows clearly, and just now, that it moves."""
-        estimate = self._sensors.estimate
-        if estimate is None or not self._is_in_sight():
-            return False
-        return estimate.twist.speed_mps > MOVING_MPS or abs(estimate.twist.wz_radps) > MOVING_RADPS
+        return is_seen_moving(self._sensors)
