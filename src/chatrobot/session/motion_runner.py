@@ -234,7 +234,7 @@ class MotionRunner:
             self.notice(reason)
         self.motion.zeroing.others = ", ".join(others)
         self._motions = motions
-        self.motion.obstruction = self._obstruction(motions)
+        self.motion.clearance.obstruction = self._obstruction(motions)
 
     def _mind_link(self) -> None:
         """Wi-Fi is gone, or back: say so, and see the robot stand, which may have held its last command meanwhile."""
@@ -242,7 +242,7 @@ class MotionRunner:
         if is_there == self._was_up:
             return
         self._was_up = is_there
-        self.motion.obstruction = self._obstruction(self._motions)
+        self.motion.clearance.obstruction = self._obstruction(self._motions)
         self.notice(Reason("wire_back" if is_there else "wire_gone"))
         if is_there:
             self.motion.post(self.motion.see_it_stand)
