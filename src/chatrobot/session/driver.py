@@ -102,6 +102,8 @@ class Driver:
             return
         run.tick(now_s)
         if run.is_done:
+            if run.outcome != "completed":
+                self._stops.halt_and_book(run.reason or Reason("stopped"))
             self._end(run, run.outcome, run.reason)
 
     def expect(self, duration_s: float) -> None:
@@ -133,8 +135,6 @@ class Driver:
         self.job = self._run = None
         run.close()
         self._robot.governor.end(run.job.lease)
-        if outcome != "completed":
-            self._stops.halt_and_book(reason or Reason("stopped"))
         stream = run.job.stream
         if outcome == "completed" and stream is not None and stream.refusal is not None:
             outcome, reason = "refused", stream.refusal  # what came before it has been done

@@ -46,7 +46,12 @@ class Stops:
         return self.last_reason
 
     def halt_and_book(self, why: Reason) -> None:
-        """The stop at the end of a motion that failed or was broken off: what waits is not touched by it."""
+        """The stop at the end of a motion that failed or was broken off: what waits is not touched by it.
+
+        One that came from elsewhere in the same moment is left to be booked, and does clear what waits.
+        """
+        is_alone = not self.is_unbooked
         self.halt(why)
-        self._booked = self._epoch.value
+        if is_alone and self._epoch.value == self._booked + 1:
+            self._booked += 1
         self._zeroing.begin(self._clock.now_s())
