@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Literal
+from typing import Any
 
 from chatrobot.core.errors import JointError, PlanTextError
 from chatrobot.core.events import Event, Finished, Interpreted, Remembered, Result, Telemetry
@@ -102,14 +102,16 @@ class Session:
 
     def stop(self, why: str = "") -> None:
         """Stop the robot and drop what was said before this moment."""
-        self._halt("stop", why)
+        self._joint.send("stop", self._said.void(), why=why)
+        self._cancel_asking()
 
     def emergency_stop(self, why: str = "") -> None:
         """Stop the robot and keep it stopped until `release`."""
-        self._halt("emergency_stop", why)
+        self._joint.send("emergency_stop", self._said.void(), why=why)
+        self._cancel_asking()
 
-    def _halt(self, word: Literal["stop", "emergency_stop"], why: str) -> None:
-        self._joint.send(word, self._said.void(), why=why)
+    def _cancel_asking(self) -> None:
+        """End what models are being asked."""
         self._thinking.cancel()
         if self.authoring is not None:
             self.authoring.cancel()
