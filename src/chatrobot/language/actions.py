@@ -10,8 +10,7 @@ from chatrobot.language.arcs import about, arc, is_left
 from chatrobot.language.frames import DIAGONALS, GO, SIDES, STILL, TURN, Frame
 from chatrobot.language.manner import Pace
 from chatrobot.language.numbers import is_chinese
-from chatrobot.language.quantities import quantity
-from chatrobot.language.tokens import Atom
+from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undoing import inverse
 from chatrobot.plan.steps import Drive, Face, Go, Step, Turn, Wait

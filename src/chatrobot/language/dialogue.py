@@ -14,8 +14,7 @@ from chatrobot.language.lexicon import cut, lexicon
 from chatrobot.language.manner import Pace
 from chatrobot.language.normalise import normalise
 from chatrobot.language.numbers import is_chinese
-from chatrobot.language.quantities import quantity
-from chatrobot.language.tokens import tokenise
+from chatrobot.language.tokens import quantity, tokenise
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undoing import inverse
 from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Repeat, Step, Turn, Wait

@@ -10,12 +10,12 @@ from typing import Literal
 
 from chatrobot import reflex
 from chatrobot.language import forms, questions
-from chatrobot.language.arithmetic import settle_condition
 from chatrobot.language.asides import check_finished, is_choice, without_asides
 from chatrobot.language.brackets import unrolled
 from chatrobot.language.chatter import without_chatter
 from chatrobot.language.clauses import read_frames
 from chatrobot.language.compass import split_convention, with_headings
+from chatrobot.language.conditions import settle_condition
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.corrections import corrected, without_negated
 from chatrobot.language.dialogue import refer, state_after

@@ -12,8 +12,8 @@ from chatrobot.language.arrange import arranged
 from chatrobot.language.clauses import is_times_only
 from chatrobot.language.frames import SIDES, STILL, TURN, Frame, merged
 from chatrobot.language.manner import Pace
-from chatrobot.language.quantities import quantity
 from chatrobot.language.shapes import draw
+from chatrobot.language.tokens import quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undoing import inverse
 from chatrobot.plan.steps import MAX_REPEAT, Arc, Drive, Go, Repeat, Say, Step, Turn, Wait

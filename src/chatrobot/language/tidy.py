@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from chatrobot.language.numbers import is_chinese, is_kind
-from chatrobot.language.quantities import quantity
-from chatrobot.language.tokens import Atom
+from chatrobot.language.tokens import Atom, quantity
 
 _HARMLESS = ("filler", "glue", "unknown", "num", "reason", "unit_times", "flag", "question")
 _MOTION = ("q", "verb", "dir", "rot", "shape", "pace", "role", "number")
