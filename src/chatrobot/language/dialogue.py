@@ -7,9 +7,9 @@ import math
 from collections.abc import Sequence
 
 from chatrobot.core.geometry import Pose
-from chatrobot.language.actions import DIRECTIONS, State
 from chatrobot.language.context import Context, TurnRecord
-from chatrobot.language.frames import GO, SIDES, Frame
+from chatrobot.language.ellipsis import State
+from chatrobot.language.frames import DIRECTIONS, GO, SIDES, Frame
 from chatrobot.language.lexicon import cut, lexicon
 from chatrobot.language.manner import Pace
 from chatrobot.language.normalise import normalise

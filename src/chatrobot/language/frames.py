@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, replace
 
 from chatrobot.language.tokens import Atom
@@ -15,6 +16,12 @@ DIAGONALS = {
     ("forward", "left"): "forward_left", ("forward", "right"): "forward_right",
     ("back", "left"): "back_left", ("back", "right"): "back_right",
 }  # fmt: skip
+DIRECTIONS = {
+    "forward": 0.0, "left": math.pi / 2, "back": math.pi, "right": -math.pi / 2,
+    "forward_left": math.pi / 4, "forward_right": -math.pi / 4,
+    "back_left": 3 * math.pi / 4, "back_right": -3 * math.pi / 4,
+}  # fmt: skip
+"""Where each lies from the robot's front, radians, counter-clockwise."""
 SLOTTED = frozenset({"verb", "dir", "rot", "q", "pace", "flag", "role", "shape", "place", "defined"})
 """Kinds of atoms that a frame has a slot for. Every other kind must have been dealt with before."""
 

@@ -7,9 +7,10 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from chatrobot.language.actions import State, act
+from chatrobot.language.actions import act
 from chatrobot.language.arrange import arranged
 from chatrobot.language.clauses import is_times_only
+from chatrobot.language.ellipsis import State
 from chatrobot.language.frames import SIDES, STILL, TURN, Frame, merged
 from chatrobot.language.manner import Pace
 from chatrobot.language.shapes import draw

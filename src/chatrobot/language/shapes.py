@@ -6,7 +6,8 @@ import math
 from dataclasses import dataclass, field
 
 from chatrobot.language import outlines
-from chatrobot.language.actions import State, act
+from chatrobot.language.actions import act
+from chatrobot.language.ellipsis import State
 from chatrobot.language.frames import DIAGONALS, GO, SIDES, STILL, TURN, Frame
 from chatrobot.language.manner import Pace
 from chatrobot.language.unclear import Unclear
