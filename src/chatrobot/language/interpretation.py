@@ -37,7 +37,7 @@ from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.program_request import read_program_request
 from chatrobot.language.quantities import read_quantities
 from chatrobot.language.rephrase import rephrased
-from chatrobot.language.script import Memory, write
+from chatrobot.language.script import Memory
 from chatrobot.language.sounds import mended
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import Atom, tokenise
@@ -45,6 +45,7 @@ from chatrobot.language.tutorial_form import read_twist
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.unfinished import breaks_off
 from chatrobot.language.until import UntilObstacle, read_until
+from chatrobot.language.writing import write
 from chatrobot.plan.steps import Drive, Go, ObstacleWithin, Plan, Remember, Step
 from chatrobot.robots.profile import RobotProfile
 
