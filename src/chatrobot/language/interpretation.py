@@ -18,7 +18,7 @@ from chatrobot.language.compass import split_convention, with_headings
 from chatrobot.language.conditions import settle_condition
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.corrections import corrected, without_negated
-from chatrobot.language.dialogue import refer, state_after
+from chatrobot.language.dialogue import refer
 from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import (
     defined_unit,
@@ -29,6 +29,7 @@ from chatrobot.language.facts import (
 )
 from chatrobot.language.frames import STILL, Frame
 from chatrobot.language.heeded import check_heeded
+from chatrobot.language.last_motion import state_after
 from chatrobot.language.lexicon import Key, Meaning, cut, lexicon
 from chatrobot.language.manner import Pace
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise

@@ -7,9 +7,9 @@ import math
 from chatrobot.language.driving import drive
 from chatrobot.language.ellipsis import State
 from chatrobot.language.frames import DIRECTIONS, SIDES, Frame
+from chatrobot.language.inverse import inverse
 from chatrobot.language.manner import Pace
 from chatrobot.language.unclear import Unclear
-from chatrobot.language.undoing import inverse
 from chatrobot.plan.steps import Drive, Go, Step, Turn, Wait
 
 
