@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from chatrobot.language.clauses import is_times_only
 from chatrobot.language.frames import EXTENTS, GO, SIDES, STILL, TURN, Frame
+from chatrobot.language.joining import is_times_only
 from chatrobot.language.unclear import Unclear
 
 _MANNER = frozenset({"speed", "rate", "percent", "fold"})

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from chatrobot.language.actions import act
-from chatrobot.language.clauses import is_times_only
 from chatrobot.language.frames import TURN, Frame
 from chatrobot.language.inverse import inverse
+from chatrobot.language.joining import is_times_only
 from chatrobot.language.script import Script, count_of, whole_count
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import MAX_REPEAT, Drive, Repeat, Step, Turn, Wait

@@ -5,8 +5,8 @@ from __future__ import annotations
 import itertools
 
 from chatrobot.language.arrange import arranged
-from chatrobot.language.clauses import is_times_only
-from chatrobot.language.frames import SIDES, STILL, Frame, merged
+from chatrobot.language.frames import SIDES, STILL, Frame
+from chatrobot.language.joining import is_times_only, merged
 from chatrobot.language.manner import Pace
 from chatrobot.language.pauses import insert, insert_at, insert_halfway, paced_legs
 from chatrobot.language.repeats import (
