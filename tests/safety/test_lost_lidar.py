@@ -1,4 +1,4 @@
-"""A lidar that shows nothing at all is no lidar: the robot goes at its blind speed, and takes nothing for a free way."""
+"""A lidar that shows nothing at all is none: the robot goes at its blind speed, and takes nothing for a free way."""
 
 from __future__ import annotations
 

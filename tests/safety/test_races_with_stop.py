@@ -108,7 +108,7 @@ def test_a_stop_that_coincides_with_the_end_of_a_plan_clears_the_queue(tmp_path:
     crowd.say("console", "plan", 2, plan_text="turn left 90 deg")
     crowd.live(1.0)
     crowd.motion.sensors.estimator.fault = Reason("odometry_jumped", {"jump_m": 1.0})
-    stop_within(crowd, crowd.motion._transport, "halt")
+    stop_within(crowd, crowd.motion._stops._transport, "halt")
     crowd.live(4.0)
     assert crowd.end_of(1).outcome == "failed"
     assert crowd.end_of(2).outcome == "stopped"
