@@ -18,7 +18,7 @@ from chatrobot.governor.blind import (
     BlindRule,
     _outline,
 )
-from chatrobot.governor.rule import Situation
+from chatrobot.governor.rule import FREE, Situation
 from chatrobot.governor.seen import Seen
 from chatrobot.robots.profile import Lidar, Safety
 from chatrobot.wire.messages import LaserScan
@@ -62,7 +62,7 @@ AHEAD = rule_of(-90.0, 90.0)
     [ZERO_TWIST, Twist(-BLIND_MPS, 0.0, 0.0), Twist(0.0, 0.0, BLIND_MPS / RADIUS_M), Twist(-0.06, 0.08, 0.0)],
 )
 def test_at_blind_speed_it_may_go_anywhere_without_a_look(asked: Twist) -> None:
-    assert share(AHEAD, asked, at(None)) == 1.0
+    assert AHEAD.judge(asked, at(None)) is FREE
 
 
 @pytest.mark.parametrize(
