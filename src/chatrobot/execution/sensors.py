@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from typing import Any
 
 from chatrobot.core.clock import Clock
 from chatrobot.core.geometry import Pose
 from chatrobot.execution.estimator import Estimate, PoseEstimator
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.messages import Flag, Imu, LaserScan, Number, Odometry
+from chatrobot.wire.sensor_topics import subscribe_sensors
 from chatrobot.wire.wire import Wire
 
 OLD_NEWS_S = 0.5
@@ -35,17 +38,14 @@ class Sensors:
 
     def attach(self, wire: Wire) -> None:
         """Subscribe to what the profile says the robot has."""
-        wiring = self._profile.wiring
-        if wiring.odom_topic:
-            wire.subscribe(wiring.odom_topic, Odometry, self._on_odometry)
-        if wiring.imu_topic:
-            wire.subscribe(wiring.imu_topic, Imu, self._on_imu)
-        if wiring.scan_topic:
-            wire.subscribe(wiring.scan_topic, LaserScan, self._on_scan)
-        if wiring.bumper_topic:
-            wire.subscribe(wiring.bumper_topic, Flag, self._on_bumper)
-        if wiring.battery_topic:
-            wire.subscribe(wiring.battery_topic, Number, self._on_battery)
+        hear: dict[str, Callable[[Any], None]] = {
+            "odom": self._on_odometry,
+            "imu": self._on_imu,
+            "scan": self._on_scan,
+            "bumper": self._on_bumper,
+            "battery": self._on_battery,
+        }
+        subscribe_sensors(wire, self._profile.wiring, hear)
 
     @property
     def has_odometry(self) -> bool:

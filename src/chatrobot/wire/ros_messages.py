@@ -48,14 +48,7 @@ def ros_form(topic: str, kind: type[Any], wiring: Wiring) -> RosForm:
 
 def is_sensor(topic: str, kind: type[Any], wiring: Wiring) -> bool:
     """Whether robots may publish this with ROS's sensor QoS (best effort)."""
-    sensors = (
-        wiring.odom_topic,
-        wiring.imu_topic,
-        wiring.scan_topic,
-        wiring.bumper_topic,
-        wiring.battery_topic,
-    )
-    return kind in _STAMPED or topic in sensors
+    return kind in _STAMPED or topic in wiring.sensor_topics.values()
 
 
 def stamped(message: Message) -> Odometry | Imu | LaserScan | None:
