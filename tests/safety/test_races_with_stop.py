@@ -61,6 +61,15 @@ def test_a_stop_that_falls_into_the_start_of_another_programs_velocities_stops_t
     assert not moved(crowd), "it has to let go first"
 
 
+@pytest.mark.parametrize("topic", ["chatrobot/cmd_vel", "chatrobot/joystick"])
+def test_what_others_asked_for_before_a_stop_moves_nothing_after_it(tmp_path: Path, topic: str) -> None:
+    crowd = Crowd(tmp_path, "console")
+    crowd.rig.robot._wire.publish(topic, TwistMessage(0.3, 0.0, 0.0))  # type: ignore[union-attr]
+    crowd.say("console", "stop", 0)
+    crowd.live(0.5)
+    assert not moved(crowd), "though it was seen standing at once"
+
+
 def test_an_emergency_stop_that_comes_after_a_release_holds(tmp_path: Path) -> None:
     crowd = Crowd(tmp_path, "console", "agent")
     crowd.say("agent", "emergency_stop", why="first")

@@ -205,6 +205,8 @@ class Motion:
         why = self._stops.book()
         if why is not None:
             self._jobs.end_stopped(why)
+            self._relay.stop()
+            self._joystick.stop()
 
     def _begin_next(self, now_s: float) -> None:
         if self.zeroing.disobeyed is not None:

@@ -60,6 +60,10 @@ class Relay:
             self._has_to_let_go = False
         self._heard = (now_s, twist)
 
+    def stop(self) -> None:
+        """The robot has been stopped: what was heard before counts no more."""
+        self._has_to_let_go = True
+
     def tick(self, now_s: float, is_free: Callable[[], bool]) -> None:
         """One period; `is_free`: nothing of ours drives, waits or stops the robot."""
         at_s, twist = self._heard
