@@ -35,6 +35,7 @@ from chatrobot.reflex import is_release
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.authoring import Authoring
+from chatrobot.session.camera import wire_camera
 from chatrobot.session.model_choice import warm_up
 from chatrobot.session.model_terms import ModelOptions
 from chatrobot.session.session import Options, Session
@@ -44,7 +45,14 @@ from chatrobot.session.topics import CHATGPT_NODE, EVENTS, OPERATOR, REPLY, STOP
 from chatrobot.session.understanding import Understanding
 from chatrobot.sim.load import load_world
 from chatrobot.sim.world import World
-from chatrobot.wire.connect import Connect, advertise, connect_wire, is_on_this_machine, publishers_of
+from chatrobot.wire.connect import (
+    Connect,
+    advertise,
+    connect_wire,
+    is_on_this_machine,
+    publishers_of,
+    resolved,
+)
 from chatrobot.wire.messages import Flag, Text
 
 if TYPE_CHECKING:
@@ -113,7 +121,11 @@ class BaseNode:
         if options.model is None:
             return None
         streams = profile.approval == "stream" and profile.can_turn_on_the_spot
-        return Mind(options.model, replace(options.model_options, streams=streams), profile)
+        wiring = profile.wiring
+        if wiring.camera_topic:  # as this node finds it, remapped or in a namespace
+            wiring = replace(wiring, camera_topic=resolved(self._wire, wiring.camera_topic))
+        camera = wire_camera(options.wire, wiring)
+        return Mind(options.model, replace(options.model_options, streams=streams), profile, camera)
 
     def run(self, is_leaving: Callable[[], bool], on_ready: Callable[[], None]) -> None:
         """Until `is_leaving`; `on_ready` is called once it listens. Understands and pumps in the calling thread.

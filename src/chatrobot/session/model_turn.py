@@ -32,6 +32,7 @@ from chatrobot.plan.text import format_step
 from chatrobot.session.model_call import CallEnd, ModelCall
 from chatrobot.session.model_reply import ReplyReader
 from chatrobot.session.model_terms import Ended, ModelOptions, Surroundings, summed, told
+from chatrobot.session.observations import without_pictures
 from chatrobot.session.prompt import correction
 from chatrobot.session.quoting import one_line
 
@@ -41,11 +42,14 @@ if TYPE_CHECKING:
 MAX_RETRIES = 2
 """A bad reply never causes more further calls than these."""
 
-LOOK_S = 2.0
-"""How long Motion may take to say what the lidar sees."""
+LOOK_S = 3.0
+"""How long Motion may take to say what the lidar sees, and the camera to be found and to show something."""
 
 WORTH_ANOTHER_TRY = frozenset({"model_empty", "model_called_tool"})
 """What a model did, not what became of the call: it may do better when it is told."""
+
+PICTURE_REFUSED = frozenset({"model_rejected", "model_server_error", "model_not_found"})
+"""How providers say that a model cannot see: 400, 500 or, with OpenRouter, 404."""
 
 PLAN_REFUSED = frozenset({"lasts_too_long", "plan_too_large", "plan_text"})
 
@@ -91,6 +95,7 @@ class ModelTurn:
         self._cancelled: Reason | None = None
         self._call: ModelCall | None = None
         self._look_until_s: float | None = None
+        self._looked: Looked | None = None
         self._total: Finished | None = None
         self._all_done: tuple[Step, ...] = ()
         self._done: tuple[Step, ...] = ()
@@ -151,8 +156,7 @@ class ModelTurn:
                 self._end_call(item)
             elif self._listens:
                 self._take(self._reader.feed(item))
-        if self._look_until_s is not None and time.monotonic() > self._look_until_s:
-            self._answer_looks(None)
+        self._answer_looks_when_seen()
 
     def hear(self, event: Event) -> None:
         """An event of this turn."""
@@ -165,7 +169,8 @@ class ModelTurn:
         elif isinstance(event, Finished):
             self._end_run(event)
         elif isinstance(event, Looked) and self._look_until_s is not None:
-            self._answer_looks(event)
+            self._looked = event
+            self._answer_looks_when_seen()
 
     # --- a round: one call and the run that comes of it ---
 
@@ -347,8 +352,17 @@ class ModelTurn:
                 self._conclude("completed", None)  # nothing is left to do
             else:
                 self._retry("unclear", problem)
+        elif problem.code in PICTURE_REFUSED and any(message.picture for message in self._messages):
+            self._ask_without_pictures()
         else:
             self._conclude("failed", problem)
+
+    def _ask_without_pictures(self) -> None:
+        """It may be the picture that this model cannot take: ask once more in words alone, and show it no other."""
+        self._surroundings.give_up_looking()
+        self._emit(Notice(self.turn, Reason("model_cannot_see", {"model": self._model.name})))
+        self._messages = without_pictures(self._messages)
+        self._begin_round()
 
     def _retry(self, outcome: Outcome, problem: Reason) -> None:
         """Tell the model what was wrong, and where to go on."""
@@ -364,11 +378,22 @@ class ModelTurn:
 
     def _look(self) -> None:
         self._say_what_is_held()
+        self._look_until_s, self._looked = time.monotonic() + LOOK_S, None
         if "scan" in self._reader.looks:
-            self._look_until_s = time.monotonic() + LOOK_S
             self._joint.send("look", self.turn)
-        else:
-            self._answer_looks(None)
+        if "camera" in self._reader.looks:
+            self._surroundings.begin_looking()
+        self._answer_looks_when_seen()
+
+    def _answer_looks_when_seen(self) -> None:
+        if self._look_until_s is None:
+            return
+        looks = self._reader.looks
+        waits = ("scan" in looks and self._looked is None) or (
+            "camera" in looks and not self._surroundings.has_picture
+        )
+        if not waits or time.monotonic() > self._look_until_s:
+            self._answer_looks(self._looked)
 
     def _answer_looks(self, looked: Looked | None) -> None:
         self._look_until_s = None
@@ -387,8 +412,9 @@ class ModelTurn:
         self._go_on(self._surroundings.observation(looks, looked, self._run))
 
     def _go_on(self, message: Message) -> None:
+        seen = without_pictures(self._messages) if message.picture is not None else self._messages
         self._messages = [
-            *self._messages,
+            *seen,
             Message("assistant", self._reader.text[:2000] or "# nothing"),
             message,
         ]
