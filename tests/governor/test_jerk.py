@@ -12,7 +12,7 @@ from tests.governor.situations import ANGULAR_JERK_RADPS3, JERK_MPS3, MECANUM, s
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.governed import StopEpoch
 from chatrobot.governor.governor import TICK_S, Governor
-from chatrobot.governor.jerk import JerkLimit
+from chatrobot.governor.jerk import JerkLimit, _most
 from chatrobot.robots.profile import RobotProfile
 
 
@@ -110,6 +110,20 @@ def test_where_a_rule_brakes_into_a_curve_the_braking_is_not_eased() -> None:
     eased = jerk.eased(before, wanted, target, TICK_S, urgent=False)
     assert eased.wz_radps == pytest.approx(ANGULAR_JERK_RADPS3 * TICK_S * TICK_S)
     assert before.vx_mps - eased.vx_mps == pytest.approx(0.02 * eased.wz_radps / 0.04)
+
+
+@pytest.mark.parametrize("left", [0.001, 0.02, 0.3])
+@pytest.mark.parametrize("jerk", [2.0, 5.0, 40.0])
+def test_no_step_adds_more_than_can_be_eased_out_again(left: float, jerk: float) -> None:
+    """At the acceleration a, easing out by steps of jerk takes a²/2j + a dt/2 of what is left: just all of it."""
+    step = _most(1e6, left, jerk, TICK_S)
+    acceleration = step / TICK_S
+    assert acceleration**2 / (2.0 * jerk) + acceleration * TICK_S / 2.0 == pytest.approx(left)
+
+
+def test_no_step_adds_more_acceleration_than_the_jerk_allows() -> None:
+    assert _most(0.3, 1e6, 5.0, TICK_S) == pytest.approx((0.3 + 0.1) * TICK_S)
+    assert _most(-0.3, 1e6, 5.0, TICK_S) == pytest.approx(0.1 * TICK_S)
 
 
 def test_no_time_no_easing() -> None:

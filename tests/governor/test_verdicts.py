@@ -57,6 +57,13 @@ def test_a_ramp() -> None:
     )  # fmt: skip
 
 
+def test_what_rounding_leaves_is_no_speed_above_the_limit() -> None:
+    """A millionth of what is asked, or a nanometre a second sideways of a base that cannot do it."""
+    governor, _ = driven(replace(BARE, kinematics="differential"))
+    assert governor.govern(Twist(0.3, 1e-12, 0.0), "lease", 0.0).rule == "acceleration"
+    assert governor.govern(Twist(0.3, 1e-6, 0.0), "lease", 0.02).rule == "speed"
+
+
 def test_a_speed_above_the_limit() -> None:
     governor, _ = driven()
     asked = Twist(2.0, 0.0, 0.0)
