@@ -287,6 +287,23 @@ def test_what_was_written_just_now_can_be_asked_about(house: House) -> None:
     assert result.outcome == "completed"
 
 
+@pytest.mark.parametrize("by_model", [True, False])
+def test_on_a_real_robot_a_program_of_a_model_is_asked_about_and_one_of_ours_is_not(
+    house: House, by_model: bool
+) -> None:
+    house.session._options = replace(Options(), approve_models=True)
+    house.on_event = lambda event: (
+        house.session.approve(event.turn, True)
+        if isinstance(event, Rehearsed) and event.needs_approval
+        else None
+    )
+    if by_model:
+        house.model(fenced(DANCE + "# asked about\n"))
+    result = house.do(ASKED if by_model else "Generate a ROS 2 Python program to drive forward 25 cm")
+    assert house.all(Rehearsed)[0].needs_approval is by_model
+    assert result.outcome == "completed"
+
+
 def test_a_stop_ends_a_program_that_never_would(house: House) -> None:
     def stop_soon(event: Event) -> None:
         if isinstance(event, TruePose) and event.vx_mps > 0.15:

@@ -35,6 +35,7 @@ from chatrobot.session.model_terms import Ended, ModelOptions, Surroundings, sum
 from chatrobot.session.observations import without_pictures
 from chatrobot.session.prompt import correction
 from chatrobot.session.quoting import one_line
+from chatrobot.session.tutorial_mode import is_short_form
 
 if TYPE_CHECKING:
     from chatrobot.session.joint import Joint
@@ -61,6 +62,7 @@ class ModelTurn:
         messages: what the model is told, the person's words last.
         mode: what the first run does to one that is under way.
         approve, rehearse_only: as in `Options`; either means that a plan goes to Motion as a whole.
+        frees_form: what stands wholly in the tutorial's form, and is short, needs no approval.
     """
 
     def __init__(
@@ -75,6 +77,7 @@ class ModelTurn:
         mode: Literal["queue", "replace", "append"],
         *,
         approve: bool = False,
+        frees_form: bool = False,
         rehearse_only: bool = False,
         only_talks: bool = False,
     ) -> None:
@@ -88,6 +91,7 @@ class ModelTurn:
         self._emit = emit
         self._mode = mode
         self._approve = approve
+        self._frees_form = frees_form
         self._rehearse_only = rehearse_only
         self._only_talks = only_talks
         self.began_s = time.monotonic()
@@ -223,7 +227,7 @@ class ModelTurn:
             plan_text=plan_text,
             mode=mode,
             more=more,
-            approve=self._approve,
+            approve=self._approve and not (self._frees_form and is_short_form(self._steps)),
             rehearse_only=self._rehearse_only,
         )
         self._mode = "queue"  # what comes later in this turn goes on after it

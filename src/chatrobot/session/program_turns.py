@@ -157,6 +157,7 @@ class ProgramTurns:
             "name": draft.program.name,
             "remap": dict(draft.program.remap),
             "is_new": draft.is_new,
+            "is_by_model": draft.by_model,
             "is_led_elsewhere": bool(draft.program.remap) and not draft.program.runs,
             "strict": draft.by_model and draft.version <= MOST_REPAIRS,
         }

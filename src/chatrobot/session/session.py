@@ -36,13 +36,15 @@ class Options:
     """How a session behaves.
 
     `while_moving` decides what a new instruction does to a running one: `queue` (pipes, programs) or `replace`
-    (a person at the keyboard). `approve` asks for a yes before each plan; `rehearse_only` moves nothing. Of programs,
+    (a person at the keyboard). `approve` asks for a yes before each plan, `approve_models` before what a model wrote,
+    but for a few seconds of the tutorial's form; `rehearse_only` moves nothing. Of programs,
     `ask_findings` asks where rehearsal found something, `ask_new` before each that was written just now.
     `interpreter`: who understands; with `auto` a model is asked what is not understood without it.
     """
 
     while_moving: Literal["queue", "replace"] = "queue"
     approve: bool = False
+    approve_models: bool = False
     rehearse_only: bool = False
     ask_findings: bool = True
     ask_new: bool = False
@@ -301,7 +303,7 @@ class Session:
             said.text,
             meant,
             options.while_moving,
-            approve=options.approve,
+            approve="all" if options.approve else "models" if options.approve_models else "",
             rehearse_only=options.rehearse_only,
         )
         if self._is_void_turn(said.turn):
@@ -347,7 +349,8 @@ class Session:
 
     def _send_program(self, turn: int, payload: dict[str, Any]) -> None:
         options = self._options
-        asks_new = payload.pop("is_new") and options.ask_new
+        by_model = payload.pop("is_by_model") and options.approve_models
+        asks_new = payload.pop("is_new") and (options.ask_new or by_model)
         asks_remap = payload.pop("is_led_elsewhere") and options.ask_findings
         self._joint.send(
             "program",

@@ -31,6 +31,9 @@ if TYPE_CHECKING:
     from chatrobot.session.joint import Joint
 
 Interpreter = Literal["auto", "offline", "model"]
+Approve = Literal["", "models", "all"]
+"""What needs a person's yes: nothing, what a model wrote, or each plan."""
+
 TOGETHER_S = 0.25
 """What is said within this time of the question before belongs to it: a pipe's lines keep their order."""
 
@@ -144,7 +147,7 @@ class Thinking:
         meant: Interpretation,
         mode: Literal["queue", "replace", "append"],
         *,
-        approve: bool,
+        approve: Approve,
         rehearse_only: bool,
     ) -> None:
         """Ask the model about `text`, which offline was understood as `meant`."""
@@ -169,7 +172,8 @@ class Thinking:
             self._shown,
             self._emit,
             mode,
-            approve=approve,
+            approve=approve != "",
+            frees_form=approve == "models" and self._is_tutorial,
             rehearse_only=rehearse_only,
             only_talks=connects,
         )
