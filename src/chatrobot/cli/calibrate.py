@@ -32,7 +32,7 @@ from chatrobot.robots.calibration import (
 )
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.session.session import Options
+from chatrobot.session.options import Options
 
 _SKIP = ("skip", "跳过")
 
