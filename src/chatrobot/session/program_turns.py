@@ -10,6 +10,7 @@ from chatrobot.core.events import (
     Event,
     Finished,
     Interpreted,
+    ModelCalled,
     Outcome,
     ProgramRehearsed,
     Rehearsed,
@@ -85,7 +86,10 @@ class ProgramTurns:
         request = replace(request, name=name or request.name)
         language: LanguageCode = "zh" if has_chinese(text) else "en"
         try:
-            draft = self.authoring.write(request, self._understanding.pose, language)
+            try:
+                draft = self.authoring.write(request, self._understanding.pose, language)
+            finally:
+                self._tell_spent(turn, 1)
         except NotWrittenError as refusal:
             self._hooks.emit(Interpreted(turn, "offline", "", refusal.reply))
             meant = Interpretation(_MEANT.get(refusal.outcome, "refused"), refusal.reply, language)
@@ -135,7 +139,7 @@ class ProgramTurns:
         if reason is None or reason.code not in MENDABLE or self._hooks.is_void(event.turn):
             return False
         problem = about.rehearsal.program.problem if about.rehearsal.program is not None else ""
-        if not self._mend(about, reason, problem):
+        if not self._mend(event.turn, about, reason, problem):
             return False
         self._send(event.turn, about)
         return True
@@ -144,7 +148,7 @@ class ProgramTurns:
         """Show this version and hand it to Motion; one that cannot even be read is mended first, or ends the turn."""
         self._hooks.emit(about.draft.event(turn))
         while (refusal := about.draft.checked.refusal) is not None:
-            if not self._mend(about, refusal.reason, ""):
+            if not self._mend(turn, about, refusal.reason, ""):
                 del self._turns[turn]
                 reply = render_reason(refusal.reason, self._understanding.language)
                 self._hooks.conclude(turn, "refused", reply)
@@ -163,12 +167,25 @@ class ProgramTurns:
         }
         self._hooks.send(turn, payload)
 
-    def _mend(self, about: _Turn, problem: Reason, details: str) -> bool:
+    def _tell_spent(self, turn: int, call: int) -> None:
+        """What a model has used, as for plans; `call` counts those of the turn."""
+        for spent in self.authoring.take_spent():
+            usage = spent.usage
+            self._hooks.emit(
+                ModelCalled(
+                    turn, spent.model, call, usage.prompt_tokens, usage.cached_tokens, usage.reply_tokens,
+                    usage.cost_usd, usage.counted, spent.duration_s,
+                )
+            )  # fmt: skip
+
+    def _mend(self, turn: int, about: _Turn, problem: Reason, details: str) -> bool:
         """Have the model write the next version; False where there is none."""
         try:
             draft = self.authoring.mend(about.draft, problem, details, self._understanding.language)
         except NotWrittenError:
             return False  # what was wrong is told all the same
+        finally:
+            self._tell_spent(turn, about.draft.version + 1)
         if draft is None:
             return False
         about.draft, about.rehearsal = draft, Rehearsal()
