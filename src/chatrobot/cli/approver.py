@@ -7,12 +7,11 @@ import sys
 
 from chatrobot.cli.console.ride import Ride
 from chatrobot.cli.editor import edited_text
-from chatrobot.core.events import Event, Finished, Rehearsed
+from chatrobot.core.events import Event
+from chatrobot.language.consent import read_consent, wants_to_edit
+from chatrobot.session.question import Question
 from chatrobot.session.session import Session
 from chatrobot.sim.world import World
-
-_EDIT = frozenset({"e", "edit", "修改", "改"})
-_YES = frozenset({"y", "yes", "ok", "是", "好", "好的", "行", "可以", "对"})
 
 
 class Approver:
@@ -28,7 +27,7 @@ class Approver:
     def __init__(self, *, can_ask: bool, others_answer: bool = False) -> None:
         self._can_ask = can_ask
         self._others_answer = others_answer
-        self._turn: int | None = None
+        self._question = Question()
         self._has_asked = False
         self._ride = Ride()
         self._world: World | None = None
@@ -41,18 +40,16 @@ class Approver:
     @property
     def is_waiting(self) -> bool:
         """A plan waits for an answer."""
-        return self._turn is not None
+        return self._question.turn is not None
 
     def hear(self, event: Event) -> None:
         self._ride.hear(event)
-        if isinstance(event, Rehearsed) and event.needs_approval:
-            self._turn, self._has_asked = event.turn, False
-        elif isinstance(event, Finished) and event.turn == self._turn:
-            self._turn = None
+        if self._question.hear(event):
+            self._has_asked = False
 
     def answer(self, session: Session) -> None:
         """Answer what waits, if there is an answer by now. Never blocks."""
-        if self._turn is None:
+        if not self.is_waiting:
             return
         if self._can_ask:
             self._ask(session)
@@ -65,9 +62,7 @@ class Approver:
 
     def give(self, session: Session, yes: bool) -> None:
         """Answer the plan that waits."""
-        if self._turn is not None:
-            session.approve(self._turn, yes)
-            self._turn = None
+        self._question.answer(session, yes)
 
     def _ask(self, session: Session) -> None:
         if not self._has_asked:
@@ -75,12 +70,12 @@ class Approver:
             print(self.prompt, end="", file=sys.stderr, flush=True)
             self._has_asked = True
         if select.select([sys.stdin], [], [], 0.0)[0]:
-            self.take(session, sys.stdin.readline().strip().casefold())
+            self.take(session, sys.stdin.readline())
 
     def take(self, session: Session, answer: str) -> None:
-        """What the person typed, in lower case."""
-        self.give(session, answer in _YES)
-        if answer in _EDIT and self._ride.plan_text and self._ride.program is None:
+        """What the person typed: anything but a yes is none."""
+        self.give(session, read_consent(answer) is True)
+        if wants_to_edit(answer) and self._ride.plan_text and self._ride.program is None:
             self._edited_plan = edited_text(self._ride.plan_text, ".txt").strip() or None
 
     def take_edited(self) -> str | None:
