@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-import select
+import contextlib
+import queue
 import sys
+import threading
 
 from chatrobot.cli.console.ride import Ride
 from chatrobot.cli.editor import edited_text
@@ -19,7 +21,7 @@ class Approver:
     """Hears the events of a session and answers those that ask.
 
     Args:
-        can_ask: a person sits at standard input and has nothing else to type there.
+        can_ask: a person sits at a `Keyboard`, which hands on what is typed by `type`.
         others_answer: whoever reads our events answers; see `talk`.
     """
 
@@ -33,6 +35,9 @@ class Approver:
         self._ride = Ride()
         self._world: World | None = None
         self._edited_plan: str | None = None
+        self._typed: queue.SimpleQueue[str] = queue.SimpleQueue()
+        self.editing = threading.Lock()
+        """Held while an editor has the terminal."""
 
     def attach(self, world: World) -> None:
         """What to draw the way in."""
@@ -47,6 +52,7 @@ class Approver:
         self._ride.hear(event)
         if isinstance(event, Rehearsed) and event.needs_approval:
             self._turn, self._has_asked = event.turn, False
+            self._typed = queue.SimpleQueue()
         elif isinstance(event, Finished) and event.turn == self._turn:
             self._turn = None
 
@@ -74,14 +80,25 @@ class Approver:
             self._draw_way()
             print(self.prompt, end="", file=sys.stderr, flush=True)
             self._has_asked = True
-        if select.select([sys.stdin], [], [], 0.0)[0]:
-            self.take(session, sys.stdin.readline().strip().casefold())
+        with contextlib.suppress(queue.Empty):
+            self.take(session, self._typed.get_nowait().casefold())
+
+    def type(self, line: str) -> None:
+        """A line was typed: no answer where no question is shown. From any thread."""
+        if self._has_asked and self._turn is not None:
+            self._typed.put(line)
+
+    def lose_keyboard(self) -> None:
+        """Nothing more will be typed: that is a no. From any thread."""
+        self.type("")
+        self._can_ask = False
 
     def take(self, session: Session, answer: str) -> None:
         """What the person typed, in lower case."""
         self.give(session, answer in _YES)
         if answer in _EDIT and self._ride.plan_text and self._ride.program is None:
-            self._edited_plan = edited_text(self._ride.plan_text, ".txt").strip() or None
+            with self.editing:
+                self._edited_plan = edited_text(self._ride.plan_text, ".txt").strip() or None
 
     def take_edited(self) -> str | None:
         """The plan as the person has changed it; it is rehearsed and asked about like a new one."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -13,6 +12,7 @@ from chatrobot.cli.conversation import Conversation
 from chatrobot.cli.editor import edited_text
 from chatrobot.cli.folders import config_folder, profile_folders
 from chatrobot.cli.json_lines import json_line
+from chatrobot.cli.keyboard import Keyboard, has_keyboard
 from chatrobot.cli.printer import printer_for
 from chatrobot.cli.program_approver import ProgramApprover
 from chatrobot.core.errors import UsageError
@@ -74,7 +74,7 @@ def _read(path: Path) -> str:
 
 def _drive(args: argparse.Namespace, say: Callable[[Conversation], int]) -> int:
     printer = printer_for(args)
-    can_ask = sys.stdin.isatty() and not args.json
+    can_ask = has_keyboard() and not args.json
     is_new = args.action == "new"
     options = Options(
         approve=args.approve and not args.yes,
@@ -83,6 +83,7 @@ def _drive(args: argparse.Namespace, say: Callable[[Conversation], int]) -> int:
     )
     approver = ProgramApprover(can_ask=can_ask)
     with Conversation(setup_from(args, options=options, programs=True), printer, approver) as conversation:
+        Keyboard(conversation, approver).start()
         conversation.see_through(say(conversation))
         while (edited := approver.edited()) is not None and not conversation.is_leaving:
             conversation.see_through(conversation.session.say_source(*edited))

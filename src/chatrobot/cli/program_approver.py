@@ -32,5 +32,6 @@ class ProgramApprover(Approver):
 
     def take(self, session: Session, answer: str) -> None:
         if answer in _EDIT and self._shown is not None:
-            self._edited = (self._shown.program, edited_text(self._shown.source, ".py"))
+            with self.editing:
+                self._edited = (self._shown.program, edited_text(self._shown.source, ".py"))
         super().take(session, answer)
