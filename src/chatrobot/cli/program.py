@@ -16,7 +16,7 @@ from chatrobot.cli.keyboard import Keyboard, has_keyboard
 from chatrobot.cli.printer import printer_for
 from chatrobot.cli.program_approver import ProgramApprover
 from chatrobot.core.errors import UsageError
-from chatrobot.programs.library import KeptProgram, Library
+from chatrobot.programs.library import KeptProgram, Library, clean_name
 from chatrobot.session.session import Options
 
 _READ_BYTES = 1_000_000
@@ -64,8 +64,11 @@ def _say_kept(conversation: Conversation, program: KeptProgram) -> int:
 
 
 def _read(path: Path) -> str:
-    with path.open("rb") as file:
-        data = file.read(_READ_BYTES)
+    try:
+        with path.open("rb") as file:
+            data = file.read(_READ_BYTES)
+    except OSError as error:
+        raise UsageError(f"it cannot be read ({error.strerror})", where=str(path)) from error
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -94,12 +97,14 @@ def _drive(args: argparse.Namespace, say: Callable[[Conversation], int]) -> int:
 
 
 def _list(args: argparse.Namespace) -> int:
+    from rich.cells import cell_len, set_cell_size
+
     programs = _library(args).all()
     for program in programs:
         if args.json:
             print(json_line({"event": "program", **_about(program)}), end="")
         else:
-            print(f"{program.name:<24}{_summary(program)}")
+            print(f"{set_cell_size(program.name, max(24, cell_len(program.name) + 2))}{_summary(program)}")
     if not programs and not args.json:
         print('No programs are kept yet: chatrobot program new "…"')
     return 0
@@ -165,8 +170,10 @@ def _edit(args: argparse.Namespace) -> int:
 
 
 def _rename(args: argparse.Namespace) -> int:
-    _library(args).rename(args.name, args.to)
-    print(f"“{args.name}” is now “{args.to}”.")
+    library = _library(args)
+    old = library.get(args.name).name
+    library.rename(old, args.to)
+    print(f"“{old}” is now “{clean_name(args.to)}”.")
     return 0
 
 
