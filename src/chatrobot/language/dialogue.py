@@ -9,6 +9,7 @@ from chatrobot.language.context import Context
 from chatrobot.language.frames import Frame
 from chatrobot.language.last_motion import steps_of
 from chatrobot.language.manner import Pace
+from chatrobot.language.meant import is_correction
 from chatrobot.language.totals import to_total
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import same_way_back, undone
@@ -56,6 +57,8 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     if more is not None:
         return more
     if is_change(whole):
+        if is_correction(context.dialogue.last_motion):
+            raise Unclear("unclear_motion", whole.text)  # what was done, or what was meant?
         return changed(steps_of(context.dialogue.last_motion), whole, pace)
     return None
 

@@ -34,6 +34,9 @@ def read_number(atoms: Atoms, i: int) -> Number | None:
     if is_kind(atoms, i, "num", "minus"):
         inner = read_number(atoms, i + 1)
         return Number(-inner.value, inner.end, inner.percent) if inner else None
+    if is_kind(atoms, i, "num", "root"):
+        inner = read_number(atoms, i + 1)
+        return Number(math.sqrt(inner.value), inner.end) if inner and inner.value >= 0 else None
     if is_kind(atoms, i, "num", "percent_of"):
         inner = _plain(atoms, i + 1)
         return Number(inner.value / 100.0, inner.end, percent=True) if inner else None

@@ -20,6 +20,7 @@ from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.last_motion import state_after
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.manner import Pace
+from chatrobot.language.meant import instead
 from chatrobot.language.names import names_in
 from chatrobot.language.order import in_order
 from chatrobot.language.quantities import read_quantities
@@ -76,6 +77,9 @@ class Reading:
         Raises:
             Unclear: where a clause cannot be acted on.
         """
+        return instead(frames, self.context, self._steps) or self._steps(frames)
+
+    def _steps(self, frames: list[Frame]) -> list[Step]:
         return refer(frames, self.context, self.pace) or self.steps_of_their_own(frames)
 
     def steps_of_their_own(self, frames: list[Frame]) -> list[Step]:
