@@ -61,6 +61,7 @@ def test_a_turn_eases_in_too() -> None:
     for before, after in itertools.pairwise(gained):
         assert after - before <= ANGULAR_JERK_RADPS3 * TICK_S + 1e-9
     assert gained[1] == pytest.approx(ANGULAR_JERK_RADPS3 * TICK_S)
+    assert gained[-2] < 0.5
 
 
 def test_a_curve_keeps_its_shape_while_it_eases() -> None:
@@ -126,8 +127,28 @@ def test_no_step_adds_more_acceleration_than_the_jerk_allows() -> None:
     assert _most(-0.3, 1e6, 5.0, TICK_S) == pytest.approx(0.1 * TICK_S)
 
 
+def test_where_a_rule_brakes_what_only_gains_is_eased_all_the_same() -> None:
+    jerk = JerkLimit(smooth().limits)
+    turns_in = jerk.eased(
+        Twist(0.5, 0.0, 0.0), Twist(0.5, 0.0, 0.04), Twist(0.5, 0.0, 0.8), TICK_S, urgent=True
+    )
+    assert turns_in.wz_radps == pytest.approx(ANGULAR_JERK_RADPS3 * TICK_S * TICK_S)
+    gains = jerk.eased(Twist(0.1, 0.0, 0.5), Twist(0.12, 0.0, 0.5), Twist(0.9, 0.0, 0.5), TICK_S, urgent=True)
+    assert gains.vx_mps == pytest.approx(0.1 + JERK_MPS3 * TICK_S * TICK_S)
+
+
+def test_it_goes_on_from_the_acceleration_it_has_sideways_too() -> None:
+    jerk = JerkLimit(smooth().limits)
+    first = Twist(0.0, 0.01, 0.0)
+    jerk.note(ZERO_TWIST, first, TICK_S)
+    eased = jerk.eased(first, Twist(0.0, 0.05, 0.0), Twist(0.0, 1.0, 0.0), TICK_S, urgent=False)
+    assert eased.vy_mps - first.vy_mps == pytest.approx((0.5 + JERK_MPS3 * TICK_S) * TICK_S)
+
+
 def test_no_time_no_easing() -> None:
     jerk = JerkLimit(smooth().limits)
+    ahead = Twist(0.02, 0.0, 0.0)
+    assert jerk.eased(ZERO_TWIST, ahead, Twist(1.0, 0.0, 0.0), 0.0, urgent=False) == ahead
     assert jerk.eased(ZERO_TWIST, ZERO_TWIST, Twist(1.0, 0.0, 0.0), 0.0, urgent=False) == ZERO_TWIST
     jerk.note(ZERO_TWIST, Twist(0.02, 0.0, 0.0), TICK_S)
     jerk.note(Twist(0.02, 0.0, 0.0), Twist(0.02, 0.0, 0.0), 0.0)

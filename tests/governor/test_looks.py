@@ -106,6 +106,13 @@ def test_a_look_is_kept_where_it_is_from_elsewhere(by: Pose, kept: bool) -> None
     assert looks.covered_lately(AHEAD).all() == kept
 
 
+def test_turned_means_turned_from_there() -> None:
+    """Whichever way it looks: this one looked away, hardly turned, and saw what lies ahead by the way."""
+    away = Look(Pose(0.0, 0.0, 2.0), 0.0, 0.1, 5)
+    ahead = Look(Pose(0.0, 0.0, 2.0 + 0.5 * APART_RAD), -2.3, 0.1, 11)
+    assert not noted(away, ahead, Look(Pose(-9.0), 2.0, 0.1, 5)).covered_lately(AHEAD).any()
+
+
 def test_creeping_counts_from_the_look_that_was_kept() -> None:
     steps = [Look(Pose(0.4 * APART_M * step), -0.5, 0.1, 11 if step == 3 else 1) for step in range(5)]
     looks = noted(*steps)
