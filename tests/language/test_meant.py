@@ -27,6 +27,13 @@ def _talk(*turns: str) -> Conversation:
         (("go forward 1 m", "sorry, I meant backwards"), -1.0, 0.0),
         (("go forward 1 m", "no, I meant back 50 cm"), -0.5, 0.0),
         (("turn left 30 degrees", "no, right"), 0.0, -30.0),
+        (("turn left 30 degrees", "sorry, right"), 0.0, -30.0),
+        (("turn left 30 degrees", "not left, right!"), 0.0, -30.0),
+        (("turn left 30 degrees", "right instead"), 0.0, -30.0),
+        (("turn left 45 degrees", "make that 60"), 0.0, 60.0),
+        (("go forward 2 m", "make it 3 metres"), 3.0, 0.0),
+        (("go forward 2 m", "not that far, only 1 metre"), 1.0, 0.0),
+        (("go forward 1 m", "undo that and go back 1 m"), -1.0, 0.0),
     ],
 )
 def test_the_turn_before_counts_as_if_it_had_been_said_right_at_once(
@@ -48,6 +55,8 @@ def test_the_way_back_and_the_way_meant_are_one_where_they_lie_on_one_line() -> 
         ("go forward 1 m", "no, I meant left"),  # a turn, or sideways?
         ("drive a square", "no, I meant right"),  # which of its eight steps?
         ("turn left 90 degrees", "no, I meant forward"),  # how far?
+        ("slide left 30 cm", "no, the other left"),
+        ("drive at 0.2 m/s for 3 s", "sorry, 5 s"),
     ],
 )
 def test_a_correction_that_may_mean_two_things_is_asked_about(before: str, said: str) -> None:

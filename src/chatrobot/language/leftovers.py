@@ -19,6 +19,11 @@ def settled_word(atoms: Sequence[Atom], i: int) -> Atom:
     return settle(atoms, i) if settle is not None else atom
 
 
+def _verb(atoms: Sequence[Atom], i: int) -> Atom:
+    driven = atoms[i].text == "hold" and is_kind(atoms, i + 1, "q", "speed")  # `hold 0.4 m/s forward`
+    return Atom("verb", "go", atoms[i].text) if driven else atoms[i]
+
+
 def _direction(atoms: Sequence[Atom], i: int) -> Atom:
     straight = atoms[i].text.endswith("straight") and is_kind(atoms, i + 1, "dir")
     return _glue(atoms, i) if straight else atoms[i]  # `driving straight back`
@@ -30,6 +35,10 @@ def _glue(atoms: Sequence[Atom], i: int) -> Atom:
 
 def _then(atoms: Sequence[Atom], i: int) -> Atom:
     return Atom("conn", "then", atoms[i].text)
+
+
+def _ordinal(atoms: Sequence[Atom], i: int) -> Atom:
+    return _then(atoms, i) if atoms[i].text == "third" else atoms[i]
 
 
 def _leftover_number(atoms: Sequence[Atom], i: int) -> Atom:
@@ -119,9 +128,10 @@ def _unit_of_angle(atoms: Sequence[Atom], i: int) -> Atom:
 
 
 _SETTLED: dict[str, Callable[[Sequence[Atom], int], Atom]] = {
-    "dir": _direction, "num": _leftover_number, "filler": _pause, "unit_length": _unit_of_length, "second": _then,
-    "letter": _letter, "counter": _counter, "unit_times": _times, "per": _glue, "unit_turn": _full_turn,
-    "role": _role, "flag": _flag, "unit_percent": _percent, "glue": _glue_word, "unit_angle": _unit_of_angle,
+    "verb": _verb, "dir": _direction, "num": _leftover_number, "filler": _pause, "unit_length": _unit_of_length,
+    "second": _then, "fraction": _ordinal, "letter": _letter, "counter": _counter, "unit_times": _times,
+    "per": _glue, "unit_turn": _full_turn, "role": _role, "flag": _flag, "unit_percent": _percent,
+    "glue": _glue_word, "unit_angle": _unit_of_angle,
 }  # fmt: skip
 
 

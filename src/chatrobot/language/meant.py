@@ -40,6 +40,8 @@ def instead(
     if len(frames) == 1 and not frames[0].has_extent and not frames[0].shape and not frames[0].place:
         _point_back(frames[0], done)
     meant = read(frames)
+    if meant == done:
+        raise Unclear("unclear_motion", frames[0].text)  # `no, the other left`
     turned = all(isinstance(step, Turn) for step in done)
     absolute = isinstance(meant[0], Go) or (isinstance(meant[0], Face) and turned)
     return meant if absolute else _net([*inverse(done), *meant])

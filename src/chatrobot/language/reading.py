@@ -80,6 +80,12 @@ class Reading:
         return instead(frames, self.context, self._steps) or self._steps(frames)
 
     def _steps(self, frames: list[Frame]) -> list[Step]:
+        on = len(frames) > 1 and frames[0].verb == "undo" and (frames[1].has_extent or frames[1].direction)
+        undone = (
+            refer(frames[:1], self.context, self.pace) if on and frames[1].joined in ("and", "then") else None
+        )
+        if undone:  # `undo that and go back 1 m`
+            return [*undone, *self.steps_of_their_own(frames[1:])]
         return refer(frames, self.context, self.pace) or self.steps_of_their_own(frames)
 
     def steps_of_their_own(self, frames: list[Frame]) -> list[Step]:

@@ -32,6 +32,8 @@ def way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
         return _some_way_back(frame, state, pace)
     if set(frame.q) - {"speed", "percent", "fold", "faster"}:
         raise Unclear("unclear_motion", frame.text)
+    if "bit" in frame.flags and not is_chinese(frame.text):
+        raise Unclear("how_far", frame.text)  # `…, then come back a little`
     if frame.direction or (frame.has_extent and frame.verb != "return"):
         raise Unclear("unclear_motion", frame.text)
     speed = pace.speed(frame)
