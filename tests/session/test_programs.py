@@ -89,7 +89,7 @@ def house(shared: House) -> Iterator[House]:
     yield shared
     shared.authoring.model, shared.authoring.prefers_model = None, False
     shared.on_event = lambda _: None
-    shared.session._options = Options()
+    shared.session.options = Options()
 
 
 def turned_in(poses: list[TruePose]) -> tuple[float, float]:
@@ -303,14 +303,14 @@ def test_findings_ask_and_a_no_moves_nothing(house: House) -> None:
 
 
 def test_who_said_yes_beforehand_is_not_asked(house: House) -> None:
-    house.session._options = Options(ask_findings=False)
+    house.session.options = Options(ask_findings=False)
     result = house.run(program("self.drive(0.2, 0.0, 0.5)\nreturn"))
     assert result.outcome == "completed"
     assert house.all(TruePose)[-1].vx_mps == 0.0  # it did not stop the robot: I did
 
 
 def test_what_was_written_just_now_can_be_asked_about(house: House) -> None:
-    house.session._options = replace(Options(), ask_new=True)
+    house.session.options = replace(Options(), ask_new=True)
     house.on_event = lambda event: (
         house.session.approve(event.turn, True)
         if isinstance(event, Rehearsed) and event.needs_approval
@@ -325,7 +325,7 @@ def test_what_was_written_just_now_can_be_asked_about(house: House) -> None:
 def test_on_a_real_robot_a_program_of_a_model_is_asked_about_and_one_of_ours_is_not(
     house: House, by_model: bool
 ) -> None:
-    house.session._options = replace(Options(), approve_models=True)
+    house.session.options = replace(Options(), approve_models=True)
     house.on_event = lambda event: (
         house.session.approve(event.turn, True)
         if isinstance(event, Rehearsed) and event.needs_approval
