@@ -36,7 +36,7 @@ from chatrobot.sim.lies import SimLies
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import TRUTH_TOPIC, SimRobot
 from chatrobot.sim.world import World
-from chatrobot.wire.connect import is_on_this_machine, wire_address
+from chatrobot.wire.connect import connect_wire, is_on_this_machine, wire_address
 from chatrobot.wire.messages import Odometry
 
 if TYPE_CHECKING:
@@ -91,6 +91,7 @@ def connect(setup: Setup, on_event: OnEvent) -> Connection:
 
     Raises:
         InputError: a profile, world or option is wrong; the message says where and what is allowed.
+        WireError: nobody answers where the robot should be.
         JointError: Motion or the simulated robot does not start.
     """
     on_wire = setup.on not in SIMULATED
@@ -256,6 +257,10 @@ def _connect_wire(
         if chosen:
             raise UsageError("only the simulated robot of --on sim can do that", where=option)
     approve = setup.options.approve or (profile.approval == "plan" and not setup.yes)
+    if address.startswith(("rosbridge:", "local:")):
+        connect_wire(
+            address, profile.wiring, "chatrobot"
+        ).close()  # Motion would wait, and could not say for what
     joint = SocketJoint(address, profile_argument(setup.robot, profile_dirs(setup.folder)), setup.world)
     joint.wait_until_ready()
     authoring = _authoring(setup, profile, world, understanding)

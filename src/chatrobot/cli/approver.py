@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-import select
+import contextlib
+import queue
 import sys
+import threading
 
 from chatrobot.cli.console.ride import Ride
 from chatrobot.cli.editor import edited_text
@@ -18,7 +20,7 @@ class Approver:
     """Hears the events of a session and answers those that ask.
 
     Args:
-        can_ask: a person sits at standard input and has nothing else to type there.
+        can_ask: a person sits at a `Keyboard`, which hands on what is typed by `type`.
         others_answer: whoever reads our events answers; see `talk`.
     """
 
@@ -32,6 +34,9 @@ class Approver:
         self._ride = Ride()
         self._world: World | None = None
         self._edited_plan: str | None = None
+        self._typed: queue.SimpleQueue[str] = queue.SimpleQueue()
+        self.editing = threading.Lock()
+        """Held while an editor has the terminal."""
 
     def attach(self, world: World) -> None:
         """What to draw the way in."""
@@ -46,6 +51,7 @@ class Approver:
         self._ride.hear(event)
         if self._question.hear(event):
             self._has_asked = False
+            self._typed = queue.SimpleQueue()
 
     def answer(self, session: Session) -> None:
         """Answer what waits, if there is an answer by now. Never blocks."""
@@ -69,14 +75,25 @@ class Approver:
             self._draw_way()
             print(self.prompt, end="", file=sys.stderr, flush=True)
             self._has_asked = True
-        if select.select([sys.stdin], [], [], 0.0)[0]:
-            self.take(session, sys.stdin.readline())
+        with contextlib.suppress(queue.Empty):
+            self.take(session, self._typed.get_nowait())
+
+    def type(self, line: str) -> None:
+        """A line was typed: no answer where no question is shown. From any thread."""
+        if self._has_asked and self.is_waiting:
+            self._typed.put(line)
+
+    def lose_keyboard(self) -> None:
+        """Nothing more will be typed: that is a no. From any thread."""
+        self.type("")
+        self._can_ask = False
 
     def take(self, session: Session, answer: str) -> None:
         """What the person typed: anything but a yes is none."""
         self.give(session, read_consent(answer) is True)
         if wants_to_edit(answer) and self._ride.plan_text and self._ride.program is None:
-            self._edited_plan = edited_text(self._ride.plan_text, ".txt").strip() or None
+            with self.editing:
+                self._edited_plan = edited_text(self._ride.plan_text, ".txt").strip() or None
 
     def take_edited(self) -> str | None:
         """The plan as the person has changed it; it is rehearsed and asked about like a new one."""

@@ -31,5 +31,6 @@ class ProgramApprover(Approver):
 
     def take(self, session: Session, answer: str) -> None:
         if wants_to_edit(answer) and self._shown is not None:
-            self._edited = (self._shown.program, edited_text(self._shown.source, ".py"))
+            with self.editing:
+                self._edited = (self._shown.program, edited_text(self._shown.source, ".py"))
         super().take(session, answer)
