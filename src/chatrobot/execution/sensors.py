@@ -18,6 +18,10 @@ OLD_NEWS_S = 0.5
 """What was measured longer ago is as old as that, however lately it came."""
 
 
+NO_RETURN_M = 0.001
+"""Zero is how cheap lidars say "no return", also those whose drivers call zero their minimum range."""
+
+
 class Sensors:
     """Listens to one robot. `attach` subscribes; the rest is reading. Ages are by the receiver's clock."""
 
@@ -88,11 +92,23 @@ class Sensors:
         self.estimator.on_odometry(message)
 
     def _on_scan(self, message: LaserScan) -> None:
-        self._scan_at_s = self._clock.now_s()
-        self.scan = message
+        scan = _usable(message)
+        if scan is not None:  # one that shows nothing is as good as silence
+            self._scan_at_s = self._clock.now_s()
+            self.scan = scan
 
     def _on_bumper(self, message: Flag) -> None:
         self.bumped = message.data
 
     def _on_battery(self, message: Number) -> None:
         self.battery_percent = message.data
+
+
+def _usable(scan: LaserScan) -> LaserScan | None:
+    """The scan, or None where no beam shows anything: a lidar that is covered or broken, a driver that fills in none
+    of its limits. Plus infinity does show something: that nothing is there (REP-117)."""
+    near_m, far_m = max(scan.range_min_m, NO_RETURN_M), scan.range_max_m
+    shows = near_m < far_m and any(
+        near_m <= range_m <= far_m or range_m == math.inf for range_m in scan.ranges_m
+    )
+    return scan._replace(range_min_m=near_m) if shows else None

@@ -172,7 +172,7 @@ class Session:
             event = self._joint.next_event(0.0)
         self._thinking.pump()
         if self._joint.is_lost:
-            raise JointError("Motion is gone; its guard has halted the robot. Start chatrobot again.")
+            raise JointError("Motion is gone, and its guard sends the robot zeros. Start chatrobot again.")
         self._take_texts()
 
     def close(self) -> None:
@@ -263,7 +263,7 @@ class Session:
             said.text,
             meant,
             options.while_moving,
-            approve=options.approve,
+            approve="all" if options.approve else "models" if options.approve_models else "",
             rehearse_only=options.rehearse_only,
         )
         if self._said.is_void_turn(said.turn):
