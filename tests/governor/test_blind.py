@@ -18,7 +18,7 @@ from chatrobot.governor.blind import (
     BlindRule,
     _outline,
 )
-from chatrobot.governor.rule import Situation
+from chatrobot.governor.rule import FREE, Situation
 from chatrobot.governor.seen import Seen
 from chatrobot.robots.profile import Lidar, Safety
 from chatrobot.wire.messages import LaserScan
@@ -62,7 +62,7 @@ AHEAD = rule_of(-90.0, 90.0)
     [ZERO_TWIST, Twist(-BLIND_MPS, 0.0, 0.0), Twist(0.0, 0.0, BLIND_MPS / RADIUS_M), Twist(-0.06, 0.08, 0.0)],
 )
 def test_at_blind_speed_it_may_go_anywhere_without_a_look(asked: Twist) -> None:
-    assert share(AHEAD, asked, at(None)) == 1.0
+    assert AHEAD.judge(asked, at(None)) is FREE
 
 
 @pytest.mark.parametrize(
@@ -234,3 +234,8 @@ def test_where_it_stands_makes_no_difference() -> None:
     there = Situation(pose, FRESH.sensed)
     assert share(BlindRule(ROBOT, seen), Twist(0.5, 0.0, 0.0), there) == 1.0
     assert share(BlindRule(ROBOT, seen), Twist(-0.5, 0.0, 0.0), there) == pytest.approx(0.2)
+    # Half of what is around, from straight ahead to straight back over the left: only leftwards is seen.
+    seen.take(EVERYWHERE, pose)
+    seen.take(sector(0.0, 180.0), pose)
+    assert share(BlindRule(ROBOT, seen), Twist(0.0, 0.5, 0.0), there) == 1.0
+    assert share(BlindRule(ROBOT, seen), Twist(0.0, -0.5, 0.0), there) == pytest.approx(0.2)

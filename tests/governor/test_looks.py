@@ -59,8 +59,8 @@ def test_each_point_is_judged_by_itself() -> None:
     points = np.concatenate([towards(0.0), towards(90.0), towards(10.0)])
     assert look(-20.0, 61).covers(points).tolist() == [True, False, True]
     assert look(-180.0, 360).covers(points).tolist() == [True, True, True]
-    assert Looks().covers_now(points).tolist() == [False, False, False]
-    assert Looks().covered_lately(points).tolist() == [False, False, False]
+    assert repr(Looks().covers_now(points).tolist()) == "[False, False, False]"
+    assert repr(Looks().covered_lately(points).tolist()) == "[False, False, False]"
 
 
 AHEAD = towards(0.0)
@@ -83,6 +83,7 @@ def test_now_is_the_latest_look_and_lately_is_the_earlier_ones_too() -> None:
     assert looks.covers_now(beside).all()
     assert looks.covered_lately(beside).all()
     assert looks.covered_lately(np.concatenate([AHEAD, towards(-90.0)])).tolist() == [True, False]
+    assert looks.covered_lately(np.concatenate([AHEAD, beside])).tolist() == [True, True]
 
 
 @pytest.mark.parametrize(
@@ -103,6 +104,13 @@ def test_a_look_is_kept_where_it_is_from_elsewhere(by: Pose, kept: bool) -> None
     ahead = Look(by, -0.5 - by.yaw_rad, 0.1, 11)
     looks = noted(away, ahead, Look(Pose(-9.0), 2.0, 0.1, 5))
     assert looks.covered_lately(AHEAD).all() == kept
+
+
+def test_turned_means_turned_from_there() -> None:
+    """Whichever way it looks: this one looked away, hardly turned, and saw what lies ahead by the way."""
+    away = Look(Pose(0.0, 0.0, 2.0), 0.0, 0.1, 5)
+    ahead = Look(Pose(0.0, 0.0, 2.0 + 0.5 * APART_RAD), -2.3, 0.1, 11)
+    assert not noted(away, ahead, Look(Pose(-9.0), 2.0, 0.1, 5)).covered_lately(AHEAD).any()
 
 
 def test_creeping_counts_from_the_look_that_was_kept() -> None:

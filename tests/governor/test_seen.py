@@ -63,6 +63,17 @@ def test_two_beams_have_two_directions() -> None:
     ]
 
 
+def test_beams_are_counted_from_the_first() -> None:
+    seen = seen_by(PLAIN, sector(30.0, 2, 60.0, range_m=1.0))
+    assert points_of(seen) == [
+        pytest.approx((math.cos(math.radians(30.0)), 0.5)), pytest.approx((0.0, 1.0))
+    ]  # fmt: skip
+
+
+def test_one_beam_is_a_scan() -> None:
+    assert points_of(seen_by(PLAIN, sector(0.0, 1, range_m=1.0))) == [pytest.approx((1.0, 0.0))]
+
+
 @pytest.mark.parametrize(
     ("range_m", "counts"),
     [(NEAREST_M, True), (FARTHEST_M, True), (NEAREST_M - 1e-6, False), (FARTHEST_M + 1e-6, False)],
@@ -159,13 +170,10 @@ def test_what_was_a_little_beyond_the_minimum_range_is_remembered_and_what_was_f
     assert kept_after(around({0: NEAREST_M + NEAR_M + more_m}), around({0: 0.0})) is (more_m < 0.0)
 
 
-@pytest.mark.parametrize("more_m", [-0.001, 0.001])
-def test_it_is_seen_through_where_its_beam_sees_so_much_farther(more_m: float) -> None:
-    """Less far it is the same thing, seen anew: the old place of it is forgotten, too, for a newer one."""
-    then = around({0: 0.2 + SEEN_THROUGH_M + more_m})
-    assert not kept_after(around({0: 0.2}), then)
-    nearer = around({0: 0.25 - SEEN_THROUGH_M - more_m})
-    assert kept_after(around({0: 0.25}), nearer) is (more_m > 0.0)
+@pytest.mark.parametrize(("then_m", "kept"), [(3.0, False), (0.26, False), (0.151, False), (0.149, True)])
+def test_its_beam_tells_anew_of_it_unless_something_nearer_is_in_between(then_m: float, kept: bool) -> None:
+    assert SEEN_THROUGH_M == 0.1
+    assert kept_after(around({0: 0.25}), around({0: then_m})) is kept
 
 
 @pytest.mark.parametrize("more_m", [-0.001, 0.001])
@@ -177,12 +185,23 @@ def test_what_left_the_field_of_view_is_remembered_within_a_metre(bearing_deg: i
 
 
 def test_a_beam_looks_where_the_lidar_stands_now() -> None:
-    """It turned left by 90 degrees and went 5 cm: what was ahead is to the right now, and its own beam decides."""
-    moved = Pose(0.05, 0.0, math.pi / 2)
-    thing = around({0: 0.25})
-    assert kept_after(thing, around({-90: 0.0}), (ORIGIN, moved))
-    assert not kept_after(thing, around({-90: 2.0}, elsewhere_m=0.0), (ORIGIN, moved))
-    assert kept_after(thing, around({0: 2.0}, elsewhere_m=0.0), (ORIGIN, moved))
+    """It turned left and went 5 cm and 10 cm: what was ahead is to the right now, and its own beam decides."""
+    moved = Pose(0.05, 0.1, math.pi / 2)
+    thing = around({27: math.hypot(0.2, 0.1)})  # at (0.2, 0.1), as far as a degree tells
+    assert kept_after(thing, around({-89: 0.0}), (ORIGIN, moved))
+    assert not kept_after(thing, around({-90: 2.0, -89: 2.0, -91: 2.0}, elsewhere_m=0.0), (ORIGIN, moved))
+    assert kept_after(thing, around({0: 2.0, 27: 2.0, -63: 2.0}, elsewhere_m=0.0), (ORIGIN, moved))
+
+
+def test_between_the_last_beam_and_the_first_the_first_decides_where_it_is_nearer() -> None:
+    thing = LaserScan(0.0, math.radians(179.7), DEGREE, NEAREST_M, FARTHEST_M, [0.25])
+    assert not kept_after(thing, around({-180: 2.0}, elsewhere_m=0.0))
+    assert kept_after(thing, around({179: 2.0}, elsewhere_m=0.0))
+
+
+def test_a_beam_beyond_the_last_looks_at_nothing() -> None:
+    assert kept_after(around({91: 0.5}), sector(-90.0, 181))
+    assert not kept_after(around({90: 0.5}), sector(-90.0, 181))
 
 
 def test_the_nearest_beam_decides() -> None:

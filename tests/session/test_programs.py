@@ -24,7 +24,7 @@ from chatrobot.core.events import (
     TruePose,
 )
 from chatrobot.programs.library import KeptProgram
-from chatrobot.session.session import Options
+from chatrobot.session.options import Options
 
 ASKED = "Write a ROS 2 Python program that makes the robot dance as you like"
 DANCE = program("self.drive(0.2, 0.0, 1.0)\nself.drive(0.0, 0.5, 2.0)")
@@ -86,7 +86,7 @@ def house(shared: House) -> Iterator[House]:
     yield shared
     shared.authoring.model, shared.authoring.prefers_model = None, False
     shared.on_event = lambda _: None
-    shared.session._options = Options()
+    shared.session.options = Options()
 
 
 def turned_in(poses: list[TruePose]) -> tuple[float, float]:
@@ -269,14 +269,14 @@ def test_findings_ask_and_a_no_moves_nothing(house: House) -> None:
 
 
 def test_who_said_yes_beforehand_is_not_asked(house: House) -> None:
-    house.session._options = Options(ask_findings=False)
+    house.session.options = Options(ask_findings=False)
     result = house.run(program("self.drive(0.2, 0.0, 0.5)\nreturn"))
     assert result.outcome == "completed"
     assert house.all(TruePose)[-1].vx_mps == 0.0  # it did not stop the robot: I did
 
 
 def test_what_was_written_just_now_can_be_asked_about(house: House) -> None:
-    house.session._options = replace(Options(), ask_new=True)
+    house.session.options = replace(Options(), ask_new=True)
     house.on_event = lambda event: (
         house.session.approve(event.turn, True)
         if isinstance(event, Rehearsed) and event.needs_approval

@@ -67,6 +67,13 @@ class WireContract:
         assert type(arrived) is type(message)
         assert self.as_it_arrives(message) == arrived
 
+    def test_a_text_with_half_a_character_ends_nothing(self, connect: Callable[[], Wire]) -> None:
+        inbox = Inbox(connect(), "topic", Text)
+        sender = connect()
+        sender.publish("topic", Text("half \ud800"))
+        sender.publish("topic", Text("after"))
+        assert inbox.take(2)[-1] == Text("after")
+
     def test_messages_arrive_in_the_order_they_were_sent(self, connect: Callable[[], Wire]) -> None:
         inbox = Inbox(connect(), "topic", Number)
         sender = connect()

@@ -14,7 +14,7 @@ from chatrobot.language.phrases import render_reason, say
 from chatrobot.models.seam import Model, ModelError
 from chatrobot.session.model_choice import chosen_model
 from chatrobot.session.model_terms import ModelOptions
-from chatrobot.session.session import Options
+from chatrobot.session.options import Options
 
 _SOURCES = {"option": "--model", "environment": "CHATROBOT_MODEL", "stored": "the model you chose"}
 

@@ -31,3 +31,15 @@ class Wiring:
     camera_topic: str | None = None
     base_timeout_s: float | None = None
     namespace: str = ""
+
+    @property
+    def sensor_topics(self) -> dict[str, str]:
+        """The topics of the base's own sensors by their names, as far as it has them; a camera is none of them."""
+        topics = {
+            "odom": self.odom_topic,
+            "imu": self.imu_topic,
+            "scan": self.scan_topic,
+            "bumper": self.bumper_topic,
+            "battery": self.battery_topic,
+        }
+        return {sensor: topic for sensor, topic in topics.items() if topic}

@@ -70,11 +70,11 @@ class Seen:
         beam = np.rint((onwards % (2.0 * math.pi)) / abs(scan.angle_increment_rad)).astype(int) % whole
         inside = beam < len(ranges)
         beam = np.where(inside, beam, 0)
-        looked_past = inside & sees[beam] & (ranges[beam] > distance + SEEN_THROUGH_M)
-        replaced = inside & sees[beam] & (np.abs(ranges[beam] - distance) <= SEEN_THROUGH_M)
+        # Seen through, or seen anew in about the same place: then the new return tells.
+        told_anew = inside & sees[beam] & (ranges[beam] >= distance - SEEN_THROUGH_M)
         too_near = distance < scan.range_min_m + NEAR_M
         out_of_view = ~inside & (distance < FORGET_AFTER_M)
-        return np.asarray(known[(too_near | out_of_view) & ~looked_past & ~replaced])
+        return np.asarray(known[(too_near | out_of_view) & ~told_anew])
 
 
 def _makes_sense(scan: LaserScan) -> bool:

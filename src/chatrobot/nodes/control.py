@@ -134,7 +134,7 @@ class ControlNode:
         from chatrobot.nodes.citizen import Diagnosis
 
         motion = self._runner.motion
-        barred = motion.latched or motion.obstruction
+        barred = motion.latched or motion.clearance.obstruction
         values: dict[str, object] = {
             "moving": motion.is_busy,
             **{f"{name}_age_s": round(age_s, 2) for name, age_s in motion.sensors.ages_s().items()},
@@ -160,7 +160,8 @@ class ControlNode:
         if self._is_leaving:
             return
         self._ours.add(envelope.turn)
-        if self._foreign.has_work:  # the lowest priority: it gives way
+        is_part = envelope.payload.get("mode") == "extend"
+        if self._foreign.has_work and not is_part:  # the lowest priority: it gives way
             envelope = replace(envelope, payload={**envelope.payload, "mode": "replace"})
         self._runner.receive(envelope)
 

@@ -13,11 +13,8 @@ from chatrobot.core.clock import Clock
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import RELAY_TOPIC
-from chatrobot.execution.sensors import Sensors
-from chatrobot.governor.governor import Governor
 from chatrobot.governor.lease import TERM_S
-from chatrobot.session.governed_motion import sensed_by
-from chatrobot.transports.transport import Transport
+from chatrobot.session.governed_robot import GovernedRobot
 from chatrobot.wire.messages import TwistMessage
 
 _LEASE = "relay"
@@ -35,16 +32,12 @@ class Relay:
     def __init__(
         self,
         clock: Clock,
-        governor: Governor,
-        transport: Transport,
-        sensors: Sensors,
+        robot: GovernedRobot,
         on_end: Callable[[], None],
         tell: Callable[[Reason], None],
     ) -> None:
         self._clock = clock
-        self._governor = governor
-        self._transport = transport
-        self._sensors = sensors
+        self._robot = robot
         self._on_end = on_end
         self._tell = tell
         self._heard = (_NEVER, Twist())
@@ -58,39 +51,47 @@ class Relay:
             self._has_to_let_go = False
         self._heard = (now_s, twist)
 
-    def tick(self, now_s: float, is_free: bool) -> None:
+    def tick(self, now_s: float, is_free: Callable[[], bool]) -> None:
         """One period; `is_free`: nothing of ours drives, waits or stops the robot."""
         at_s, twist = self._heard
         is_asked = now_s - at_s <= TERM_S
-        if is_asked and not is_free:
+        if is_asked and not is_free():
             self._has_to_let_go = True
-        may_drive = is_asked and is_free and not self._has_to_let_go
+        may_drive = is_asked and not self._has_to_let_go
         if self.is_driving and not may_drive:
             self._end()
         elif not self.is_driving and may_drive and not twist.is_zero:
-            self._begin(now_s)
+            self._begin(now_s, is_free)
         if self.is_driving:
             self._drive(twist, at_s, now_s)
 
-    def _begin(self, now_s: float) -> None:
-        self._governor.leases.open(_LEASE, RELAY_TOPIC, TERM_S, now_s)
-        refusal = self._governor.begin(_LEASE, now_s, sensed_by(self._sensors)).refusal
+    def _begin(self, now_s: float, is_free: Callable[[], bool]) -> None:
+        self._robot.governor.leases.open(_LEASE, RELAY_TOPIC, TERM_S, now_s)
+        refusal = self._robot.fault() or self._robot.begin(_LEASE, now_s)
         if refusal is not None:
             self._has_to_let_go = True
             self._tell(refusal)
-        self.is_driving = refusal is None
+        elif not is_free():  # stopped a moment ago, from another thread: the wheel was taken after it
+            self._has_to_let_go = True
+            self._robot.governor.end(_LEASE)
+        self.is_driving = not self._has_to_let_go
 
     def _drive(self, twist: Twist, at_s: float, now_s: float) -> None:
-        self._governor.leases.beat(_LEASE, at_s)
-        sensed = sensed_by(self._sensors)
-        verdict = self._governor.govern(twist, _LEASE, now_s, self._sensors.pose_now(), sensed)
+        fault = self._robot.fault()
+        if fault is not None:
+            self._has_to_let_go = True
+            self._tell(fault)
+            self._end()
+            return
+        self._robot.governor.leases.beat(_LEASE, at_s)
+        verdict = self._robot.govern(twist, _LEASE, now_s)
         if verdict.action == "refused":
             self._has_to_let_go = True
             self._end()
         else:
-            self._transport.send(verdict.sent)
+            self._robot.send(verdict)
 
     def _end(self) -> None:
         self.is_driving = False
-        self._governor.end(_LEASE)
+        self._robot.governor.end(_LEASE)
         self._on_end()

@@ -46,14 +46,7 @@ def ros_form(topic: str, kind: type[Any], wiring: Wiring) -> RosForm:
 
 def is_sensor(topic: str, kind: type[Any], wiring: Wiring) -> bool:
     """Whether robots may publish this with ROS's sensor QoS (best effort)."""
-    sensors = (
-        wiring.odom_topic,
-        wiring.imu_topic,
-        wiring.scan_topic,
-        wiring.bumper_topic,
-        wiring.battery_topic,
-    )
-    return kind in _STAMPED or topic in sensors
+    return kind in _STAMPED or topic in wiring.sensor_topics.values()
 
 
 def stamped(message: Message) -> Odometry | Imu | LaserScan | None:
@@ -170,8 +163,13 @@ def _range_m(value: Any) -> float:
     return math.nan if value is None else float(value)
 
 
-def _data_to(message: Flag | Number | Text) -> dict[str, Any]:
+def _data_to(message: Flag | Number) -> dict[str, Any]:
     return {"data": message.data}
+
+
+def _text_to(message: Text) -> dict[str, Any]:
+    """JSON may hold half a character ("\\ud800"), which no ROS string can: what cannot be sent must not end us."""
+    return {"data": message.data.encode(errors="replace").decode()}
 
 
 def _of(kind: type[T], value: Any) -> T:
@@ -208,5 +206,5 @@ _PLAIN: dict[type[Message], RosForm] = {
     LaserScan: RosForm("sensor_msgs/msg/LaserScan", _scan_to, _scan_from),
     Flag: RosForm("std_msgs/msg/Bool", _data_to, lambda message: Flag(_of(bool, message.data))),
     Number: RosForm("std_msgs/msg/Float64", _data_to, lambda message: Number(float(message.data))),
-    Text: RosForm("std_msgs/msg/String", _data_to, lambda message: Text(_of(str, message.data))),
+    Text: RosForm("std_msgs/msg/String", _text_to, lambda message: Text(_of(str, message.data))),
 }

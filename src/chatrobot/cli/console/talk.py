@@ -295,7 +295,7 @@ class Talk:
         self._say_next()
 
     def lose(self, error: JointError) -> None:
-        """Motion is gone: its guard has halted the robot; here is nothing left to talk to."""
+        """Motion is gone: its guard halts the robot; here is nothing left to talk to."""
         self.face.print(marked("✗", "bold red", str(error)))
         self.face.leave(1)
 
