@@ -133,3 +133,10 @@ _SETTLED: dict[str, Callable[[Sequence[Atom], int], Atom]] = {
     "per": _glue, "unit_turn": _full_turn, "role": _role, "flag": _flag, "unit_percent": _percent,
     "glue": _glue_word, "unit_angle": _unit_of_angle,
 }  # fmt: skip
+
+
+def next_real(atoms: Sequence[Atom], i: int) -> int:
+    """The index of the first atom from `i` on that is more than an article or the like."""
+    while i < len(atoms) and atoms[i].kind == "glue":
+        i += 1
+    return i
