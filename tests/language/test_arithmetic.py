@@ -40,6 +40,7 @@ def test_a_sum_is_worked_out(said: str, x_m: float) -> None:
     "said",
     [
         "forward 1 m left 90 times four",  # the angle, or both?
+        "forward 1 m left 90 degrees times four",
         "my car is 4 m long, go forward",
         "fwd 1 m / 90 left / 1 m",
         "take the straight line to the point 3 metres in front of you and 4 metres to your left",
