@@ -17,10 +17,10 @@ class Wiring:
     """Topics, types and habits of the base. Nothing here bounds a motion.
 
     Topics are ROS names, None where the robot has no such sensor. Their types: imu sensor_msgs/Imu, scan
-    sensor_msgs/LaserScan, bumper std_msgs/Bool, battery sensor_msgs/BatteryState, camera sensor_msgs/Image;
-    odometry as `odom_type` says. `base_timeout_s` is how long the base holds its last command; None means
-    for ever. `namespace` is put before relative topics where the wire's address names none; it needs a wire
-    that has namespaces (DDS, ROS, rosbridge).
+    sensor_msgs/LaserScan, bumper std_msgs/Bool, battery sensor_msgs/BatteryState; odometry and camera as
+    `odom_type` and `camera_type` (of sensor_msgs) say. `base_timeout_s` is how long the base holds its last
+    command; None means for ever. `namespace` is put before relative topics where the wire's address names none;
+    it needs a wire that has namespaces (DDS, ROS, rosbridge).
     """
 
     cmd_vel_topic: str = "cmd_vel"
@@ -32,6 +32,7 @@ class Wiring:
     bumper_topic: str | None = None
     battery_topic: str | None = None
     camera_topic: str | None = None
+    camera_type: Literal["Image", "CompressedImage"] = "Image"
     base_timeout_s: float | None = None
     namespace: str = ""
 

@@ -14,15 +14,21 @@ from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
 
 _NO = frozenset({"no", "nope", "不", "wait", "sorry", "oops", "whoops", "等等", "no no", "rather"})
+_ONLY_AFTER = frozenset({"rather", "wrong", "make it", "还是", "算了", "不是", "应该是"})
+"""Corrections only after something in the same sentence."""
+_DENIED = frozenset({"no", "nope", "no no", "oops", "whoops", "sorry", "oh no", "oh"})
 _DENIALS = frozenset({"不是", "not that"})
 _AFTERTHOUGHTS = frozenset({"i mean", "i meant", "i mean to say", "rather"})
 _UNIT_FACTOR = re.compile(r"\d[\d.e+-]*")
 _PIECE = ("dir", "rot", "q", "pace", "verb", "shape")
+MEANT = "meant"
+"""The flag of what corrects the turn before."""
+_BEFORE_MEANT = frozenset({"sep", "filler", "glue", "negation", "correction"})
 
 
 def corrected(atoms: Sequence[Atom]) -> list[Atom]:
-    """The atoms as if they had been said right at once."""
-    out = list(atoms)
+    """The atoms as if they had been said right at once; a flag before what corrects the turn before."""
+    out = _of_the_turn_before(list(atoms))
     while True:
         at = next((i for i in range(len(out)) if _is_correction(out, i)), None)
         if at is None:
@@ -41,10 +47,39 @@ def corrected(atoms: Sequence[Atom]) -> list[Atom]:
             out = _replaced(_trimmed(before), after)
 
 
+def _of_the_turn_before(atoms: list[Atom]) -> list[Atom]:
+    """`no, I meant right`, `sorry, left`, `not left, right`: a correction of the turn before.
+
+    Amounts alone are a total: what is missing to it is done.
+    """
+    at = 0
+    while at < len(atoms) and (atoms[at].kind in _BEFORE_MEANT or atoms[at].value == "other_way"):
+        at += 1
+    real = [a for a in atoms[at:] if a.kind not in ("sep", "filler", "glue")]
+    ways = any(a.kind in ("dir", "rot") for a in real)
+    said = [a for a in atoms[:at] if (a.kind, a.value) == ("correction", "replace")]
+    meant = any(a.text not in _ONLY_AFTER for a in said) and (
+        ways or any(a.kind in ("verb", "shape", "place") for a in real)
+    )
+    amounts = bool(real) and all(a.kind == "q" for a in real)
+    swapped = any((a.kind, a.value) == ("flag", "instead") for a in real)
+    lone = amounts or (
+        ways and all(a.kind in ("dir", "rot", "q", "negation") or a.value == "instead" for a in real)
+    )
+    denied = len(atoms) > 1 and atoms[0].text in _DENIED and atoms[1].kind == "sep"
+    negated = any(a.kind == "negation" and a.text == "not" for a in atoms) and len(real) > 1
+    if amounts and (said or denied):
+        return [Atom("flag", "short_of", atoms[0].text), *atoms[at:]]
+    if meant or (lone and ways and (denied or negated or swapped or atoms[0].text == "i said")):
+        start = at if meant or not negated else 0
+        return [Atom("flag", MEANT, (said or atoms)[0].text), *atoms[start:]]
+    return atoms
+
+
 def _is_correction(atoms: list[Atom], i: int) -> bool:
     atom = atoms[i]
     if atom.kind == "correction":
-        if atom.text in ("rather", "wrong", "make it", "还是", "算了", "不是", "应该是"):
+        if atom.text in _ONLY_AFTER:
             return i > 0 and any(a.kind in _PIECE for a in atoms[:i])
         return True
     if atom.kind == "flag" and atom.value == "instead" and is_chinese(atom.text):

@@ -9,6 +9,8 @@ from chatrobot.language.context import Context
 from chatrobot.language.frames import Frame
 from chatrobot.language.last_motion import steps_of
 from chatrobot.language.manner import Pace
+from chatrobot.language.meant import is_correction
+from chatrobot.language.numbers import is_chinese
 from chatrobot.language.totals import to_total
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import same_way_back, undone
@@ -48,6 +50,8 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     if whole.verb == "face" and "to_start" in whole.flags:
         raise Unclear("unclear_motion", whole.text)  # to drive there or to look there?
     if (whole.verb == "return" or "to_start" in whole.flags) and not whole.q and not whole.place:
+        if {"bit", "halfway"} & whole.flags and not is_chinese(whole.text):
+            raise Unclear("how_far", whole.text)  # `come back a little`: not all the way
         if whole.direction and whole.direction != "back":
             return None
         start = context.dialogue.start_pose
@@ -56,6 +60,8 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     if more is not None:
         return more
     if is_change(whole):
+        if is_correction(context.dialogue.last_motion):
+            raise Unclear("unclear_motion", whole.text)  # what was done, or what was meant?
         return changed(steps_of(context.dialogue.last_motion), whole, pace)
     return None
 
@@ -67,7 +73,7 @@ def _more_of_before(whole: Frame, context: Context, pace: Pace) -> list[Step] | 
     on = "more" in whole.flags or any(text.endswith(("more", "further", "farther")) for text in whole.texts)
     if on and "bit" in whole.flags <= {"bit", "more"} and not whole.roles:
         return [a_bit_of(steps_of(context.dialogue.last_motion), whole, pace)]
-    if "again" in whole.flags and "both" in whole.texts[-1:]:
+    if "again" in whole.flags and any("both" in text.split() for text in whole.texts):
         both = [turn.plan for turn in context.dialogue.turns if turn.plan is not None][-2:]
         if len(both) < 2:
             raise Unclear("nothing_before", whole.text)

@@ -25,7 +25,7 @@ def steps_of(record: TurnRecord | None) -> tuple[Step, ...]:
     return record.plan.steps
 
 
-def _said_unit_m(text: str) -> float | None:
+def said_unit_m(text: str) -> float | None:
     """The last unit of length in what was said: `another 30` after `50 cm` are centimetres."""
     words = lexicon().words
     units = [
@@ -48,7 +48,7 @@ def state_after(context: Context) -> State:
             state.last = "drive"
             if step.distance_m:
                 state.length = quantity("length", step.distance_m, f"{step.distance_m:g} m")
-                said = (_said_unit_m(turn.text) for turn in reversed(context.dialogue.turns))
+                said = (said_unit_m(turn.text) for turn in reversed(context.dialogue.turns))
                 state.unit_m = next((unit for unit in said if unit), None)
             state.direction = _name_of(step.direction_rad)
             break

@@ -20,6 +20,7 @@ from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.last_motion import state_after
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.manner import Pace
+from chatrobot.language.meant import instead
 from chatrobot.language.names import names_in
 from chatrobot.language.order import in_order
 from chatrobot.language.quantities import read_quantities
@@ -76,6 +77,15 @@ class Reading:
         Raises:
             Unclear: where a clause cannot be acted on.
         """
+        return instead(frames, self.context, self._steps) or self._steps(frames)
+
+    def _steps(self, frames: list[Frame]) -> list[Step]:
+        on = len(frames) > 1 and frames[0].verb == "undo" and (frames[1].has_extent or frames[1].direction)
+        undone = (
+            refer(frames[:1], self.context, self.pace) if on and frames[1].joined in ("and", "then") else None
+        )
+        if undone:  # `undo that and go back 1 m`
+            return [*undone, *self.steps_of_their_own(frames[1:])]
         return refer(frames, self.context, self.pace) or self.steps_of_their_own(frames)
 
     def steps_of_their_own(self, frames: list[Frame]) -> list[Step]:

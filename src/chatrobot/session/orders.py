@@ -27,16 +27,20 @@ class Orders:
             rehearse_only=options.rehearse_only,
         )
 
-    def program(self, turn: int, payload: dict[str, Any], *, is_new: bool, is_led_elsewhere: bool) -> None:
+    def program(
+        self, turn: int, payload: dict[str, Any], *, is_new: bool, by_model: bool, is_led_elsewhere: bool
+    ) -> None:
         """Have Motion rehearse and run a program, asking where the options say so.
 
         Args:
             payload: code, name, remap and strict of the envelope.
             is_new: it was written just now.
+            by_model: a model wrote it.
             is_led_elsewhere: its topics are led to the robot's, and it has not run like that before.
         """
         options = self.options
-        asks = (is_new and options.ask_new) or (is_led_elsewhere and options.ask_findings)
+        asks_new = is_new and (options.ask_new or (by_model and options.approve_models))
+        asks = asks_new or (is_led_elsewhere and options.ask_findings)
         self._joint.send(
             "program",
             turn,

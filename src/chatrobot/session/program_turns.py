@@ -10,6 +10,7 @@ from chatrobot.core.events import (
     Event,
     Finished,
     Interpreted,
+    ModelCalled,
     ProgramRehearsed,
     Rehearsed,
     Started,
@@ -82,7 +83,10 @@ class ProgramTurns:
         request = replace(request, name=name or request.name)
         language: LanguageCode = "zh" if has_chinese(text) else "en"
         try:
-            draft = self.authoring.write(request, self._understanding.pose, language)
+            try:
+                draft = self.authoring.write(request, self._understanding.pose, language)
+            finally:
+                self._tell_spent(turn, 1)
         except NotWrittenError as refusal:
             self._emit(Interpreted(turn, "offline", "", refusal.reply))
             meant = Interpretation(_MEANT.get(refusal.outcome, "refused"), refusal.reply, language)
@@ -132,7 +136,7 @@ class ProgramTurns:
         if reason is None or reason.code not in MENDABLE or self._is_void_turn(event.turn):
             return False
         problem = about.rehearsal.program.problem if about.rehearsal.program is not None else ""
-        if not self._mend(about, reason, problem):
+        if not self._mend(event.turn, about, reason, problem):
             return False
         self._send(event.turn, about)
         return True
@@ -141,7 +145,7 @@ class ProgramTurns:
         """Show this version and hand it to Motion; one that cannot even be read is mended first, or ends the turn."""
         self._emit(about.draft.event(turn))
         while (refusal := about.draft.checked.refusal) is not None:
-            if not self._mend(about, refusal.reason, ""):
+            if not self._mend(turn, about, refusal.reason, ""):
                 del self._turns[turn]
                 reply = render_reason(refusal.reason, self._understanding.language)
                 self._book.conclude(turn, "refused", reply)
@@ -156,14 +160,29 @@ class ProgramTurns:
             "strict": draft.by_model and draft.version <= MOST_REPAIRS,
         }
         is_led_elsewhere = bool(draft.program.remap) and not draft.program.runs
-        self._orders.program(turn, payload, is_new=draft.is_new, is_led_elsewhere=is_led_elsewhere)
+        self._orders.program(
+            turn, payload, is_new=draft.is_new, by_model=draft.by_model, is_led_elsewhere=is_led_elsewhere
+        )
 
-    def _mend(self, about: _Turn, problem: Reason, details: str) -> bool:
+    def _tell_spent(self, turn: int, call: int) -> None:
+        """What a model has used, as for plans; `call` counts those of the turn."""
+        for spent in self.authoring.take_spent():
+            usage = spent.usage
+            self._emit(
+                ModelCalled(
+                    turn, spent.model, call, usage.prompt_tokens, usage.cached_tokens, usage.reply_tokens,
+                    usage.cost_usd, usage.counted, spent.duration_s,
+                )
+            )  # fmt: skip
+
+    def _mend(self, turn: int, about: _Turn, problem: Reason, details: str) -> bool:
         """Have the model write the next version; False where there is none."""
         try:
             draft = self.authoring.mend(about.draft, problem, details, self._understanding.language)
         except NotWrittenError:
             return False  # what was wrong is told all the same
+        finally:
+            self._tell_spent(turn, about.draft.version + 1)
         if draft is None:
             return False
         about.draft, about.rehearsal = draft, Rehearsal()

@@ -263,7 +263,7 @@ class Session:
             said.text,
             meant,
             options.while_moving,
-            approve=options.approve,
+            approve="all" if options.approve else "models" if options.approve_models else "",
             rehearse_only=options.rehearse_only,
         )
         if self._said.is_void_turn(said.turn):
