@@ -90,6 +90,26 @@ def test_release_has_its_own_words() -> None:
     assert not is_release("stop")
 
 
+@pytest.mark.parametrize(
+    "text", ["please release the estop now, thank you", "麻烦把急停解除一下吧", "Unlock!"]
+)
+def test_a_release_may_be_polite(text: str) -> None:
+    assert is_release(text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "release the emergency stop 不", "解除急停 不", "no, release the emergency stop", "不解除急停", "解除急停吗",
+        "release the emergency stop, wait", "release the emergency stop, there's a child", "release me",
+        "don't release the emergency stop", "别解除急停", "release the emergency stop? danger!",
+        "release" + " please" * 41 + "       " + "is what I would never ever say to it",
+    ],
+)  # fmt: skip
+def test_what_may_mean_the_opposite_releases_nothing(text: str) -> None:
+    assert not is_release(text)
+
+
 def test_in_the_corpora_exactly_the_stop_items_are_stops() -> None:
     for path in (Path(__file__).parent.parent / "corpus").glob("*.yaml"):
         for item in yaml.safe_load(path.read_text(encoding="utf-8")):

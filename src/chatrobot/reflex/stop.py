@@ -52,6 +52,7 @@ _STOP = _phrases(words_en.STOP, words_zh.STOP, words_en.EMERGENCY, words_zh.EMER
 """An emergency stop is a stop, too."""
 _EMERGENCY = _phrases(words_en.EMERGENCY, words_zh.EMERGENCY)
 _RELEASE = _phrases(words_en.RELEASE, words_zh.RELEASE)
+_RELEASE_FILLER = _phrases(words_en.RELEASE_FILLER, words_zh.RELEASE_FILLER)
 _FILLER = _phrases(words_en.FILLER, words_zh.FILLER)
 _CANCELLED = _phrases(words_en.CANCELLED, words_zh.CANCELLED)
 _TAKEN_BACK = _phrases(words_en.TAKEN_BACK, words_zh.TAKEN_BACK)
@@ -95,7 +96,9 @@ def _forbids_stopping(units: Phrase) -> bool:
     )
 
 
-def _consists(units: Phrase, table: dict[str, set[Phrase]]) -> bool:
+def _consists(
+    units: Phrase, table: dict[str, set[Phrase]], fillers: dict[str, set[Phrase]] = _FILLER
+) -> bool:
     """Whether phrases of `table` (at least one) and fillers cover all of `units`."""
     reached = {0: False}
     for i in range(len(units)):
@@ -103,7 +106,7 @@ def _consists(units: Phrase, table: dict[str, set[Phrase]]) -> bool:
             continue
         for phrase in _matches(units, i, table):
             reached[i + len(phrase)] = True
-        for phrase in _matches(units, i, _FILLER):
+        for phrase in _matches(units, i, fillers):
             reached[i + len(phrase)] = reached.get(i + len(phrase), False) or reached[i]
     return reached.get(len(units), False)
 
@@ -176,6 +179,6 @@ def is_emergency_stop(text: str) -> bool:
 
 
 def is_release(text: str) -> bool:
-    """Whether the whole utterance asks to release the emergency stop."""
-    units = _units(text[:MAX_CHARACTERS])
-    return bool(units) and _consists(units, _RELEASE)
+    """Whether the whole utterance asks to release the emergency stop. Here it is better to miss one."""
+    units = _units(text) if len(text) <= MAX_CHARACTERS else ()
+    return bool(units) and _consists(units, _RELEASE, _RELEASE_FILLER)

@@ -130,6 +130,12 @@ RELEASE = (
     "lift the emergency stop", "undo the emergency stop",
 )  # fmt: skip
 
+RELEASE_FILLER = (
+    "please", "pls", "plz", "now", "right now", "kindly", "thanks", "thank you", "ok", "okay", "just", "then",
+    "can you", "could you", "would you", "will you", "you", "hey", "hi", "hello", "robot", "the robot",
+)  # fmt: skip
+"""What may stand beside a release: nothing that might mean the opposite, or that something is wrong."""
+
 DOUBLED = (
     "stop", "halt", "freeze", "whoa", "no",
 )  # fmt: skip
