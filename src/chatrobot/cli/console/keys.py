@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import select
-import sys
 from collections.abc import Callable
 
 from prompt_toolkit.filters import Condition
@@ -63,10 +61,9 @@ def chat_keys(
 
 
 def more_is_there(event: KeyPressEvent) -> bool:
-    """Whether text that was typed or pasted waits behind this key."""
-    if any(_is_text(key.key) for key in event.key_processor.input_queue):
-        return True
-    return bool(select.select([sys.stdin], [], [], 0.0)[0])
+    """Whether text that came in one piece with this key waits behind it. What the terminal answers to our questions
+    is none, and nobody knows of bytes that are not read yet whose they are."""
+    return any(_is_text(key.key) for key in event.key_processor.input_queue)
 
 
 def _is_text(key: Keys | str) -> bool:
