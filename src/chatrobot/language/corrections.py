@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from chatrobot.language.amends import MARK
 from chatrobot.language.frames import EXTENTS, Frame
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.quantities import quantity
@@ -39,7 +40,7 @@ def corrected(atoms: Sequence[Atom]) -> list[Atom]:
                 after = after[1:]
             out = after
         else:
-            out = _replaced(_trimmed(before), after)
+            out = _replaced(_trimmed(before), out[at], after)
 
 
 def _is_correction(atoms: list[Atom], i: int) -> bool:
@@ -76,7 +77,7 @@ def _trimmed(atoms: list[Atom]) -> list[Atom]:
     return atoms
 
 
-def _replaced(before: list[Atom], after: list[Atom]) -> list[Atom]:
+def _replaced(before: list[Atom], word: Atom, after: list[Atom]) -> list[Atom]:
     start = 0
     while start < len(after) and after[start].kind in ("sep", "filler", "glue", "negation", "correction"):
         start += 1
@@ -96,8 +97,8 @@ def _replaced(before: list[Atom], after: list[Atom]) -> list[Atom]:
             name, before[last].number * factor, f"{before[last].text} {unit.text}", repr(factor)
         )
         return [*before[:last], amount, *before[last + 1 :], *rest]
-    if pieces and all(a.kind == "q" for a in pieces) and not any(a.kind in _PIECE for a in before):
-        return [Atom("flag", "short_of", "not"), *said, *rest]
+    if not any(a.kind in _PIECE for a in before):
+        return _of_the_turn_before(before, word, said, rest)
     if not pieces:
         raise Unclear("unknown_part", " ".join(a.text for a in after[:end]))
     if _is_clause(pieces):
@@ -111,6 +112,21 @@ def _replaced(before: list[Atom], after: list[Atom]) -> list[Atom]:
         else:
             out[at] = _in_the_unit_of(out[at], piece)
     return [*out, *added, *rest]
+
+
+def _of_the_turn_before(before: list[Atom], word: Atom, said: list[Atom], rest: list[Atom]) -> list[Atom]:
+    """不对，往左; 转反了: nothing in this sentence is corrected, so it is what was done before it."""
+    pieces = [a for a in said if a.kind in _PIECE]
+    if pieces and all(a.kind == "q" for a in pieces):
+        return [Atom("flag", "short_of", "not"), *said, *rest]
+    if not pieces and rest and rest[0].kind == "conn":
+        return rest  # 不对，再左转三十度: on from here
+    opposite = any((a.kind, a.value) == ("flag", "other_way") for a in said)
+    if not (pieces or opposite or "反" in word.text):
+        raise Unclear("unknown_part", word.text)
+    if not (pieces or opposite):
+        said = [Atom("flag", "other_way", word.text), *said]
+    return [*[a for a in before if a.text not in _NO], Atom("flag", MARK, word.text), *said, *rest]
 
 
 def _in_the_unit_of(before: Atom, number: Atom) -> Atom:
@@ -163,8 +179,8 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
     i = 0
     while i < len(atoms):
         if i == 0 and len(atoms) > 1 and atoms[0].text in ("no", "不") and atoms[1].kind == "sep":
-            if any(a.kind == "flag" and a.value == "total" for a in atoms):
-                out.append(Atom("flag", "short_of", atoms[0].text))
+            total = any(a.kind == "flag" and a.value == "total" for a in atoms)
+            out.append(Atom("flag", "short_of" if total else MARK, atoms[0].text))
             i = 2
             continue
         if atoms[i].kind != "negation" and not (atoms[i].kind == "correction" and atoms[i].text in _DENIALS):

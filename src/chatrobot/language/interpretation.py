@@ -10,6 +10,7 @@ from typing import Literal
 
 from chatrobot import reflex
 from chatrobot.language import forms, questions
+from chatrobot.language.amends import amended
 from chatrobot.language.arithmetic import settle_condition
 from chatrobot.language.asides import check_finished, is_choice, without_asides
 from chatrobot.language.brackets import unrolled
@@ -31,12 +32,14 @@ from chatrobot.language.frames import STILL, Frame
 from chatrobot.language.heeded import check_heeded
 from chatrobot.language.lexicon import Key, Meaning, cut, lexicon
 from chatrobot.language.manner import Pace
+from chatrobot.language.multiples import with_multiples
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
 from chatrobot.language.order import in_order
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.program_request import read_program_request
 from chatrobot.language.quantities import read_quantities
 from chatrobot.language.rephrase import rephrased
+from chatrobot.language.restated import without_restated
 from chatrobot.language.script import Memory, write
 from chatrobot.language.sounds import mended
 from chatrobot.language.tidy import tidy
@@ -249,6 +252,9 @@ class _Reading:
         command = questions.without_quiz(plain, self.language)
         if command and not questions.is_question(command, self.language):
             return self._understood(command)
+        amounts = any(a.kind == "q" and a.value in ("length", "angle", "turns") for a in atoms)
+        if amounts and is_choice(plain, self.language):
+            raise Unclear("contradiction", plain[:60])
         asks = questions.is_question(plain, self.language)
         ability = questions.asks_ability(plain, self.language)
         doubt = next((a for a in atoms if a.kind == "doubt" and a.text != "来着"), None)
@@ -285,7 +291,11 @@ class _Reading:
 
     def _read(self, frames: list[Frame]) -> list[Step]:
         """The steps that the frames mean here and now."""
-        return refer(frames, self.context, self.pace) or write(frames, self.pace, self._memory())
+        undone = amended(frames, self.context)
+        return [
+            *undone,
+            *(refer(frames, self.context, self.pace) or write(frames, self.pace, self._memory())),
+        ]
 
     def _until(self, until: UntilObstacle) -> Interpretation:
         frames = _frames(self._atoms(until.before))
@@ -368,7 +378,8 @@ class _Reading:
 
     def _atoms(self, plain: str) -> list[Atom]:
         atoms = tokenise(plain, lexicon(), self._names(), by_ear=self.by_ear)
-        atoms = with_headings(read_quantities(without_asides(atoms, self.language)), self.facing_rad)
+        atoms = without_restated(with_multiples(read_quantities(without_asides(atoms, self.language))))
+        atoms = with_headings(atoms, self.facing_rad)
         atoms = with_words_counted(atoms, self.context.dialogue.words)
         if any(a.kind == "role" and a.value == "apart" for a in atoms):  # rows side by side, no garden work
             atoms = [Atom("shape", "lawn", a.text) if a.text == "mow the lawn" else a for a in atoms]
