@@ -199,12 +199,21 @@ def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
         how.flags |= first.flags | {"sideways"}
         how.texts += first.texts
         return how
+    if _names_the_side(last, first):
+        first = first.copy()
+        first.verb = last.verb
     both = merged(last, first)
     if both is None:
         return None
     if joined in ("strong", "colon"):
         return both if _completes(last, first) else None
     return both if _belongs(last, first) else None
+
+
+def _names_the_side(last: Frame, first: Frame) -> bool:
+    """打转两圈，往左转: the side of the turn before, which has none."""
+    turns = last.verb in TURN and first.verb in TURN and last.has_extent and not first.q
+    return turns and first.sided and not last.sided and not first.flags
 
 
 def _says_how(last: Frame, first: Frame) -> bool:
@@ -263,6 +272,8 @@ def _belongs(last: Frame, first: Frame) -> bool:
     if first.verb == last.verb and first.q and set(first.q) <= MANNER and not (first.direction or first.rot):
         return True
     if first.verb and last.q and set(last.q) <= MANNER and not (last.direction or last.rot):
+        return True
+    if _names_the_side(last, first):
         return True
     if first.verb and last.verb:
         return (
