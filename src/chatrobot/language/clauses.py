@@ -284,7 +284,7 @@ def _belongs(last: Frame, first: Frame) -> bool:
     if (first.direction or first.rot) and not first.has_extent and not first.verb:
         return _direction_follows(last, first)
     if first.direction and first.has_extent:
-        return not last.has_extent and not last.direction
+        return not last.has_extent and last.direction in ("", first.direction)
     return True
 
 
