@@ -12,7 +12,7 @@ from collections.abc import Callable
 from chatrobot.core.geometry import ORIGIN
 from chatrobot.governor.governor import TICK_S
 from chatrobot.language.context import Context
-from chatrobot.language.interpretation import OfflineInterpreter
+from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.robots.load import load_profile
 from chatrobot.session.planner import Planner
 from chatrobot.sim.load import load_world

@@ -2,7 +2,16 @@
 
 from __future__ import annotations
 
+import signal
+
 from hypothesis import settings
 
 settings.register_profile("chatrobot", deadline=None)
 settings.load_profile("chatrobot")
+# For `make mutants`: a thousand runs with few examples each, the same ones every time.
+settings.register_profile("mutants", deadline=None, max_examples=30, derandomize=True, database=None)
+
+# Under `nohup`, or in the background of a script, these are ignored, and stay so in every process that a test starts.
+for number in (signal.SIGHUP, signal.SIGINT):
+    if signal.getsignal(number) is signal.SIG_IGN:
+        signal.signal(number, signal.SIG_DFL if number is signal.SIGHUP else signal.default_int_handler)

@@ -23,7 +23,8 @@ from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.robots.load import DEFAULT_PROFILE
 from chatrobot.session.model_choice import chosen_model
-from chatrobot.session.session import Options, Session
+from chatrobot.session.options import Options
+from chatrobot.session.session import Session
 from chatrobot.session.thinking import Interpreter
 
 PUMP_S = 0.1

@@ -28,7 +28,8 @@ from chatrobot.session.joint import SimulatedJoint
 from chatrobot.session.model_choice import warm_up
 from chatrobot.session.model_terms import ModelOptions
 from chatrobot.session.observations import Camera
-from chatrobot.session.session import Options, Session
+from chatrobot.session.options import Options
+from chatrobot.session.session import Session
 from chatrobot.session.thinking import Mind
 from chatrobot.session.understanding import Understanding
 from chatrobot.sim.lies import SimLies

@@ -164,6 +164,27 @@ def test_a_paste_of_a_hundred_kilobytes_and_weird_bytes_do_no_harm(chat):
     chat.wait_for(DONE)
 
 
+def test_a_paste_is_done_line_by_line_and_its_stop_does_not_wait_for_enter(chat):
+    chat.type(b"\x1b[200~rotate left 10 degrees\rspin right 20 degrees\r\x1b[201~")
+    chat.wait_for("› rotate left 10 degrees\n  spin right 20 degrees")
+    assert DONE not in chat.text
+    chat.type("\r")
+    chat.wait_for(DONE, times=2)
+    chat.enter("forward 2 m")
+    chat.wait_for(MOVING)
+    chat.type(b"\x1b[200~turn left\nstop\n\x1b[201~")
+    chat.wait_for(STOPPED)
+
+
+def test_lines_that_a_terminal_pastes_as_keys_do_not_replace_each_other(chat):
+    chat.type("rotate left 10 degrees\rspin right 20 degrees\r")
+    chat.wait_for(DONE, times=2)
+    chat.type("forward 2 m\rstop\rturn left 10 degrees\r")
+    chat.wait_for("this is not done: “forward 2 m”")
+    chat.wait_for(DONE, times=3)
+    assert "2.00 m," not in chat.text
+
+
 def test_a_window_can_be_made_smaller_and_larger_while_the_robot_moves(chat):
     chat.enter("forward 1 m")
     chat.wait_for(MOVING)
@@ -259,6 +280,16 @@ def test_a_dumb_terminal_gets_plain_lines(tmp_path, environment):
         chat.control("c")
         assert chat.wait_for_end() == 0
         assert b"\x1b" not in chat.raw
+
+
+def test_a_paste_into_a_dumb_terminal_is_done_line_by_line(tmp_path):
+    with console(tmp_path, environment={"TERM": "dumb"}) as chat:
+        chat.wait_for("/help")
+        chat.type("rotate left 10 degrees\nspin right 20 degrees\n")
+        chat.wait_for(DONE, times=2)
+        chat.type("forward 2 m\nstop\nturn left 10 degrees\n")
+        chat.wait_for("this is not done: “forward 2 m”")
+        chat.wait_for(DONE, times=3)
 
 
 def test_a_narrow_terminal_gets_plain_lines(tmp_path):

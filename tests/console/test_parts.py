@@ -33,7 +33,7 @@ from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.language.context import Context
 from chatrobot.language.data_files import load_table
-from chatrobot.language.interpretation import OfflineInterpreter
+from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.robots.load import load_profile
 from chatrobot.sim.load import load_world
 from chatrobot.sim.world import EMPTY_WORLD

@@ -1,106 +1,14 @@
 """What a typed line and a key do, without a terminal and without a robot."""
 
-from types import SimpleNamespace
+import threading
 
 import pytest
-from rich.text import Text
 
-from chatrobot.cli.console import commands
 from chatrobot.cli.console.clean import LONGEST_CHARS
-from chatrobot.cli.console.talk import TWICE_S, Talk
-from chatrobot.cli.console.words import Words
-from chatrobot.core.clock import VirtualClock
-from chatrobot.core.errors import JointError
-from chatrobot.core.events import Finished, Interpreted, Rehearsed, Result, Started
+from chatrobot.cli.console.talk import TWICE_S
+from chatrobot.core.events import Finished, Interpreted, Result, Started
 from chatrobot.core.geometry import Pose
-from chatrobot.robots.load import load_profile
-from chatrobot.sim.load import load_world
-
-
-class FakeSession:
-    """Notes what it is told."""
-
-    def __init__(self, log):
-        self.log = log
-        self.is_idle = True
-        self.is_lost = False
-
-    def _note(self, *what):
-        if self.is_lost:
-            raise JointError("Motion is gone")
-        self.log.append(what)
-        return len(self.log)
-
-    def say(self, text):
-        return self._note("say", text)
-
-    def say_plan(self, plan_text):
-        return self._note("say_plan", plan_text)
-
-    def stop(self, why=""):
-        self._note("stop", why)
-
-    def emergency_stop(self, why=""):
-        self._note("emergency_stop", why)
-
-    def release(self):
-        self._note("release")
-
-    def approve(self, turn, yes):
-        self._note("approve", turn, yes)
-
-
-class FakeFace:
-    """Notes what it shows in the same list."""
-
-    width, echoes = 100, False
-
-    def __init__(self, log):
-        self.log = log
-
-    def print(self, *lines):
-        self.log += [("print", str(line) if isinstance(line, Text) else repr(line)) for line in lines]
-
-    def refresh(self):
-        pass
-
-    def edit(self, plan_text):
-        self.log.append(("edit", plan_text))
-
-    def leave(self, code):
-        self.log.append(("leave", code))
-
-
-@pytest.fixture
-def log():
-    return []
-
-
-@pytest.fixture
-def talk(log):
-    connection = SimpleNamespace(
-        session=FakeSession(log), world=load_world("home"), profile=load_profile("wheeltec_mini_mec")
-    )
-    talk = Talk(connection, Words(), VirtualClock(), commands.run)
-    talk.face = FakeFace(log)
-    return talk
-
-
-def told(log):
-    """What the session was told, without what was shown."""
-    return [entry for entry in log if entry[0] not in ("print",)]
-
-
-def shown(log):
-    return "\n".join(entry[1] for entry in log if entry[0] == "print")
-
-
-def ask(talk):
-    """A plan of turn 1 waits for a yes."""
-    talk.hear(Interpreted(1, "offline", "drive 1 m", ""))
-    talk.hear(
-        Rehearsed(1, True, 3.6, 1.0, Pose(1.0), (), ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0)), needs_approval=True)
-    )
+from tests.console.fakes import ask, shown, told
 
 
 def test_a_stop_is_out_before_anything_is_drawn(talk, log):
@@ -225,3 +133,31 @@ def test_when_motion_is_gone_the_talk_ends_with_a_word(talk, log):
 def test_a_long_line_is_echoed_in_part(talk, log):
     talk.enter("x" * 3000)
     assert len(shown(log)) < 700
+
+
+def test_a_stop_waits_for_no_line_that_is_being_drawn(talk, log):
+    with talk._order:  # as if the terminal were halted by Ctrl-S
+        stopper = threading.Thread(target=talk.enter, args=("stop",))
+        stopper.start()
+        stopper.join(10.0)
+        assert not stopper.is_alive()
+    assert log[0] == ("say", "stop")
+
+
+@pytest.mark.parametrize("moving_ends_first", [True, False])
+def test_one_stop_is_told_once(talk, log, moving_ends_first):
+    ending = [
+        Finished(1, "stopped", None, Pose(), Pose(), 0.3, 0.0, 1.0, 0.0),
+        Result(1, "stopped", "Stopped after 0.3 m."),
+    ]
+    heard = [Interpreted(2, "reflex", "", "")]
+    talk.hear(Started(1, Pose()))
+    talk.enter("stop")
+    for event in [*ending, *heard] if moving_ends_first else [*heard, *ending]:
+        talk.hear(event)
+    talk.hear(Result(2, "stopped", "Stopped."))
+    assert shown(log).count("Stopped") == 1
+    talk.enter("stop")
+    talk.hear(Interpreted(3, "reflex", "", ""))
+    talk.hear(Result(3, "stopped", "Stopped."))
+    assert shown(log).count("Stopped") == 2

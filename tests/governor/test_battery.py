@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pytest
 from tests.governor.situations import MECANUM, battery, with_safety
 
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.governed import StopEpoch
+from chatrobot.core.reason import Reason
 from chatrobot.governor.battery import BatteryRule, at_most
 from chatrobot.governor.governor import TICK_S, Governor
-from chatrobot.governor.rule import Sensed
+from chatrobot.governor.rule import FREE, Sensed
 from chatrobot.robots.profile import Safety
 
 FULL_SPEED = Twist(1.0, 0.0, 0.0)
@@ -32,8 +34,17 @@ def test_below_the_mark_no_motion_begins() -> None:
 def test_what_is_under_way_goes_on_at_half_speed_and_rate() -> None:
     assert RULE.judge(FULL_SPEED, battery(10.0)).factor == 0.5
     assert RULE.judge(Twist(0.0, 0.0, 2.0), battery(10.0)).factor == 0.5
-    assert RULE.judge(Twist(0.5, 0.0, 1.0), battery(10.0)).factor == 1.0
-    assert not RULE.judge(FULL_SPEED, battery(10.0)).urgent
+    assert RULE.judge(Twist(0.5, 0.0, 1.0), battery(10.0)) is FREE
+    ruling = RULE.judge(FULL_SPEED, battery(10.04))
+    assert ruling.urgent is False
+    assert ruling.reason == Reason("battery_low", {"percent": 10.0, "low_percent": 20.0})
+
+
+def test_half_is_half_of_what_the_profile_allows() -> None:
+    slow = replace(MECANUM, limits=replace(MECANUM.limits, max_speed_mps=0.4, max_rate_radps=0.5))
+    rule = BatteryRule(slow, 20.0)
+    assert rule.judge(Twist(0.4, 0.0, 0.0), battery(10.0)).factor == 0.5
+    assert rule.judge(Twist(0.0, 0.0, -0.5), battery(10.0)).factor == 0.5
 
 
 @pytest.mark.parametrize("percent", [None, math.nan, 20.0, 100.0])

@@ -51,6 +51,7 @@ def test_the_whole_way_is_all_there_is() -> None:
     braking = Braking(LIMITS, Twist(0.5, 0.0, 0.0))
     assert braking.factor_within(math.inf) == 1.0
     assert braking.factor_within(LATENCY_S + 0.25) == 1.0
+    assert braking.factor_within(LATENCY_S + 0.5) == 1.0, "never more than was asked"
     assert braking.factor_within(LATENCY_S + 0.24) < 1.0
     assert braking.factor_within(0.0) == 0.0
 

@@ -80,6 +80,16 @@ def test_what_is_within_the_margin_already_may_be_left_but_not_approached() -> N
     assert seconds(0.2 + MARGIN_M, 0.0, Twist(0.5, 0.0, 0.0)) == 0.0
 
 
+def test_nothing_to_touch_is_never_touched() -> None:
+    assert seconds_to_contact(BOX, np.empty((0, 2)), Twist(0.5, 0.0, 0.0), 2.0, MARGIN_M) == math.inf
+
+
+def test_straight_on_there_is_nothing_that_cannot_be_divided() -> None:
+    with np.errstate(all="raise"):
+        angle, x, y = _moved(Twist(0.5, 0.25, 0.0), np.array([0.0, 2.0]))
+    assert (angle.tolist(), x.tolist(), y.tolist()) == ([0.0, 0.0], [0.0, 1.0], [0.0, 0.5])
+
+
 def test_the_nearest_of_many_points_counts() -> None:
     points = np.array([[5.0, 0.0], [1.2, 0.0], [0.9, 0.05], [0.0, 0.5]])
     assert seconds_to_contact(BOX, points, Twist(0.5, 0.0, 0.0), 2.0, MARGIN_M) == pytest.approx(

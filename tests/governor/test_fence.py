@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -87,6 +88,18 @@ def test_the_fence_is_where_it_is_and_not_around_the_origin() -> None:
     assert rule.judge(Twist(0.3, 0.0, 0.0), at(Pose(5.0, -3.0, 0.7))).factor == 1.0
     assert rule.judge(Twist(0.3, 0.0, 0.0), at(ORIGIN)).factor == 1.0, "it points towards the fence"
     assert rule.judge(Twist(-0.3, 0.0, 0.0), at(ORIGIN)).factor == 0.0
+    at_its_side = at(Pose(5.0, -3.8, 0.0))
+    assert rule.judge(Twist(0.0, 0.5, 0.0), at_its_side).factor == 1.0
+    assert rule.judge(Twist(0.0, -0.5, 0.0), at_its_side).factor < 1.0
+
+
+@pytest.mark.parametrize("wz", [0.0, 2.0])
+def test_a_robot_that_brakes_weakly_looks_that_far(wz: float) -> None:
+    """It needs 1.7 m, so it must not wait until the fence is near."""
+    weak = replace(MECANUM, limits=replace(MECANUM.limits, deceleration_mps2=0.3))
+    rule = FenceRule(weak, Circle(0.0, 0.0, 1.6 + weak.footprint_radius_m))
+    assert rule.judge(Twist(1.0, 0.0, 0.0), at()).factor < 1.0
+    assert rule.judge(Twist(0.0, 0.0, wz), at()).factor == 1.0
 
 
 def test_the_time_to_the_edge_is_interpolated() -> None:

@@ -12,7 +12,7 @@ from tests.governor.situations import ANGULAR_JERK_RADPS3, JERK_MPS3, MECANUM, s
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.governed import StopEpoch
 from chatrobot.governor.governor import TICK_S, Governor
-from chatrobot.governor.jerk import JerkLimit
+from chatrobot.governor.jerk import JerkLimit, _most
 from chatrobot.robots.profile import RobotProfile
 
 
@@ -61,6 +61,7 @@ def test_a_turn_eases_in_too() -> None:
     for before, after in itertools.pairwise(gained):
         assert after - before <= ANGULAR_JERK_RADPS3 * TICK_S + 1e-9
     assert gained[1] == pytest.approx(ANGULAR_JERK_RADPS3 * TICK_S)
+    assert gained[-2] < 0.5
 
 
 def test_a_curve_keeps_its_shape_while_it_eases() -> None:
@@ -112,8 +113,42 @@ def test_where_a_rule_brakes_into_a_curve_the_braking_is_not_eased() -> None:
     assert before.vx_mps - eased.vx_mps == pytest.approx(0.02 * eased.wz_radps / 0.04)
 
 
+@pytest.mark.parametrize("left", [0.001, 0.02, 0.3])
+@pytest.mark.parametrize("jerk", [2.0, 5.0, 40.0])
+def test_no_step_adds_more_than_can_be_eased_out_again(left: float, jerk: float) -> None:
+    """At the acceleration a, easing out by steps of jerk takes a²/2j + a dt/2 of what is left: just all of it."""
+    step = _most(1e6, left, jerk, TICK_S)
+    acceleration = step / TICK_S
+    assert acceleration**2 / (2.0 * jerk) + acceleration * TICK_S / 2.0 == pytest.approx(left)
+
+
+def test_no_step_adds_more_acceleration_than_the_jerk_allows() -> None:
+    assert _most(0.3, 1e6, 5.0, TICK_S) == pytest.approx((0.3 + 0.1) * TICK_S)
+    assert _most(-0.3, 1e6, 5.0, TICK_S) == pytest.approx(0.1 * TICK_S)
+
+
+def test_where_a_rule_brakes_what_only_gains_is_eased_all_the_same() -> None:
+    jerk = JerkLimit(smooth().limits)
+    turns_in = jerk.eased(
+        Twist(0.5, 0.0, 0.0), Twist(0.5, 0.0, 0.04), Twist(0.5, 0.0, 0.8), TICK_S, urgent=True
+    )
+    assert turns_in.wz_radps == pytest.approx(ANGULAR_JERK_RADPS3 * TICK_S * TICK_S)
+    gains = jerk.eased(Twist(0.1, 0.0, 0.5), Twist(0.12, 0.0, 0.5), Twist(0.9, 0.0, 0.5), TICK_S, urgent=True)
+    assert gains.vx_mps == pytest.approx(0.1 + JERK_MPS3 * TICK_S * TICK_S)
+
+
+def test_it_goes_on_from_the_acceleration_it_has_sideways_too() -> None:
+    jerk = JerkLimit(smooth().limits)
+    first = Twist(0.0, 0.01, 0.0)
+    jerk.note(ZERO_TWIST, first, TICK_S)
+    eased = jerk.eased(first, Twist(0.0, 0.05, 0.0), Twist(0.0, 1.0, 0.0), TICK_S, urgent=False)
+    assert eased.vy_mps - first.vy_mps == pytest.approx((0.5 + JERK_MPS3 * TICK_S) * TICK_S)
+
+
 def test_no_time_no_easing() -> None:
     jerk = JerkLimit(smooth().limits)
+    ahead = Twist(0.02, 0.0, 0.0)
+    assert jerk.eased(ZERO_TWIST, ahead, Twist(1.0, 0.0, 0.0), 0.0, urgent=False) == ahead
     assert jerk.eased(ZERO_TWIST, ZERO_TWIST, Twist(1.0, 0.0, 0.0), 0.0, urgent=False) == ZERO_TWIST
     jerk.note(ZERO_TWIST, Twist(0.02, 0.0, 0.0), TICK_S)
     jerk.note(Twist(0.02, 0.0, 0.0), Twist(0.02, 0.0, 0.0), 0.0)

@@ -13,13 +13,14 @@ from chatrobot.core.geometry import Twist
 from chatrobot.core.governed import StopEpoch
 from chatrobot.governor.governor import TICK_S, Governor
 from chatrobot.governor.narrowed import NarrowedRule
+from chatrobot.governor.rule import FREE
 from chatrobot.robots.load import load_profile
 
 FULL = Twist(0.0, 1.0, 2.0)
 
 
 def test_nothing_is_narrowed_at_first() -> None:
-    assert NarrowedRule().judge(Twist(1e9, 0.0, 1e9), at()).factor == 1.0
+    assert NarrowedRule().judge(Twist(1e9, 0.0, 1e9), at()) is FREE
 
 
 def test_speed_and_rate_are_narrowed_each_for_itself() -> None:
@@ -29,7 +30,7 @@ def test_speed_and_rate_are_narrowed_each_for_itself() -> None:
     rule.narrow(math.inf, 0.2)
     ruling = rule.judge(FULL, at())
     assert ruling.factor == pytest.approx(0.1)
-    assert not ruling.urgent
+    assert ruling.urgent is False
     assert ruling.reason is not None
     assert (ruling.reason.code, ruling.reason.values) == ("narrowed", {"speed_mps": pytest.approx(0.1)})
 

@@ -11,6 +11,7 @@ from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 from chatrobot.governor.braking import Braking
 from chatrobot.governor.governor import TICK_S, Governor, StopEpoch
 from chatrobot.governor.obstacles import MARGIN_M, RELEASE_M, ObstacleRule
+from chatrobot.governor.rule import FREE
 from chatrobot.governor.seen import Seen
 from chatrobot.wire.messages import LaserScan
 
@@ -68,7 +69,8 @@ def test_nothing_seen_no_pose_and_no_motion_are_free() -> None:
     assert rule_that_saw().judge(AHEAD, at()).factor == 1.0
     assert rule_that_saw((0.2, 0.0)).judge(AHEAD, at(None)).factor == 1.0
     assert rule_that_saw((0.2, 0.0)).judge(ZERO_TWIST, at()).factor == 1.0
-    assert ObstacleRule(MECANUM, Seen(LIDAR)).judge(AHEAD, at()).factor == 1.0
+    assert ObstacleRule(MECANUM, Seen(LIDAR)).judge(AHEAD, at()) is FREE
+    assert rule_that_saw((7.0, 0.0)).judge(AHEAD, at()) is FREE
 
 
 def test_a_way_that_was_barred_must_be_a_little_freer_before_it_opens() -> None:

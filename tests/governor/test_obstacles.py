@@ -8,13 +8,11 @@ from dataclasses import replace
 import pytest
 from tests.rig import Rig
 
-from chatrobot.core.geometry import ORIGIN, Pose
-from chatrobot.governor.seen import Seen
+from chatrobot.core.geometry import ORIGIN
 from chatrobot.plan.steps import Arc, Drive, Plan, Step, Turn
 from chatrobot.robots.load import list_profiles, load_profile
-from chatrobot.robots.profile import Lidar, RobotProfile, Safety
+from chatrobot.robots.profile import RobotProfile, Safety
 from chatrobot.sim.shapes import Circle, Shape, rectangle
-from chatrobot.wire.messages import LaserScan
 
 FAR_M = 2.0
 
@@ -183,24 +181,6 @@ def test_zeros_do_not_hide_a_wall(robot: RobotProfile, direction_deg: int, share
     drive_at_wall(rig, Drive(distance_m=5.0, direction_rad=direction, speed_mps=speed), direction)
 
 
-@pytest.mark.parametrize(
-    ("then", "is_still_there"), [(0.0, True), (math.nan, True), (-1.0, True), (math.inf, False), (3.0, False)]
-)
-def test_a_near_thing_that_a_cheap_lidar_no_longer_tells_of_is_still_there(
-    then: float, is_still_there: bool
-) -> None:
-    """Zero, NaN (JSON's null, too) and nonsense tell nothing; infinity (REP-117) and a farther thing do."""
-    lidar = load_profile("wheeltec_mini_mec").lidar
-    assert lidar is not None
-    seen = Seen(lidar)
-    for stamp_s, ahead_m in enumerate((0.2, *[then] * 5)):
-        ranges_m = [math.inf] * 360
-        ranges_m[180] = ahead_m
-        seen.take(LaserScan(float(stamp_s), -math.pi, math.radians(1.0), 0.12, 8.0, ranges_m), ORIGIN)
-    near = [point for point in seen.points.tolist() if math.hypot(*point) < 1.0]
-    assert bool(near) is is_still_there
-
-
 @pytest.mark.parametrize("yaw_deg", [-120, 90, 180])
 def test_a_lidar_that_is_mounted_turned_sees_the_wall_where_it_is(yaw_deg: int) -> None:
     robot = load_profile("wheeltec_mini_mec")
@@ -218,57 +198,6 @@ def test_turning_stops_before_a_post_that_vanishes_inside_the_minimum_range(rate
     executor = rig.run(Plan((Turn(angle_rad=math.pi, rate_radps=rate),)))
     assert not rig.robot.in_contact
     assert executor.outcome == "stopped"
-
-
-def test_what_was_near_and_now_returns_zero_is_remembered_until_it_is_seen_through() -> None:
-    lidar = Lidar(0.0, 0.0, 0.0, 4, 0.12, 8.0, 10.0)
-    seen = Seen(lidar)
-
-    def scan(ahead_m: float) -> LaserScan:
-        return LaserScan(0.0, -math.pi, math.pi / 2.0, 0.12, 8.0, [math.inf, math.inf, ahead_m, math.inf])
-
-    seen.take(scan(0.2), ORIGIN)
-    for step in range(1, 8):
-        seen.take(scan(0.0), Pose(0.012 * step, 0.0, 0.0))
-    assert len(seen.points) > 0
-    assert seen.points[:, 0] == pytest.approx(0.2)
-    for _ in range(4):
-        seen.take(scan(3.0), Pose(0.1, 0.0, 0.0))
-    assert min(seen.points[:, 0]) == pytest.approx(3.1)
-
-
-@pytest.mark.parametrize("direction", [1.0, -1.0])
-def test_a_lidar_that_turns_clockwise_is_read_the_same_way(direction: float) -> None:
-    robot = load_profile("wheeltec_mini_mec")
-    assert robot.lidar is not None
-    seen = Seen(robot.lidar)
-    ranges = [math.inf] * 360
-    ranges[90 if direction > 0.0 else 270] = 0.2  # to the right in both
-    scan = LaserScan(0.0, -math.pi * direction, math.radians(direction), 0.12, 8.0, ranges)
-    seen.take(scan, ORIGIN)
-    seen.take(scan._replace(ranges_m=[0.0] * 360), ORIGIN)
-    assert seen.points == pytest.approx(seen.points[0].reshape(1, 2).repeat(len(seen.points), axis=0))
-    assert tuple(seen.points[0]) == pytest.approx((robot.lidar.x_m, -0.2), abs=1e-9)
-
-
-@pytest.mark.parametrize(
-    "broken",
-    [
-        LaserScan(0.0, -math.pi, 0.0, 0.1, 8.0, [1.0] * 360),
-        LaserScan(0.0, -math.pi, math.nan, 0.1, 8.0, [1.0] * 360),
-        LaserScan(0.0, math.inf, 0.1, 0.1, 8.0, [1.0] * 360),
-        LaserScan(0.0, -math.pi, 0.1, 0.1, 8.0, []),
-    ],
-)
-def test_a_scan_that_makes_no_sense_has_seen_nothing(broken: LaserScan) -> None:
-    robot = load_profile("wheeltec_mini_mec")
-    assert robot.lidar is not None
-    seen = Seen(robot.lidar)
-    seen.take(LaserScan(0.0, -math.pi, math.radians(1.0), 0.1, 8.0, [1.0] * 360), ORIGIN)
-    assert seen.covers_all
-    seen.take(broken, ORIGIN)
-    assert not seen.covers_all
-    assert not seen.covers(0.0)
 
 
 # --- where the lidar does not look ---
@@ -325,3 +254,29 @@ def test_what_was_seen_before_it_left_the_field_of_view_still_counts(direction_d
     assert not rig.robot.in_contact
     assert executor.reason is not None
     assert executor.reason.code in ("obstacle_ahead", "not_seen")
+
+
+@pytest.mark.parametrize("fov_deg", [90.0, 180.0])
+@pytest.mark.parametrize("left", [1.0, -1.0])
+def test_what_stands_beside_it_and_was_never_seen_is_met_at_blind_speed(fov_deg: float, left: float) -> None:
+    """It sets out at a slant; where that leads to is in view, and what stands beside it is not."""
+    rig = half_blind(0.1, fov_deg)
+    rig.robot.add_obstacle("box", rectangle(-0.05, left * 0.25, 0.1, 0.1))
+    rig.live(0.3)
+    touched_at_mps: list[float] = []
+
+    def watch(_t_s: float) -> None:
+        if rig.robot.in_contact and not touched_at_mps:
+            touched_at_mps.append(rig.sent[-1].speed_mps)
+
+    rig.run(Plan((Drive(distance_m=1.0, direction_rad=left * math.radians(40.0), speed_mps=1.0),)), watch)
+    assert touched_at_mps, "nothing but the blind speed protects it: it was not in the way"
+    assert touched_at_mps[0] <= 0.1 + 1e-9
+
+
+def test_narrow_eyes_slow_it_only_until_they_have_seen_what_lies_before_its_feet() -> None:
+    rig = half_blind(0.1, fov_deg=60.0)
+    assert rig.run(Plan((Drive(distance_m=2.0, speed_mps=0.8),))).outcome == "completed"
+    speeds = [twist.speed_mps for twist in rig.sent]
+    assert max(speeds) > 0.75
+    assert speeds[20] == pytest.approx(0.1, abs=0.001)

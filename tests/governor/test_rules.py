@@ -63,6 +63,11 @@ def test_the_most_urgent_is_kept_apart_from_the_smallest() -> None:
     assert compose(rules[:1], ASKED, at()).urgent_factor == 1.0
 
 
+def test_a_soft_rule_that_stops_the_robot_stays_soft() -> None:
+    composed = compose([Says("soft", 0.0, urgent=False)], ASKED, at())
+    assert (composed.ruling.factor, composed.urgent_factor) == (0.0, 1.0)
+
+
 def names(setting: Setting) -> list[str]:
     return [rule.name for rule in make_rules(setting)]
 

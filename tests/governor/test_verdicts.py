@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 import pytest
-from tests.governor.situations import MECANUM, with_safety
+from tests.governor.situations import ANGULAR_JERK_RADPS3, MECANUM, smooth, with_safety
 
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Twist
 from chatrobot.core.governed import StopEpoch
@@ -57,6 +57,13 @@ def test_a_ramp() -> None:
     )  # fmt: skip
 
 
+def test_what_rounding_leaves_is_no_speed_above_the_limit() -> None:
+    """A millionth of what is asked, or a nanometre a second sideways of a base that cannot do it."""
+    governor, _ = driven(replace(BARE, kinematics="differential"))
+    assert governor.govern(Twist(0.3, 1e-12, 0.0), "lease", 0.0).rule == "acceleration"
+    assert governor.govern(Twist(0.3, 1e-6, 0.0), "lease", 0.02).rule == "speed"
+
+
 def test_a_speed_above_the_limit() -> None:
     governor, _ = driven()
     asked = Twist(2.0, 0.0, 0.0)
@@ -100,6 +107,29 @@ def test_a_rule_that_is_urgent_is_ramped_to_where_that_is_in_time_and_else_zero(
     assert nearly.speed_mps + abs(nearly.wz_radps) == pytest.approx(0.98 * (full.speed_mps + full.wz_radps))
     wall.factor = 0.8
     assert governor.govern(full, "lease", 61 * TICK_S).sent.twist.is_zero
+
+
+def test_a_rule_that_is_not_urgent_leaves_braking_to_the_ramp_though_less_is_asked() -> None:
+    governor, _ = driven()
+    for tick in range(60):
+        governor.govern(Twist(1.0, 0.0, 0.0), "lease", tick * TICK_S)
+    governor.narrow(speed_mps=0.2)
+    verdict = governor.govern(Twist(0.5, 0.0, 0.0), "lease", 60 * TICK_S)
+    assert (verdict.rule, verdict.sent.twist.vx_mps) == ("narrowed", pytest.approx(0.98))
+
+
+def test_braking_into_a_curve_is_eased_unless_a_rule_brakes() -> None:
+    """With limited jerk a step that slows and turns in is eased as a whole; where it is urgent, not at all."""
+    sent = {}
+    for factor in (1.0, 0.99):
+        governor, _ = driven(smooth(BARE))
+        governor._rules.append(wall := Wall())
+        for tick in range(60):
+            governor.govern(Twist(0.5, 0.0, 0.0), "lease", tick * TICK_S)
+        wall.factor = factor
+        sent[factor] = governor.govern(Twist(0.47, 0.0, 0.8), "lease", 60 * TICK_S).sent.twist
+    assert sent[1.0].wz_radps == pytest.approx(ANGULAR_JERK_RADPS3 * TICK_S**2)
+    assert sent[0.99].wz_radps == pytest.approx(BARE.limits.angular_acceleration_radps2 * TICK_S)
 
 
 def test_a_rule_at_half_speed_from_standing_is_ramped_up_to() -> None:

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from typing import Any, Literal
 
 from chatrobot.language.context import Context, Dialogue, Place, RobotState, TurnRecord
-from chatrobot.language.interpretation import Interpretation, OfflineInterpreter
+from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.interpreter import OfflineInterpreter
 from tests.language.ideal_motion import Track, judge
 from tests.language.profiles import MECANUM
 

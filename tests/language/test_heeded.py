@@ -8,9 +8,8 @@ import pytest
 
 from chatrobot.language.context import Context
 from chatrobot.language.heeded import check_heeded
-from chatrobot.language.interpretation import OfflineInterpreter
-from chatrobot.language.quantities import quantity
-from chatrobot.language.tokens import Atom
+from chatrobot.language.interpreter import OfflineInterpreter
+from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Drive, Step
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile

@@ -8,7 +8,7 @@ import pytest
 
 from chatrobot.core.geometry import Pose
 from chatrobot.language.context import Context, Dialogue, Place
-from chatrobot.language.interpretation import OfflineInterpreter
+from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.plan.steps import Arc, Drive, ObstacleWithin, Plan, RawTwist, Step, Turn, Wait
 from tests.language.dialogue_runner import Conversation
 from tests.language.profiles import MECANUM

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from chatrobot.language.context import Context
-from chatrobot.language.interpretation import OfflineInterpreter
+from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.plan.steps import Plan
 from tests.language.dialogue_runner import Conversation
 from tests.language.profiles import MECANUM

@@ -8,6 +8,7 @@ import pytest
 import yaml
 
 from chatrobot.reflex import is_emergency_stop, is_release, is_stop, leads_with_stop
+from chatrobot.reflex.stop import _phrases
 
 STOPS = [
     "stop", "STOP!!", "stpo", "sotp", "stoooop", "halt!!", "please stop now", "freeze", "whoa",
@@ -55,6 +56,32 @@ def test_an_emergency_stop_is_a_stop_too_but_not_the_other_way_round() -> None:
         assert is_stop(text)
     assert not is_emergency_stop("stop")
     assert not is_emergency_stop("停")
+
+
+def test_a_stop_may_stand_beside_an_emergency_stop() -> None:
+    assert is_emergency_stop("stop stop emergency stop")
+    assert not is_emergency_stop("emergency stop and turn left")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "go forward. turn left. never mind. forget it",
+        "go forward. turn left. go back. never mind. forget it",
+        "go forward. turn left. never mind. stop. forget it",
+    ],
+)
+def test_one_command_may_be_taken_back_and_no_more(text: str) -> None:
+    """Which of several is meant, nobody can say."""
+    assert not is_stop(text)
+    assert is_stop("go forward. never mind. forget it")
+
+
+def test_phrases_are_found_by_their_first_word() -> None:
+    assert _phrases(("stop", "stop it"), ("停下",)) == {
+        "stop": {("stop",), ("stop", "it")},
+        "停": {("停", "下")},
+    }
 
 
 def test_release_has_its_own_words() -> None:

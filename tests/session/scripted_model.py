@@ -11,7 +11,7 @@ from chatrobot.core.events import Event, Result, TruePose
 from chatrobot.core.reason import Reason
 from chatrobot.models.seam import CallLimits, Message, ModelError, Usage
 from chatrobot.session.model_terms import ModelOptions
-from chatrobot.session.session import Options
+from chatrobot.session.options import Options
 
 Line = Union[str, Reason, None]
 """What one reply says: text, then perhaps what goes wrong. None hangs for ever."""

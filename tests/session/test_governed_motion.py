@@ -14,7 +14,7 @@ from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
 from chatrobot.programs.events import ProgramEvent, TwistAsked
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
-from chatrobot.session.governed_motion import sensed_by
+from chatrobot.session.governed_robot import GovernedRobot
 from chatrobot.session.job import Job
 from chatrobot.session.planner import Planner
 from chatrobot.session.program_job import ProgramJob
@@ -73,16 +73,16 @@ def test_the_governor_is_told_where_the_robot_is_by_now(kind: type[Job]) -> None
     clock.advance(LATE_S)
     now_s = clock.now_s()
     governor.leases.open("us", "console", 10.0, now_s)
-    assert governor.begin("us", now_s, sensed_by(sensors)).refusal is None
+    governed = GovernedRobot(PROFILE, sensors, governor, transport)
+    assert governed.begin("us", now_s) is None
     asked = job(kind, "us")
     asked.start = seen.pose
-    parts = (PROFILE, sensors, governor, transport, lambda _: None, now_s)
     run: Run | ProgramRun
     if isinstance(asked, ProgramJob):
-        run = ProgramRun(asked, Drives(), *parts)
+        run = ProgramRun(asked, Drives(), governed, lambda _: None, now_s)
     else:
         asked.take(Planner(PROFILE, load_world("empty")).plan(1, "drive 5 m", seen.pose))
-        run = Run(asked, *parts)
+        run = Run(asked, governed, lambda _: None, now_s)
     run.tick(now_s)
     assert governor.poses == [sensors.pose_now()]
     assert governor.poses[0] is not None

@@ -75,6 +75,15 @@ def test_after_a_stop_nothing_needs_releasing(rig: JointRig) -> None:
     assert finished(rig, 1).outcome == "completed"
 
 
+def test_what_is_said_right_after_a_stop_is_done(rig: JointRig) -> None:
+    send_plan(rig, 1, "drive 5 m")
+    moving(rig, 1)
+    rig.joint.send("stop", 1)
+    send_plan(rig, 2, "drive 0.1 m")
+    assert finished(rig, 1).outcome == "stopped"
+    assert finished(rig, 2).outcome == "completed"
+
+
 def test_an_emergency_stop_holds_until_it_is_released(rig: JointRig) -> None:
     send_plan(rig, 1, "drive 5 m")
     moving(rig, 1)

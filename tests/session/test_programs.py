@@ -24,7 +24,7 @@ from chatrobot.core.events import (
     TruePose,
 )
 from chatrobot.programs.library import KeptProgram
-from chatrobot.session.session import Options
+from chatrobot.session.options import Options
 
 ASKED = "Write a ROS 2 Python program that makes the robot dance as you like"
 DANCE = program("self.drive(0.2, 0.0, 1.0)\nself.drive(0.0, 0.5, 2.0)")

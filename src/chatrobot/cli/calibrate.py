@@ -31,7 +31,7 @@ from chatrobot.robots.calibration import (
 )
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.session.session import Options
+from chatrobot.session.options import Options
 
 _YES = ("y", "yes", "ok", "是", "好", "好的", "可以")
 _SKIP = ("skip", "跳过")

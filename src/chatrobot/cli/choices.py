@@ -14,7 +14,7 @@ from chatrobot.language.phrases import render_reason, say
 from chatrobot.models.seam import Model, ModelError
 from chatrobot.session.model_choice import chosen_model
 from chatrobot.session.model_terms import ModelOptions
-from chatrobot.session.session import Options
+from chatrobot.session.options import Options
 
 
 def setup_from(

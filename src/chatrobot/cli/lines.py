@@ -16,17 +16,56 @@ _ITEM = re.compile(r"(?:\(?\d{1,2}[.,:、，．)]|[-*•·])\s*\S")
 """A point of a list: `1, the car needs to …`, `- then turn`."""
 
 
-class LineReader:
-    """Hands every line that is not blank to `on_line`, in a thread of its own.
+class Joiner:
+    """Makes texts of lines: each is one, but a line that ends in a colon and the list that comes with it are one
+    together: `…, as follows:`, `1, …`, `2, …`."""
 
-    A line that ends in a colon and the list that comes with it are one text: `…, as follows:`, `1, …`, `2, …`.
+    def __init__(self) -> None:
+        self._held: list[str] = []
+
+    @property
+    def is_holding(self) -> bool:
+        """A heading waits for its list."""
+        return bool(self._held)
+
+    def take(self, line: str) -> list[str]:
+        """The texts that are complete with this line."""
+        text = line.strip()
+        if not text:
+            return []
+        if self._held and _ITEM.match(text):
+            self._held.append(text)
+            return []
+        complete = self.let_go()
+        if text.endswith((":", "：")):
+            self._held.append(text)
+        else:
+            complete.append(text)
+        return complete
+
+    def let_go(self) -> list[str]:
+        """What was held back for its list, with it."""
+        held, self._held = self._held, []
+        return ["\n".join(held)] if held else []
+
+
+def texts_in(lines: str) -> list[str]:
+    """The texts of several lines that came at once."""
+    joiner = Joiner()
+    texts = [text for line in lines.splitlines() for text in joiner.take(line)]
+    return texts + joiner.let_go()
+
+
+class LineReader:
+    """Hands every text to `on_line`, in a thread of its own: see `Joiner`.
+
     Reads the descriptor itself: a buffered stream would be locked by this thread when the interpreter ends.
     """
 
     def __init__(self, on_line: Callable[[str], None]) -> None:
         self._on_line = on_line
         self._ended = threading.Event()
-        self._held: list[str] = []
+        self._joiner = Joiner()
 
     @property
     def has_ended(self) -> bool:
@@ -43,8 +82,8 @@ class LineReader:
     def _read(self) -> None:
         rest = b""
         while True:
-            if self._held and not select.select([STDIN], [], [], PASTE_S)[0]:
-                self._let_go()
+            if self._joiner.is_holding and not select.select([STDIN], [], [], PASTE_S)[0]:
+                self._say(self._joiner.let_go())
             chunk = _read_chunk()
             if not chunk:
                 break
@@ -55,27 +94,15 @@ class LineReader:
                 self._hand_on(rest)
                 rest = b""
         self._hand_on(rest)
-        self._let_go()
+        self._say(self._joiner.let_go())
         self._ended.set()
 
     def _hand_on(self, line: bytes) -> None:
-        text = line.decode("utf-8", errors="replace").strip()
-        if not text:
-            return
-        if self._held and _ITEM.match(text):
-            self._held.append(text)
-            return
-        self._let_go()
-        if text.endswith((":", "：")):
-            self._held.append(text)
-        else:
-            self._on_line(text)
+        self._say(self._joiner.take(line.decode("utf-8", errors="replace")))
 
-    def _let_go(self) -> None:
-        """What was held back for its list goes on, with it."""
-        held, self._held = self._held, []
-        if held:
-            self._on_line("\n".join(held))
+    def _say(self, texts: list[str]) -> None:
+        for text in texts:
+            self._on_line(text)
 
 
 def _read_chunk() -> bytes:

@@ -13,7 +13,7 @@ from chatrobot.compose import SIMULATED, connect
 from chatrobot.core.errors import UsageError
 from chatrobot.core.events import EXIT_CODES, Event, Rehearsed
 from chatrobot.language.phrases import render_reason
-from chatrobot.session.session import Options
+from chatrobot.session.options import Options
 
 
 def run(args: argparse.Namespace) -> int:

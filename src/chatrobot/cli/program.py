@@ -17,7 +17,7 @@ from chatrobot.cli.printer import printer_for
 from chatrobot.cli.program_approver import ProgramApprover
 from chatrobot.core.errors import UsageError
 from chatrobot.programs.library import KeptProgram, Library
-from chatrobot.session.session import Options
+from chatrobot.session.options import Options
 
 _READ_BYTES = 1_000_000
 

@@ -6,24 +6,24 @@ compares odometry with where the reference was at the odometry's own stamp, so l
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 
 from chatrobot.core.events import Event, Outcome, Progress, Remembered, Said
 from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
 from chatrobot.core.reason import Reason
+from chatrobot.execution.course import TICK_S, Course
 from chatrobot.execution.estimator import Estimate
 from chatrobot.execution.health import sensor_fault, tracking_fault
-from chatrobot.execution.lookahead import free_ahead_m
+from chatrobot.execution.lookahead import must_brake
+from chatrobot.execution.mending import AT_THE_END, BETWEEN_STEPS, MEND_TRIES, Tolerance, mend
 from chatrobot.execution.sensors import Sensors
 from chatrobot.execution.tracking import feedback
 from chatrobot.plan.context import Impossible
-from chatrobot.plan.core_motion import CoreMotion, Emit, Pause, RampedTwist
+from chatrobot.plan.core_motion import CoreMotion, Emit, Pause
 from chatrobot.plan.lowering import NotYet, Walk
 from chatrobot.plan.trajectory import Segment
 from chatrobot.robots.profile import RobotProfile
 
-TICK_S = 0.02
 SETTLE_S = 0.8
 """The longest wait, at the end of a plan, for the robot to be seen standing."""
 
@@ -32,15 +32,6 @@ BARRED_S = 3.0
 
 RAMP_RULES = frozenset({"", "speed", "acceleration"})
 """What the governor does to any motion: no reason to wait."""
-
-MEND_TRIES = 2
-MEND_SPEED_MPS = 0.08
-MEND_RATE_RADPS = 0.3
-END_TOLERANCE = (0.006, math.radians(0.4))
-"""At the end of a plan, metres and radians: a bigger rest is driven."""
-
-STEP_TOLERANCE = (0.04, math.radians(2.5))
-"""Between steps feedback does the work; only a rest this big is driven first."""
 
 
 class Executor:
@@ -57,9 +48,7 @@ class Executor:
         self.steps = 0
         self.planned_m = 0.0
         self.planned_turn_rad = 0.0
-        self._segment: Segment | None = None
-        self._segment_at_s = 0.0
-        self._last: tuple[Segment, float] | None = None
+        self._course = Course(Pose())
         self._pause_until_s: float | None = None
         self._settle_since_s: float | None = None
         self._mends_left = MEND_TRIES
@@ -74,7 +63,7 @@ class Executor:
         self._turn = turn
         self._walk = walk
         self._duration_s = duration_s
-        self._reference = walk.pose
+        self._course = Course(walk.pose)
         self._started_s = now_s
 
     def expect(self, duration_s: float) -> None:
@@ -93,7 +82,7 @@ class Executor:
         share = (now_s - self._started_s) / self._duration_s if self._duration_s > 0.0 else 1.0
         estimate = self._sensors.estimate
         pose, twist = (
-            (estimate.pose, estimate.twist) if estimate is not None else (self._reference, ZERO_TWIST)
+            (estimate.pose, estimate.twist) if estimate is not None else (self._course.reference, ZERO_TWIST)
         )
         return Progress(turn, self.step, self.steps, max(0.0, min(1.0, share)), pose, twist)
 
@@ -102,13 +91,14 @@ class Executor:
 
         Where a rule slows the robot the reference waits for it; a way that stays barred ends the plan.
         """
-        if rule in RAMP_RULES or self._segment is None:
+        segment = self._course.segment
+        if rule in RAMP_RULES or segment is None:
             self._barred_since_s = None
             return
-        full = self._segment.at(now_s - self._segment_at_s + TICK_S / 2.0)[1]
+        full = segment.at(now_s - self._course.began_s + TICK_S / 2.0)[1]
         asked = full.speed_mps + abs(full.wz_radps)
         share = min(1.0, (sent.speed_mps + abs(sent.wz_radps)) / asked) if asked > 0.0 else 0.0
-        self._segment_at_s += (1.0 - share) * TICK_S
+        self._course.wait((1.0 - share) * TICK_S)
         if not sent.is_zero:
             self._barred_since_s = None
         elif self._barred_since_s is None:
@@ -128,8 +118,8 @@ class Executor:
         if fault is not None:
             return self._end("failed", fault)
         while not self.is_done:
-            if self._segment is not None:
-                asked = self._drive(self._segment, now_s)
+            if self._course.segment is not None:
+                asked = self._drive(self._course.segment, now_s)
             elif self._pause_until_s is not None:
                 asked = self._pause(self._pause_until_s, now_s)
             elif self._settle_since_s is not None:
@@ -158,7 +148,7 @@ class Executor:
             self._end("failed", item.reason)
         else:
             self.step, self.steps = item.number, item.total
-            self._reference = item.start
+            self._course.reference = item.start
             self._begin_motion(item.motion, now_s)
         return True
 
@@ -166,23 +156,14 @@ class Executor:
         if isinstance(motion, Emit):
             self._tell(motion)
         elif isinstance(motion, Pause):
-            self._pause_until_s = self._free_from_s(now_s) + motion.duration_s
+            self._pause_until_s = self._course.free_from_s(now_s) + motion.duration_s
         elif motion is not None:
             self.planned_m += motion.twist.speed_mps * motion.hold_s
             self.planned_turn_rad += motion.twist.wz_radps * motion.hold_s
-            self._begin_segment(Segment(motion, self._reference), now_s)
-
-    def _free_from_s(self, now_s: float) -> float:
-        """When the last motion ended, if that was within this tick: so that no time is lost between steps."""
-        if self._last is None:
-            return now_s
-        segment, at_s = self._last
-        ended_s = at_s + segment.total_s
-        return ended_s if 0.0 <= now_s - ended_s < TICK_S else now_s
+            self._begin_segment(Segment(motion, self._course.reference), now_s)
 
     def _begin_segment(self, segment: Segment, now_s: float) -> None:
-        self._segment = segment
-        self._segment_at_s = self._free_from_s(now_s)
+        self._course.begin(segment, now_s)
         self._first_tick = True
         estimate = self._sensors.estimate
         self._begin = (
@@ -191,10 +172,10 @@ class Executor:
         )
 
     def _drive(self, segment: Segment, now_s: float) -> Twist | None:
-        t_s = now_s - self._segment_at_s
+        t_s = now_s - self._course.began_s
         segment = self._cut_short(segment, t_s)
         if t_s >= segment.total_s:
-            return self._end_segment(segment, now_s)
+            return self._end_segment(now_s)
         if self._first_tick and segment.motion.asked is not None:
             self._first_tick = False
             return segment.motion.asked  # beyond the limits: the governor says so, once
@@ -203,7 +184,7 @@ class Executor:
         estimate = self._sensors.estimate
         if estimate is None or not self._sensors.has_odometry:
             return twist
-        reference = self._reference_at(estimate.stamp_s)
+        reference = self._course.at(estimate.stamp_s)
         fault = self._tracking_fault(segment, reference, estimate)
         if fault is not None:
             return self._end("failed", fault)
@@ -212,7 +193,7 @@ class Executor:
 
     def _tracking_fault(self, segment: Segment, reference: Pose, estimate: Estimate) -> Reason | None:
         begin, wheel_yaw_rad = self._begin
-        if self._is_mending or estimate.stamp_s < self._segment_at_s:
+        if self._is_mending or estimate.stamp_s < self._course.began_s:
             return None
         if self._barred_since_s is not None:
             return None  # it was halted at once, and rolls on as far as it takes to brake
@@ -227,41 +208,25 @@ class Executor:
 
     def _cut_short(self, segment: Segment, t_s: float) -> Segment:
         """Brake where the plan's condition holds, or where a controlled stop was asked for."""
-        if self._ending is not None or (
-            segment.motion.until is not None and self._condition_holds(segment, t_s)
-        ):
-            shorter = segment.stop_early(t_s)
-            if shorter.total_s < segment.total_s:
-                if not self._is_mending:
-                    lost_s = segment.ramp.hold_s - shorter.ramp.hold_s
-                    self.planned_m -= segment.motion.twist.speed_mps * lost_s
-                    self.planned_turn_rad -= segment.motion.twist.wz_radps * lost_s
-                self._segment = shorter
-                return shorter
-        return segment
-
-    def _condition_holds(self, segment: Segment, t_s: float) -> bool:
-        condition, scan = segment.motion.until, self._sensors.scan
-        if condition is None or scan is None:
-            return False
-        twist = segment.at(t_s)[1]
-        speed = twist.speed_mps
-        limits = self._profile.limits
-        braking_mps2 = min(limits.acceleration_mps2, limits.deceleration_mps2)
-        braking_m = speed * (TICK_S + limits.latency_s) + speed * speed / (2.0 * braking_mps2)
-        full = segment.motion.twist
-        direction = math.atan2(full.vy_mps, full.vx_mps)
-        return free_ahead_m(self._profile, scan, direction) - braking_m <= condition.distance_m
-
-    def _end_segment(self, segment: Segment, now_s: float) -> Twist | None:
-        self._last = (segment, self._segment_at_s)
-        self._segment = None
+        if self._ending is None and not must_brake(self._profile, self._sensors.scan, segment, t_s, TICK_S):
+            return segment
+        shorter = segment.stop_early(t_s)
+        if shorter.total_s >= segment.total_s:
+            return segment
         if not self._is_mending:
-            self._reference = segment.end_pose
-            self._walk.ended_at(self._reference)
+            lost_s = segment.ramp.hold_s - shorter.ramp.hold_s
+            self.planned_m -= segment.motion.twist.speed_mps * lost_s
+            self.planned_turn_rad -= segment.motion.twist.wz_radps * lost_s
+        self._course.cut_short(shorter)
+        return shorter
+
+    def _end_segment(self, now_s: float) -> Twist | None:
+        self._course.end(is_planned=not self._is_mending)
+        if not self._is_mending:
+            self._walk.ended_at(self._course.reference)
             self._mends_left = MEND_TRIES
         self._is_mending = False
-        if self._ending is None and self._mend(STEP_TOLERANCE, now_s):
+        if self._ending is None and self._mend(BETWEEN_STEPS, now_s):
             return ZERO_TWIST
         return None
 
@@ -281,47 +246,31 @@ class Executor:
         seen = estimate.is_standing and estimate.stamp_s > self._settle_since_s
         if not seen and waited_s < SETTLE_S:
             return ZERO_TWIST
-        if seen and self._last is not None and self._mend(END_TOLERANCE, now_s):
+        if seen and self._course.has_moved and self._mend(AT_THE_END, now_s):
             self._settle_since_s = None
             return ZERO_TWIST
         return self._end("completed", None)
 
-    def _mend(self, tolerance: tuple[float, float], now_s: float) -> bool:
+    def _mend(self, tolerance: Tolerance, now_s: float) -> bool:
         """Begin a small motion back to the reference if the rest is beyond `tolerance`. True if begun."""
         estimate = self._sensors.estimate
         if estimate is None or not self._sensors.has_odometry or self._mends_left == 0:
             return False
-        rest = self._reference_at(estimate.stamp_s).relative_to(estimate.pose)
-        x = rest.x_m
-        y = rest.y_m if self._profile.can_go_sideways else 0.0
-        yaw = rest.yaw_rad if self._profile.can_turn_on_the_spot else 0.0
-        distance_m = math.hypot(x, y)
-        if distance_m <= tolerance[0] and abs(yaw) <= tolerance[1]:
+        rest = self._course.at(estimate.stamp_s).relative_to(estimate.pose)
+        motion = mend(self._profile, rest, tolerance)
+        if motion is None:
             return False
         self._mends_left -= 1
-        hold_s = max(distance_m / MEND_SPEED_MPS, abs(yaw) / MEND_RATE_RADPS, 0.1)
-        twist = Twist(x / hold_s, y / hold_s, yaw / hold_s)
         self._is_mending = True
-        self._begin_segment(
-            Segment(RampedTwist.within(self._profile.limits, twist, hold_s), estimate.pose), now_s
-        )
+        self._begin_segment(Segment(motion, estimate.pose), now_s)
         return True
-
-    def _reference_at(self, stamp_s: float) -> Pose:
-        """Where the robot should have been at `stamp_s`."""
-        if self._segment is not None and stamp_s >= self._segment_at_s:
-            return self._segment.at(stamp_s - self._segment_at_s)[0]
-        if self._last is not None:
-            segment, at_s = self._last
-            if stamp_s - at_s < segment.total_s:
-                return segment.at(stamp_s - at_s)[0]
-            return self._reference
-        return self._segment.start if self._segment is not None else self._reference
 
     def _tell(self, motion: Emit) -> None:
         estimate = self._sensors.estimate
         if motion.kind == "remember":
-            self._emit(Remembered(self._turn, motion.text, estimate.pose if estimate else self._reference))
+            self._emit(
+                Remembered(self._turn, motion.text, estimate.pose if estimate else self._course.reference)
+            )
         else:
             self._emit(Said(self._turn, motion.text))
 

@@ -1,9 +1,10 @@
-"""How far the lidar sees free floor in a direction of travel."""
+"""How far the lidar sees free floor in a direction of travel, and when it is time to brake for what it sees."""
 
 from __future__ import annotations
 
 import math
 
+from chatrobot.plan.trajectory import Segment
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.messages import LaserScan
 
@@ -32,6 +33,26 @@ def free_ahead_m(profile: RobotProfile, scan: LaserScan, direction_rad: float) -
                 nearest = min(nearest, ahead - front)
         angle += scan.angle_increment_rad
     return nearest
+
+
+def must_brake(
+    profile: RobotProfile, scan: LaserScan | None, segment: Segment, t_s: float, tick_s: float
+) -> bool:
+    """Whether `t_s` into `segment` it is time to brake, so that its condition holds where the robot then stands.
+
+    Braking distance: what is driven until the robot hears of it, and v²/2a. False where there is no condition, or
+    no scan to see it by.
+    """
+    condition = segment.motion.until
+    if condition is None or scan is None:
+        return False
+    speed_mps = segment.at(t_s)[1].speed_mps
+    limits = profile.limits
+    braking_mps2 = min(limits.acceleration_mps2, limits.deceleration_mps2)
+    braking_m = speed_mps * (tick_s + limits.latency_s) + speed_mps * speed_mps / (2.0 * braking_mps2)
+    full = segment.motion.twist
+    direction_rad = math.atan2(full.vy_mps, full.vx_mps)
+    return free_ahead_m(profile, scan, direction_rad) - braking_m <= condition.distance_m
 
 
 def nearest_m(scan: LaserScan) -> float | None:

@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from chatrobot.core.geometry import Twist
+import numpy as np
+
+from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.governor.rule import FREE, Ruling, Situation
 from chatrobot.governor.seen import Seen
@@ -16,8 +18,12 @@ LOOK_AHEAD_S = 0.5
 LOOK_AHEAD_M = 0.2
 """How far before the moving parts of the outline the lidar has to look: this long at their speed, and at least this."""
 
+SHARES = np.linspace(0.2, 1.0, 5)
+"""Of the way there, where it must have looked: what swings out may come by what was never seen."""
+
 OUTWARDS_MPS = 0.02
-"""A side that moves outwards slower than this hardly does: feedback swings the tail a little on any straight way."""
+OUTWARDS_M = 0.03
+"""A side that comes out slower, or less far, needs no look: feedback swings the tail a little on any straight way."""
 
 
 class BlindRule:
@@ -27,7 +33,9 @@ class BlindRule:
 
     def __init__(self, profile: RobotProfile, seen: Seen) -> None:
         self._speed_mps = profile.safety.blind_speed_mps
-        self._outline = _outline(profile.footprint)
+        points, normals = zip(*_outline(profile.footprint))
+        self._x, self._y = np.array(points).T
+        self._out_x, self._out_y = np.array(normals).T
         self._radius_m = profile.footprint_radius_m
         self._silent_s = silent_after_s(profile, "scan")
         self._seen = seen
@@ -38,22 +46,29 @@ class BlindRule:
             return FREE
         # A scan says nothing without the pose it was made at.
         is_fresh = situation.sensed.ages_s.get("scan", math.inf) <= self._silent_s
-        if is_fresh and situation.pose is not None and (self._seen.covers_all or self._is_seen(asked)):
+        if is_fresh and situation.pose is not None and self._is_seen(asked, situation.pose):
             return FREE
         return Ruling(self._speed_mps / fastest_mps, Reason("not_seen", {"speed_mps": self._speed_mps}))
 
-    def _is_seen(self, asked: Twist) -> bool:
-        """Whether the lidar looks at the floor before every corner and every side that moves outwards."""
-        lidar = self._seen.lidar
-        for (x, y), (out_x, out_y) in self._outline:
-            vx, vy = asked.vx_mps - asked.wz_radps * y, asked.vy_mps + asked.wz_radps * x
-            if vx * out_x + vy * out_y <= OUTWARDS_MPS:
-                continue
-            ahead_s = max(LOOK_AHEAD_S, LOOK_AHEAD_M / math.hypot(vx, vy))
-            bearing = math.atan2(y + vy * ahead_s - lidar.y_m, x + vx * ahead_s - lidar.x_m)
-            if not self._seen.covers(bearing):
-                return False
-        return True
+    def _is_seen(self, asked: Twist, pose: Pose) -> bool:
+        """Whether the lidar looks at the floor before every corner and every side that moves outwards.
+
+        Where it leads to it must look now; at what lies before that it may have looked a moment ago.
+        """
+        looks = self._seen.looks
+        if looks.latest is not None and looks.latest.is_all_around:
+            return True
+        vx, vy = asked.vx_mps - asked.wz_radps * self._y, asked.vy_mps + asked.wz_radps * self._x
+        out_mps = vx * self._out_x + vy * self._out_y
+        moves = out_mps > OUTWARDS_MPS
+        ahead_s = np.maximum(LOOK_AHEAD_S, LOOK_AHEAD_M / np.hypot(vx, vy)[moves])
+        in_s = ahead_s[:, None] * SHARES
+        x, y = self._x[moves, None] + vx[moves, None] * in_s, self._y[moves, None] + vy[moves, None] * in_s
+        cos, sin = math.cos(pose.yaw_rad), math.sin(pose.yaw_rad)
+        ways = np.stack([pose.x_m + cos * x - sin * y, pose.y_m + sin * x + cos * y], axis=-1)
+        comes_out = out_mps[moves, None] * in_s > OUTWARDS_M
+        ends, before = ways[:, -1][comes_out[:, -1]], ways[:, :-1][comes_out[:, :-1]]
+        return bool(looks.covers_now(ends).all() and looks.covered_lately(before).all())
 
 
 def _outline(corners: Sequence[Point]) -> list[tuple[Point, Point]]:

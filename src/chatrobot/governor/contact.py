@@ -65,10 +65,8 @@ def seconds_to_contact(
     times = np.linspace(0.0, horizon_s, SAMPLES)
     angle, moved_x, moved_y = _moved(twist, times)
     middle_x, middle_y = moved_x[SAMPLES // 2], moved_y[SAMPLES // 2]
-    # All of the way lies in a disc about its middle; between two samples it is half a step farther off at most.
-    wander_m = (
-        float(np.hypot(moved_x - middle_x, moved_y - middle_y).max()) + 0.5 * twist.speed_mps * times[1]
-    )
+    # All places that are looked at lie in a disc about the middle one.
+    wander_m = float(np.hypot(moved_x - middle_x, moved_y - middle_y).max())
     near = points[np.hypot(points[:, 0] - middle_x, points[:, 1] - middle_y) <= within_m + wander_m]
     if len(near) == 0:
         return math.inf

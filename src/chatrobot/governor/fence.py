@@ -43,7 +43,7 @@ class FenceRule:
         if pose is None:
             return Ruling(0.0, Reason("sensor_silent", {"sensor": "odom"}))
         braking = Braking(self._limits, asked)
-        reach_m = (asked.speed_mps + abs(asked.wz_radps) * self._radius_m) * braking.horizon_s
+        reach_m = asked.speed_mps * braking.horizon_s  # of its middle; however it turns, no corner is farther
         if float(self._clearance(np.array([pose[:2]]))[0]) > self._radius_m + reach_m:
             return FREE
         times = np.linspace(0.0, braking.horizon_s, SAMPLES)

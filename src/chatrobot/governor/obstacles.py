@@ -32,7 +32,7 @@ class ObstacleRule:
 
     def judge(self, asked: Twist, situation: Situation) -> Ruling:
         pose, points = situation.pose, self._seen.points
-        if pose is None or asked.is_zero or len(points) == 0:
+        if pose is None or asked.is_zero:
             return FREE
         braking = Braking(self._limits, asked)
         cos, sin = math.cos(pose.yaw_rad), math.sin(pose.yaw_rad)

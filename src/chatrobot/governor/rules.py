@@ -78,8 +78,6 @@ def compose(rules: Sequence[Rule], asked: Twist, situation: Situation) -> Compos
     composed = UNRULED
     for rule in rules:
         ruling = rule.judge(asked, situation)
-        if ruling.factor >= 1.0:
-            continue
         if not ruling.factor >= 0.0:
             ruling = Ruling(0.0, ruling.reason)
         urgent = min(composed.urgent_factor, ruling.factor) if ruling.urgent else composed.urgent_factor

@@ -6,13 +6,11 @@ import math
 from collections import deque
 
 import numpy as np
-from numpy.typing import NDArray
 
 from chatrobot.core.geometry import Pose
+from chatrobot.governor.looks import Flags, Floats, Look, Looks
 from chatrobot.robots.profile import Lidar
 from chatrobot.wire.messages import LaserScan
-
-Floats = NDArray[np.float64]
 
 SCANS_KEPT = 3
 NEAR_M = 0.15
@@ -35,37 +33,20 @@ class Seen:
         self.lidar = lidar
         self._scans: deque[Floats] = deque(maxlen=SCANS_KEPT)
         self._remembered: Floats = _NOTHING
-        self._first_rad, self._step_rad, self._beams = 0.0, 0.0, 0
+        self.looks = Looks()
 
     @property
     def points(self) -> Floats:
         return np.concatenate([*self._scans, self._remembered])
 
-    @property
-    def covers_all(self) -> bool:
-        """True where beams look all around."""
-        span = abs(self._step_rad) * self._beams
-        return span >= 2.0 * math.pi - 2.0 * abs(self._step_rad) and self._beams > 0
-
-    def covers(self, direction_rad: float) -> bool:
-        """True where a beam looks along that direction of the robot's frame."""
-        if self._beams == 0 or self.covers_all:
-            return self._beams > 0
-        offset = (direction_rad - self.lidar.yaw_rad - self._first_rad) * math.copysign(1.0, self._step_rad)
-        return offset % (2.0 * math.pi) <= abs(self._step_rad) * (self._beams - 1)
-
     def take(self, scan: LaserScan, pose: Pose) -> None:
         """A scan made where the robot stood at `pose` (of `odom`)."""
         ranges = np.asarray(scan.ranges_m, dtype=np.float64)
-        self._first_rad, self._step_rad, self._beams = (
-            scan.angle_min_rad,
-            scan.angle_increment_rad,
-            len(ranges),
-        )
         if not (_makes_sense(scan) and all(map(math.isfinite, pose))):
-            self._beams = 0  # then it has seen nothing
+            self.looks.forget()
             return
         lidar = pose.compose(Pose(self.lidar.x_m, self.lidar.y_m, self.lidar.yaw_rad))
+        self.looks.note(Look(lidar, scan.angle_min_rad, scan.angle_increment_rad, len(ranges)))
         with np.errstate(invalid="ignore"):
             valid = (ranges >= scan.range_min_m) & (ranges <= scan.range_max_m)
             sees = valid | (ranges == math.inf)
@@ -76,7 +57,7 @@ class Seen:
         self._scans.append(points)
         self._remembered = vanished
 
-    def _still_there(self, scan: LaserScan, ranges: Floats, sees: NDArray[np.bool_], lidar: Pose) -> Floats:
+    def _still_there(self, scan: LaserScan, ranges: Floats, sees: Flags, lidar: Pose) -> Floats:
         """Of all points known so far, those that the lidar cannot see now because they are too near."""
         known = self.points
         if len(known) == 0:
@@ -89,11 +70,11 @@ class Seen:
         beam = np.rint((onwards % (2.0 * math.pi)) / abs(scan.angle_increment_rad)).astype(int) % whole
         inside = beam < len(ranges)
         beam = np.where(inside, beam, 0)
-        looked_past = inside & sees[beam] & (ranges[beam] > distance + SEEN_THROUGH_M)
-        replaced = inside & sees[beam] & (np.abs(ranges[beam] - distance) <= SEEN_THROUGH_M)
+        # Seen through, or seen anew in about the same place: then the new return tells.
+        told_anew = inside & sees[beam] & (ranges[beam] >= distance - SEEN_THROUGH_M)
         too_near = distance < scan.range_min_m + NEAR_M
         out_of_view = ~inside & (distance < FORGET_AFTER_M)
-        return np.asarray(known[(too_near | out_of_view) & ~looked_past & ~replaced])
+        return np.asarray(known[(too_near | out_of_view) & ~told_anew])
 
 
 def _makes_sense(scan: LaserScan) -> bool:

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from chatrobot.language.context import Context
 from chatrobot.language.frames import GO, SIDES, TURN, Frame
-from chatrobot.language.quantities import quantity
+from chatrobot.language.inverse import inverse
+from chatrobot.language.tokens import quantity
 from chatrobot.language.unclear import Unclear
-from chatrobot.language.undoing import inverse
 from chatrobot.plan.steps import Drive, Step, Turn
 
 MARK = "corrects"

@@ -6,7 +6,7 @@ import math
 
 from chatrobot.language.frames import DIAGONALS, SIDES, Frame
 from chatrobot.language.manner import Pace
-from chatrobot.language.quantities import quantity
+from chatrobot.language.tokens import quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, RawTwist, Step, Turn
 

@@ -1,118 +1,102 @@
-"""Small sums in words: `if two plus two is four … otherwise …`, which side of a condition holds."""
+"""Several amounts that are one: `2 m minus 50 cm`, `twice as far as 60 cm`, `1 m 20 cm`."""
 
 from __future__ import annotations
 
-import math
-import re
 from collections.abc import Sequence
-from functools import lru_cache
 
-from chatrobot.language.data_files import LANGUAGES, load_table
-from chatrobot.language.numbers import read_number
-from chatrobot.language.tokens import Atom
-from chatrobot.language.unclear import Unclear
+from chatrobot.language.numbers import is_kind
+from chatrobot.language.tokens import Atom, quantity
 
-_CONTENT = ("verb", "dir", "rot", "q", "shape", "place")
+_LESS, _MORE = frozenset({"minus", "less", "take away", "减", "减去"}), frozenset({"plus", "+", "加", "加上"})
 
-
-@lru_cache(maxsize=1)
-def _words() -> dict[str, str]:
-    return {
-        word: name
-        for lang in LANGUAGES
-        for name, listed in load_table(lang, "sums").items()
-        for word in listed
-    }
+_SUMS = ("length", "angle", "time")
 
 
-def settle_condition(atoms: Sequence[Atom]) -> list[Atom]:
-    """The atoms of the branch that holds; unchanged where the condition is no sum."""
-    at = next((i for i, a in enumerate(atoms) if a.kind == "condition" and a.value == "if"), None)
-    if at is None:
-        return list(atoms)
-    left = _sum(atoms, at + 1)
-    if left is None or left[1] >= len(atoms):
-        return list(atoms)
-    relation = _words().get(atoms[left[1]].text, "")
-    end = left[1] + 1
-    while (
-        end < len(atoms) and relation and atoms[end].kind in ("glue",) and not _words().get(atoms[end].text)
-    ):
-        end += 1
-    if relation in ("greater", "less", "equal", "unequal"):
-        while end < len(atoms) and _words().get(atoms[end].text) in (
-            "equal",
-            "than",
-            "greater",
-            "less",
-            "unequal",
-        ):
-            relation = _words()[atoms[end].text] if _words()[atoms[end].text] != "than" else relation
-            end += 1
-    right = _sum(atoms, end) if relation else None
-    if right is None:
-        return list(atoms)
-    holds = {
-        "equal": math.isclose(left[0], right[0]),
-        "unequal": not math.isclose(left[0], right[0]),
-        "greater": left[0] > right[0],
-        "less": left[0] < right[0],
-    }.get(relation)
-    if holds is None:
-        return list(atoms)
-    otherwise = next(
-        (i for i in range(right[1], len(atoms)) if atoms[i].kind == "condition" and atoms[i].value == "else"),
-        None,
-    )
-    head, yes = list(atoms[:at]), list(atoms[right[1] : otherwise])
-    no = [] if otherwise is None else list(atoms[otherwise + 1 :])
-    if not any(a.kind in _CONTENT for a in yes):
-        head, yes = _said_before(head)
-        if holds and any(a.kind == "q" for a in no) and not any(a.kind == "q" for a in yes):
-            raise Unclear("condition", " ".join(a.text for a in atoms[at : right[1]]))  # for both branches?
-    return [*head, *(yes if holds else no)]
-
-
-def _said_before(head: list[Atom]) -> tuple[list[Atom], list[Atom]]:
-    """`turn right if …, else …`: what comes before the sentence of the condition, and the branch before it."""
-    breaks = [i for i, a in enumerate(head) if a.value in ("strong", "then") and a.kind in ("sep", "conn")]
-    start = breaks[-1] + 1 if breaks else 0
-    return head[:start], head[start:]
-
-
-def _sum(atoms: Sequence[Atom], i: int) -> tuple[float, int] | None:
-    """The value of `three times four plus one` and the index after it."""
-    while i < len(atoms) and atoms[i].kind in ("glue", "filler", "sep"):
-        i += 1
-    first = _number(atoms, i)
-    if first is None:
-        return None
-    value, i = first
+def calculated(atoms: list[Atom]) -> list[Atom]:
+    """`2 m minus 50 cm`, `twice as far as 60 cm`: one quantity."""
+    out: list[Atom] = []
+    i = 0
     while i < len(atoms):
-        operator = _words().get(atoms[i].text, "")
-        second = _number(atoms, i + 1) if operator in ("plus", "minus", "times", "over") else None
-        if second is None:
-            return value, i
-        amount, i = second
-        if operator == "over" and amount == 0:
-            return None
-        value = {
-            "plus": value + amount, "minus": value - amount, "times": value * amount,
-            "over": value / amount if amount else value,
-        }[operator]  # fmt: skip
-    return value, i
+        atom = atoms[i]
+        sign = -1.0 if atom.text in _LESS else 1.0 if atom.text in _MORE else 0.0
+        second = atoms[i + 1] if sign and i + 1 < len(atoms) else None
+        first = out[-1] if out else None
+        if first and second and first.kind == second.kind == "q" and first.value == second.value in _SUMS:
+            text = f"{first.text} {atom.text} {second.text}"
+            out[-1] = quantity(first.value, first.number + sign * second.number, text, first.role)
+            i += 2
+            continue
+        if (
+            first
+            and atom.kind == first.kind == "q"
+            and atom.value == first.value in _SUMS
+            and atom.number < 0
+        ):
+            text = f"{first.text} {atom.text}"  # `2 m minus 50 cm`, read as a number below zero
+            out[-1] = quantity(first.value, first.number + atom.number, text, first.role)
+            i += 1
+            continue
+        factor = _factor_before(out) if atom.kind == "q" and atom.value in ("length", "angle") else None
+        if factor is not None:
+            text = f"{out[factor].text} {atom.text}"
+            atom = quantity(atom.value, atom.number * out[factor].number, text, atom.role)
+            del out[factor:]
+        out.append(atom)
+        i += 1
+    return out
 
 
-def _number(atoms: Sequence[Atom], i: int) -> tuple[float, int] | None:
-    if i < len(atoms) and atoms[i].kind == "q" and atoms[i].value == "number":
-        return atoms[i].number, i + 1
-    if (
-        i < len(atoms)
-        and atoms[i].kind == "q"
-        and atoms[i].value == "times"
-        and re.match(r"[\w ]+ (times|x)$", atoms[i].text)
-    ):
-        after = _number(atoms, i + 1)
-        return (atoms[i].number * after[0], after[1]) if after else None
-    number = read_number(atoms, i)
-    return (number.value, number.end) if number else None
+def _factor_before(out: list[Atom]) -> int | None:
+    """Where `twice as far [as]` stands at the end of `out`."""
+    at = len(out) - 1
+    while at > 0 and out[at].kind == "glue" and out[at].text in ("as", "of"):
+        at -= 1
+    said = at >= 0 and at < len(out) - 1 and is_kind(out, at, "q", "scale")
+    return at if said and " as " in out[at].text else None
+
+
+def summed(atoms: list[Atom]) -> list[Atom]:
+    """`1 m 20 cm`, `2 minutes and 30 seconds`: one quantity, if the second is the smaller unit."""
+    out: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        atom = atoms[i]
+        if atom.kind == "q" and out and atom.value in ("length", "time") and "." not in atom.text:
+            joined = is_kind(out, len(out) - 1, "conn", "and")
+            before = out[-2] if joined and len(out) > 1 else out[-1]
+            if before.kind == "q" and before.value == atom.value and _is_part(before, atom):
+                follows = next((a for a in atoms[i + 1 :] if a.kind not in ("glue", "num")), None)
+                apart = follows is not None and follows.kind in ("dir", "verb", "rot", "flag")
+                if not (joined and (_is_a_list(out) or (apart and _has_way(out)))):
+                    del out[-2 if joined else -1 :]
+                    out.append(
+                        quantity(atom.value, before.number + atom.number, f"{before.text} {atom.text}")
+                    )
+                    i += 1
+                    continue
+        out.append(atom)
+        i += 1
+    return out
+
+
+def _is_a_list(atoms: Sequence[Atom]) -> bool:
+    """Whether `sides [of]` stands before the amount that ends `atoms`: `sides 1 m and 50 cm` are two."""
+    before = [a for a in atoms[:-2] if a.kind != "glue"][-1:]
+    return any(
+        a.kind in ("counter", "role") and a.text.endswith(("sides", "edges", "legs")) for a in before
+    ) or any(a.text.endswith(("sides of", "edges of")) for a in before)
+
+
+def _has_way(atoms: Sequence[Atom]) -> bool:
+    """Whether the clause has its direction before the amount: `forward 1 m and 20 cm left` are two."""
+    for atom in reversed(atoms):
+        if atom.kind == "sep" or (atom.kind == "conn" and atom.value == "then"):
+            return False
+        if atom.kind in ("dir", "rot"):
+            return True
+    return False
+
+
+def _is_part(whole: Atom, part: Atom) -> bool:
+    same = whole.text.split()[-1] == part.text.split()[-1]
+    return not same and 0 < part.number < whole.number and part.number < (60 if part.value == "time" else 1.0)

@@ -3,16 +3,30 @@
 from __future__ import annotations
 
 from chatrobot.language.frames import EXTENTS, GO, SIDES, STILL, TURN, Frame
+from chatrobot.language.joining import is_times_only
 from chatrobot.language.unclear import Unclear
 
 _MANNER = frozenset({"speed", "rate", "percent", "fold"})
+
 _LETTERS = frozenset({"letter_l", "letter_u", "letter_z"})
 
 
 def arranged(frames: list[Frame]) -> list[Frame]:
     """The frames that are motions of their own, in order."""
-    frames = _distributed(_without_calls(frames))
-    return _without_announcements(_without_titles(_with_manners(frames)))
+    frames = _distributed(_without_calls(_shared(frames)))
+    frames = _without_announcements(_without_titles(_with_manners(frames)))
+    return _shape_first(_in_said_units(frames))
+
+
+def _in_said_units(frames: list[Frame]) -> list[Frame]:
+    """`In centimetres: forward 50, …`: it holds for all of them."""
+    said = {flag for frame in frames for flag in frame.flags & {"units_said", "units_cm"}}
+    if "units_said" not in said:
+        return frames
+    frames = [frame for frame in frames if frame.moves or frame.has_extent]
+    for frame in frames:
+        frame.flags |= said
+    return frames
 
 
 def _distributed(frames: list[Frame]) -> list[Frame]:
@@ -131,3 +145,45 @@ def _is_sum(frame: Frame, rest: list[Frame], name: str) -> bool:
         return False  # `three feet forward, one back, two left`: a motion of its own
     manners = all(f.rot or f.direction or f.pace or _MANNER & set(f.q) for f in parts)
     return manners and abs(sum(f.q[name].number for f in parts) - frame.q[name].number) < 1e-9
+
+
+def _shared(frames: list[Frame]) -> list[Frame]:
+    """`…, both forward`, 都往左转: a clause that holds for all the others."""
+    kept: list[Frame] = []
+    for frame in frames:
+        if (
+            "all" not in frame.flags
+            or frame.q
+            or not (frame.direction or frame.rot or frame.pace)
+            or frame.shape
+        ):
+            kept.append(frame)
+            continue
+        for other in kept:
+            if other.verb in STILL or is_times_only(other) or other.flags & {"between", "after_each"}:
+                continue
+            if not (other.direction or other.rot):
+                other.direction, other.rot = frame.direction, frame.rot
+                if frame.verb and not other.verb:
+                    other.verb = frame.verb
+            other.pace = other.pace or frame.pace
+    return kept
+
+
+def _shape_first(frames: list[Frame]) -> list[Frame]:
+    """`2 m by 1 m rectangle`: measures said before the name of the shape belong to it."""
+    out: list[Frame] = []
+    for frame in frames:
+        at = len(out)
+        while frame.shape and frame.joined in ("none", "weak", "and") and at and _is_measure(out[at - 1]):
+            at -= 1
+        out.insert(at, frame)
+    return out
+
+
+def _is_measure(frame: Frame) -> bool:
+    bare = not frame.moves or (
+        frame.verb in ("go", "") and not (frame.direction or frame.shape or frame.place)
+    )
+    lone_rotation = bool(frame.rot) and not (frame.verb or frame.q or frame.direction or frame.shape)
+    return (bare and "length" in frame.q and "time" not in frame.q) or lone_rotation

@@ -1,19 +1,16 @@
-"""Atoms → frames, one a motion.
-
-Cut where a slot is filled twice, joined across commas where nothing contradicts.
-"""
+"""Atoms → frames, one a motion: cut where a slot is filled twice, joined across commas by `joining`."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from chatrobot.language.frames import EXTENTS, GO, SIDES, SLOTTED, STILL, TURN, Frame, merged
+from chatrobot.language.frames import EXTENTS, SLOTTED, TURN, Frame
+from chatrobot.language.joining import joined_frame
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 
 _STRENGTH = {"start": 0, "and": 1, "weak": 2, "colon": 3, "strong": 4, "then": 5}
-MANNER = frozenset({"speed", "rate", "percent", "fold", "faster"})
 
 
 @dataclass
@@ -153,158 +150,9 @@ def _join(frames: list[Frame], segment: Segment) -> None:
     first = segment.frames[0]
     last = frames[-1] if frames else None
     if last is not None:
-        both = _joined(last, first, segment.joined)
+        both = joined_frame(last, first, segment.joined)
         if both is not None:
             frames[-1] = both
             frames.extend(segment.frames[1:])
             return
     frames.extend(segment.frames)
-
-
-def _joined(last: Frame, first: Frame, joined: str) -> Frame | None:
-    if "trip" in last.flags and "each" in first.flags and not first.verb:
-        return None
-    if last.verb == "return" and joined == "and" and "length" in first.q and not first.verb:
-        return None  # `come back, and a metre to the right`: another motion
-    trip = "trip" in (*first.flags, *first.roles) and not first.has_extent
-    if trip and (last.verb == "return" or (last.direction and last.has_extent)):
-        return None
-    if joined == "then" or {"between", "halfway", "at_point", "after_each", "all"} & first.flags:
-        return None
-    if "again" in first.flags or is_times_only(first) or is_times_only(last):
-        return None
-    if "all" in last.flags or ("again" in last.flags and not last.has_extent):
-        return None
-    if (
-        {"between", "after_each"} & last.flags
-        and not first.moves
-        and first.has_extent
-        and last.moves
-        and last.has_extent
-    ):
-        return None
-    if "number" in first.q and (last.has_extent or "number" in last.q) and not (last.shape or first.shape):
-        return None
-    if "number" in last.q and last.direction in SIDES and set(first.q) == {"length"} and not first.moves:
-        return None  # `left 45, 1 m`: a turn, then a drive
-    if "while" in first.flags and last.verb in GO and first.verb in TURN and not last.has_extent:
-        last = last.copy()
-        last.flags.add("while")
-    together = "speed" in last.q and "rate" in first.q and not last.has_extent
-    if together and joined in ("and", "weak") and last.verb in (*GO, "") and first.verb in (*TURN, ""):
-        last = last.copy()
-        last.flags.add("while")
-    if _says_how(last, first):
-        how = last.copy()
-        how.flags |= first.flags | {"sideways"}
-        how.texts += first.texts
-        return how
-    if _names_the_side(last, first):
-        first = first.copy()
-        first.verb = last.verb
-    both = merged(last, first)
-    if both is None:
-        return None
-    if joined in ("strong", "colon"):
-        return both if _completes(last, first) else None
-    return both if _belongs(last, first) else None
-
-
-def _names_the_side(last: Frame, first: Frame) -> bool:
-    """打转两圈，往左转: the side of the turn before, which has none."""
-    turns = last.verb in TURN and first.verb in TURN and last.has_extent and not first.q
-    return turns and first.sided and not last.sided and not first.flags
-
-
-def _says_how(last: Frame, first: Frame) -> bool:
-    """`half a metre to the right, sliding`: the manner of what stands before it."""
-    bare = not (first.q or first.direction or first.rot or first.shape or first.place)
-    sideways = last.direction not in ("", "forward", "back") and "length" in last.q
-    return bare and first.verb == "slide" and first.text.endswith("ing") and sideways
-
-
-def is_times_only(frame: Frame) -> bool:
-    """`four times`, and nothing that moves."""
-    bare = frame.verb in ("", "make", "go", "turn", "shift", "slide")
-    way = frame.direction or frame.rot or frame.shape or frame.place or "trip" in (*frame.flags, *frame.roles)
-    counted = "times" in frame.q or ("count" in frame.q and frame.q["count"].role == "move")
-    return counted and bare and not way and not frame.has_extent
-
-
-def _is_fragment(frame: Frame) -> bool:
-    return not frame.verb and not frame.shape and not frame.place
-
-
-def _completes(last: Frame, first: Frame) -> bool:
-    """Across a full stop only what `last` lacks may be added: `turn right. ninety degrees.`"""
-    if last.shape and not first.direction and not first.verb:
-        return True
-    if not _is_fragment(first):
-        return not last.moves and not last.has_extent
-    if set(first.q) <= MANNER and not first.direction and not first.rot:
-        return True
-    lacks_way = not (last.direction or last.rot)
-    return not (first.has_extent and last.has_extent) and (not (first.direction or first.rot) or lacks_way)
-
-
-def _belongs(last: Frame, first: Frame) -> bool:
-    """Across a comma or an `and`."""
-    if "count" in last.q and "length" in first.q and "each" not in first.flags and not last.shape:
-        return False
-    if last.shape and _is_laps(first):
-        return True
-    if last.shape or first.shape:
-        return not (last.shape and first.verb in (*GO, *TURN, *STILL, "return") and first.has_extent)
-    if first.joined == "and" and last.verb in STILL and first.moves:
-        return False
-    if last.verb in STILL and last.has_extent and not (set(first.q) <= MANNER and not first.moves):
-        return False
-    if last.is_arc and first.verb == "turn" and "angle" not in last.q and not (first.direction or first.rot):
-        return True
-    if last.is_arc or first.is_arc:
-        return not (
-            last.has_extent and first.verb and "until" not in first.flags and first.has_extent and last.verb
-        )
-    if not first.moves:
-        return not (set(first.q) & set(EXTENTS) and last.has_extent and not _adds_time(last, first))
-    if not last.moves:
-        return True
-    if first.verb == last.verb and first.q and set(first.q) <= MANNER and not (first.direction or first.rot):
-        return True
-    if first.verb and last.q and set(last.q) <= MANNER and not (last.direction or last.rot):
-        return True
-    if _names_the_side(last, first):
-        return True
-    if first.verb and last.verb:
-        return (
-            not last.has_extent
-            and (not first.direction or first.direction == last.direction)
-            and (last.verb != "turn" or first.verb == "turn")
-        )
-    if (first.direction or first.rot) and not first.has_extent and not first.verb:
-        return _direction_follows(last, first)
-    if first.direction and first.has_extent:
-        return not last.has_extent and last.direction in ("", first.direction)
-    return True
-
-
-def _is_laps(frame: Frame) -> bool:
-    """…的圆，走两圈: how often the shape is gone round."""
-    bare = not (frame.direction or frame.rot or frame.shape) and frame.verb in ("", "make", *GO)
-    return set(frame.q) == {"turns"} and bare
-
-
-def _adds_time(last: Frame, first: Frame) -> bool:
-    return set(first.q) & set(EXTENTS) == {"time"} and "time" not in last.q
-
-
-def _direction_follows(last: Frame, first: Frame) -> bool:
-    """A direction after a comma belongs to what stands before it, if that has none.
-
-    `rotate 90 degrees, left`.
-    """
-    if last.direction or last.rot:
-        return first.direction == last.direction or "diagonal" in first.flags
-    if last.verb in GO and first.direction in SIDES and "length" in last.q and first.joined == "weak":
-        return len(first.text.split()) > 1 or bool(first.flags) or last.verb != "go"
-    return True

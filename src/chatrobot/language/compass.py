@@ -8,8 +8,7 @@ from collections.abc import Sequence
 from functools import cache
 
 from chatrobot.language.data_files import load_table
-from chatrobot.language.quantities import quantity
-from chatrobot.language.tokens import Atom
+from chatrobot.language.tokens import Atom, quantity
 
 HEADINGS = {
     "north": math.pi / 2, "east": 0.0, "south": -math.pi / 2, "west": math.pi,

@@ -11,8 +11,7 @@ from collections.abc import Sequence
 from chatrobot.language.amends import MARK
 from chatrobot.language.frames import EXTENTS, Frame
 from chatrobot.language.numbers import is_chinese
-from chatrobot.language.quantities import quantity
-from chatrobot.language.tokens import Atom
+from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
 
 _NO = frozenset({"no", "nope", "不", "wait", "sorry", "oops", "whoops", "等等", "no no", "rather"})

@@ -7,8 +7,7 @@ from collections.abc import Mapping, Sequence
 from functools import lru_cache
 
 from chatrobot.language.data_files import LANGUAGES, load_table
-from chatrobot.language.quantities import quantity
-from chatrobot.language.tokens import Atom
+from chatrobot.language.tokens import Atom, quantity
 from chatrobot.plan.steps import Drive, Plan
 
 _IS = frozenset(

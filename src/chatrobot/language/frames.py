@@ -2,19 +2,33 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, replace
 
 from chatrobot.language.tokens import Atom
 
 GO = frozenset({"go", "shift", "slide"})
+
 TURN = frozenset({"turn", "spin"})
+
 STILL = frozenset({"wait", "halt"})
+
 EXTENTS = ("length", "angle", "time", "turns", "clock")
+
 SIDES = ("left", "right")
+
 DIAGONALS = {
     ("forward", "left"): "forward_left", ("forward", "right"): "forward_right",
     ("back", "left"): "back_left", ("back", "right"): "back_right",
 }  # fmt: skip
+
+DIRECTIONS = {
+    "forward": 0.0, "left": math.pi / 2, "back": math.pi, "right": -math.pi / 2,
+    "forward_left": math.pi / 4, "forward_right": -math.pi / 4,
+    "back_left": 3 * math.pi / 4, "back_right": -3 * math.pi / 4,
+}  # fmt: skip
+"""Where each lies from the robot's front, radians, counter-clockwise."""
+
 SLOTTED = frozenset({"verb", "dir", "rot", "q", "pace", "flag", "role", "shape", "place", "defined"})
 """Kinds of atoms that a frame has a slot for. Every other kind must have been dealt with before."""
 
@@ -98,13 +112,13 @@ class Frame:
 
     def _put(self, atom: Atom) -> bool:
         if atom.kind == "verb":
-            return self._put_verb(atom.value)
+            return self.put_verb(atom.value)
         if atom.kind == "dir":
-            return self._put_direction(atom.value)
+            return self.put_direction(atom.value)
         if atom.kind == "rot":
-            return self._put_rotation(atom.value)
+            return self.put_rotation(atom.value)
         if atom.kind == "q":
-            return self._put_quantity(atom)
+            return self.put_quantity(atom)
         if atom.kind == "pace":
             if self.pace and self.pace != atom.value and {self.pace, atom.value} == {"slow", "fast"}:
                 return False
@@ -128,69 +142,59 @@ class Frame:
             self.verb = "defined"
         return True
 
-    def _put_verb(self, verb: str) -> bool:
+    def put_verb(self, verb: str) -> bool:
+        """What it does. False where that begins a motion of its own."""
         old = self.verb
         if self.place and verb in ("go", "return", "shift"):
             return True
-        rotating = {"angle", "turns"} & set(self.q)
-        if (
-            verb in STILL
-            and old not in STILL
-            and (old in GO or self.direction or self.rot or rotating or "length" in self.q)
-        ):
+        if verb in STILL and old not in STILL and (old in GO or self._says_a_motion()):
             return False
-        if (
-            old == verb
-            and verb in ("go", "turn", "shift", "slide", "wait", "halt", "face", "make", "curve")
-            and (not self.has_extent)
-        ):
+        same = ("go", "turn", "shift", "slide", "wait", "halt", "face", "make", "curve")
+        if old == verb and verb in same and not self.has_extent:
             return True
-        if (
-            not old
-            or old == "make"
-            or (old in ("go", "shift") and not self.has_extent and not self.direction)
-        ):
-            if verb in TURN and "length" in self.q and not self.is_arc:
-                return False
-            if (
-                verb in GO
-                and ("angle" in self.q or "turns" in self.q)
-                and not self.is_arc
-                and not self._heading()
-            ):
-                return False
-            if verb in (*GO, *STILL, "return", "face", "uturn") and self.rot and not self.is_arc:
-                return False
-            if verb in ("wait", "return", "uturn") and ((self.direction and not old) or "length" in self.q):
-                return verb == "uturn" and self.direction in SIDES and self._set_verb(verb)
-            if verb in TURN and self.direction in ("forward", "back") and not self.is_arc:
-                return False
-            return self._set_verb(verb if verb != "make" or not old else old)
-        if verb == "face" and old in ("return", "turn", "spin") and not self.has_extent:
+        bare_go = old in ("go", "shift") and not self.has_extent and not self.direction
+        return (
+            self._put_first_verb(verb) if not old or old == "make" or bare_go else self._put_next_verb(verb)
+        )
+
+    def _says_a_motion(self) -> bool:
+        return bool(self.direction or self.rot or {"angle", "turns", "length"} & set(self.q))
+
+    def _put_first_verb(self, verb: str) -> bool:
+        """A verb where none that means anything by itself stands yet: it must fit the other slots."""
+        arc, rotates = self.is_arc, "angle" in self.q or "turns" in self.q
+        if verb in TURN and not arc and ("length" in self.q or self.direction in ("forward", "back")):
+            return False
+        if verb in GO and rotates and not arc and not self._heading():
+            return False
+        if verb in (*GO, *STILL, "return", "face", "uturn") and self.rot and not arc:
+            return False
+        if verb in ("wait", "return", "uturn") and ((self.direction and not self.verb) or "length" in self.q):
+            return verb == "uturn" and self.direction in SIDES and self._set_verb(verb)
+        return self._set_verb(verb if verb != "make" or not self.verb else self.verb)
+
+    def _put_next_verb(self, verb: str) -> bool:
+        """A verb beside another one: `go and face`, `turn in a curve`; else it begins a motion of its own."""
+        old, extent = self.verb, self.has_extent
+        if verb == "face" and old in ("return", "turn", "spin") and not extent:
             return self._set_verb(verb)
         if verb == "make":
-            return not self.has_extent
-        if old in TURN and verb in ("curve", *TURN) and (not self.has_extent or set(self.q) == {"angle"}):
+            return not extent
+        if old in TURN and verb in ("curve", *TURN) and (not extent or set(self.q) == {"angle"}):
             return self._set_verb("curve" if verb == "curve" else old)
-        if (
-            old == "curve"
-            and verb in ("turn", "go")
-            and not (verb == "go" and "angle" in self.q and "length" in self.q)
-        ):
+        if old == "curve" and (verb == "turn" or (verb == "go" and not {"angle", "length"} <= set(self.q))):
             return True
         if (self.is_arc or "while" in self.flags) and {old, verb} <= {*GO, *TURN}:
             return self._set_verb("curve")
-        if old in STILL and verb in STILL and not self.has_extent:
+        if old in STILL and verb in STILL and not extent:
             return self._set_verb("wait")
-        if {old, verb} <= GO and not self.has_extent:
+        if {old, verb} <= GO and not extent:
             return self._set_verb(verb if old != "slide" else old)
-        if old in GO and verb == "curve" and not self.has_extent:
+        if old in GO and verb == "curve" and not extent:
             return self._set_verb("curve")
-        if old in ("go", "turn") and verb == "face" and not self.has_extent and not self.direction:
+        if old in ("go", "turn") and verb == "face" and not extent and not self.direction:
             return self._set_verb("face")
-        if old == "face" and verb in ("go", "turn") and verb == "turn":
-            return self._set_verb("face")
-        return False
+        return old == "face" and verb == "turn" and self._set_verb("face")
 
     def _set_verb(self, verb: str) -> bool:
         self.verb = verb
@@ -199,7 +203,8 @@ class Frame:
     def _heading(self) -> bool:
         return self.direction in DIAGONALS.values() or bool({"diagonal", "bearing"} & self.flags)
 
-    def _put_direction(self, new: str) -> bool:
+    def put_direction(self, new: str) -> bool:
+        """Which way it goes. False where it goes another way already."""
         old = self.direction
         if self.verb in ("wait", "halt", "return", "remember", "undo"):
             return False
@@ -232,7 +237,8 @@ class Frame:
         self.direction = new
         return True
 
-    def _put_rotation(self, rot: str) -> bool:
+    def put_rotation(self, rot: str) -> bool:
+        """Which way round it turns. False where it does not turn."""
         if self.rot and self.rot != rot:
             return False
         if self.verb in (*STILL, "return") or ("length" in self.q and not self.shape and not self.is_arc):
@@ -242,7 +248,8 @@ class Frame:
         self.rot = rot
         return True
 
-    def _put_quantity(self, atom: Atom) -> bool:
+    def put_quantity(self, atom: Atom) -> bool:
+        """An amount. False where one of its kind is there, or it does not fit what is done."""
         name = atom.value
         if name == "turns" and self.shape:
             name = "times"
@@ -266,32 +273,3 @@ class Frame:
             return False
         self.q[name] = atom
         return True
-
-
-def merged(first: Frame, second: Frame) -> Frame | None:
-    """Both frames in one, or None where a slot of `second` contradicts `first`."""
-    both = first.copy()
-    both.flags |= second.flags
-    both.roles += second.roles
-    arc = both.is_arc and second.verb == "turn" and not both.verb
-    if second.verb and second.verb != both.verb and not arc and not both._put_verb(second.verb):
-        return None
-    for quantity in second.q.values():
-        if not both._put_quantity(quantity):
-            return None
-    for direction in (second.direction, second.direction2):
-        if direction and not both._put_direction(direction):
-            return None
-    if second.rot and not both._put_rotation(second.rot):
-        return None
-    if second.shape and both.shape and both.shape != second.shape:
-        return None
-    if {both.pace, second.pace} == {"fast", "max"}:
-        both.pace = second.pace = "max"  # 快跑一米，用全速
-    if second.pace and both.pace and second.pace != both.pace:
-        return None
-    both.shape = both.shape or second.shape
-    both.place = both.place or second.place
-    both.pace = both.pace or second.pace
-    both.texts += second.texts
-    return both

@@ -10,8 +10,7 @@ from functools import lru_cache
 
 from chatrobot.language.data_files import load_table
 from chatrobot.language.numbers import is_chinese
-from chatrobot.language.quantities import quantity
-from chatrobot.language.tokens import Atom
+from chatrobot.language.tokens import Atom, quantity
 
 _AMOUNTS = frozenset({"length", "angle", "turns", "time"})
 _ENDS = frozenset({"sep", "conn", "filler", "q"})

@@ -11,8 +11,11 @@ from chatrobot.language.lexicon import Key, Lexicon, Meaning, cut
 from chatrobot.language.typos import correct
 
 _DIGITS = frozenset("零一二两三四五六七八九十半")
+
 _MEASURED = frozenset("长宽高")
+
 _WORD, _GUESS, _UNKNOWN = 1.0, 2.2, 6.0
+
 _HEARD, _NAMED = 0.8, -0.1
 
 
@@ -27,6 +30,11 @@ class Atom(NamedTuple):
     text: str = ""
     number: float = 0.0
     role: str = ""
+
+
+def quantity(dimension: str, value: float, text: str, role: str = "") -> Atom:
+    """An atom that is a quantity in SI units."""
+    return Atom("q", dimension, text, value, role)
 
 
 def tokenise(text: str, words: Lexicon, names: dict[Key, Meaning], *, by_ear: bool = False) -> list[Atom]:

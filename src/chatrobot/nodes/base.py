@@ -37,7 +37,8 @@ from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.authoring import Authoring
 from chatrobot.session.model_choice import warm_up
 from chatrobot.session.model_terms import ModelOptions
-from chatrobot.session.session import Options, Session
+from chatrobot.session.options import Options
+from chatrobot.session.session import Session
 from chatrobot.session.thinking import Interpreter, Mind
 from chatrobot.session.topic_joint import TopicJoint
 from chatrobot.session.topics import CHATGPT_NODE, EVENTS, OPERATOR, REPLY, STOP, USER_INPUT

@@ -134,7 +134,7 @@ class ControlNode:
         from chatrobot.nodes.citizen import Diagnosis
 
         motion = self._runner.motion
-        barred = motion.latched or motion.obstruction
+        barred = motion.latched or motion.clearance.obstruction
         values: dict[str, object] = {
             "moving": motion.is_busy,
             **{f"{name}_age_s": round(age_s, 2) for name, age_s in motion.sensors.ages_s().items()},

@@ -49,6 +49,7 @@ def _phrases(*groups: tuple[str, ...]) -> dict[str, set[Phrase]]:
 
 
 _STOP = _phrases(words_en.STOP, words_zh.STOP, words_en.EMERGENCY, words_zh.EMERGENCY)
+"""An emergency stop is a stop, too."""
 _EMERGENCY = _phrases(words_en.EMERGENCY, words_zh.EMERGENCY)
 _RELEASE = _phrases(words_en.RELEASE, words_zh.RELEASE)
 _FILLER = _phrases(words_en.FILLER, words_zh.FILLER)
@@ -170,9 +171,8 @@ def is_emergency_stop(text: str) -> bool:
     units = _units(text)
     if not units:
         return False
-    both = {word: _EMERGENCY.get(word, set()) | _STOP.get(word, set()) for word in {**_EMERGENCY, **_STOP}}
     has = any(_matches(units, i, _EMERGENCY) for i in range(len(units)))
-    return has and _consists(units, both)
+    return has and _consists(units, _STOP)
 
 
 def is_release(text: str) -> bool:

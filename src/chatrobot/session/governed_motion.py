@@ -7,11 +7,9 @@ from dataclasses import dataclass
 from chatrobot.core.events import Finished, Limited, Outcome
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
-from chatrobot.execution.sensors import Sensors
-from chatrobot.governor.governor import Governor, Verdict
-from chatrobot.governor.rule import Sensed
+from chatrobot.governor.governor import Verdict
+from chatrobot.session.governed_robot import GovernedRobot
 from chatrobot.session.job import Job
-from chatrobot.transports.transport import Transport
 
 WORTH_TELLING_MPS = 0.02
 WORTH_TELLING_RADPS = 0.05
@@ -39,11 +37,6 @@ class Stopwatch:
             self._pending_s += elapsed_s
 
 
-def sensed_by(sensors: Sensors) -> Sensed:
-    """What the governor's rules want to know of the sensors."""
-    return Sensed(sensors.ages_s(), sensors.battery_percent)
-
-
 def is_cut_short(verdict: Verdict) -> bool:
     """More than a trifle of what was asked is not allowed."""
     lost = abs(verdict.asked.speed_mps - verdict.allowed.speed_mps)
@@ -59,21 +52,17 @@ def is_worth_telling(verdict: Verdict) -> bool:
 class GovernedMotion:
     """The motion of `job`: what it asks for goes through the governor; how far and how long it went is kept."""
 
-    def __init__(
-        self, job: Job, sensors: Sensors, governor: Governor, transport: Transport, now_s: float
-    ) -> None:
+    def __init__(self, job: Job, robot: GovernedRobot, now_s: float) -> None:
         self._job = job
-        self._sensors = sensors
-        self._governor = governor
-        self._transport = transport
+        self._robot = robot
+        self._sensors = sensors = robot.sensors
         self._stopwatch = Stopwatch(now_s)
         self._start_path_m = sensors.estimate.path_m if sensors.estimate is not None else 0.0
 
     def send(self, asked: Twist, now_s: float) -> Verdict:
-        """Send what the governor allows of `asked`, to a robot that is by now where odometry saw it going."""
-        pose, sensed = self._sensors.pose_now(), sensed_by(self._sensors)
-        verdict = self._governor.govern(asked, self._job.lease, now_s, pose, sensed)
-        self._transport.send(verdict.sent)
+        """Send what the governor allows of `asked`."""
+        verdict = self._robot.govern(asked, self._job.lease, now_s)
+        self._robot.send(verdict)
         self._stopwatch.count(verdict.sent.twist.is_zero, now_s)
         return verdict
 

@@ -7,11 +7,8 @@ for `chatrobot stop`; and a watch for others who drive the same robot. The carri
 
 from __future__ import annotations
 
-import contextlib
 import gc
-import os
 import queue
-import socket
 import sys
 import threading
 import time
@@ -29,23 +26,23 @@ from chatrobot.governor.priority import RELEASERS
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
 from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import load_profile
+from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.envelope import Envelope
 from chatrobot.session.guard_link import GuardProcess
-from chatrobot.session.link import PatientWire, is_up, reach
+from chatrobot.session.link import PatientWire, reach
+from chatrobot.session.lookout import Lookout
 from chatrobot.session.motion import Motion
 from chatrobot.session.planner import Planner
 from chatrobot.session.program_host import ProgramHost
 from chatrobot.session.rivals import BEAT_S, Rivals
+from chatrobot.session.stop_socket import remove_stop_socket, serve_stop
 from chatrobot.session.topics import STOP, USER_INPUT
 from chatrobot.sim.load import load_world
 from chatrobot.wire.connect import Connect, Knowing, clock_of, connect_wire, is_on_this_machine, resolved
 from chatrobot.wire.messages import Flag, Text
-from chatrobot.wire.runtime_dir import stop_socket_path
 from chatrobot.wire.wire import Wire
 
 GUARD_S = 20.0
-LOOK_EVERY = 5
-"""Who else is on the wire is looked up with every fifth beat: it costs a millisecond."""
 SWITCH_INTERVAL_S = 0.0005
 """How long a thread may keep the interpreter: the reader must get in between the lines of a rehearsal."""
 
@@ -84,19 +81,9 @@ class MotionRunner:
     ) -> None:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         prefer(MOTION)
-        given = load_profile(profile)
-        known_world = load_world(world)
-        self.wire, wiring, said = reach(connect, address, given.wiring, node)
-        self.profile = replace(given, wiring=wiring)
-        if not on_robot and drives_on_alone(given) and not is_on_this_machine(address):
-            self.profile = slowed(self.profile)
-            said = [*said, Reason("drives_on_alone", {"speed_mps": self.profile.limits.max_speed_mps})]
+        given, known_world = load_profile(profile), load_world(world)
+        self.wire, self.profile, said = _meet(connect, address, given, node, on_robot=on_robot)
         self._emit = emit
-        self._accept_others = accept_others
-        self._was_up = True
-        self._seen: list[str] = []
-        self._named: list[str] = []
-        self._motions: list[str] = []
         self._wake = threading.Event()
         self._plans: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self.programs = ProgramHost(self.profile, is_in_step=False)
@@ -112,9 +99,16 @@ class MotionRunner:
             releasers,
             self.programs,
         )
+        self._rivals = Rivals(self.wire, node, self.profile.wiring.cmd_vel_topic)
+        self._lookout = Lookout(
+            self.wire, self._rivals, self.motion, self.notice, accept_others=accept_others
+        )
+        self._open(said)
+
+    def _open(self, said: list[Reason]) -> None:
+        """Begin to listen, once the guard is there; what a person should know of the robot is told first."""
         if isinstance(self.wire, PatientWire):  # a robot that nobody reaches holds what it heard last
             self.wire.on_gone = lambda: self.motion.halt(Reason("wire_gone"))
-        self._rivals = Rivals(self.wire, node, self.profile.wiring.cmd_vel_topic)
         if not self._guard.wait_until_alive(GUARD_S):
             raise WireError("the guard did not start")
         self.motion.start(self.wire)
@@ -122,14 +116,14 @@ class MotionRunner:
         self.wire.subscribe(STOP, Flag, self._hear_stop)
         for reason in said:
             self.notice(reason)
-        self._look_around()
+        self._lookout.look_around()
         if isinstance(self.wire, Knowing):  # whoever else drives is named before anything moves
             time.sleep(BEAT_S)
-            self._look_around()
+            self._lookout.look_around()
 
     def run(self, has_left: Callable[[], bool], each_tick: Callable[[], None]) -> None:
         """The control loop, until `has_left`; then the guard is told goodbye."""
-        for target in (self._plan, self._listen_for_stop, self._watch):
+        for target in (self._plan, self._serve_stop, self._lookout.watch):
             threading.Thread(target=target, daemon=True).start()
         _settle_memory()
         next_s = time.monotonic()
@@ -145,8 +139,7 @@ class MotionRunner:
             self.wire.close()
         finally:
             self.programs.close()
-            with contextlib.suppress(OSError):
-                stop_socket_path(os.getpid()).unlink()
+            remove_stop_socket()
 
     # --- from any thread ---
 
@@ -197,62 +190,20 @@ class MotionRunner:
         if message.data:
             self.halt(STOP, "")
 
-    def _listen_for_stop(self) -> None:
-        """Serve `chatrobot stop`: any packet on this socket stops, and is answered when the zero is out."""
-        path = stop_socket_path(os.getpid())
-        with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as listener:
-            with contextlib.suppress(FileNotFoundError):
-                path.unlink()
-            listener.bind(str(path))
-            listener.listen(4)
-            while True:
-                caller, _ = listener.accept()
-                with caller:
-                    self.halt("chatrobot stop", "")
-                    with contextlib.suppress(OSError):
-                        caller.send(b"moving" if self.motion.is_busy else b"standing")
+    def _serve_stop(self) -> None:
+        serve_stop(lambda: self.halt("chatrobot stop", ""), lambda: self.motion.is_busy)
 
-    def _watch(self) -> None:
-        """Say that we are here, and see who else is."""
-        count = 0
-        while True:
-            with contextlib.suppress(WireError):  # gone: the control loop will see it, too
-                self._mind_link()
-                self._rivals.beat()
-                if count % LOOK_EVERY == 0:
-                    self._look_around()
-            count += 1
-            time.sleep(BEAT_S)
 
-    def _look_around(self) -> None:
-        motions = self._rivals.motions()
-        others = sorted({*motions, *self._rivals.others()})
-        is_settled, self._seen = others == self._seen, others  # a name from discovery alone soon gets better
-        if is_settled and others != self._named:
-            reason = Reason("not_alone", {"who": ", ".join(others)}) if others else Reason("alone_again")
-            self._named = others
-            self.notice(reason)
-        self.motion.zeroing.others = ", ".join(others)
-        self._motions = motions
-        self.motion.obstruction = self._obstruction(motions)
-
-    def _mind_link(self) -> None:
-        """Wi-Fi is gone, or back: say so, and see the robot stand, which may have held its last command meanwhile."""
-        is_there = is_up(self.wire)
-        if is_there == self._was_up:
-            return
-        self._was_up = is_there
-        self.motion.obstruction = self._obstruction(self._motions)
-        self.notice(Reason("wire_back" if is_there else "wire_gone"))
-        if is_there:
-            self.motion.post(self.motion.see_it_stand)
-
-    def _obstruction(self, motions: list[str]) -> Reason | None:
-        if not is_up(self.wire):
-            return Reason("wire_gone")
-        if motions and not self._accept_others:
-            return Reason("another_motion", {"who": ", ".join(motions)})
-        return None
+def _meet(
+    connect: Connect, address: str, given: RobotProfile, node: str, *, on_robot: bool
+) -> tuple[Wire, RobotProfile, list[Reason]]:
+    """The robot's wire, its profile as the wire shows it, and what a person should know of the differences."""
+    wire, wiring, said = reach(connect, address, given.wiring, node)
+    profile = replace(given, wiring=wiring)
+    if not on_robot and drives_on_alone(given) and not is_on_this_machine(address):
+        profile = slowed(profile)
+        said = [*said, Reason("drives_on_alone", {"speed_mps": profile.limits.max_speed_mps})]
+    return wire, profile, said
 
 
 def _settle_memory() -> None:

@@ -12,17 +12,15 @@ from typing import Protocol
 from chatrobot.core.events import Event, Finished, Outcome, ProgramLog, Progress
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.reason import Reason
-from chatrobot.execution.sensors import Sensors
-from chatrobot.governor.governor import Governor, Verdict
+from chatrobot.governor.governor import Verdict
 from chatrobot.governor.lease import TERM_S
 from chatrobot.programs.events import Died, Ended, Log, Output, ProgramEvent, Raised, TwistAsked
 from chatrobot.programs.held_twist import HeldTwist
 from chatrobot.programs.raised import raised_reason
-from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.governed_motion import GovernedMotion, is_worth_telling
+from chatrobot.session.governed_robot import GovernedRobot
 from chatrobot.session.program_job import ProgramJob
 from chatrobot.session.soft_zero import softened
-from chatrobot.transports.transport import Transport
 
 SETTLE_S = 1.0
 """A robot that is told to stand is waited for no longer than this."""
@@ -51,10 +49,7 @@ class ProgramRun:
         self,
         job: ProgramJob,
         program: LiveProgram,
-        profile: RobotProfile,
-        sensors: Sensors,
-        governor: Governor,
-        transport: Transport,
+        robot: GovernedRobot,
         emit: Callable[[Event], None],
         now_s: float,
     ) -> None:
@@ -63,14 +58,14 @@ class ProgramRun:
         self.outcome: Outcome = "completed"
         self.reason: Reason | None = None
         self._program = program
-        self._sensors = sensors
+        self._sensors = robot.sensors
         self._emit = emit
-        self._motion = GovernedMotion(job, sensors, governor, transport, now_s)
+        self._motion = GovernedMotion(job, robot, now_s)
         self._began_s = self._now_s = now_s
         self._heard_s = now_s + STARTING_S - TERM_S
         self._sent = ZERO_TWIST
-        self._limits = profile.limits
-        self._held = HeldTwist(profile.wiring.base_timeout_s)
+        self._limits = robot.profile.limits
+        self._held = HeldTwist(robot.profile.wiring.base_timeout_s)
         self._ended_s: float | None = None
         self._logged = 0
         self._told: set[tuple[str, Twist]] = set()

@@ -13,11 +13,8 @@ from chatrobot.core.clock import Clock
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import RELAY_TOPIC
-from chatrobot.execution.sensors import Sensors
-from chatrobot.governor.governor import Governor
 from chatrobot.governor.lease import TERM_S
-from chatrobot.session.governed_motion import sensed_by
-from chatrobot.transports.transport import Transport
+from chatrobot.session.governed_robot import GovernedRobot
 from chatrobot.wire.messages import TwistMessage
 
 _LEASE = "relay"
@@ -35,16 +32,12 @@ class Relay:
     def __init__(
         self,
         clock: Clock,
-        governor: Governor,
-        transport: Transport,
-        sensors: Sensors,
+        robot: GovernedRobot,
         on_end: Callable[[], None],
         tell: Callable[[Reason], None],
     ) -> None:
         self._clock = clock
-        self._governor = governor
-        self._transport = transport
-        self._sensors = sensors
+        self._robot = robot
         self._on_end = on_end
         self._tell = tell
         self._heard = (_NEVER, Twist())
@@ -73,24 +66,23 @@ class Relay:
             self._drive(twist, at_s, now_s)
 
     def _begin(self, now_s: float) -> None:
-        self._governor.leases.open(_LEASE, RELAY_TOPIC, TERM_S, now_s)
-        refusal = self._governor.begin(_LEASE, now_s, sensed_by(self._sensors)).refusal
+        self._robot.governor.leases.open(_LEASE, RELAY_TOPIC, TERM_S, now_s)
+        refusal = self._robot.begin(_LEASE, now_s)
         if refusal is not None:
             self._has_to_let_go = True
             self._tell(refusal)
         self.is_driving = refusal is None
 
     def _drive(self, twist: Twist, at_s: float, now_s: float) -> None:
-        self._governor.leases.beat(_LEASE, at_s)
-        sensed = sensed_by(self._sensors)
-        verdict = self._governor.govern(twist, _LEASE, now_s, self._sensors.pose_now(), sensed)
+        self._robot.governor.leases.beat(_LEASE, at_s)
+        verdict = self._robot.govern(twist, _LEASE, now_s)
         if verdict.action == "refused":
             self._has_to_let_go = True
             self._end()
         else:
-            self._transport.send(verdict.sent)
+            self._robot.send(verdict)
 
     def _end(self) -> None:
         self.is_driving = False
-        self._governor.end(_LEASE)
+        self._robot.governor.end(_LEASE)
         self._on_end()

@@ -7,80 +7,73 @@ from collections.abc import Callable
 from chatrobot.core.events import Event, Finished, Outcome, Progress
 from chatrobot.core.reason import Reason
 from chatrobot.execution.executor import Executor
-from chatrobot.execution.sensors import Sensors
-from chatrobot.governor.governor import Governor, Verdict
-from chatrobot.robots.profile import RobotProfile
+from chatrobot.governor.governor import Verdict
 from chatrobot.session.governed_motion import GovernedMotion, is_worth_telling
+from chatrobot.session.governed_robot import GovernedRobot
 from chatrobot.session.job import Job
-from chatrobot.transports.transport import Transport
 
 
 class Run:
-    """Drives the plan of `job`, which has been rehearsed. `tick` until `executor.is_done`, or until it is stopped."""
+    """Drives the plan of `job`, which has been rehearsed. `tick` until `is_done`, or until it is stopped."""
 
-    def __init__(
-        self,
-        job: Job,
-        profile: RobotProfile,
-        sensors: Sensors,
-        governor: Governor,
-        transport: Transport,
-        emit: Callable[[Event], None],
-        now_s: float,
-    ) -> None:
+    def __init__(self, job: Job, robot: GovernedRobot, emit: Callable[[Event], None], now_s: float) -> None:
         assert job.planned is not None
         self.job = job
         self._emit = emit
-        self._motion = GovernedMotion(job, sensors, governor, transport, now_s)
+        self._motion = GovernedMotion(job, robot, now_s)
         self._told: set[tuple[int, str]] = set()
-        self.executor = Executor(profile, sensors, emit)
-        self.executor.start(job.turn, job.walk(), job.planned.duration_s, now_s)
+        self._executor = Executor(robot.profile, robot.sensors, emit)
+        self._executor.start(job.turn, job.walk(), job.planned.duration_s, now_s)
 
     def tick(self, now_s: float) -> None:
         """One period: what the executor asks, as far as the governor allows it."""
-        asked = self.executor.tick(now_s)
-        if self.executor.is_done:
+        asked = self._executor.tick(now_s)
+        if self._executor.is_done:
             return
         verdict = self._motion.send(asked, now_s)
-        self.executor.note(verdict.rule, verdict.reason, verdict.sent.twist, now_s)
+        self._executor.note(verdict.rule, verdict.reason, verdict.sent.twist, now_s)
         self._tell(verdict)
 
     @property
     def is_done(self) -> bool:
-        return self.executor.is_done
+        return self._executor.is_done
 
     @property
     def outcome(self) -> Outcome:
-        return self.executor.outcome
+        return self._executor.outcome
 
     @property
     def reason(self) -> Reason | None:
-        return self.executor.reason
+        return self._executor.reason
+
+    def expect(self, duration_s: float) -> None:
+        """The plan has become longer: so long in all."""
+        self._executor.expect(duration_s)
 
     def ramp_down(self, why: Reason) -> None:
         """A controlled stop."""
-        self.executor.ramp_down(why)
+        self._executor.ramp_down(why)
 
     def close(self) -> None:
         """Nothing is left behind."""
 
     def progress(self, now_s: float) -> Progress:
-        return self.executor.progress(self.job.turn, now_s)
+        return self._executor.progress(self.job.turn, now_s)
 
     def finished(self, outcome: Outcome, reason: Reason | None) -> Finished:
         """The end, as odometry measured it."""
         return self._motion.finished(
             outcome,
             reason,
-            planned_m=self.executor.planned_m,
-            planned_turn_rad=self.executor.planned_turn_rad,
-            steps_done=self.executor.steps_done,
-            steps=self.executor.steps,
+            planned_m=self._executor.planned_m,
+            planned_turn_rad=self._executor.planned_turn_rad,
+            steps_done=self._executor.steps_done,
+            steps=self._executor.steps,
         )
 
     def _tell(self, verdict: Verdict) -> None:
         """Say once a step and rule that something was limited."""
-        key = (self.executor.step, verdict.rule)
+        key = (self._executor.step, verdict.rule)
         if is_worth_telling(verdict) and key not in self._told:
             self._told.add(key)
             self._emit(self._motion.limited(verdict))

@@ -5,16 +5,11 @@
 
 from __future__ import annotations
 
-import threading
-import time
-from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 from chatrobot.core.errors import JointError, PlanTextError
-from chatrobot.core.events import Event, Finished, Interpreted, Notice, Outcome, Remembered, Result, Telemetry
-from chatrobot.core.reason import Reason
+from chatrobot.core.events import Event, Finished, Interpreted, Remembered, Result, Telemetry
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
@@ -23,42 +18,12 @@ from chatrobot.session.draft import Draft
 from chatrobot.session.joint import Joint
 from chatrobot.session.model_terms import Ended
 from chatrobot.session.observations import measured
+from chatrobot.session.options import Options
 from chatrobot.session.program_turns import Hooks, ProgramTurns
-from chatrobot.session.thinking import Interpreter, Mind, Thinking
+from chatrobot.session.said import Kind, Said, SaidTexts
+from chatrobot.session.thinking import Mind, Thinking
+from chatrobot.session.turn_book import TurnBook
 from chatrobot.session.understanding import Understanding
-
-QUEUE_LIMIT = 10
-"""Texts that may wait while the robot moves; one more is refused rather than done in an hour."""
-
-
-@dataclass(frozen=True)
-class Options:
-    """How a session behaves.
-
-    `while_moving` decides what a new instruction does to a running one: `queue` (pipes, programs) or `replace`
-    (a person at the keyboard). `approve` asks for a yes before each plan; `rehearse_only` moves nothing. Of programs,
-    `ask_findings` asks where rehearsal found something, `ask_new` before each that was written just now.
-    `interpreter`: who understands; with `auto` a model is asked what is not understood without it.
-    """
-
-    while_moving: Literal["queue", "replace"] = "queue"
-    approve: bool = False
-    rehearse_only: bool = False
-    ask_findings: bool = True
-    ask_new: bool = False
-    interpreter: Interpreter = "auto"
-
-
-_Kind = Literal["text", "plan", "program", "draft", "stop", "emergency_stop", "too_many"]
-_WAITING: tuple[_Kind, ...] = ("text", "plan", "program", "draft")
-
-
-@dataclass(frozen=True)
-class _Said:
-    turn: int
-    text: str
-    kind: _Kind = "text"
-    at_s: float = 0.0
 
 
 class Session:
@@ -81,21 +46,23 @@ class Session:
     ) -> None:
         self._joint = joint
         self.understanding = understanding
-        self._on_event = on_event
+        self._emit = on_event
         self._options = options
-        self._texts: deque[_Said] = deque()
-        self._in_flight: dict[int, tuple[str, Interpretation]] = {}
-        self._turns = 0
-        self._void_turn = 0
-        self._lock = threading.Lock()
-        self.results: dict[int, Result] = {}
+        self._said = SaidTexts()
+        self._book = TurnBook(understanding, on_event)
         self._thinking = Thinking(
-            mind, options.interpreter, joint, understanding, self._emit, self._conclude_model_turn
+            mind, options.interpreter, joint, understanding, on_event, self._conclude_model_turn
         )
-        self._asked: dict[int, Draft | str] = {}
         self.authoring = authoring
-        hooks = Hooks(self._emit, self._conclude, self._track, self._send_program, self._is_void_turn)
+        hooks = Hooks(
+            on_event, self._book.conclude, self._book.track, self._send_program, self._said.is_void_turn
+        )
         self._programs = ProgramTurns(authoring, understanding, hooks) if authoring is not None else None
+
+    @property
+    def results(self) -> dict[int, Result]:
+        """How each turn ended, by its number."""
+        return self._book.results
 
     # --- from any thread ---
 
@@ -103,7 +70,7 @@ class Session:
         """Take in what a person said; the number of its turn. A stop is out before this returns."""
         if is_emergency_stop(text):
             self.emergency_stop(text.strip()[:80])
-            kind: _Kind = "emergency_stop"
+            kind: Kind = "emergency_stop"
         elif leads_with_stop(text) if self.is_moving else is_stop(text):
             self.stop(text.strip()[:80])
             kind = "stop"
@@ -128,31 +95,26 @@ class Session:
         assert self.authoring is not None
         return self.say_draft(self.authoring.edited(name, source))
 
-    def _take_in(self, text: str, kind: _Kind, program: Draft | str = "") -> int:
-        with self._lock:
-            self._turns += 1
-            turn = self._turns
-            if program:
-                self._asked[turn] = program
-            if kind in _WAITING and self._count_waiting() >= QUEUE_LIMIT and self.is_moving:
-                kind = "too_many"
-            self._texts.append(_Said(turn, text, kind, time.monotonic()))
+    def _take_in(self, text: str, kind: Kind, about: Draft | str = "") -> int:
+        turn = self._said.add(text, kind, about, is_moving=self.is_moving)
         self._joint.wake()
         return turn
 
     def stop(self, why: str = "") -> None:
         """Stop the robot and drop what was said before this moment."""
-        self._void_turn = self._turns  # no lock: a stop waits for nothing
-        self._joint.send("stop", self._void_turn, why=why)
-        self._thinking.cancel()
-        if self.authoring is not None:
-            self.authoring.cancel()
+        self._joint.send("stop", self._said.void(), why=why)
+        self._cancel_asking()
 
     def emergency_stop(self, why: str = "") -> None:
         """Stop the robot and keep it stopped until `release`."""
-        self._void_turn = self._turns
-        self._joint.send("emergency_stop", self._void_turn, why=why)
+        self._joint.send("emergency_stop", self._said.void(), why=why)
+        self._cancel_asking()
+
+    def _cancel_asking(self) -> None:
+        """End what models are being asked."""
         self._thinking.cancel()
+        if self.authoring is not None:
+            self.authoring.cancel()
 
     def release(self) -> None:
         """Release an emergency stop. For the local console alone."""
@@ -165,11 +127,11 @@ class Session:
     @property
     def is_moving(self) -> bool:
         """True while a plan of ours runs, or is on its way to."""
-        return bool(self._in_flight) or self._thinking.is_moving
+        return self._book.is_any_with_motion or self._thinking.is_moving
 
     @property
     def is_idle(self) -> bool:
-        return not self._in_flight and not self._texts and not self._thinking.is_busy
+        return not self._book.is_any_with_motion and not self._said.waiting and not self._thinking.is_busy
 
     # --- the pumping thread ---
 
@@ -188,11 +150,11 @@ class Session:
         """
         self._thinking.pump()
         self._take_texts()
-        if self._thinking.is_calling and self._joint.is_simulated and not self._in_flight:
+        if self._thinking.is_calling and self._joint.is_simulated and not self._book.is_any_with_motion:
             self._thinking.wait(timeout_s)  # a model thinks in no time at all
             self._thinking.pump()
             timeout_s = 0.0
-        event = self._joint.next_event(0.0 if self._next_text() is not None else timeout_s)
+        event = self._joint.next_event(0.0 if self._next_said() is not None else timeout_s)
         while event is not None:
             self._hear(event)
             event = self._joint.next_event(0.0)
@@ -205,21 +167,21 @@ class Session:
         """Goodbye: what runs is still done."""
         self._joint.close()
 
-    def _count_waiting(self) -> int:
-        return sum(said.kind in _WAITING and not self._is_void(said) for said in self._texts)
+    # --- what was said ---
 
-    def _next_text(self) -> _Said | None:
+    def _next_said(self) -> Said | None:
         """The one to take now: the first, unless it has to wait for what runs or is thought about."""
-        for said in tuple(self._texts):
-            if said.kind not in _WAITING or self._is_void(said) or self._options.while_moving == "replace":
+        for said in self._said.waiting:
+            waits = said.is_instruction and not self._said.is_void(said)
+            if not waits or self._options.while_moving == "replace":
                 return said
-            if self._in_flight:
+            if self._book.is_any_with_motion:
                 return None
             if not self._thinking.is_busy or self._overtakes(said):
                 return said
         return None
 
-    def _overtakes(self, said: _Said) -> bool:
+    def _overtakes(self, said: Said) -> bool:
         """It needs no model, and the one that is being asked says nothing."""
         if not self._thinking.may_be_overtaken(said.at_s):
             return False
@@ -227,47 +189,36 @@ class Session:
             said.text, self.understanding.interpret(said.text)
         )
 
-    def _is_void(self, said: _Said) -> bool:
-        """A stop came after it was said."""
-        return said.turn <= self._void_turn and said.kind in _WAITING
-
-    def _refuse_overflow(self) -> None:
-        """Who said one too many hears so now, not when the ten before it are done."""
-        with self._lock:
-            refused = [said for said in self._texts if said.kind == "too_many"]
-            for said in refused:
-                self._texts.remove(said)
-        for said in refused:
-            self._conclude(said.turn, "refused", self.understanding.say("queue_full", said.text))
-
     def _take_texts(self) -> None:
-        self._refuse_overflow()
-        while (said := self._next_text()) is not None:
-            with self._lock:
-                self._texts.remove(said)
-            if self._is_void(said):
-                self._conclude(said.turn, "stopped", self.understanding.say("dropped_by_stop", said.text))
-            elif said.kind == "text":
-                self._understand(said)
-            elif said.kind == "plan":
-                self._read_plan(said)
-            elif said.kind in ("program", "draft"):
-                self._begin_program(said)
-            else:
-                code = "stopped_now" if said.kind == "stop" else "emergency_stopped"
-                self._emit(Interpreted(said.turn, "reflex", "", ""))
-                self._conclude(said.turn, "stopped", self.understanding.say(code, said.text))
+        for said in self._said.take_too_many():
+            # Who said one too many hears so now, not when the ten before it are done.
+            self._book.conclude(said.turn, "refused", self.understanding.say("queue_full", said.text))
+        while (said_now := self._next_said()) is not None:
+            self._take(self._said.take(said_now))
 
-    def _begin_program(self, said: _Said) -> None:
-        asked = self._asked.pop(said.turn, "")
-        if self._programs is None:
-            self._conclude(said.turn, "refused", self.understanding.say("no_programs_here", said.text))
-        elif isinstance(asked, Draft):
-            self._programs.run(said.turn, said.text, asked)
+    def _take(self, said: Said) -> None:
+        if self._said.is_void(said):
+            self._book.conclude(said.turn, "stopped", self.understanding.say("dropped_by_stop", said.text))
+        elif said.kind == "text":
+            self._understand(said)
+        elif said.kind == "plan":
+            self._read_plan(said)
+        elif said.kind in ("program", "draft"):
+            self._begin_program(said)
         else:
-            self._programs.begin(said.turn, said.text, is_asked_for=True, name=asked)
+            code = "stopped_now" if said.kind == "stop" else "emergency_stopped"
+            self._emit(Interpreted(said.turn, "reflex", "", ""))
+            self._book.conclude(said.turn, "stopped", self.understanding.say(code, said.text))
 
-    def _understand(self, said: _Said) -> None:
+    def _begin_program(self, said: Said) -> None:
+        if self._programs is None:
+            self._book.conclude(said.turn, "refused", self.understanding.say("no_programs_here", said.text))
+        elif isinstance(said.about, Draft):
+            self._programs.run(said.turn, said.text, said.about)
+        else:
+            self._programs.begin(said.turn, said.text, is_asked_for=True, name=said.about)
+
+    def _understand(self, said: Said) -> None:
         if self._programs is not None and self._programs.begin(said.turn, said.text):
             return
         meant = self.understanding.interpret(said.text)
@@ -278,21 +229,20 @@ class Session:
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         interpreted = Interpreted(said.turn, "offline", plan_text, meant.reply)
         if meant.outcome == "plan":
-            self._send_plan(
-                said, meant, plan_text
-            )  # before it is told: telling takes longer than the way to Motion
+            # Before it is told: telling takes longer than the way to Motion.
+            self._send_plan(said, meant, plan_text)
             self._emit(interpreted)
             return
         self._emit(interpreted)
         if meant.outcome == "stop":
             self.stop(said.text[:80])
-            self._conclude(said.turn, "stopped", meant.reply)
+            self._book.conclude(said.turn, "stopped", meant.reply)
         else:
             self.understanding.note_unmoved(said.text, meant)
             self._thinking.note(said.text, "", f"{meant.outcome}: {meant.reply}")
-            self._conclude(said.turn, meant.outcome, meant.reply)
+            self._book.conclude(said.turn, meant.outcome, meant.reply)
 
-    def _ask_model(self, said: _Said, meant: Interpretation) -> None:
+    def _ask_model(self, said: Said, meant: Interpretation) -> None:
         options = self._options
         if options.while_moving == "replace":
             self._thinking.replace()
@@ -304,19 +254,19 @@ class Session:
             approve=options.approve,
             rehearse_only=options.rehearse_only,
         )
-        if self._is_void_turn(said.turn):
+        if self._said.is_void_turn(said.turn):
             self._thinking.cancel()  # a stop came while it was being understood
 
     def _conclude_model_turn(self, turn: int, text: str, ended: Ended) -> None:
         reply = self.understanding.note_model_turn(text, ended, self._options.rehearse_only)
-        self._conclude(turn, ended.outcome, reply, ended.finished, ended.reason)
+        self._book.conclude(turn, ended.outcome, reply, ended.finished, ended.reason)
 
-    def _read_plan(self, said: _Said) -> None:
+    def _read_plan(self, said: Said) -> None:
         try:
             plan = parse_plan(said.text)
         except PlanTextError as error:
             self._emit(Interpreted(said.turn, "offline", "", ""))
-            self._conclude(
+            self._book.conclude(
                 said.turn, "unclear", self.understanding.say("plan_text", said.text, problem=str(error))
             )
             return
@@ -325,11 +275,11 @@ class Session:
         self._emit(Interpreted(said.turn, "offline", plan_text, ""))
         self._send_plan(said, meant, plan_text)
 
-    def _send_plan(self, said: _Said, meant: Interpretation, plan_text: str) -> None:
+    def _send_plan(self, said: Said, meant: Interpretation, plan_text: str) -> None:
         mode = "append" if meant.append else self._options.while_moving
         if mode == "replace":
             self._thinking.replace()
-        self._in_flight[said.turn] = (said.text, meant)
+        self._book.track(said.turn, said.text, meant)
         self._joint.send(
             "plan",
             said.turn,
@@ -338,12 +288,6 @@ class Session:
             approve=self._options.approve,
             rehearse_only=self._options.rehearse_only,
         )
-
-    def _track(self, turn: int, text: str, meant: Interpretation) -> None:
-        self._in_flight[turn] = (text, meant)
-
-    def _is_void_turn(self, turn: int) -> bool:
-        return turn <= self._void_turn
 
     def _send_program(self, turn: int, payload: dict[str, Any]) -> None:
         options = self._options
@@ -368,43 +312,18 @@ class Session:
         if self._programs is not None and self._programs.hear(event):
             return  # the next version of a program is on its way
         self._thinking.hear(event)
-        if isinstance(event, Finished) and event.turn in self._in_flight:
-            text, meant = self._in_flight.pop(event.turn)
-            reply = self.understanding.note_finished(text, meant, event, self._options.rehearse_only)
-            if self._programs is not None:
-                reply = self._programs.ending(event.turn, reply)
-            plan_text = format_plan(meant.plan) if meant.plan is not None else ""
-            self._thinking.note(text, plan_text, f"{event.outcome}: {measured(event)}")
-            self._conclude(event.turn, event.outcome, reply, event)
+        if isinstance(event, Finished):
+            self._finish(event)
 
-    def _conclude(
-        self,
-        turn: int,
-        outcome: Outcome,
-        reply: str,
-        finished: Finished | None = None,
-        reason: Reason | None = None,
-    ) -> None:
-        self._in_flight.pop(turn, None)
-        pose = self.understanding.pose
-        unkept = self.understanding.places.take_unkept()
-        if unkept:
-            self._emit(Notice(turn, Reason("places_not_kept", {"why": unkept})))
-        result = Result(turn, outcome, reply, pose, reason=reason)
-        if finished is not None:
-            result = Result(
-                turn,
-                outcome,
-                reply,
-                finished.pose,
-                finished.turned_rad,
-                finished.path_m,
-                finished.duration_s,
-                finished.paused_s,
-                reason or finished.reason,
-            )
-        self.results[turn] = result
-        self._emit(result)
-
-    def _emit(self, event: Event) -> None:
-        self._on_event(event)
+    def _finish(self, event: Finished) -> None:
+        """Motion is done with a turn."""
+        instruction = self._book.take(event.turn)
+        if instruction is None:
+            return
+        text, meant = instruction
+        reply = self.understanding.note_finished(text, meant, event, self._options.rehearse_only)
+        if self._programs is not None:
+            reply = self._programs.ending(event.turn, reply)
+        plan_text = format_plan(meant.plan) if meant.plan is not None else ""
+        self._thinking.note(text, plan_text, f"{event.outcome}: {measured(event)}")
+        self._book.conclude(event.turn, event.outcome, reply, event)

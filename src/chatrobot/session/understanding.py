@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 from chatrobot.core.events import Finished, Outcome, Remembered, Telemetry
 from chatrobot.core.geometry import ZERO_TWIST, Pose
 from chatrobot.language.context import Context, Dialogue, RobotState, TurnRecord
-from chatrobot.language.interpretation import Interpretation, LanguageCode, OfflineInterpreter
+from chatrobot.language.interpretation import Interpretation, LanguageCode
+from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.language.normalise import has_chinese
 from chatrobot.language.phrases import describe_steps, say
 from chatrobot.plan.steps import Plan, Step

@@ -66,7 +66,14 @@ class Chat:
             multiline=Condition(lambda: self._is_editing),
             bottom_toolbar=self._strip,
             style=Style.from_dict(STYLES),
-            key_bindings=chat_keys(interrupt=self._interrupt, leave=talk.leave, suspend=self._suspend),
+            key_bindings=chat_keys(
+                interrupt=self._interrupt,
+                leave=talk.leave,
+                suspend=self._suspend,
+                paste=self._pasted,
+                is_editing=lambda: self._is_editing,
+            ),
+            prompt_continuation="  ",
             erase_when_done=True,
         )
         buffer = self._prompt.default_buffer
@@ -150,6 +157,11 @@ class Chat:
         else:
             self._talk.enter(buffer.text)
         return False
+
+    def _pasted(self, text: str) -> None:
+        """A whole line that says stop is acted on before it is sent, as if it had been typed."""
+        if not self._is_editing:
+            self._talk.stop_for_paste(text[: text.rfind("\n") + 1])
 
     def _begin_editing(self, plan_text: str) -> None:
         self._is_editing = True

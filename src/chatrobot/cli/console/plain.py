@@ -8,12 +8,13 @@ import select
 import shutil
 import signal
 import sys
-from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
 from rich.console import Console, RenderableType
 
 from chatrobot.cli.console.talk import Talk
+from chatrobot.cli.lines import PASTE_S
+from chatrobot.reflex import is_stop
 
 LEAST_WIDTH = 40
 _SIGNALS = (signal.SIGINT, signal.SIGTSTP, signal.SIGHUP, signal.SIGTERM)
@@ -33,6 +34,8 @@ class Plain:
         os.set_blocking(self._wake_write, False)
         self._rest = b""
         self._plan_lines: list[str] | None = None
+        self._pasted: list[str] = []
+        self._is_at_prompt = False
         self._console = Console(
             file=sys.stdout, no_color=True, force_terminal=False, highlight=False, markup=False, emoji=False,
             width=max(LEAST_WIDTH, self.width),
@@ -65,6 +68,9 @@ class Plain:
         return shutil.get_terminal_size().columns
 
     def print(self, *lines: RenderableType) -> None:
+        if self._is_at_prompt:
+            self._is_at_prompt = False
+            sys.stdout.write("\r")  # what is printed begins with blanks, or a mark of its own
         self._console.print(*lines, sep="\n")
 
     def refresh(self) -> None:
@@ -82,18 +88,23 @@ class Plain:
             os.write(self._wake_write, b"\0")
 
     def _show_prompt(self) -> None:
-        sys.stdout.write("> ")
-        sys.stdout.flush()
+        if not self._is_at_prompt:
+            self._is_at_prompt = True
+            sys.stdout.write("> ")
+            sys.stdout.flush()
 
     # --- waiting for lines and signals ---
 
     def _wait(self) -> None:
-        ready, _, _ = select.select([sys.stdin.fileno(), self._wake_read], [], [])
+        timeout_s = PASTE_S if self._pasted else None
+        ready, _, _ = select.select([sys.stdin.fileno(), self._wake_read], [], [], timeout_s)
         if self._wake_read in ready:
             for number in os.read(self._wake_read, 64):
                 self._on_signal(number)
         elif ready:
             self._read()
+        else:
+            self._hand_on()
 
     def _read(self) -> None:
         try:
@@ -102,19 +113,32 @@ class Plain:
             self._leave_at_once()
             return
         if not data:
+            self._hand_on()
             self._talk.leave()
             return
-        for line in self._lines(data):
-            self._take(line)
-
-    def _lines(self, data: bytes) -> Iterator[str]:
+        self._is_at_prompt = False
         *lines, self._rest = (self._rest + data).split(b"\n")
-        for line in deque(lines):
-            yield line.decode("utf-8", "replace")
+        for line in lines:
+            self._take(line.decode("utf-8", "replace"))
+        if len(self._pasted) == 1 and not self._may_go_on():
+            self._hand_on()
+
+    def _may_go_on(self) -> bool:
+        """What one types is done at once; a terminal hands pasted lines on one by one, and all are there by then."""
+        return self._pasted[0].rstrip().endswith((":", "：")) or bool(
+            select.select([sys.stdin], [], [], 0.0)[0]
+        )
+
+    def _hand_on(self) -> None:
+        lines, self._pasted = self._pasted, []
+        if lines:
+            self._talk.enter("\n".join(lines))
 
     def _take(self, line: str) -> None:
         if self._plan_lines is None:
-            self._talk.enter(line)
+            self._pasted.append(line)
+            if is_stop(line) and not line.lstrip().startswith("/"):
+                self._hand_on()
         elif line.strip():
             self._plan_lines.append(line)
         else:
@@ -124,6 +148,7 @@ class Plain:
     def _on_signal(self, number: int) -> None:
         if number == signal.SIGINT:
             self._plan_lines = None
+            self._pasted.clear()
             self._talk.interrupt()
         elif number == signal.SIGTSTP:
             self._talk.stop("Ctrl-Z")

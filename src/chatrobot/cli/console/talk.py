@@ -6,26 +6,36 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
-from typing import Protocol
+from collections.abc import Callable, Sequence
 
 from rich.console import RenderableType
 from rich.text import Text
 
 from chatrobot.cli.console.clean import LONGEST_CHARS, clean
+from chatrobot.cli.console.face import Face
 from chatrobot.cli.console.lines import indented, marked
 from chatrobot.cli.console.maps import way_map
 from chatrobot.cli.console.narrator import Narrator
+from chatrobot.cli.console.pasted import (
+    MOST_TEXTS,
+    Pasted,
+    cut_at_stop,
+    ends_a_paste,
+    goes_on_after,
+    is_plan,
+    quoted,
+)
 from chatrobot.cli.console.pump import Pump
 from chatrobot.cli.console.ride import Ride
 from chatrobot.cli.console.strip import Strip
 from chatrobot.cli.console.words import Words
+from chatrobot.cli.lines import texts_in
 from chatrobot.compose import Connection
 from chatrobot.core.clock import Clock
 from chatrobot.core.errors import JointError
 from chatrobot.core.events import Event, Finished, Interpreted, Rehearsed, Result, Started, Telemetry
 from chatrobot.programs.check import MAX_SOURCE_CHARS
-from chatrobot.reflex import is_emergency_stop
+from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
 
 TWICE_S = 1.5
 """Two Ctrl-C within this time leave."""
@@ -35,34 +45,6 @@ ECHO_CHARS = 600
 YES = frozenset({"y", "yes", "ok", "okay", "do it", "go", "好", "好的", "是", "可以", "行", "执行"})
 NO = frozenset({"n", "no", "nope", "不", "不要", "否", "取消", "算了"})
 EDIT = frozenset({"e", "edit", "修改", "改"})
-
-
-class Face(Protocol):
-    """A screen. All of it may be called from any thread."""
-
-    @property
-    def echoes(self) -> bool:
-        """What was typed stays to be seen without our help."""
-        ...
-
-    @property
-    def width(self) -> int:
-        """Columns."""
-        ...
-
-    def print(self, *lines: RenderableType) -> None: ...
-
-    def refresh(self) -> None:
-        """Something that the strip shows has changed."""
-        ...
-
-    def edit(self, plan_text: str) -> None:
-        """Let the person change a plan; it comes back through `Talk.take_edited`."""
-        ...
-
-    def leave(self, code: int) -> None:
-        """End the conversation; `code` is the exit code."""
-        ...
 
 
 class Talk:
@@ -88,23 +70,70 @@ class Talk:
         self.latched = False
         self._clock = clock
         self._asked: Rehearsed | None = None
+        self._pasted = Pasted()
         self._muted: set[int] = set()
         self._leaving = False
         self._interrupted_s = float("-inf")
+        self._said_stopped = False
         self._order = threading.Lock()  # a line is printed before what it brings about
 
     # --- what a person does ---
 
     def enter(self, raw: str) -> None:
-        """A line was sent. A stop in it has gone out before this returns."""
-        text = clean(raw).strip()
+        """A line was sent, or several that came at once. A stop in it has gone out before this returns."""
+        self._said_stopped = False
+        cleaned = clean(raw)
+        texts = texts_in(cleaned)
         if len(raw) > LONGEST_CHARS:  # it may have been cut: never do a part of it
+            self.stop_for_paste(cleaned)
             self.tell("line_too_long", limit=LONGEST_CHARS)
-        elif text.startswith("/"):
+        elif len(texts) == 1:
+            self._enter_one(texts[0])
+        elif is_plan(cleaned):
+            self._say_plan(cleaned.strip(), cleaned.strip())
+        elif texts:
+            self._enter_all(texts)
+
+    def stop_for_paste(self, lines: str) -> None:
+        """Stop the robot where one of these lines, pasted and not sent yet, says so."""
+        _, stop, _ = cut_at_stop(texts_in(lines), self._is_stop)
+        if stop:
+            self.stop(stop)
+
+    def _enter_one(self, text: str) -> None:
+        if text.startswith("/"):
             self._echo(text)
             self._run_command(self, text)
-        elif text and not self._answer(text):
+        elif not self._answer(text):
             self._say(text)
+
+    def _enter_all(self, texts: Sequence[str]) -> None:
+        """What stands before a stop is not done; what follows it, or all, is done one after the other."""
+        undone, stop, texts = cut_at_stop(texts, self._is_stop)
+        if stop:
+            self._enter_one(stop)
+            self._tell_undone(undone)
+        if len(texts) > MOST_TEXTS:
+            self.tell("paste_too_many", count=len(texts), limit=MOST_TEXTS)
+            return
+        with self._order:
+            undone = self._pasted.drop()
+            self._pasted.keep(texts)
+        self._tell_undone(undone)
+        self._say_next()
+
+    def _say_next(self) -> None:
+        """The next of what was pasted. A command takes no turn: what is behind it follows at once."""
+        with self._order:
+            text = self._pasted.next()
+            while text is not None and text.startswith("/") and text != "/undo":
+                undone = self._pasted.drop() if ends_a_paste(text) else ()
+                self._echo(text, anew=True)
+                self._tell_undone(undone)
+                self._run_command(self, text)
+                text = self._pasted.next()
+            if text is not None:
+                self._say_in_order(text if text != "/undo" else self.words.say("undo_words"), is_pasted=True)
 
     def take_edited(self, edited: str) -> None:
         """The plan or the program that `Face.edit` was asked for."""
@@ -112,13 +141,19 @@ class Talk:
         text = edited.rstrip() if program is not None else clean(edited).strip()
         if len(edited) > (LONGEST_CHARS if program is None else MAX_SOURCE_CHARS):
             self.tell("line_too_long", limit=LONGEST_CHARS)
-        elif text:
+        elif text and program is None:
+            self._say_plan(text, self.words.say("edited"))
+        elif text and program is not None:
             with self._order:
-                if program is not None:
-                    self.attempt(lambda: self.session.say_source(program.program, f"{text}\n"))
-                else:
-                    self.attempt(lambda: self.session.say_plan(text))
+                self.attempt(lambda: self.session.say_source(program.program, f"{text}\n"))
                 self._echo(self.words.say("edited"))
+
+    def _say_plan(self, plan_text: str, shown: str) -> None:
+        with self._order:
+            undone = self._pasted.drop()
+            self.attempt(lambda: self.session.say_plan(plan_text))
+            self._echo(shown)
+        self._tell_undone(undone)
 
     def interrupt(self) -> None:
         """Ctrl-C: stop the robot; the second one leaves."""
@@ -133,7 +168,7 @@ class Talk:
 
     def leave(self) -> None:
         """An orderly goodbye: what the robot was told is still done. The second one does not wait to see it."""
-        if self.session.is_idle or self._leaving:
+        if self._has_nothing_to_do or self._leaving:
             self.face.leave(0)
             return
         self._leaving = True
@@ -146,9 +181,11 @@ class Talk:
     def stop(self, why: str) -> None:
         """Stop the robot now."""
         self.attempt(lambda: self.session.stop(why))
+        self._tell_undone(self._pasted.drop())
 
     def emergency_stop(self, why: str) -> None:
         self.attempt(lambda: self.session.emergency_stop(why))
+        self._tell_undone(self._pasted.drop())
         self.latched = True
         self.face.refresh()
 
@@ -158,12 +195,37 @@ class Talk:
         self.face.refresh()
 
     def _say(self, text: str) -> None:
+        """What was typed takes the place of all that runs and waits."""
         self.words.follow(text)
-        with self._order:
+        if self._is_stop(
+            text
+        ):  # it waits for no lock: the other thread may hang in a terminal that was halted
             self.attempt(lambda: self.session.say(text))
+            undone = self._pasted.drop()
             self._echo(text)
+        else:
+            with self._order:
+                undone = self._pasted.drop()
+                self._say_in_order(text)
+        self._tell_undone(undone)
         if is_emergency_stop(text):
             self.latched = True
+
+    def _say_in_order(self, text: str, *, is_pasted: bool = False) -> None:
+        self.words.follow(text)
+        self.attempt(lambda: self._pasted.follow(self.session.say(text)))
+        self._echo(text, anew=is_pasted)
+
+    def _is_stop(self, text: str) -> bool:
+        return leads_with_stop(text) if self.session.is_moving else is_stop(text)
+
+    def _tell_undone(self, texts: Sequence[str]) -> None:
+        if texts:
+            self.tell("paste_undone", texts=quoted(texts))
+
+    @property
+    def _has_nothing_to_do(self) -> bool:
+        return self.session.is_idle and not self._pasted.is_waiting
 
     def _answer(self, text: str) -> bool:
         """True if `text` answers the question whether to do a plan."""
@@ -199,8 +261,14 @@ class Talk:
                     way_map(self.ride, self.connection.world),
                     Text(f"  {self.words.say('ask_approval')}", "bold"),
                 ]
-            if isinstance(event, Interpreted) and event.by == "reflex" and self.ride.is_moving:
-                self._muted.add(event.turn)  # what was moving is about to say how it ended
+            if (
+                isinstance(event, Interpreted)
+                and event.by == "reflex"
+                and (self.ride.is_moving or self._said_stopped)
+            ):
+                self._muted.add(event.turn)  # what was moving says how it ended
+            if isinstance(event, Result):
+                self._said_stopped = event.outcome == "stopped"
             if lines and event.turn not in self._muted:
                 self.face.print(*lines)
         if (
@@ -209,12 +277,22 @@ class Talk:
             and event.turn == self._asked.turn
         ):
             self._asked = None
+        if isinstance(event, Result):
+            self._go_on_after(event)
+            if self._leaving and self._has_nothing_to_do:
+                self.face.leave(0)
         if isinstance(event, (Telemetry, Started, Result)) and (
             self.ride.is_moving or not isinstance(event, Telemetry)
         ):
             self.face.refresh()
-        if isinstance(event, Result) and self._leaving and self.session.is_idle:
-            self.face.leave(0)
+
+    def _go_on_after(self, result: Result) -> None:
+        with self._order:  # whoever says a turn holds it until the number is known
+            if not self._pasted.is_after(result.turn):
+                return
+            undone = () if goes_on_after(result.outcome) else self._pasted.drop()
+        self._tell_undone(undone)
+        self._say_next()
 
     def lose(self, error: JointError) -> None:
         """Motion is gone: its guard has halted the robot; here is nothing left to talk to."""
@@ -227,7 +305,9 @@ class Talk:
         """One line of the console's own words."""
         self.face.print(indented(Text(self.words.say(code, **values), "dim")))
 
-    def _echo(self, text: str) -> None:
-        if not self.face.echoes:
+    def _echo(self, text: str, *, anew: bool = False) -> None:
+        """Show what was sent. `anew`: again, because what it was sent with stands between."""
+        if anew or not self.face.echoes:
             shown = text if len(text) <= ECHO_CHARS else f"{text[:ECHO_CHARS]}…"
+            shown = shown.replace("\n", "\n  ")
             self.face.print(Text("› ", "bold blue").append(shown, "bold"))

@@ -11,7 +11,7 @@ from chatrobot.cli.eval.corpus import load_corpus
 from chatrobot.cli.eval.report import item_json, table, totals_json
 from chatrobot.cli.eval.run import run_items
 from chatrobot.cli.json_lines import json_line
-from chatrobot.session.session import Options
+from chatrobot.session.options import Options
 
 
 def run(args: argparse.Namespace) -> int:

@@ -1,0 +1,35 @@
+"""What a screen can do for the talk."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from rich.console import RenderableType
+
+
+class Face(Protocol):
+    """A screen. All of it may be called from any thread."""
+
+    @property
+    def echoes(self) -> bool:
+        """What was typed stays to be seen without our help."""
+        ...
+
+    @property
+    def width(self) -> int:
+        """Columns."""
+        ...
+
+    def print(self, *lines: RenderableType) -> None: ...
+
+    def refresh(self) -> None:
+        """Something that the strip shows has changed."""
+        ...
+
+    def edit(self, plan_text: str) -> None:
+        """Let the person change a plan; it comes back through `Talk.take_edited`."""
+        ...
+
+    def leave(self, code: int) -> None:
+        """End the conversation; `code` is the exit code."""
+        ...

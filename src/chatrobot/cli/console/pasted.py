@@ -1,0 +1,88 @@
+"""Several lines that came at once: one turn after the other, as in a pipe, where a typed line would replace."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Sequence
+from textwrap import shorten
+
+from chatrobot.core.errors import PlanTextError
+from chatrobot.core.events import Outcome
+from chatrobot.plan.text import parse_plan
+from chatrobot.session.said import QUEUE_LIMIT
+
+MOST_TEXTS = QUEUE_LIMIT + 1
+"""One runs, the others wait."""
+_GOES_ON: frozenset[Outcome] = frozenset({"completed", "answered"})
+_STOPS = frozenset({"/stop", "/estop"})
+_LAST = ("/program", "/quit")
+"""What they begin takes a turn of its own, or ends the talk: nothing can follow."""
+_SHOWN_CHARS = 60
+
+
+class Pasted:
+    """The texts that wait for the turn before them. The lock is the caller's."""
+
+    def __init__(self) -> None:
+        self._texts: deque[str] = deque()
+        self._turn = 0
+
+    @property
+    def is_waiting(self) -> bool:
+        return bool(self._texts)
+
+    def keep(self, texts: Sequence[str]) -> None:
+        self._texts.extend(texts)
+
+    def next(self) -> str | None:
+        """Take the first; None where nothing waits."""
+        return self._texts.popleft() if self._texts else None
+
+    def follow(self, turn: int) -> None:
+        """What waits comes after this turn."""
+        self._turn = turn
+
+    def is_after(self, turn: int) -> bool:
+        """Whether this is the turn that is waited for."""
+        return self.is_waiting and turn == self._turn
+
+    def drop(self) -> tuple[str, ...]:
+        """Forget what waits; it is returned."""
+        dropped = tuple(self._texts)
+        self._texts.clear()
+        return dropped
+
+
+def goes_on_after(outcome: Outcome) -> bool:
+    """Whether what follows may be done. From where a robot should not be, the rest is another way."""
+    return outcome in _GOES_ON
+
+
+def cut_at_stop(
+    texts: Sequence[str], is_stop: Callable[[str], bool]
+) -> tuple[Sequence[str], str, Sequence[str]]:
+    """What stands before the last stop, the stop (empty where there is none), and what comes after it."""
+    for number in range(len(texts) - 1, -1, -1):
+        text = texts[number].strip().casefold()
+        if text in _STOPS or (is_stop(text) and not text.startswith("/")):
+            return texts[:number], texts[number], texts[number + 1 :]
+    return (), "", texts
+
+
+def ends_a_paste(command: str) -> bool:
+    """Whether nothing can follow this command."""
+    return command.casefold().startswith(_LAST)
+
+
+def quoted(texts: Sequence[str]) -> str:
+    """The texts in quotation marks, each on one line and not too long."""
+    return ", ".join(f"“{shorten(text, _SHOWN_CHARS, placeholder=' …')}”" for text in texts)
+
+
+def is_plan(text: str) -> bool:
+    """Whether several lines are the text of one plan, such as one that was saved."""
+    try:
+        parse_plan(text)
+    except PlanTextError:
+        return False
+    return True

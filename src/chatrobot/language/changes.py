@@ -1,0 +1,180 @@
+"""The last motion changed: again, the other way, half of that, faster, `the same but two metres`."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Sequence
+
+from chatrobot.language.frames import DIRECTIONS, GO, SIDES, Frame
+from chatrobot.language.manner import Pace
+from chatrobot.language.numbers import is_chinese
+from chatrobot.language.tokens import quantity
+from chatrobot.language.unclear import Unclear
+from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Repeat, Step, Turn, Wait
+
+
+def is_change(whole: Frame) -> bool:
+    """Whether a frame changes the last motion rather than naming one of its own.
+
+    Raises:
+        Unclear: for steps that are to be repeated but were never said.
+    """
+    if "same_amount" in whole.flags:
+        return False
+    if "again" in whole.flags and "count" in whole.q:
+        raise Unclear("nothing_before", whole.text)
+    if whole.shape or whole.place:
+        return False
+    if whole.verb not in ("", "make", "again") and not _only_points_back(whole):
+        return False
+    if "times" in whole.q and "more" in whole.flags and not whole.has_extent:
+        return True
+    if "other_way" in whole.flags or "again" in whole.flags:
+        return True
+    return bool({"fold", "scale", "faster"} & set(whole.q)) and not whole.has_extent
+
+
+def _only_points_back(whole: Frame) -> bool:
+    """`turn the other way`, `go again`, `turn half of that`: a verb that names no motion of its own."""
+    if whole.has_extent or whole.verb not in (*GO, "turn", "spin", "curve"):
+        return False
+    if whole.verb in (*GO, "turn"):
+        again = "again" in whole.flags and (not whole.direction or whole.verb == "go")
+        if again or ("scale" in whole.q and not whole.direction):
+            return True
+    return "other_way" in whole.flags and not whole.direction
+
+
+def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
+    """The steps `before` as `whole` wants them now.
+
+    Raises:
+        Unclear: where the change fits none of them, or several.
+    """
+    whole = _speed_said(whole, before)
+    fold = whole.q.get("fold")
+    if fold is not None and is_chinese(fold.text):
+        whole = whole.copy()
+        del whole.q["fold"]
+        name = "speed" if "速" in fold.text else "scale"
+        usual = pace.speed_mps or pace.profile.defaults.speed_mps
+        whole.q[name] = quantity(name, fold.number * (usual if name == "speed" else 1.0), fold.text)
+    factor = whole.q["scale"].number if "scale" in whole.q else 1.0
+    if "percent" in whole.q and not whole.pace:
+        factor = whole.q["percent"].number
+    if "number" in whole.q or "count" in whole.q or "clock" in whole.q:
+        raise Unclear("no_unit", next(whole.q[n].text for n in ("number", "count", "clock") if n in whole.q))
+    steps = [_step(step, whole, factor, pace) for step in before]
+    count = whole.q.get("times")
+    if count is not None:
+        if count.number != int(count.number) or not 1 <= count.number <= 100:
+            raise Unclear("bad_count", count.text)
+        return steps * int(count.number)
+    if any(name in whole.q for name in ("length", "angle", "turns", "time")):
+        steps = _resized(steps, whole)
+    return steps
+
+
+def _speed_said(whole: Frame, steps: Sequence[Step]) -> Frame:
+    """`once more but at 0.5`, after a motion whose speed was said: a speed."""
+    number = whole.q.get("number")
+    paced = any(isinstance(s, (Drive, Arc)) and s.speed_mps for s in steps)
+    if number is None or not paced or not 0 < number.number < 1 or whole.q.keys() != {"number"}:
+        return whole
+    whole = whole.copy()
+    del whole.q["number"]
+    whole.q["speed"] = quantity("speed", number.number, number.text)
+    return whole
+
+
+def _step(step: Step, whole: Frame, factor: float, pace: Pace) -> Step:
+    if isinstance(step, Repeat):
+        return Repeat(step.count, tuple(_step(inner, whole, factor, pace) for inner in step.steps))
+    opposite = "other_way" in whole.flags
+    side = whole.rot or (whole.direction if whole.direction in SIDES else "")
+    if isinstance(step, Drive):
+        angle = step.direction_rad
+        if whole.direction:
+            angle = DIRECTIONS[whole.direction]
+        elif opposite:
+            angle = math.remainder(angle + math.pi, 2 * math.pi)
+        distance = step.distance_m * factor if step.distance_m else None
+        seconds = step.duration_s * factor if step.duration_s else None
+        return dataclasses.replace(
+            step,
+            distance_m=distance,
+            duration_s=seconds,
+            direction_rad=angle,
+            speed_mps=_speed(step.speed_mps, whole, pace),
+        )
+    if isinstance(step, Turn):
+        if whole.direction and not side:
+            raise Unclear("contradiction", whole.text)
+        left = side == "left" if side else step.left != opposite
+        angle_rad = step.angle_rad * factor if step.angle_rad else None
+        seconds = step.duration_s * factor if step.duration_s else None
+        said = pace.rate(whole)
+        return dataclasses.replace(
+            step, angle_rad=angle_rad, duration_s=seconds, left=left, rate_radps=said or step.rate_radps
+        )
+    if isinstance(step, Arc):
+        left = side == "left" if side else step.left != opposite
+        return dataclasses.replace(
+            step, left=left, radius_m=step.radius_m * factor, speed_mps=_speed(step.speed_mps, whole, pace)
+        )
+    if isinstance(step, RawTwist) and not side:
+        sign = -1.0 if opposite else 1.0
+        return RawTwist(
+            sign * step.vx_mps, sign * step.vy_mps, sign * step.wz_radps, step.duration_s * factor
+        )
+    if isinstance(step, (Go, Face)) and (factor != 1.0 or opposite or side):
+        raise Unclear("nothing_before", whole.text)
+    return step
+
+
+def _speed(old: float | None, whole: Frame, pace: Pace) -> float | None:
+    if not whole.pace and not {"speed", "fold", "faster"} & set(whole.q):
+        return old
+    usual = old or pace.speed_mps or pace.profile.defaults.speed_mps
+    if "faster" in whole.q:
+        return whole.q["faster"].number * usual
+    if whole.pace == "slow":
+        return usual * 0.5
+    if whole.pace == "fast":
+        return min(usual * 1.7, pace.profile.limits.max_speed_mps)
+    return pace.speed(whole)
+
+
+def _resized(steps: list[Step], whole: Frame) -> list[Step]:
+    """`the same but two metres`: a new amount, where exactly one step takes it."""
+    length, seconds = whole.q.get("length"), whole.q.get("time")
+    angle = whole.q.get("angle") or whole.q.get("turns")
+    out: list[Step] = []
+    taken = 0
+    for step in steps:
+        if length and isinstance(step, Drive):
+            step, taken = dataclasses.replace(step, distance_m=length.number, duration_s=None), taken + 1
+        elif angle and isinstance(step, Turn):
+            step, taken = dataclasses.replace(step, angle_rad=angle.number, duration_s=None), taken + 1
+        elif seconds and isinstance(step, Drive):
+            step, taken = dataclasses.replace(step, duration_s=seconds.number, distance_m=None), taken + 1
+        elif seconds and isinstance(step, Turn):
+            step, taken = dataclasses.replace(step, duration_s=seconds.number, angle_rad=None), taken + 1
+        elif seconds and isinstance(step, Wait):
+            step, taken = Wait(seconds.number), taken + 1
+        out.append(step)
+    if taken != 1:
+        raise Unclear("nothing_before", whole.text)
+    return out
+
+
+def a_bit_of(steps: Sequence[Step], whole: Frame, pace: Pace) -> Step:
+    """`a bit more`: the last motion's way, a little."""
+    step = steps[-1]
+    defaults = pace.profile.defaults
+    if len(steps) == 1 and isinstance(step, Drive):
+        return dataclasses.replace(step, distance_m=defaults.distance_m / 2, duration_s=None)
+    if len(steps) == 1 and isinstance(step, Turn):
+        return dataclasses.replace(step, angle_rad=defaults.turn_rad / 2, duration_s=None)
+    raise Unclear("nothing_before", whole.text)

@@ -1,0 +1,201 @@
+"""What a command means; else, what it sounds like. A command put as a question, and a question, are told apart."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+from chatrobot import reflex
+from chatrobot.language import questions
+from chatrobot.language.asides import check_finished, is_choice
+from chatrobot.language.frames import STILL, Frame
+from chatrobot.language.heeded import check_heeded
+from chatrobot.language.interpretation import Interpretation, planned, stopped
+from chatrobot.language.names import names_in
+from chatrobot.language.phrases import say
+from chatrobot.language.reading import Reading, frames_of
+from chatrobot.language.sounds import mended
+from chatrobot.language.tokens import Atom
+from chatrobot.language.unclear import Unclear
+from chatrobot.language.unfinished import breaks_off
+from chatrobot.language.until import UntilObstacle, read_until
+from chatrobot.plan.steps import Drive, ObstacleWithin, Step
+
+_MOVING = frozenset({"q", "dir", "rot", "shape", "place", "defined", "number", "pace", "condition"})
+
+
+def read_command(plain: str, reading: Reading) -> Interpretation:
+    """What a normalised text means as it stands; else, what it sounds like.
+
+    Raises:
+        Unclear: where it is no command, or one that is refused.
+    """
+    try:
+        return _understood(plain, reading)
+    except Unclear as problem:
+        heard = None if problem.refused or reading.by_ear else _heard(plain, reading)
+        if heard is None:
+            raise
+        return heard
+
+
+def steps_of(clause: str, reading: Reading) -> list[Step]:
+    """The steps of one clause of many; none for a clause that says nothing.
+
+    Raises:
+        Unclear: where it is no command.
+    """
+    atoms = reading.atoms(clause)
+    if all(a.kind in ("sep", "conn", "filler", "glue", "reason") for a in atoms):
+        return []
+    inner = read_command(clause, reading)
+    if inner.plan is None:
+        refused = inner.outcome == "refused"
+        raise Unclear(inner.code or "unknown_part", inner.unaccounted or clause.strip(), refused=refused)
+    return list(inner.plan.steps)
+
+
+def _heard(plain: str, reading: Reading) -> Interpretation | None:
+    if reading.language == "en":
+        return None
+    try:
+        found = _understood(mended(plain, reading.language), replace(reading, by_ear=True))
+    except Unclear:
+        return None
+    return found if found.outcome == "plan" else None
+
+
+def _understood(plain: str, reading: Reading) -> Interpretation:
+    language = reading.language
+    atoms = reading.atoms(plain)
+    command = questions.without_quiz(plain, language)
+    if command and not questions.is_question(command, language):
+        return _understood(command, reading)
+    amounts = any(a.kind == "q" and a.value in ("length", "angle", "turns") for a in atoms)
+    if amounts and is_choice(plain, language):  # left or right, ninety degrees: no question of ours to answer
+        raise Unclear("contradiction", plain[:60])
+    answered = _answered(plain, atoms, reading)
+    if answered is not None:
+        return answered
+    if _is_stop(plain, reading):
+        return stopped(language)
+    asks = questions.is_question(plain, language)
+    _check_whole(plain, atoms, reading, asks=asks)
+    until = read_until(plain, language)
+    if until is not None:
+        return _until(until, reading)
+    frames = frames_of(atoms)
+    default = _default(frames, reading)
+    if default is not None:
+        return default
+    steps = reading.steps(frames)
+    if not asks:
+        check_heeded(atoms, steps, lambda changed: reading.steps(frames_of(changed)))
+    return planned(steps, language, append=_appends(atoms))
+
+
+def _answered(plain: str, atoms: list[Atom], reading: Reading) -> Interpretation | None:
+    """The answer to a question, or what is refused; None for a command.
+
+    Raises:
+        Unclear: for a doubt, or for what this robot does not do.
+    """
+    language = reading.language
+    ability = questions.asks_ability(plain, language)
+    refusal = next((a for a in atoms if a.kind == "refuse"), None)
+    doubt = next((a for a in atoms if a.kind == "doubt" and a.text != "来着"), None)
+    if doubt is not None and not plain.endswith("?") and refusal is None:
+        raise Unclear("unknown_part", doubt.text)
+    if refusal is None:
+        asks = ability or questions.is_question(plain, language)
+        return _question(plain, atoms, ability, reading) if asks else None
+    if ability and plain.endswith("?"):
+        return Interpretation("answered", say(language, "answer_cannot"), language)
+    raise Unclear(f"refuse_{refusal.value}", refusal.text, refused=True)
+
+
+def _check_whole(plain: str, atoms: list[Atom], reading: Reading, *, asks: bool) -> None:
+    """A command that breaks off or leaves a choice open is not acted on."""
+    loose = "" if asks else breaks_off(plain, reading.language)
+    if loose and not any(loose.split()[-1] in key for key in names_in(reading.context)):
+        raise Unclear("unknown_part", f"{loose} …")
+    if is_choice(plain, reading.language):
+        raise Unclear("contradiction", plain[:60])
+    check_finished(atoms)
+
+
+def _until(until: UntilObstacle, reading: Reading) -> Interpretation:
+    frames = frames_of(reading.atoms(until.before))
+    steps = reading.steps_of_their_own(frames)
+    last = steps[-1]
+    if not isinstance(last, Drive):
+        raise Unclear("condition", until.before)
+    said = frames[-1].has_extent
+    steps[-1] = replace(
+        last,
+        distance_m=last.distance_m if said else None,
+        duration_s=last.duration_s if said else None,
+        until=ObstacleWithin(until.distance_m),
+    )
+    return planned([*steps, *steps_of(until.after, reading)], reading.language)
+
+
+def _is_stop(plain: str, reading: Reading) -> bool:
+    """Whether one clause is a stop and none of the others could move anything."""
+    clauses = [part for part in re.split(r"[,.;!?…—\n]| - ", plain) if part.strip()]
+    stops = [reflex.is_stop(clause) for clause in clauses]
+    if len(clauses) < 2 or not any(stops):
+        return False
+    others = [a for clause, stop in zip(clauses, stops) if not stop for a in reading.atoms(clause)]
+    return not any(
+        a.kind in _MOVING or (a.kind == "verb" and a.value not in (*STILL, "make")) for a in others
+    )
+
+
+def _question(plain: str, atoms: list[Atom], ability: bool, reading: Reading) -> Interpretation | None:
+    """The answer, unless it is a command put as a question."""
+    language = reading.language
+    try:
+        frames = frames_of(atoms)
+        check_finished(atoms)
+        steps = reading.steps(frames)
+        steps = [] if is_choice(plain, language) else steps
+        plain_question = questions.is_plain_question(plain, language)
+        if steps and any(f.has_extent or (f.moves and not plain_question) for f in frames):
+            return None
+    except Unclear:
+        pass
+    if questions.orders(plain, language):
+        return None
+    topic = questions.topic_of(plain, language)
+    if not topic and ability:
+        topic = "ability"
+    if not topic:
+        return None
+    reply = questions.answer(topic, language, reading.context, reading.profile)
+    return Interpretation("answered", reply, language)
+
+
+def _default(frames: list[Frame], reading: Reading) -> Interpretation | None:
+    """`From now on drive at 10 cm/s`."""
+    if not frames or not any("from_now_on" in frame.flags for frame in frames):
+        return None
+    frame, language = frames[0], reading.language
+    if len(frames) > 1 or frame.has_extent or frame.direction or frame.shape:
+        raise Unclear("unclear_motion", frame.text)
+    if frame.turning or "rate" in frame.q:
+        rate = reading.pace.rate(frame)
+        if rate is not None:
+            reply = say(language, "default_rate_set", radps=f"{rate:.3g}")
+            return Interpretation("answered", reply, language, default_rate_radps=rate)
+    else:
+        speed = reading.pace.speed(frame)
+        if speed is not None:
+            reply = say(language, "default_set", mps=f"{speed:.3g}")
+            return Interpretation("answered", reply, language, default_speed_mps=speed)
+    raise Unclear("unclear_motion", frame.text)
+
+
+def _appends(atoms: list[Atom]) -> bool:
+    first = next((a for a in atoms if a.kind != "filler"), None)
+    return first is not None and first.kind == "conn"

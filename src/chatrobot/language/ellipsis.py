@@ -1,0 +1,139 @@
+"""What a clause leaves out because it was said before: `thirty more`, `the same again`, `turn left 90`."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+from chatrobot.core.geometry import Pose
+from chatrobot.language.frames import DIAGONALS, GO, SIDES, Frame
+from chatrobot.language.tokens import Atom, quantity
+from chatrobot.language.unclear import Unclear
+from chatrobot.plan.steps import Drive, Step
+
+
+@dataclass
+class State:
+    """What the clauses before have left: for what is left out after them, and for the way back."""
+
+    steps: list[Step] = field(default_factory=list)
+    direction: str = "forward"
+    unit_m: float | None = None
+    length: Atom | None = None
+    angle: Atom | None = None
+    left: bool | None = None
+    last: str = ""
+    home: Pose | None = None
+    unsaid: list[Frame] = field(default_factory=list)
+
+
+def completed(frame: Frame, state: State) -> Frame:
+    """The frame with what it takes from the clauses before; `state` is told the amounts it says itself.
+
+    Raises:
+        Unclear: where nothing that could be meant was said.
+    """
+    length = frame.q.get("length")
+    if length is not None and length.role:
+        state.unit_m = float(length.role)
+    frame = _with_same_amount(frame, state)
+    state.length = frame.q.get("length", state.length)
+    state.angle = frame.q.get("angle", frame.q.get("turns", state.angle))
+    frame = _with_computed_length(frame, state)
+    scale, before = frame.q.get("scale"), _amount_before(frame, state)
+    if scale is not None and before is not None and frame.moves and not frame.has_extent:
+        return _with(frame, "scale", quantity(before.value, before.number * scale.number, scale.text))
+    return _with_unit(frame, state) if "number" in frame.q else frame
+
+
+def _amount_before(frame: Frame, state: State) -> Atom | None:
+    return state.angle if frame.turning else state.length
+
+
+def _with(frame: Frame, name: str, amount: Atom) -> Frame:
+    """The frame with `amount` in place of the quantity `name`."""
+    frame = frame.copy()
+    del frame.q[name]
+    frame.q[amount.value] = amount
+    return frame
+
+
+def _with_same_amount(frame: Frame, state: State) -> Frame:
+    if "same_amount" not in frame.flags or frame.has_extent:
+        return frame
+    before = _amount_before(frame, state)
+    if before is None:
+        raise Unclear("nothing_before", frame.text)
+    frame = frame.copy()
+    frame.q[before.value] = before
+    frame.flags.discard("again")
+    return frame
+
+
+def _with_computed_length(frame: Frame, state: State) -> Frame:
+    """`as far as 0.2 m/s for 5 s takes you`: the length it comes to."""
+    asked = {"computed", "asked_distance"} & frame.flags
+    if not (asked and {"speed", "time"} <= set(frame.q)):
+        return frame
+    frame = frame.copy()
+    covered_m = frame.q.pop("speed").number * frame.q.pop("time").number
+    frame.q["length"] = state.length = quantity("length", covered_m, f"{covered_m:g} m")
+    return frame
+
+
+def _with_unit(frame: Frame, state: State) -> Frame:
+    """The frame's bare number with its unit, where only one unit can be meant."""
+    number = frame.q["number"]
+    if "转返" in frame.texts and state.last != "turn":
+        raise Unclear("which_side", frame.text)
+    if number.text == "一半" and not frame.has_extent:
+        undone = frame.verb == "return" and state.last == "turn"
+        turned = undone and not any(isinstance(step, Drive) for step in state.steps)
+        before = state.angle if turned else _amount_before(frame, state)
+        if before is not None:
+            return _with(frame, "number", quantity(before.value, before.number / 2, number.text))
+    unit = _meant_unit(frame, number.number, state)
+    if unit is None:
+        return frame
+    dimension, factor = unit
+    return _with(frame, "number", quantity(dimension, number.number * factor, number.text))
+
+
+def _meant_unit(frame: Frame, value: float, state: State) -> tuple[str, float] | None:
+    """The dimension a bare number has in this frame, and the SI value of one of it."""
+    degrees = _means_degrees(frame, value)
+    if "units_said" in frame.flags and not degrees:
+        if frame.turning:
+            return "angle", math.radians(1.0)
+        return "length", 0.01 if "units_cm" in frame.flags else 1.0
+    if degrees or _goes_on_in_degrees(frame, value, state):
+        return "angle", math.radians(1.0)
+    if state.unit_m and not frame.has_extent and _goes_on_in_unit(frame, value, state):
+        return "length", state.unit_m
+    return None
+
+
+def _goes_on_in_degrees(frame: Frame, value: float, state: State) -> bool:
+    """`turn left 40 degrees, then right 50`: after a turn by an angle."""
+    on = "more" in frame.flags and not frame.moves
+    turning = frame.turning or frame.direction in SIDES or on
+    after_turn = state.last == "turn" and state.angle is not None
+    return after_turn and not frame.has_extent and turning and 1 <= value <= 1080 and frame.verb not in GO
+
+
+def _goes_on_in_unit(frame: Frame, value: float, state: State) -> bool:
+    """`forward 50 cm, …, back 20`: the unit said before, if that gives a distance of the same order."""
+    if frame.turning or frame.is_arc or value < 1:
+        return False
+    on = "more" in frame.flags and (state.last == "drive" or frame.verb in GO)
+    sideways = frame.verb in ("slide", "shift") or frame.direction in DIAGONALS.values()
+    along = frame.direction in ("forward", "back") or (frame.verb in GO and not frame.direction)
+    before = state.length.number if state.length is not None else 0.0
+    return (on or sideways or along) and before / 10 <= value * (state.unit_m or 0.0) <= 5 * before
+
+
+def _means_degrees(frame: Frame, value: float) -> bool:
+    """`turn left 90`, `left 90`, `do a 180`: a multiple of 15 at a turn is degrees."""
+    turning = frame.turning or (not frame.verb and frame.direction in SIDES)
+    spinning = frame.verb == "make" and not frame.direction and value % 90 == 0
+    return (turning or spinning) and not frame.has_extent and 15 <= value <= 1080 and value % 15 == 0

@@ -1,0 +1,124 @@
+"""Free text → what is to happen, without a model."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+
+from chatrobot import reflex
+from chatrobot.language import forms
+from chatrobot.language.command import read_command
+from chatrobot.language.compass import split_convention
+from chatrobot.language.context import Context
+from chatrobot.language.facing import without_compass
+from chatrobot.language.facts import defined_unit, with_known_counts
+from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
+from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
+from chatrobot.language.phrases import describe_plan, say
+from chatrobot.language.program_request import read_program_request
+from chatrobot.language.reading import Reading
+from chatrobot.language.remembering import read_remembering
+from chatrobot.language.rephrase import rephrased
+from chatrobot.language.tidy import tidy
+from chatrobot.language.tutorial_form import read_twist
+from chatrobot.language.unclear import Unclear
+from chatrobot.robots.profile import RobotProfile
+
+
+class OfflineInterpreter:
+    """Understands English and Chinese by rules over data. Keeps no state.
+
+    The dialogue comes with the context.
+    """
+
+    def __init__(self, profile: RobotProfile) -> None:
+        self._profile = profile
+
+    def interpret(self, text: str, context: Context) -> Interpretation:
+        """What `text` means in this context. Never raises, whatever the text."""
+        language: LanguageCode = "zh" if has_chinese(text[:MAX_CHARACTERS]) else "en"
+        if len(text) > MAX_CHARACTERS:
+            reply = say(language, "too_long", characters=len(text))
+            return Interpretation("unclear", reply, language, code="too_long")
+        try:
+            return self._interpreted(text, language, context)
+        except Unclear as problem:
+            return asked_back(problem, language)
+
+    def _interpreted(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
+        plain = with_known_counts(without_compass(rephrased(normalise(text), language), language))
+        rest, facing_rad = split_convention(plain, language)
+        plain = rest or plain
+        if not plain:
+            raise Unclear("empty")
+        program = read_program_request(plain)
+        if program is not None:
+            return planned(program, language)
+        twist = read_twist(plain)
+        if twist is not None:
+            return planned([twist], language)
+        if reflex.is_stop(text) or reflex.is_stop(plain):
+            return stopped(language)
+        return _in_words(plain, Reading(language, context, self._profile, facing_rad))
+
+
+def _in_words(plain: str, reading: Reading) -> Interpretation:
+    """What is neither numbers alone nor a stop: a definition, a place, an answer, a unit, else a command."""
+    definition = forms.read_definition(plain, reading.language)
+    if definition is not None:
+        return _defined(definition, reading)
+    answered = read_remembering(plain, reading) or _pending(plain, reading)
+    if answered is not None:
+        return answered
+    unit = defined_unit(plain)
+    if unit is not None:
+        reply = say(reading.language, "unit_set", unit=unit[0], measure=unit[1])
+        return Interpretation("answered", reply, reading.language)
+    return read_command(_with_earlier_unit(plain, reading), reading)
+
+
+def _defined(definition: forms.Definition, reading: Reading) -> Interpretation:
+    inner = read_command(definition.body, reading)
+    if inner.plan is None:
+        return inner
+    language = reading.language
+    reply = say(language, "defined", name=definition.name, text=describe_plan(inner.plan, language))
+    return Interpretation("answered", reply, language, define={definition.name: inner.plan})
+
+
+def _pending(plain: str, reading: Reading) -> Interpretation | None:
+    """A fragment answers what was asked back about the turn before."""
+    pending = reading.context.dialogue.pending
+    if not pending or len(pending) + len(plain) > MAX_CHARACTERS:
+        return None
+    atoms = tidy(reading.atoms(plain))
+    ways = [k for k, a in enumerate(atoms) if k and a.kind == "dir" and atoms[k - 1].text == a.text]
+    verbs = [a for k, a in enumerate(atoms) if k + 1 not in ways and a.text not in ("say",)]
+    if any(a.kind in ("verb", "shape", "place") for a in verbs):
+        return None
+    before = rephrased(normalise(pending), reading.language)
+    for joined in (f"{before} {plain}", f"{before}, {plain}"):
+        try:
+            found = read_command(joined, reading)
+        except Unclear:
+            continue
+        if found.outcome == "plan":
+            return found
+    return None
+
+
+def _with_earlier_unit(plain: str, reading: Reading) -> str:
+    """一步是三十厘米, said in a turn before: it holds for the steps that are counted now."""
+    for turn in reversed(reading.context.dialogue.turns):
+        unit = _unit_defined_in(turn.text, reading.language)
+        counted = unit and re.search(rf"(?:[零一二两三四五六七八九十百\d]|半) ?{unit[0]}", plain)
+        if unit and counted:
+            defined_here = re.search(rf"一 ?{unit[0]}[^,。;]*(?:是|算|等于|为|按)", plain)
+            return plain if defined_here else f"{plain}, 一{unit[0]}是{unit[1]}"
+    return plain
+
+
+@lru_cache(maxsize=128)
+def _unit_defined_in(text: str, language: str) -> tuple[str, str] | None:
+    """Asked of every earlier turn at each sentence: so each is read once."""
+    return defined_unit(rephrased(normalise(text), language))

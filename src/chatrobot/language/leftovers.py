@@ -1,0 +1,115 @@
+"""Words of numbers and units that turned out to be no amount: what they mean depends on their neighbours."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from chatrobot.language.numbers import is_chinese, is_kind
+from chatrobot.language.tokens import Atom, quantity
+
+
+def settled_word(atoms: Sequence[Atom], i: int) -> Atom:
+    """The atom at `i` as what it is when it is no part of an amount."""
+    atom = atoms[i]
+    follows = i + 1 < len(atoms) and atoms[i + 1].kind in ("verb", "dir", "rot", "sep", "glue", "conn")
+    after = ("q", "verb", "shape", "dir") if atom.text == "以后" else ("q", "verb", "shape")
+    if (atom.text == "以后" or (atom.text == "后" and follows)) and i and atoms[i - 1].kind in after:
+        return Atom("conn", "then", atom.text)
+    settle = _SETTLED.get(atom.kind)
+    return settle(atoms, i) if settle is not None else atom
+
+
+def _direction(atoms: Sequence[Atom], i: int) -> Atom:
+    straight = atoms[i].text.endswith("straight") and is_kind(atoms, i + 1, "dir")
+    return _glue(atoms, i) if straight else atoms[i]  # `driving straight back`
+
+
+def _glue(atoms: Sequence[Atom], i: int) -> Atom:
+    return Atom("glue", "x", atoms[i].text)
+
+
+def _then(atoms: Sequence[Atom], i: int) -> Atom:
+    return Atom("conn", "then", atoms[i].text)
+
+
+def _leftover_number(atoms: Sequence[Atom], i: int) -> Atom:
+    atom = atoms[i]
+    if atom.value == "point" and is_chinese(atom.text):
+        return Atom("flag", "bit", atom.text)
+    if atom.value == "point":  # `point left`, but not `back to the point`
+        ends = i + 1 >= len(atoms) or atoms[i + 1].kind in ("sep", "conn")
+        return Atom("unknown", atom.text, atom.text) if ends and i else Atom("verb", "face", atom.text)
+    unknown = atom.value in ("minus", "parts")
+    return Atom("unknown", atom.text, atom.text) if unknown else _glue(atoms, i)
+
+
+def _pause(atoms: Sequence[Atom], i: int) -> Atom:
+    atom = atoms[i]
+    timed = is_kind(atoms, next_real(atoms, i + 1), "q", "time")
+    stops = atom.text.split()[-1] in ("stop", "halt")
+    return Atom("verb", "wait", atom.text) if stops and timed else atom
+
+
+def _unit_of_length(atoms: Sequence[Atom], i: int) -> Atom:
+    inching = atoms[i].text == "inch" and is_kind(atoms, i + 1, "dir")
+    return Atom("verb", "shift", atoms[i].text) if inching else atoms[i]
+
+
+def _letter(atoms: Sequence[Atom], i: int) -> Atom:
+    atom = atoms[i]
+    if atom.text == "r" and is_kind(atoms, next_real(atoms, i + 1), "q", "length"):
+        return Atom("role", "radius", atom.text)  # r = 0.5 m
+    after = is_kind(atoms, i - 1, "q") and not is_kind(atoms, i + 1, "unknown")
+    beside = is_kind(atoms, i + 1, "q") or after
+    return Atom("dir", atom.value, atom.text) if beside else Atom("unknown", atom.text, atom.text)
+
+
+def _counter(atoms: Sequence[Atom], i: int) -> Atom:
+    atom = atoms[i]
+    if atom.text not in ("step", "pace", "steps"):
+        return Atom("role", atom.value, atom.text)
+    return Atom("verb", "go", atom.text) if is_kind(atoms, i + 1, "dir") else _glue(atoms, i)
+
+
+def _times(atoms: Sequence[Atom], i: int) -> Atom:
+    atom = atoms[i]
+    if atom.text == "回":
+        return Atom("verb", "return", atom.text)
+    return _glue(atoms, i) if atom.text in ("time", "次", "下来") else atom
+
+
+def _full_turn(atoms: Sequence[Atom], i: int) -> Atom:
+    measured = is_kind(atoms, i + 1, "role")  # 每个圈半径三十厘米
+    return _glue(atoms, i) if measured else Atom("verb", "turn", atoms[i].text)
+
+
+def _percent(atoms: Sequence[Atom], i: int) -> Atom:
+    return _glue(atoms, i) if atoms[i].text == "成" else atoms[i]
+
+
+def _either_side(atoms: Sequence[Atom], i: int) -> Atom:
+    atom = atoms[i]  # 一米左右 is about a metre; alone, it would be both sides
+    alone = atom.text == "左右" and not (i and atoms[i - 1].kind == "q")
+    return Atom("unknown", atom.text, atom.text) if alone else atom
+
+
+def _unit_of_angle(atoms: Sequence[Atom], i: int) -> Atom:
+    atom = atoms[i]
+    if atom.text == "弧":
+        return Atom("verb", "curve", atom.text)
+    right = atom.text.lstrip("个") in ("直角", "直角弯", "平角")
+    return quantity("angle", float(atom.value), atom.text) if right else atom
+
+
+_SETTLED: dict[str, Callable[[Sequence[Atom], int], Atom]] = {
+    "dir": _direction, "num": _leftover_number, "filler": _pause, "unit_length": _unit_of_length, "second": _then,
+    "letter": _letter, "counter": _counter, "unit_times": _times, "per": _glue, "unit_turn": _full_turn,
+    "unit_percent": _percent, "glue": _either_side, "unit_angle": _unit_of_angle,
+}  # fmt: skip
+
+
+def next_real(atoms: Sequence[Atom], i: int) -> int:
+    """The index of the first atom from `i` on that is more than an article or the like."""
+    while i < len(atoms) and atoms[i].kind == "glue":
+        i += 1
+    return i

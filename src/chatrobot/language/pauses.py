@@ -1,0 +1,118 @@
+"""What is put in between: pauses between motions or on the way, and legs with a pause after each."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from chatrobot.language.actions import act
+from chatrobot.language.ellipsis import State
+from chatrobot.language.frames import STILL, Frame
+from chatrobot.language.manner import Pace
+from chatrobot.language.script import Script
+from chatrobot.language.unclear import Unclear
+from chatrobot.plan.steps import MAX_REPEAT, Arc, Drive, Say, Step, Turn, Wait
+
+_MIDDLE = frozenset({"中间", "当中"})
+
+
+def paced_legs(frames: list[Frame], pace: Pace) -> list[Step] | None:
+    """`Every 50 cm stop for a second, two metres in total`: as many legs as fit, pauses between them."""
+    whole = next((f for f in frames if "total" in f.flags and {"length", "angle", "turns"} & set(f.q)), None)
+    name = next((n for n in ("length", "angle", "turns") if whole and n in whole.q), "")
+    leg = next((f for f in frames if whole and f is not whole and name in f.q), None)
+    if whole is None:
+        whole, leg = _covered(frames)
+    if whole is None or len(frames) == 1 or "count" in whole.q or any(f.shape for f in frames):
+        return None
+    pause = next((f for f in frames if f.verb in STILL and "time" in f.q), None)
+    name = name or next(n for n in ("length", "angle", "turns") if n in whole.q)
+    if leg is None or pause is None or len(frames) > 3:
+        raise Unclear("unclear_motion", whole.text)
+    count = whole.q[name].number / leg.q[name].number
+    if abs(count - round(count)) > 1e-6 or not 1 <= round(count) <= MAX_REPEAT:
+        raise Unclear("bad_count", leg.text)
+    drive = whole.copy()
+    drive.q[name] = leg.q[name]
+    drive.direction, drive.rot = whole.direction or leg.direction, whole.rot or leg.rot
+    drive.verb = "" if name == "length" else "turn"
+    drive.flags.discard("each")
+    steps = act(drive, State(), pace)
+    rest = act(Frame(verb="wait", q={"time": pause.q["time"]}), State(), pace)
+    return [*(steps + rest) * (round(count) - 1), *steps]
+
+
+def _covered(frames: list[Frame]) -> tuple[Frame | None, Frame | None]:
+    """前进一米，每走半米停一秒: the way, and the piece of it after which there is a pause."""
+    if len(frames) != 3 or frames[2].verb not in STILL or "each" not in frames[1].flags:
+        return None, None
+    for name in ("length", "angle", "turns"):
+        if name in frames[0].q and name in frames[1].q and "each" not in frames[0].flags:
+            return frames[0], frames[1]
+    return None, None
+
+
+def insert(script: Script, frame: Frame) -> None:
+    """A pause or a motion between the units, or after each of them."""
+    if not frame.moves and set(frame.q) == {"time"}:
+        frame = Frame(verb="wait", q=frame.q, flags=frame.flags, texts=frame.texts)
+    steps = act(frame, script.state, script.pace)
+    script.units = [part for unit in script.units for part in _full_turns(unit)]
+    moving = [u for u in script.units if not all(isinstance(s, Wait) for s in u)]
+    in_the_middle = "between" in frame.flags and _MIDDLE & {text[:2] for text in frame.texts}
+    if len(moving) == len(script.units) == 1 and in_the_middle and "after_each" not in frame.flags:
+        insert_halfway(script, frame)  # 前进两米，中间停三秒
+        return
+    if len(moving) < 2 and not ("after_each" in frame.flags and moving):
+        raise Unclear("between_what", frame.text)
+    pause = all(isinstance(s, (Wait, Say)) for s in steps)
+    units: list[list[Step]] = []
+    for k, unit in enumerate(moving):
+        units.append(unit)
+        if k + 1 < len(moving) or ("after_each" in frame.flags and not pause):
+            units.append(steps)
+    script.units = units
+
+
+def insert_halfway(script: Script, frame: Frame) -> None:
+    """往前两米，到一半的时候停两秒: the last motion in two halves."""
+    halves = _halves(script.units[-1][0]) if script.units and len(script.units[-1]) == 1 else None
+    if halves is None:
+        raise Unclear("between_what", frame.text)
+    inner = frame.copy()
+    inner.flags -= {"halfway", "between"}
+    if not inner.moves and set(inner.q) == {"time"}:
+        inner.verb = "wait"
+    steps = act(inner, State(), script.pace)
+    script.units[-1:] = [[halves[0]], steps, [halves[1]]]
+
+
+def insert_at(script: Script, place: Frame, stop: Frame) -> None:
+    """前进两米，走到一米的地方停三秒: a stop on the way, not another metre."""
+    last = script.units[-1][0] if script.units and len(script.units[-1]) == 1 else None
+    at_m = place.q["length"].number if "length" in place.q else 0.0
+    if not isinstance(last, Drive) or last.distance_m is None or not 0 < at_m < last.distance_m - 1e-6:
+        raise Unclear("unclear_motion", place.text)
+    if place.moves or set(place.q) != {"length"}:
+        raise Unclear("unclear_motion", place.text)
+    before, after = replace(last, distance_m=at_m), replace(last, distance_m=last.distance_m - at_m)
+    script.units[-1:] = [[before], act(stop, State(), script.pace), [after]]
+
+
+def _halves(step: Step) -> tuple[Step, Step] | None:
+    if isinstance(step, Drive) and step.until is None:
+        metres = step.distance_m / 2 if step.distance_m else None
+        seconds = step.duration_s / 2 if step.duration_s else None
+        return (replace(step, distance_m=metres, duration_s=seconds),) * 2
+    if isinstance(step, (Turn, Arc)) and step.angle_rad:
+        return (replace(step, angle_rad=step.angle_rad / 2),) * 2
+    return None
+
+
+def _full_turns(unit: list[Step]) -> list[list[Step]]:
+    """Several full turns in one, as one unit each: a pause fits between them."""
+    if len(unit) == 1 and isinstance(unit[0], Turn) and unit[0].angle_rad:
+        rounds = unit[0].angle_rad / (2 * math.pi)
+        if rounds > 1.5 and abs(rounds - round(rounds)) < 1e-6:
+            return [[replace(unit[0], angle_rad=2 * math.pi)]] * round(rounds)
+    return [unit]

@@ -1,0 +1,97 @@
+"""One utterance in its context: its atoms, their frames, the steps these mean."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from chatrobot.language.amends import amended
+from chatrobot.language.asides import without_asides
+from chatrobot.language.brackets import unrolled
+from chatrobot.language.chatter import without_chatter
+from chatrobot.language.clauses import read_frames
+from chatrobot.language.compass import with_headings
+from chatrobot.language.conditions import settle_condition
+from chatrobot.language.context import Context
+from chatrobot.language.corrections import corrected, without_negated
+from chatrobot.language.dialogue import refer
+from chatrobot.language.facts import with_defined_units, with_words_counted
+from chatrobot.language.frames import Frame
+from chatrobot.language.interpretation import LanguageCode
+from chatrobot.language.last_motion import state_after
+from chatrobot.language.lexicon import lexicon
+from chatrobot.language.manner import Pace
+from chatrobot.language.multiples import with_multiples
+from chatrobot.language.names import names_in
+from chatrobot.language.order import in_order
+from chatrobot.language.quantities import read_quantities
+from chatrobot.language.restated import without_restated
+from chatrobot.language.script import Memory
+from chatrobot.language.tidy import tidy
+from chatrobot.language.tokens import Atom, tokenise
+from chatrobot.language.writing import write
+from chatrobot.plan.steps import Go, Step
+from chatrobot.robots.profile import RobotProfile
+
+
+def frames_of(atoms: Sequence[Atom]) -> list[Frame]:
+    """The frames of an utterance, with what was taken back or forbidden left out.
+
+    Raises:
+        Unclear: for a word that nothing accounts for.
+    """
+    settled = settle_condition(with_defined_units(without_chatter(unrolled(atoms))))
+    return read_frames(tidy(without_negated(in_order(corrected(settled)))))
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How texts are read here and now.
+
+    `facing_rad` is the heading on the map that a person said the robot has, if one did.
+    `by_ear`: what sounds like a longer word is that word.
+    """
+
+    language: LanguageCode
+    context: Context
+    profile: RobotProfile
+    facing_rad: float | None = None
+    by_ear: bool = False
+
+    @property
+    def pace(self) -> Pace:
+        """The robot's limits, and the speeds that are usual in this dialogue."""
+        dialogue = self.context.dialogue
+        return Pace(self.profile, dialogue.default_speed_mps, dialogue.default_rate_radps)
+
+    def atoms(self, plain: str) -> list[Atom]:
+        """The atoms of a normalised text."""
+        atoms = tokenise(plain, lexicon(), names_in(self.context), by_ear=self.by_ear)
+        atoms = without_restated(with_multiples(read_quantities(without_asides(atoms, self.language))))
+        atoms = with_headings(atoms, self.facing_rad)
+        atoms = with_words_counted(atoms, self.context.dialogue.words)
+        if any(a.kind == "role" and a.value == "apart" for a in atoms):  # rows side by side, no garden work
+            atoms = [Atom("shape", "lawn", a.text) if a.text == "mow the lawn" else a for a in atoms]
+        return atoms
+
+    def steps(self, frames: list[Frame]) -> list[Step]:
+        """The steps that the frames mean after the turns before.
+
+        Raises:
+            Unclear: where a clause cannot be acted on.
+        """
+        undone = amended(frames, self.context)
+        return [*undone, *(refer(frames, self.context, self.pace) or self.steps_of_their_own(frames))]
+
+    def steps_of_their_own(self, frames: list[Frame]) -> list[Step]:
+        """The steps of frames that do not refer to an earlier turn as a whole."""
+        return write(frames, self.pace, self._memory())
+
+    def _memory(self) -> Memory:
+        dialogue = self.context.dialogue
+        places = {name: Go(p.x_m, p.y_m, place=name) for name, p in self.context.world_places.items()}
+        for name, place in dialogue.places.items():
+            if place.usable:
+                places[name] = Go(place.pose.x_m, place.pose.y_m, place=name)
+        words = {name: plan.steps for name, plan in dialogue.words.items()}
+        return Memory(places, words, state_after(self.context))

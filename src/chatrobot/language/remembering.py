@@ -1,0 +1,68 @@
+"""Clauses that name the place where the robot stands, before, after or between motions."""
+
+from __future__ import annotations
+
+import re
+
+from chatrobot.language import forms
+from chatrobot.language.command import steps_of
+from chatrobot.language.interpretation import Interpretation, planned
+from chatrobot.language.phrases import say
+from chatrobot.language.reading import Reading
+from chatrobot.plan.steps import Remember, Step
+
+_BREAKS = re.compile(
+    r"(?<!\d)[,.;!?](?!\d)|(?<=\d)[,.;!?](?=\s|$)|[,.;!?]\s|,|\n|"
+    r"\b(?:and then|then|and)\b|然后|接着|再|并且|并|之后"
+)
+
+
+def read_remembering(plain: str, reading: Reading) -> Interpretation | None:
+    """What `plain` means if some clause of it names this place; else None.
+
+    Raises:
+        Unclear: where the rest of it is no command.
+    """
+    whole = forms.read_place(plain, reading.language)
+    if whole and not _BREAKS.search(plain.strip(" ,.!;?")):
+        return _placed([Remember(whole)], reading)
+    clauses = _clauses(plain)
+    names = [forms.read_place(clause, reading.language) for clause in clauses]
+    if not any(names):
+        return _placed([Remember(whole)], reading) if whole else None
+    steps: list[Step] = []
+    pending = ""
+    for k, (clause, name) in enumerate(zip(clauses, names)):
+        if name is None:
+            pending += clause
+            continue
+        steps += steps_of(pending, reading)
+        pending = ""
+        following = names[k + 1] if k + 1 < len(names) else None
+        if not (name == forms.UNNAMED and following):
+            steps.append(Remember(name))
+    return _placed([*steps, *steps_of(pending, reading)], reading)
+
+
+def _placed(steps: list[Step], reading: Reading) -> Interpretation:
+    if len(steps) == 1 and isinstance(steps[0], Remember):
+        reply = say(reading.language, "step_remember", place=steps[0].place)
+        return Interpretation("answered", reply, reading.language, remember_place=steps[0].place)
+    return planned(steps, reading.language)
+
+
+def _clauses(text: str) -> list[str]:
+    """The text cut before and after each break, nothing lost."""
+    parts, at = [], 0
+    for found in _BREAKS.finditer(text):
+        parts.append(text[at : found.start()])
+        parts.append(found.group())
+        at = found.end()
+    parts.append(text[at:])
+    merged: list[str] = []
+    for part in parts:
+        if merged and not part.strip():
+            merged[-1] += part
+        else:
+            merged.append(part)
+    return merged

@@ -1,0 +1,165 @@
+"""So many times: what is repeated, from where to where, and how often."""
+
+from __future__ import annotations
+
+import math
+
+from chatrobot.language.actions import act
+from chatrobot.language.frames import TURN, Frame
+from chatrobot.language.inverse import inverse
+from chatrobot.language.joining import is_times_only
+from chatrobot.language.script import Script, count_of, whole_count
+from chatrobot.language.unclear import Unclear
+from chatrobot.plan.steps import MAX_REPEAT, Drive, Repeat, Step, Turn, Wait
+
+
+def leading_count(frames: list[Frame]) -> tuple[int | None, list[Frame]]:
+    """`Twice: …`, `the following three times: …`."""
+    leads = len(frames) > 1 and is_times_only(frames[0])
+    if leads and frames[1].joined in ("colon", "weak", "none", "strong"):
+        return count_of(frames[0]), frames[1:]
+    return None, frames
+
+
+def loop_end(frames: list[Frame]) -> int:
+    """Where the announced loop ends: `twice: A, B. Then C`, `twice (A, B), then C`, `…, and after all that C`."""
+    ends = (k for k, f in enumerate(frames) if k and f.opens and f.joined == "then")
+    return next(ends, len(frames))
+
+
+def is_plain_again(frame: Frame) -> bool:
+    """`again`: each one adds what was said before it once."""
+    return "again" in frame.flags and not frame.moves and not frame.has_extent
+
+
+def is_moves_only(script: Script, frame: Frame) -> bool:
+    """这样来四下: so often, what was said before."""
+    count = frame.q.get("count")
+    told = frame.direction or frame.rot or frame.has_extent or frame.shape
+    bare = not told and frame.verb in ("", "make")
+    return count is not None and count.role == "move" and bare and bool(script.units)
+
+
+def lists_lengths(frames: list[Frame], i: int) -> bool:
+    """`Three legs: half a metre, one metre, 1.5 m`: the count only announces the list."""
+    frame = frames[i]
+    if "count" not in frame.q or frame.has_extent:
+        return False
+    count = int(frame.q["count"].number)
+    listed = frames[i + 1 : i + 1 + count]
+    return len(listed) == count and all("length" in f.q and not f.verb for f in listed)
+
+
+def with_measure(trip: Frame, following: Frame) -> Frame | None:
+    """`to and fro five times, half a metre each way`: the measure said after the trips."""
+    bare = not following.verb and not following.shape and not following.place and not following.rot
+    if not bare or trip.has_extent or following.joined == "then":
+        return None
+    both = trip.copy()
+    both.flags |= following.flags
+    both.q = {**following.q, **both.q}
+    both.direction = both.direction or following.direction
+    both.roles += following.roles
+    return both
+
+
+def round_trips(script: Script, frame: Frame) -> None:
+    """`Three round trips of one metre`: there and back as often.
+
+    Raises:
+        Unclear: where nothing says how far a trip goes.
+    """
+    each = frame.copy()
+    trips = 1
+    for name in ("count", "times"):
+        if name in each.q:
+            trips = whole_count(each.q.pop(name))
+    each.flags -= {"trip", "each"}
+    if not each.has_extent:
+        if not script.units:
+            raise Unclear("how_long_a_step", frame.text)
+        if len(script.units) > 1 and _is_there_and_back(script.steps()):
+            script.units = repeated(script.units, trips)
+            return
+        out = script.units.pop()
+    elif each.verb in TURN or each.rot:
+        raise Unclear("unclear_motion", frame.text)
+    else:
+        each.roles.clear()
+        out = act(each, script.state, script.pace)
+    for _ in range(trips):
+        script.units += [out, inverse(out)]
+
+
+def _is_there_and_back(steps: list[Step]) -> bool:
+    """Whether drives, seen without turning, end where they began."""
+    drives = [s for s in steps if isinstance(s, Drive) and s.distance_m]
+    if len(drives) < len([s for s in steps if not isinstance(s, Wait)]):
+        return False
+    x = sum((s.distance_m or 0.0) * math.cos(s.direction_rad) for s in drives)
+    y = sum((s.distance_m or 0.0) * math.sin(s.direction_rad) for s in drives)
+    return math.hypot(x, y) < 1e-6
+
+
+def is_heading_back(script: Script, frame: Frame) -> bool:
+    """`… until you face the way you started`: as often as it takes to a full turn.
+
+    Raises:
+        Unclear: where no number of rounds comes to that.
+    """
+    if "until" not in frame.flags or "original_heading" not in frame.flags:
+        return False
+    once = period(script.units)
+    turned = abs(_total_turn([s for unit in once for s in unit]))
+    rounds = round(2 * math.pi / turned) if turned else 0
+    if rounds < 1 or abs(rounds * turned - 2 * math.pi) > 1e-6:
+        raise Unclear("condition", frame.text)
+    script.units = repeated(once, rounds)
+    return True
+
+
+def fill_up(script: Script, frame: Frame) -> None:
+    """转一圈歇两秒，转满三圈为止: the units again until the whole amount is done.
+
+    Raises:
+        Unclear: where no number of rounds comes to that.
+    """
+    once = period(script.units)
+    steps = [step for unit in once for step in unit]
+    wanted = frame.q.get("angle") or frame.q.get("turns") or frame.q.get("length")
+    if wanted is None:
+        raise Unclear("condition", frame.text)
+    if wanted.value == "length":
+        done = sum(s.distance_m or 0.0 for s in steps if isinstance(s, Drive))
+    else:
+        done = abs(_total_turn(steps))
+    rounds = wanted.number / done if done else 0.0
+    if abs(rounds - round(rounds)) > 1e-6 or not 1 <= round(rounds) <= MAX_REPEAT:
+        raise Unclear("condition", frame.text)
+    script.units = repeated(once, round(rounds))
+
+
+def period(units: list[list[Step]]) -> list[list[Step]]:
+    """The shortest beginning that, repeated, gives all units."""
+    for length in range(1, len(units) + 1):
+        if len(units) % length == 0 and units[:length] * (len(units) // length) == units:
+            return units[:length]
+    return units
+
+
+def repeated(units: list[list[Step]], count: int) -> list[list[Step]]:
+    """The units so often; a pause at the very end, after which nothing comes, is left out."""
+    if not units:
+        raise Unclear("nothing_before")
+    whole = [step for unit in units for step in unit]
+    if count * len(whole) > 400:
+        return [[Repeat(count, tuple(whole))]]
+    out = [list(unit) for unit in units * count]
+    if count > 1 and all(isinstance(step, Wait) for step in out[-1]):
+        out.pop()
+    return out
+
+
+def _total_turn(steps: list[Step]) -> float:
+    """Signed sum of the turns that have an angle, radians."""
+    return sum((s.angle_rad or 0.0) * (1 if s.left else -1) for s in steps if isinstance(s, Turn))

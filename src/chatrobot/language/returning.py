@@ -1,0 +1,70 @@
+"""Frames that mean the way back, all of it or some of it."""
+
+from __future__ import annotations
+
+import math
+
+from chatrobot.language.driving import drive
+from chatrobot.language.ellipsis import State
+from chatrobot.language.frames import DIRECTIONS, SIDES, Frame
+from chatrobot.language.inverse import inverse
+from chatrobot.language.manner import Pace
+from chatrobot.language.unclear import Unclear
+from chatrobot.plan.steps import Drive, Go, Step, Turn, Wait
+
+
+def goes_back(frame: Frame, state: State) -> bool:
+    """`…, then back`: the way back, where there is a way to go back."""
+    sideways = bool(state.steps) and state.last == "drive" and state.direction in SIDES
+    verbs = ("", "go", "slide", "shift") if sideways else ("", "go")
+    bare = frame.verb in verbs and frame.direction == "back" and not frame.q and "bit" not in frame.flags
+    return bare and bool(state.steps) and frame.texts[-1:] == ["back"]
+
+
+def way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    """To where it all began: drives alone are undone one by one, after turns it goes straight there.
+
+    Raises:
+        Unclear: where more is said than a way back can have.
+    """
+    if set(frame.q) & {"length", "time"} and state.last == "drive" and not frame.direction:
+        return _some_way_back(frame, state, pace)
+    if set(frame.q) - {"speed", "percent", "fold", "faster"}:
+        raise Unclear("unclear_motion", frame.text)
+    if frame.direction or (frame.has_extent and frame.verb != "return"):
+        raise Unclear("unclear_motion", frame.text)
+    speed = pace.speed(frame)
+    if "same_way" in frame.flags:
+        return inverse(state.steps, speed)
+    drives: list[Step] = [step for step in state.steps if not isinstance(step, Wait)]
+    if drives and all(isinstance(step, Drive) and step.distance_m for step in drives):
+        return inverse(list(drives), speed)
+    if state.home is not None and not drives:
+        return [Go(state.home.x_m, state.home.y_m, frame="odom", speed_mps=speed)]
+    return [Go(0.0, 0.0, frame="start", speed_mps=speed)]
+
+
+def partly_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    """退回来二十厘米: against the last motion, by so much.
+
+    Raises:
+        Unclear: for an angle where the last motion was no turn.
+    """
+    if "length" in frame.q:
+        angle = DIRECTIONS[state.direction] if state.last == "drive" else 0.0
+        opposite = math.remainder(angle + math.pi, 2 * math.pi)
+        return [Drive(frame.q["length"].number, direction_rad=opposite, speed_mps=pace.speed(frame))]
+    if state.left is None or state.last != "turn":
+        raise Unclear("which_side", frame.text)
+    amount = frame.q.get("angle") or frame.q["turns"]
+    return [Turn(amount.number, left=not state.left, rate_radps=pace.rate(frame))]
+
+
+def _some_way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
+    """`…, then come back 50 cm`: so much of the last drive, undone."""
+    opposite = math.remainder(DIRECTIONS[state.direction] + math.pi, 2 * math.pi)
+    names = [n for n, a in DIRECTIONS.items() if abs(math.remainder(a - opposite, 2 * math.pi)) < 1e-6]
+    back = frame.copy()
+    back.verb, back.direction = "go", names[0]
+    back.flags -= {"to_start", "again"}
+    return drive(back, state, pace)

@@ -1,0 +1,196 @@
+"""Frames → steps: one after the other, with what repeats, interrupts or takes back those before it."""
+
+from __future__ import annotations
+
+import itertools
+
+from chatrobot.language.arrange import arranged
+from chatrobot.language.frames import SIDES, STILL, Frame
+from chatrobot.language.joining import is_times_only, merged
+from chatrobot.language.manner import Pace
+from chatrobot.language.pauses import insert, insert_at, insert_halfway, paced_legs
+from chatrobot.language.repeats import (
+    fill_up,
+    is_heading_back,
+    is_moves_only,
+    is_plain_again,
+    leading_count,
+    lists_lengths,
+    loop_end,
+    period,
+    repeated,
+    round_trips,
+    with_measure,
+)
+from chatrobot.language.script import Memory, Script, act_out, count_of
+from chatrobot.language.shapes import draw
+from chatrobot.language.unclear import Unclear
+from chatrobot.plan.steps import Step
+
+
+def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
+    """The steps of an utterance.
+
+    Raises:
+        Unclear: where a clause cannot be acted on.
+    """
+    frames = arranged(frames)
+    _check_amounts(frames)
+    legs = paced_legs(frames, pace)
+    if legs is not None:
+        return legs
+    count, frames = leading_count(frames)
+    script = Script(pace, memory, state=memory.state)
+    body = loop_end(frames) if count is not None else len(frames)
+    _take_all(script, frames[:body])
+    if count is not None:
+        script.units = repeated(script.units, count)
+        _take_all(script, frames[body:])
+    steps = script.steps()
+    if not steps:
+        raise Unclear("nothing_to_do")
+    _check_unsaid(script.state.unsaid, frames)
+    return steps
+
+
+def _check_unsaid(unsaid: list[Frame], frames: list[Frame]) -> None:
+    """A drive without an amount beside clauses that have one is most likely a clause that was misread: ask."""
+    if any(frame.has_extent for frame in frames):
+        for frame in unsaid:
+            if frame.joined not in ("then", "and"):
+                raise Unclear("how_far", frame.text)
+
+
+def _check_amounts(frames: list[Frame]) -> None:
+    """走直线，八十厘米，倒着走: a way said right after an amount may be how, or what comes next.
+
+    Raises:
+        Unclear: for a drive without an amount that is only set off by a comma from one that has it.
+    """
+    for last, frame in itertools.pairwise(frames):
+        bare = not (frame.q or frame.shape or frame.place or frame.rot or frame.words or frame.flags)
+        plain = frame.verb in ("", "go") and bool(frame.direction) and frame.direction not in SIDES
+        if bare and plain and frame.joined == "weak" and "length" in last.q and last.verb in ("", "go"):
+            raise Unclear("unclear_motion", f"{last.text} {frame.text}")
+
+
+def _take_all(script: Script, frames: list[Frame]) -> None:
+    i = 0
+    while i < len(frames):
+        i = _take(script, frames, i)
+
+
+def _take(script: Script, frames: list[Frame], i: int) -> int:
+    """Writes what `frames[i]` means, with the frames after it that belong to it; the index of the next one."""
+    for taken in (_announced, _counted_legs, _trips, _shape, _repeat, _on_the_way, _overshot, _interlude):
+        end = taken(script, frames, i)
+        if end is not None:
+            return end
+    act_out(script, frames[i])
+    return i + 1
+
+
+def _announced(script: Script, frames: list[Frame], i: int) -> int | None:
+    """What is no motion of its own: `without turning`, `three legs: …`, `… until you face the way you started`."""
+    frame = frames[i]
+    aside = "still_axis" in frame.flags and not frame.moves
+    return i + 1 if aside or lists_lengths(frames, i) or is_heading_back(script, frame) else None
+
+
+def _counted_legs(script: Script, frames: list[Frame], i: int) -> int | None:
+    """`Three legs of half a metre`: the count, then the length."""
+    frame = frames[i]
+    if "count" not in frame.q or frame.has_extent or frame.flags or i + 1 >= len(frames):
+        return None
+    following = frames[i + 1]
+    if "length" not in following.q or following.verb or following.joined == "then":
+        return None
+    both = merged(frame, following)
+    if both is None:
+        return None
+    act_out(script, both)
+    return i + 2
+
+
+def _trips(script: Script, frames: list[Frame], i: int) -> int | None:
+    frame = frames[i]
+    if "trip" not in (*frame.flags, *frame.roles, *[a.role for a in frame.q.values()]):
+        return None
+    after = frames[i + 1] if i + 1 < len(frames) else None
+    trip = with_measure(frame, after) if after is not None else None
+    if trip is None and after is not None and not after.moves:
+        trip = merged(frame, after)
+    round_trips(script, trip or frame)
+    return i + 1 + (trip is not None)
+
+
+def _shape(script: Script, frames: list[Frame], i: int) -> int | None:
+    if not frames[i].shape:
+        return None
+    end, steps = draw(frames, i, script.pace)
+    script.add(steps)
+    return end
+
+
+def _repeat(script: Script, frames: list[Frame], i: int) -> int | None:
+    """`four times`, `repeat that twice`, `three times in all`, `… until three turns are full`."""
+    frame, units = frames[i], script.units
+    counted = bool({"times", "count"} & set(frame.q))
+    if is_moves_only(script, frame):
+        script.units = repeated(units, count_of(frame))
+    elif is_times_only(frame) or ("again" in frame.flags and not frame.moves and counted):
+        script.units = repeated(units, count_of(frame) + bool({"extra", "more"} & frame.flags))
+    elif "total" in frame.flags and "times" in frame.q and not frame.has_extent and units:
+        script.units = repeated(period(units), count_of(frame))
+    elif "until" in frame.flags and frame.has_extent and len(units) > 1:
+        fill_up(script, frame)
+    else:
+        return None
+    return i + 1
+
+
+def _on_the_way(script: Script, frames: list[Frame], i: int) -> int | None:
+    """`halfway wait 2 s`, 走到一米的地方停三秒: a pause that cuts the last motion in two."""
+    frame, after = frames[i], frames[i + 1] if i + 1 < len(frames) else None
+    if "halfway" in frame.flags:
+        insert_halfway(script, frame)
+        goes_on = after is not None and after.verb == "go" and not (after.has_extent or after.direction)
+        return i + 1 + goes_on
+    if "at_point" in frame.flags:
+        if after is None or after.verb not in STILL:
+            raise Unclear("unclear_motion", frame.text)
+        insert_at(script, frame, after)
+        return i + 2
+    return None
+
+
+def _overshot(script: Script, frames: list[Frame], i: int) -> int | None:
+    """多走了二十厘米，退回来: so much of it undone."""
+    frame, after = frames[i], frames[i + 1] if i + 1 < len(frames) else None
+    if frame.flags & {"short_of", "overshot"} and not frame.moves and not frame.q and after is not None:
+        return i + 1
+    if "overshot" not in frame.flags or frame.direction or frame.verb == "return":
+        return None
+    if after is None or not frame.has_extent or after.has_extent:
+        raise Unclear("unclear_motion", frame.text)
+    if after.verb not in ("return", "go", "turn", ""):
+        raise Unclear("unclear_motion", frame.text)
+    act_out(script, Frame(verb="return", q=frame.q, texts=frame.texts))
+    return i + 2
+
+
+def _interlude(script: Script, frames: list[Frame], i: int) -> int | None:
+    """`again`, each one adding once what was said before it; and what comes between the motions, or after each."""
+    frame = frames[i]
+    if is_plain_again(frame):
+        if not script.units:
+            raise Unclear("nothing_before", frame.text)
+        agains = sum(1 for _ in itertools.takewhile(is_plain_again, reversed(frames[:i])))
+        script.units += [list(unit) for unit in script.units[: len(script.units) // (agains + 1)]]
+        return i + 1
+    if frame.verb in STILL and {"each", "all"} & frame.flags and script.units:
+        frame.flags.add("after_each")
+    elif not frame.flags & {"between", "after_each"}:
+        return None
+    insert(script, frame)
+    return i + 1

@@ -1,0 +1,61 @@
+"""One robot as Motion has it: what its sensors tell, and the one way on which a velocity reaches it."""
+
+from __future__ import annotations
+
+from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
+from chatrobot.core.reason import Reason
+from chatrobot.execution.sensors import Sensors
+from chatrobot.governor.governor import Governor, Verdict
+from chatrobot.governor.rule import Sensed
+from chatrobot.robots.profile import RobotProfile
+from chatrobot.transports.transport import Transport
+from chatrobot.wire.messages import LaserScan
+
+
+class GovernedRobot:
+    """Belongs to the control thread. Whoever moves the robot begins, asks and sends through this."""
+
+    def __init__(
+        self, profile: RobotProfile, sensors: Sensors, governor: Governor, transport: Transport
+    ) -> None:
+        self.profile = profile
+        self.sensors = sensors
+        self.governor = governor
+        self._transport = transport
+        self._looked_at: LaserScan | None = None
+
+    @property
+    def pose(self) -> Pose:
+        """Where it is in `odom`, as far as it is known: the origin before it has said so."""
+        estimate = self.sensors.estimate
+        return estimate.pose if estimate is not None else ORIGIN
+
+    def begin(self, lease: str, now_s: float) -> Reason | None:
+        """Have that lease take the wheel for a new motion; why it may not."""
+        return self.governor.begin(lease, now_s, self._sensed()).refusal
+
+    def govern(self, asked: Twist, lease: str, now_s: float) -> Verdict:
+        """What may be sent of `asked`, to a robot that is by now where odometry saw it going."""
+        return self.governor.govern(asked, lease, now_s, self.sensors.pose_now(), self._sensed())
+
+    def send(self, verdict: Verdict) -> None:
+        """Send what was allowed, unless a stop came since."""
+        self._transport.send(verdict.sent)
+
+    def send_zero(self, now_s: float) -> None:
+        """Zero in nobody's name: it is exempt from every rule."""
+        self._transport.send(self.governor.govern(ZERO_TWIST, "", now_s).sent)
+
+    def look(self) -> None:
+        """Show the governor what the lidar has seen since the last time."""
+        scan = self.sensors.scan
+        if scan is None or scan is self._looked_at:
+            return
+        self._looked_at = scan
+        pose = self.sensors.estimator.pose_at(scan.stamp_s)
+        if pose is not None:
+            self.governor.take_scan(scan, pose)
+
+    def _sensed(self) -> Sensed:
+        """What the governor's rules want to know of the sensors."""
+        return Sensed(self.sensors.ages_s(), self.sensors.battery_percent)

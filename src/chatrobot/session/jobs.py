@@ -1,0 +1,225 @@
+"""What Motion was asked to do, one after the other: accepted, rehearsed, approved, and handed to the driver."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from chatrobot.core.clock import Clock
+from chatrobot.core.events import Event, Notice, Outcome
+from chatrobot.core.reason import Reason
+from chatrobot.session.approval import Approval
+from chatrobot.session.driver import Driver
+from chatrobot.session.envelope import Envelope
+from chatrobot.session.governed_robot import GovernedRobot
+from chatrobot.session.inbox import Inbox
+from chatrobot.session.intake import Intake
+from chatrobot.session.job import Job
+from chatrobot.session.planner import Planned, Planner
+from chatrobot.session.program_box import ProgramBox
+from chatrobot.session.program_job import ProgramJob, job_of, needs_approval
+from chatrobot.session.stops import Stops
+from chatrobot.session.stream import Stream
+
+ODOMETRY_WAIT_S = 2.0
+"""A robot that has just been connected may need this long to say where it is."""
+
+
+class Jobs:
+    """At most one job is prepared or driven; the others wait in the intake. Belongs to the control thread."""
+
+    def __init__(
+        self,
+        robot: GovernedRobot,
+        intake: Intake,
+        driver: Driver,
+        planner: Planner,
+        programs: ProgramBox,
+        stops: Stops,
+        inbox: Inbox,
+        clock: Clock,
+        emit: Callable[[Event], None],
+    ) -> None:
+        self._robot = robot
+        self._intake = intake
+        self._driver = driver
+        self._planner = planner
+        self._programs = programs
+        self._stops = stops
+        self._inbox = inbox
+        self._clock = clock
+        self._emit = emit
+        self._preparing: Job | None = None
+
+    @property
+    def current(self) -> Job | None:
+        """What is being prepared or driven."""
+        return self._preparing or self._driver.job
+
+    @property
+    def are_done(self) -> bool:
+        """Nothing is prepared, driven or queued."""
+        return self.current is None and not self._intake.jobs
+
+    # --- accepted ---
+
+    def accept(self, envelope: Envelope, epoch: int) -> None:
+        """Take in a `plan` or a `program` that was received in that stop epoch."""
+        mode = envelope.payload.get("mode")
+        if mode == "extend":
+            self._extend(envelope)
+            return
+        job = job_of(envelope, epoch, self._clock.now_s())
+        declined = self._give_way(job)
+        if declined is None and mode == "replace":
+            self._replace(Reason("replaced"))
+        declined = declined or self._intake.add(job, self._stops.count)
+        if declined is not None:
+            self._finish(job, "stopped" if declined.code == "stopped" else "refused", declined)
+
+    def void(self, envelope: Envelope, epoch: int, why: Reason) -> None:
+        """It was overtaken by a later word, most likely a stop: its turn ends here."""
+        self._finish(Job.of(envelope, epoch, self._clock.now_s()), "stopped", why)
+
+    def _give_way(self, job: Job) -> Reason | None:
+        """A source of higher priority takes over at once; one of lower priority is refused, with the reason."""
+        current, leases = self.current, self._robot.governor.leases
+        if current is None or current.lease == job.lease:
+            return None
+        holder, comer = leases.source_of(current.lease), leases.source_of(job.lease)
+        if leases.priority_of(job.lease) < leases.priority_of(current.lease):
+            return Reason("outranked", {"source": holder})
+        if leases.priority_of(job.lease) > leases.priority_of(current.lease):
+            handed_over = Reason("handed_over", {"source": holder, "to": comer})
+            self._emit(Notice(job.turn, handed_over))
+            self._replace(handed_over)
+        return None
+
+    def _replace(self, why: Reason) -> None:
+        """New motion takes the place of the old, after a controlled stop; what was queued is dropped."""
+        for job in self._intake.take_all():
+            self._finish(job, "stopped", why)
+        self._drop_prepared("stopped", why)
+        self._driver.ramp_down(why)
+
+    # --- rehearsed ---
+
+    def begin_next(self, now_s: float) -> None:
+        """Prepare the next in the queue, if nothing is prepared or driven."""
+        jobs = self._intake.jobs
+        if self.current is not None or not jobs or self._is_waiting_for_odometry(jobs[0], now_s):
+            return
+        self._preparing = job = jobs.popleft()
+        job.start = self._robot.pose
+
+        def rehearse() -> Planned:
+            if isinstance(job, ProgramJob):
+                return self._programs.rehearse(job, self._planner)
+            return self._planner.plan(job.turn, job.plan_text, job.start)
+
+        self._inbox.fetch(rehearse, lambda planned: self._take_rehearsed(job, planned))
+
+    def _is_waiting_for_odometry(self, job: Job, now_s: float) -> bool:
+        sensors = self._robot.sensors
+        if not sensors.has_odometry or sensors.estimate is not None:
+            return False
+        if now_s - job.received_s >= ODOMETRY_WAIT_S:
+            self._intake.jobs.popleft()
+            topic = self._robot.profile.wiring.odom_topic
+            self._finish(job, "failed", Reason("no_odometry", {"topic": topic}))
+        return True
+
+    def _take_rehearsed(self, job: Job, planned: Planned) -> None:
+        if self._preparing is not job:
+            return  # stopped or replaced meanwhile; its end has been told
+        refusal = job.take(planned)
+        asks = needs_approval(job, planned)
+        for event in planned.events(asks):
+            self._emit(event)
+        if refusal is not None:
+            self._drop_prepared("refused", refusal)
+        elif job.rehearse_only:
+            self._drop_prepared("completed", None)
+        elif asks:
+            job.approval = Approval(self._clock.now_s(), job.start)
+        else:
+            self._launch(job)
+            self._rehearse_part(job)
+
+    def _launch(self, job: Job) -> None:
+        self._preparing = None
+        self._driver.launch(job)
+
+    # --- rehearsed in parts, while it is driven ---
+
+    def _extend(self, envelope: Envelope) -> None:
+        """The next part of a plan that came with `more`; worth nothing once that plan has ended."""
+        current = self.current
+        for job in (*((current,) if current is not None else ()), *self._intake.jobs):
+            if job.stream is not None and (job.turn, job.lease) == (envelope.turn, envelope.lease):
+                job.stream.add(str(envelope.payload.get("plan_text", "")), bool(envelope.payload.get("more")))
+                self._rehearse_part(job)
+                return
+
+    def _rehearse_part(self, job: Job) -> None:
+        """Rehearse the next part, if the one before it has been."""
+        stream = job.stream
+        if not self._driver.drives(job) or stream is None or stream.walk is None:
+            return
+        plan_text, start = stream.take(), stream.walk.end
+        if plan_text is not None:
+            text = plan_text
+            self._inbox.fetch(
+                lambda: self._planner.plan(job.turn, text, start, job.start),
+                lambda planned: self._take_part(job, stream, planned),
+            )
+
+    def _take_part(self, job: Job, stream: Stream, planned: Planned) -> None:
+        if not self._driver.drives(job):
+            return
+        self._emit(planned.part_event(stream.steps))
+        if stream.accept(planned) is None:
+            self._driver.expect(stream.duration_s)
+        self._rehearse_part(job)
+
+    # --- approved ---
+
+    def approve(self, turn: int, yes: bool) -> None:
+        """A person's answer to what was rehearsed in that turn."""
+        job = self._preparing
+        if job is None or job.approval is None or job.turn != turn:
+            return
+        lapse = job.approval.lapsed(self._clock.now_s(), self._robot.pose)
+        if not yes or lapse is not None:
+            self._drop_prepared("refused", lapse or Reason("not_approved"))
+        else:
+            job.approval = None
+            self._launch(job)
+
+    def expire_approval(self, now_s: float) -> None:
+        """Refuse what has waited for a yes too long, or from where the robot is no more."""
+        job = self._preparing
+        lapse = job.approval.lapsed(now_s, self._robot.pose) if job is not None and job.approval else None
+        if lapse is not None:
+            self._drop_prepared("refused", lapse)
+
+    # --- ended, before anything moved ---
+
+    def end_stopped(self, why: Reason) -> None:
+        """The robot has been stopped: end what was driven, prepared, or queued before the stop."""
+        self._driver.end_stopped(why)
+        self._drop_prepared("stopped", why)
+        for job in self._intake.take_void(self._stops.count):
+            self._finish(job, "stopped", why)
+
+    def refuse_all(self, why: Reason) -> None:
+        """Refuse what is queued."""
+        for job in self._intake.take_all():
+            self._finish(job, "refused", why)
+
+    def _drop_prepared(self, outcome: Outcome, reason: Reason | None) -> None:
+        job, self._preparing = self._preparing, None
+        if job is not None:
+            self._finish(job, outcome, reason)
+
+    def _finish(self, job: Job, outcome: Outcome, reason: Reason | None) -> None:
+        self._emit(job.unmoved(outcome, reason, self._robot.pose))

@@ -1,0 +1,83 @@
+"""What was said and has not been taken up yet, in order; a stop makes void what was said before it."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import deque
+from dataclasses import dataclass
+from typing import Literal
+
+from chatrobot.session.draft import Draft
+
+QUEUE_LIMIT = 10
+"""Texts that may wait while the robot moves; one more is refused rather than done in an hour."""
+
+Kind = Literal["text", "plan", "program", "draft", "stop", "emergency_stop", "too_many"]
+INSTRUCTIONS: tuple[Kind, ...] = ("text", "plan", "program", "draft")
+"""What may have to wait, and what a stop clears; the others are answered at once."""
+
+
+@dataclass(frozen=True)
+class Said:
+    """One text. `at_s` is when it was said (monotonic), `about` a program that is there, or the name of one to be."""
+
+    turn: int
+    text: str
+    kind: Kind
+    at_s: float
+    about: Draft | str = ""
+
+    @property
+    def is_instruction(self) -> bool:
+        return self.kind in INSTRUCTIONS
+
+
+class SaidTexts:
+    """`add` and `void` may be called from any thread; the rest belongs to the thread that pumps."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._texts: deque[Said] = deque()
+        self._turns = 0
+        self._void_turn = 0
+
+    def add(self, text: str, kind: Kind, about: Draft | str = "", *, is_moving: bool) -> int:
+        """Take in a text; the number of its turn. Where too many wait for a moving robot it is one too many."""
+        with self._lock:
+            self._turns += 1
+            if kind in INSTRUCTIONS and is_moving and self._count_waiting() >= QUEUE_LIMIT:
+                kind = "too_many"
+            self._texts.append(Said(self._turns, text, kind, time.monotonic(), about))
+            return self._turns
+
+    def void(self) -> int:
+        """A stop: what was said up to now is void; the last turn of it. No lock: a stop waits for nothing."""
+        self._void_turn = self._turns
+        return self._void_turn
+
+    def is_void_turn(self, turn: int) -> bool:
+        """A stop came after that turn was said."""
+        return turn <= self._void_turn
+
+    def is_void(self, said: Said) -> bool:
+        """A stop came after it was said; what is no instruction is answered all the same."""
+        return said.is_instruction and self.is_void_turn(said.turn)
+
+    @property
+    def waiting(self) -> tuple[Said, ...]:
+        """Oldest first."""
+        return tuple(self._texts)
+
+    def take(self, said: Said) -> Said:
+        """It waits no longer."""
+        with self._lock:
+            self._texts.remove(said)
+        return said
+
+    def take_too_many(self) -> list[Said]:
+        """Those that may not even wait."""
+        return [self.take(said) for said in self.waiting if said.kind == "too_many"]
+
+    def _count_waiting(self) -> int:
+        return sum(said.is_instruction and not self.is_void(said) for said in self._texts)

@@ -1,0 +1,57 @@
+"""Stops: out at once from whatever thread, and booked afterwards by the control thread."""
+
+from __future__ import annotations
+
+from chatrobot.core.clock import Clock
+from chatrobot.core.governed import StopEpoch
+from chatrobot.core.reason import Reason
+from chatrobot.session.zeroing import Zeroing
+from chatrobot.transports.transport import Transport
+
+
+class Stops:
+    """`halt` may be called from any thread at any moment; the rest belongs to the control thread.
+
+    Booking means that what ran and what waited is told its end, and that the robot is seen standing.
+    """
+
+    def __init__(self, epoch: StopEpoch, transport: Transport, zeroing: Zeroing, clock: Clock) -> None:
+        self._epoch = epoch
+        self._transport = transport
+        self._zeroing = zeroing
+        self._clock = clock
+        self._booked = epoch.value
+        self.last_reason = Reason("stopped")
+
+    def halt(self, why: Reason) -> None:
+        """Stop now: the zero is out before this returns. It takes no lock and waits for nothing."""
+        self.last_reason = why
+        self._transport.halt()
+
+    @property
+    def count(self) -> int:
+        """Changes with every stop: what was asked before it does not count any more."""
+        return self._epoch.value
+
+    @property
+    def is_unbooked(self) -> bool:
+        return self._booked != self._epoch.value
+
+    def book(self) -> Reason | None:
+        """Why the robot was stopped since the last time, None where it was not; from now on zeros are sent."""
+        if not self.is_unbooked:
+            return None
+        self._booked = self._epoch.value
+        self._zeroing.begin(self._clock.now_s())
+        return self.last_reason
+
+    def halt_and_book(self, why: Reason) -> None:
+        """The stop at the end of a motion that failed or was broken off: what waits is not touched by it.
+
+        One that came from elsewhere in the same moment is left to be booked, and does clear what waits.
+        """
+        is_alone = not self.is_unbooked
+        self.halt(why)
+        if is_alone and self._epoch.value == self._booked + 1:
+            self._booked += 1
+        self._zeroing.begin(self._clock.now_s())

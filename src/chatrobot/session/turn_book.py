@@ -1,0 +1,71 @@
+"""What became of each turn: it is with Motion, or it has ended with a result."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from chatrobot.core.events import Event, Finished, Notice, Outcome, Result
+from chatrobot.core.reason import Reason
+from chatrobot.language.interpretation import Interpretation
+from chatrobot.session.understanding import Understanding
+
+
+class Instruction(NamedTuple):
+    """What was said, and what it means."""
+
+    text: str
+    meant: Interpretation
+
+
+class TurnBook:
+    """Used by the session's pumping thread; `is_any_with_motion` may be read from any thread."""
+
+    def __init__(self, understanding: Understanding, emit: Callable[[Event], None]) -> None:
+        self._understanding = understanding
+        self._emit = emit
+        self._with_motion: dict[int, Instruction] = {}
+        self.results: dict[int, Result] = {}
+
+    @property
+    def is_any_with_motion(self) -> bool:
+        return bool(self._with_motion)
+
+    def track(self, turn: int, text: str, meant: Interpretation) -> None:
+        """That turn is now Motion's; its `finished` ends it."""
+        self._with_motion[turn] = Instruction(text, meant)
+
+    def take(self, turn: int) -> Instruction | None:
+        """Motion is done with that turn: what it was about, None where Motion never had it."""
+        return self._with_motion.pop(turn, None)
+
+    def conclude(
+        self,
+        turn: int,
+        outcome: Outcome,
+        reply: str,
+        finished: Finished | None = None,
+        reason: Reason | None = None,
+    ) -> None:
+        """End that turn: `finished` is what was measured, None where nothing moved."""
+        self.take(turn)
+        understanding = self._understanding
+        pose = understanding.pose
+        unkept = understanding.places.take_unkept()
+        if unkept:
+            self._emit(Notice(turn, Reason("places_not_kept", {"why": unkept})))
+        result = Result(turn, outcome, reply, pose, reason=reason)
+        if finished is not None:
+            result = Result(
+                turn,
+                outcome,
+                reply,
+                finished.pose,
+                finished.turned_rad,
+                finished.path_m,
+                finished.duration_s,
+                finished.paused_s,
+                reason or finished.reason,
+            )
+        self.results[turn] = result
+        self._emit(result)

@@ -1,0 +1,79 @@
+"""A session and a screen that only note what they are told."""
+
+from rich.text import Text
+
+from chatrobot.core.errors import JointError
+from chatrobot.core.events import Interpreted, Rehearsed
+from chatrobot.core.geometry import Pose
+
+
+class FakeSession:
+    """Notes what it is told."""
+
+    def __init__(self, log):
+        self.log = log
+        self.is_idle = True
+        self.is_moving = False
+        self.is_lost = False
+
+    def _note(self, *what):
+        if self.is_lost:
+            raise JointError("Motion is gone")
+        self.log.append(what)
+        return len(self.log)
+
+    def say(self, text):
+        return self._note("say", text)
+
+    def say_plan(self, plan_text):
+        return self._note("say_plan", plan_text)
+
+    def stop(self, why=""):
+        self._note("stop", why)
+
+    def emergency_stop(self, why=""):
+        self._note("emergency_stop", why)
+
+    def release(self):
+        self._note("release")
+
+    def approve(self, turn, yes):
+        self._note("approve", turn, yes)
+
+
+class FakeFace:
+    """Notes what it shows in the same list."""
+
+    width, echoes = 100, False
+
+    def __init__(self, log):
+        self.log = log
+
+    def print(self, *lines):
+        self.log += [("print", str(line) if isinstance(line, Text) else repr(line)) for line in lines]
+
+    def refresh(self):
+        pass
+
+    def edit(self, plan_text):
+        self.log.append(("edit", plan_text))
+
+    def leave(self, code):
+        self.log.append(("leave", code))
+
+
+def told(log):
+    """What the session was told, without what was shown."""
+    return [entry for entry in log if entry[0] not in ("print",)]
+
+
+def shown(log):
+    return "\n".join(entry[1] for entry in log if entry[0] == "print")
+
+
+def ask(talk):
+    """A plan of turn 1 waits for a yes."""
+    talk.hear(Interpreted(1, "offline", "drive 1 m", ""))
+    talk.hear(
+        Rehearsed(1, True, 3.6, 1.0, Pose(1.0), (), ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0)), needs_approval=True)
+    )

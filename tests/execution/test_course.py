@@ -1,0 +1,62 @@
+"""Where the robot should be is known for every moment: while it moves, late odometry included, and between motions."""
+
+from __future__ import annotations
+
+import pytest
+
+from chatrobot.core.geometry import Pose, Twist
+from chatrobot.execution.course import TICK_S, Course
+from chatrobot.plan.core_motion import RampedTwist
+from chatrobot.plan.trajectory import Segment
+from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
+
+LIMITS = load_profile(DEFAULT_PROFILE).limits
+START = Pose(1.0, 2.0, 0.0)
+
+
+def forward(start: Pose, hold_s: float = 2.0) -> Segment:
+    return Segment(RampedTwist.within(LIMITS, Twist(0.3, 0.0, 0.0), hold_s), start)
+
+
+def test_before_anything_moves_it_is_where_the_plan_begins() -> None:
+    assert Course(START).at(5.0) == START
+    assert not Course(START).has_moved
+
+
+def test_late_odometry_is_compared_with_the_motion_it_belongs_to() -> None:
+    course = Course(START)
+    first = forward(START)
+    course.begin(first, 10.0)
+    course.end(is_planned=True)
+    ends_s = 10.0 + first.total_s
+    course.begin(forward(course.reference), ends_s + TICK_S / 2.0)
+    assert course.began_s == ends_s, "no time is lost between two motions"
+    assert course.at(ends_s - 0.5) == pytest.approx(first.at(first.total_s - 0.5)[0])
+    assert course.at(ends_s + 1.0).x_m > first.end_pose.x_m
+
+
+def test_a_reference_that_waits_is_as_far_on_as_before() -> None:
+    course = Course(START)
+    course.begin(forward(START), 10.0)
+    before = course.at(11.0)
+    course.wait(0.5)
+    assert course.at(11.5) == pytest.approx(before)
+
+
+def test_a_motion_cut_short_ends_where_it_was_cut() -> None:
+    course = Course(START)
+    segment = forward(START)
+    course.begin(segment, 10.0)
+    shorter = segment.stop_early(1.0)
+    course.cut_short(shorter)
+    course.end(is_planned=True)
+    assert course.reference == shorter.end_pose
+    assert course.reference.x_m < segment.end_pose.x_m
+
+
+def test_a_mend_moves_the_robot_and_not_the_reference() -> None:
+    course = Course(START)
+    course.begin(forward(Pose(0.97, 2.0, 0.0), 0.1), 10.0)
+    course.end(is_planned=False)
+    assert course.reference == START
+    assert course.at(99.0) == START
