@@ -61,3 +61,44 @@ def test_a_correction_of_nothing_is_a_command() -> None:
 @pytest.mark.parametrize("said", ["不对", "错了", "转反了"])
 def test_a_correction_without_what_is_right_moves_nothing_at_first(said: str) -> None:
     assert Conversation().say(said).plan is None
+
+
+def test_again_repeats_what_the_correction_put_right() -> None:
+    talk = Conversation()
+    for said in ("左转30度", "不对，是右转", "再来一次"):
+        talk.say(said)
+    assert math.degrees(talk.track.pose.yaw_rad) == pytest.approx(-60, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    "turns",
+    [
+        ("前进一米，左转九十度", "撤销刚才两步"),
+        ("前进一米", "左转九十度", "撤销刚才两步"),
+        ("前进一米", "左转九十度", "右移半米", "把刚才那三步都撤销"),
+        ("前进一米", "左转九十度", "把上一步取消", "撤销"),
+    ],
+)
+def test_as_many_steps_are_undone_as_are_said(turns: tuple[str, ...]) -> None:
+    talk = Conversation()
+    for said in turns:
+        talk.say(said)
+    pose = talk.track.pose
+    assert (pose.x_m, pose.y_m, pose.yaw_rad) == pytest.approx((0, 0, 0), abs=1e-6)
+
+
+def test_asks_whether_two_steps_are_two_turns() -> None:
+    talk = Conversation()
+    talk.say("前进一米")
+    talk.say("左转九十度，后退半米")
+    assert talk.say("撤销刚才两步").outcome == "unclear"
+
+
+@pytest.mark.parametrize("turns", [("前进一米，左转90度",), ("前进一米", "左转90度")])
+def test_the_last_two_steps_are_done_once_more(turns: tuple[str, ...]) -> None:
+    talk = Conversation()
+    for said in (*turns, "刚才两步再做一遍"):
+        talk.say(said)
+    pose = talk.track.pose
+    assert (pose.x_m, pose.y_m) == pytest.approx((1, 1), abs=1e-6)
+    assert abs(math.degrees(pose.yaw_rad)) == pytest.approx(180, abs=1e-6)

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from chatrobot.language.changes import a_bit_of, changed, is_change
 from chatrobot.language.context import Context
 from chatrobot.language.frames import Frame
-from chatrobot.language.last_motion import steps_of
+from chatrobot.language.last_motion import last_steps
 from chatrobot.language.manner import Pace
 from chatrobot.language.totals import to_total
 from chatrobot.language.unclear import Unclear
-from chatrobot.language.undo import same_way_back, undone
+from chatrobot.language.undo import last_two, same_way_back, undone
 from chatrobot.plan.steps import Face, Go, Step
 
 
@@ -56,7 +56,7 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     if more is not None:
         return more
     if is_change(whole):
-        return changed(steps_of(context.dialogue.last_motion), whole, pace)
+        return changed(last_steps(context), whole, pace)
     return None
 
 
@@ -66,12 +66,9 @@ def _more_of_before(whole: Frame, context: Context, pace: Pace) -> list[Step] | 
         return None
     on = "more" in whole.flags or any(text.endswith(("more", "further", "farther")) for text in whole.texts)
     if on and "bit" in whole.flags <= {"bit", "more"} and not whole.roles:
-        return [a_bit_of(steps_of(context.dialogue.last_motion), whole, pace)]
-    if "again" in whole.flags and "both" in whole.texts[-1:]:
-        both = [turn.plan for turn in context.dialogue.turns if turn.plan is not None][-2:]
-        if len(both) < 2:
-            raise Unclear("nothing_before", whole.text)
-        return [step for plan in both for step in plan.steps]
+        return [a_bit_of(last_steps(context), whole, pace)]
+    if "again" in whole.flags and ("both" in whole.texts[-1:] or "both" in whole.flags):
+        return last_two(context, whole.text, steps="both" in whole.flags)
     return None
 
 

@@ -103,6 +103,14 @@ def _belongs(last: Frame, first: Frame) -> bool:
         return False
     if last.is_arc and first.verb == "turn" and "angle" not in last.q and not (first.direction or first.rot):
         return True
+    if (
+        last.is_arc
+        and first.verb == "turn"
+        and first.sided
+        and not last.sided
+        and _is_round_only(last, first)
+    ):
+        return True
     if last.is_arc or first.is_arc:
         return not (
             last.has_extent and first.verb and "until" not in first.flags and first.has_extent and last.verb
@@ -128,6 +136,11 @@ def _belongs(last: Frame, first: Frame) -> bool:
     if first.direction and first.has_extent:
         return not last.has_extent and last.direction in ("", first.direction)
     return True
+
+
+def _is_round_only(last: Frame, first: Frame) -> bool:
+    """走一段一米的弧线，右转60度: how far round, and to which side."""
+    return set(first.q) == {"angle"} and "angle" not in last.q and "length" in last.q
 
 
 def _is_laps(frame: Frame) -> bool:
