@@ -13,13 +13,13 @@ from chatrobot.language.numbers import is_chinese
 from chatrobot.language.tokens import Atom, quantity
 
 _AMOUNTS = frozenset({"length", "angle", "turns", "time"})
-_ENDS = frozenset({"sep", "conn", "filler", "q"})
+_ENDS = frozenset({"sep", "conn", "filler", "operator", "q"})
 
 
 @lru_cache(maxsize=1)
 def _operators() -> dict[str, str]:
     sums = load_table("zh", "sums")
-    return {word: name for name in ("times", "over") for word in (*sums[name], *sums.get(f"{name}_sign", ()))}
+    return {word: name for name in ("times", "over", "plus", "minus") for word in sums[name]}
 
 
 def with_multiples(atoms: Sequence[Atom]) -> list[Atom]:
@@ -30,9 +30,9 @@ def with_multiples(atoms: Sequence[Atom]) -> list[Atom]:
         found = _multiplied(out, i) or _reckoned(out, i)
         if found is None:
             i += 1
-        else:
-            made, end = found
-            out[i:end] = [made]
+            continue
+        made, end = found
+        out[i:end] = [made]
     return out
 
 
@@ -50,7 +50,7 @@ def _multiplied(atoms: Sequence[Atom], i: int) -> tuple[Atom, int] | None:
 
 
 def _reckoned(atoms: Sequence[Atom], i: int) -> tuple[Atom, int] | None:
-    """20厘米乘以3, 3乘以20厘米, 一米六除以四."""
+    """20厘米乘以3, 3乘以20厘米, 一米六除以四; 一米的两倍减三十公分."""
     if i + 2 >= len(atoms) or atoms[i].kind != "q" or atoms[i + 2].kind != "q":
         return None
     name = _operators().get(atoms[i + 1].text, "")
@@ -58,6 +58,10 @@ def _reckoned(atoms: Sequence[Atom], i: int) -> tuple[Atom, int] | None:
     text = f"{first.text} {atoms[i + 1].text} {second.text}"
     if not name or atoms[i + 1].kind == "q":
         return None
+    if name in ("plus", "minus"):
+        sign = 1.0 if name == "plus" else -1.0
+        fits = first.value == second.value in _AMOUNTS
+        return (quantity(first.value, first.number + sign * second.number, text), i + 3) if fits else None
     if first.value in _AMOUNTS and second.value == "number" and second.number > 0:
         return _times(first, second.number if name == "times" else 1.0 / second.number, text), i + 3
     if name == "times" and first.value == "number" and second.value in _AMOUNTS:
