@@ -137,4 +137,4 @@ def test_a_model_is_shown_the_picture_of_the_camera_that_was_passed() -> None:
     model = ScriptedModel("look camera", 'say "a red ball"')
     with fast(model=model, interpreter="model", camera=lambda: b"\x89PNG") as robot:
         assert robot.do("what do you see?").outcome in ("completed", "answered")
-    assert any(message.image_png == b"\x89PNG" for message in model.asked[-1])
+    assert any(message.picture == b"\x89PNG" for message in model.asked[-1])

@@ -55,7 +55,8 @@ def connect(
         model: the language model that is asked what is not understood without one: `PROVIDER:NAME`, or anything
             with the methods of `chatrobot.models.seam.Model`. None: no model.
         interpreter: `auto`, `offline`, or `model` to ask it about everything.
-        camera: takes a picture, as PNG, for a model that asks to see one; None where there is none just now.
+        camera: takes a picture, as JPEG or PNG, for a model that asks to see one; None where there is none just now.
+            Without it, a robot on a wire uses the camera that its profile names.
         config_dir: where remembered places and the user's own profiles live; None keeps nothing.
 
     Raises:

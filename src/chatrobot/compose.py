@@ -23,11 +23,11 @@ from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile, profile_argument
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.authoring import Authoring
+from chatrobot.session.camera import Camera, PassedCamera, wire_camera
 from chatrobot.session.child import spawn
 from chatrobot.session.joint import SimulatedJoint
 from chatrobot.session.model_choice import warm_up
 from chatrobot.session.model_terms import ModelOptions
-from chatrobot.session.observations import Camera
 from chatrobot.session.options import Options
 from chatrobot.session.session import Session
 from chatrobot.session.thinking import Mind
@@ -36,7 +36,7 @@ from chatrobot.sim.lies import SimLies
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import TRUTH_TOPIC, SimRobot
 from chatrobot.sim.world import World
-from chatrobot.wire.connect import is_on_this_machine, wire_address
+from chatrobot.wire.connect import connect_wire, is_on_this_machine, wire_address
 from chatrobot.wire.messages import Odometry
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ class Setup:
     `yes`: plans of a real robot need no approval. `programs`: who asks for a program gets one written, rehearsed and
     run; else its motion is driven as a plan. `folder` is where places, programs and history live; None keeps
     nothing. `model` is the language model to ask, None for none, `model_options` how it is used, and `camera` takes
-    pictures for it.
+    pictures for it, as JPEG or PNG, in place of the robot's own camera.
     """
 
     on: str = "sim"
@@ -73,7 +73,7 @@ class Setup:
     options: Options = field(default_factory=Options)
     model: Model | None = None
     model_options: ModelOptions = field(default_factory=ModelOptions)
-    camera: Camera | None = None
+    camera: Callable[[], bytes | None] | None = None
 
 
 @dataclass
@@ -91,6 +91,7 @@ def connect(setup: Setup, on_event: OnEvent) -> Connection:
 
     Raises:
         InputError: a profile, world or option is wrong; the message says where and what is allowed.
+        WireError: nobody answers where the robot should be.
         JointError: Motion or the simulated robot does not start.
     """
     on_wire = setup.on not in SIMULATED
@@ -126,7 +127,14 @@ def mind_of(setup: Setup, profile: RobotProfile) -> Mind | None:
     if setup.model is None:
         return None
     streams = setup.model_options.streams and profile.approval == "stream" and profile.can_turn_on_the_spot
-    return Mind(setup.model, replace(setup.model_options, streams=streams), profile, setup.camera)
+    return Mind(setup.model, replace(setup.model_options, streams=streams), profile, _camera(setup, profile))
+
+
+def _camera(setup: Setup, profile: RobotProfile) -> Camera | None:
+    """What was passed goes before what the robot has; the simulated robot has none."""
+    if setup.camera is not None:
+        return PassedCamera(setup.camera)
+    return None if setup.on in SIMULATED else wire_camera(wire_address(setup.on), profile.wiring)
 
 
 def profile_dirs(folder: Path | None) -> tuple[Path, ...]:
@@ -249,6 +257,10 @@ def _connect_wire(
         if chosen:
             raise UsageError("only the simulated robot of --on sim can do that", where=option)
     approve = setup.options.approve or (profile.approval == "plan" and not setup.yes)
+    if address.startswith(("rosbridge:", "local:")):
+        connect_wire(
+            address, profile.wiring, "chatrobot"
+        ).close()  # Motion would wait, and could not say for what
     joint = SocketJoint(address, profile_argument(setup.robot, profile_dirs(setup.folder)), setup.world)
     joint.wait_until_ready()
     authoring = _authoring(setup, profile, world, understanding)

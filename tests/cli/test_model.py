@@ -8,6 +8,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
@@ -136,6 +137,23 @@ def test_a_fake_model_serves_until_ctrl_c(tmp_path: Path, chatrobot: Command) ->
             assert json.load(answer)["data"][0]["id"] == ready["model"] == "parrot"
         process.send_signal(signal.SIGINT)
         assert process.wait(PATIENCE_S) == 5
+
+
+def test_the_key_that_a_script_asks_for_is_the_key_that_is_shown(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    script = tmp_path / "script.yaml"
+    script.write_text("keys: [sk-demo]\nreplies:\n  - text: x\n", encoding="utf-8")
+
+    def wait(_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(threading.Event, "wait", wait)
+    monkeypatch.setattr(FakeModel, "start", lambda _: None)
+    monkeypatch.setattr(FakeModel, "stop", lambda _: None)
+    monkeypatch.setattr(FakeModel, "url", "http://127.0.0.1:1")
+    main(["fake-model", str(script)])
+    assert "OPENAI_API_KEY=sk-demo\n" in capsys.readouterr().out
 
 
 def test_beyond_loopback_a_token_is_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -68,7 +68,8 @@ def test_listed_shown_edited_renamed_exported_and_removed(
     new.write_text(program("self.drive(0.1, 0.0, 1.0)"), encoding="utf-8")
     assert chatrobot("program", "edit", "square dance", "--file", str(new)).code == 0
     assert "self.drive(0.1" in Library(tmp_path / "config" / "chatrobot").get("square dance").source
-    assert chatrobot("program", "rename", "square dance", "waltz").code == 0
+    renamed = chatrobot("program", "rename", "Square dance", "../waltz")
+    assert (renamed.code, renamed.out) == (0, "“square dance” is now “waltz”.\n")
     folder = tmp_path / "ws"
     assert chatrobot("program", "export", "waltz", str(folder)).code == 0
     assert (folder / "src" / "waltz" / "package.xml").exists()

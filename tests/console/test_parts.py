@@ -8,11 +8,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from prompt_toolkit.completion import CompleteEvent
 from prompt_toolkit.document import Document
+from rich.cells import cell_len
 from rich.console import Console
+from rich.text import Text
 
 from chatrobot.cli.console import commands
 from chatrobot.cli.console.clean import clean
 from chatrobot.cli.console.completion import ChatCompleter
+from chatrobot.cli.console.lines import wrapped
 from chatrobot.cli.console.narrator import PLAN_LINES, Narrator
 from chatrobot.cli.console.ride import Ride
 from chatrobot.cli.console.strip import MAP_ROWS, Strip
@@ -242,6 +245,13 @@ def test_a_standing_robot_has_a_line_and_a_latched_one_an_alarm():
     assert "EMERGENCY STOP" in strip_text(moving_ride(), latched=True)
 
 
+def test_a_strip_shows_whole_hints_and_the_whole_percentage():
+    assert strip_text(Ride(), width=60).rstrip().endswith("Ctrl-C stops")
+    assert strip_text(Ride(), width=100).rstrip().endswith("Ctrl-D leaves")
+    for width in (45, 52, 60, 100):
+        assert "50 %" in strip_text(moving_ride(), width=width)
+
+
 def test_a_strip_without_its_map_is_words_alone():
     strip = Strip(moving_ride(), Words(), EMPTY_WORLD)
     strip.shows_map = False
@@ -304,3 +314,19 @@ def test_wrapped_lines_hang_under_their_first_and_end_without_blanks():
 
 def test_markup_in_what_a_person_says_is_just_text():
     assert "[red]x[/red]" in told(Narrator(Words()), Result(1, "unclear", "[red]x[/red]"))
+
+
+@pytest.mark.parametrize("width", [9, 20, 33, 60])
+def test_chinese_is_broken_between_its_characters_and_not_before_a_closing_mark(width):
+    said = "Wheeltec mini mecanum（仿真），在“home”里。告诉它做什么吧，比如：向前走半米，然后左转。"
+    lines = [line.plain for line in wrapped(Text(said), width)]
+    assert "".join(line.replace(" ", "") for line in lines) == said.replace(" ", "")
+    assert all(cell_len(line) <= width for line in lines)
+    assert all(line[0] not in "，。）：”" for line in lines)
+    assert len(lines) <= cell_len(said) / (width - 8 if width > 20 else 4) + 1
+
+
+def test_words_are_broken_at_blanks_and_blank_lines_stay():
+    lines = [line.plain for line in wrapped(Text("drive forward one metre\n\nthen stop"), 14)]
+    assert lines == ["drive forward", "one metre", "", "then stop"]
+    assert [line.plain for line in wrapped(Text("x" * 20), 8)] == ["x" * 8, "x" * 8, "x" * 4]

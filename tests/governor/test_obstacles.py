@@ -205,7 +205,11 @@ def test_turning_stops_before_a_post_that_vanishes_inside_the_minimum_range(rate
 
 def half_blind(blind_speed_mps: float, fov_deg: float = 180.0) -> Rig:
     robot = replace(load_profile("wheeltec_mini_mec"), safety=Safety(blind_speed_mps=blind_speed_mps))
-    return Rig(robot, f"{CHEAP},lidar_fov_deg={fov_deg}")
+    rig = Rig(robot, f"{CHEAP},lidar_fov_deg={fov_deg}")
+    rig.robot.add_obstacle(
+        "far", rectangle(7.0, 0.0, 0.5, 4.0)
+    )  # a cheap lidar that sees nothing says nothing
+    return rig
 
 
 @pytest.mark.parametrize("speed", [0.3, 0.6, 1.0])

@@ -195,6 +195,7 @@ def test_the_command_line_is_the_default_and_ros_s_parameters_go_before_it(
         "config_dir": "",
         "interpreter": "offline",
         "model": "",
+        "approval": "profile",
         "rounds": 6,
         "budget_tokens": 20_000,
         "budget_s": 600.0,

@@ -8,9 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from chatrobot.core.wiring import Wiring
 from chatrobot.governor.lease import LOCAL_TERM_S, TERM_S
+from chatrobot.nodes.input import InputNode
 from chatrobot.nodes.operator import CLAIMED_WITHIN_S, OperatorBeat, Operators
-from chatrobot.session.topics import OPERATOR
+from chatrobot.session.topics import OPERATOR, USER_INPUT
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import Text
 
@@ -147,3 +149,18 @@ def test_a_beat_with_odd_values_harms_nobody(room: Room, odd: dict[str, object])
     room.operators.hear_text("forward")
     room.wait(0.1)
     assert room.stops == 0
+
+
+@pytest.mark.parametrize(
+    ("typed", "heard"),
+    [("/stop", "stop"), ("/estop", "emergency stop"), ("/Release ", "release the emergency stop"),
+     ("/forward", "/forward")],
+)  # fmt: skip
+def test_the_consoles_commands_that_input_is_told_to_use_are_understood(typed: str, heard: str) -> None:
+    hub = MemoryHub()
+    texts: list[str] = []
+    hub.connect().subscribe(USER_INPUT, Text, lambda message: texts.append(message.data))
+    node = InputNode("memory", Wiring(), print, lambda *_: hub.connect())
+    node.say(typed)
+    node.close()
+    assert texts == [heard]

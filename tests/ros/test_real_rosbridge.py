@@ -19,7 +19,7 @@ from ros_rig import SOURCE, Process, next_domain
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "wire"))
 from about import About
-from wire_contract import Inbox, WireContract
+from wire_contract import CAMERA, Inbox, WireContract
 
 from chatrobot.core.wiring import Wiring
 from chatrobot.session.discovered import fit
@@ -96,8 +96,8 @@ def connect(server: Server) -> Iterator[Callable[..., RosbridgeWire]]:
 
 class TestRealRosbridge(WireContract):
     @pytest.fixture
-    def connect(self, connect: Callable[..., RosbridgeWire]) -> Callable[..., RosbridgeWire]:  # type: ignore[override]
-        return connect
+    def connect(self, connect: Callable[..., RosbridgeWire]) -> Callable[[], RosbridgeWire]:  # type: ignore[override]
+        return lambda: connect(CAMERA)
 
     def as_it_arrives(self, message: Message) -> About:
         """Infinity and NaN are both null on the wire, and come back as NaN: what was there cannot be known."""

@@ -16,7 +16,7 @@ from ros_rig import next_domain
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "wire"))
 from about import About
-from wire_contract import Inbox, WireContract
+from wire_contract import CAMERA, Inbox, WireContract
 
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.core.wiring import Wiring
@@ -73,7 +73,7 @@ class TestRealRosWire(WireContract):
     def connect(self, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[], Any]]:  # type: ignore[override]
         monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
         ends = Ends()
-        yield ends
+        yield lambda: ends(wiring=CAMERA)
         ends.close()
 
     def as_it_arrives(self, message: Message) -> About:

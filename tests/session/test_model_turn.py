@@ -242,7 +242,7 @@ def test_places_and_pictures_can_be_asked_for() -> None:
     talk.do(ASKED)
     assert '"kitchen" 4.00 0.70 0 deg' in talk.model.last
     assert '"dock two" 0.20' in talk.model.last
-    assert talk.model.asked[-1][-1].image_png == b"png"
+    assert talk.model.asked[-1][-1].picture == b"png"
     talk = ModelTalk("look camera", 'say "ok"')
     talk.do(ASKED)
     assert "no camera picture" in talk.model.last

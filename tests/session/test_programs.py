@@ -10,12 +10,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.models.rig import model_at, serving
 from tests.programs.requests import ROTATION, SQUARE
 from tests.programs.scripted_model import ScriptedModel, fenced, program
 
 from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.events import (
     Event,
+    ModelCalled,
     ProgramLog,
     ProgramRehearsed,
     ProgramWritten,
@@ -23,6 +25,7 @@ from chatrobot.core.events import (
     Result,
     TruePose,
 )
+from chatrobot.models.usage_log import totals
 from chatrobot.programs.library import KeptProgram
 from chatrobot.session.options import Options
 
@@ -86,7 +89,7 @@ def house(shared: House) -> Iterator[House]:
     yield shared
     shared.authoring.model, shared.authoring.prefers_model = None, False
     shared.on_event = lambda _: None
-    shared.session._options = Options()
+    shared.session.options = Options()
 
 
 def turned_in(poses: list[TruePose]) -> tuple[float, float]:
@@ -250,6 +253,37 @@ def test_a_new_program_is_kept_with_where_it_comes_from_and_how_it_went(house: H
     assert kept.runs[-1].outcome == "completed"
 
 
+def test_what_a_model_uses_to_write_and_to_mend_is_told_call_by_call(house: House) -> None:
+    house.model("no program at all, sorry")
+    house.do(ASKED)
+    assert [(call.model, call.round) for call in house.all(ModelCalled)] == [("scripted:test", 1)]
+    house.model(fenced("this is no Python ("), fenced(DANCE + "# mended\n"))
+    assert house.do(ASKED).outcome == "completed"
+    calls = house.all(ModelCalled)
+    assert [call.round for call in calls] == [1, 2]
+    assert calls[1].prompt_tokens > calls[0].prompt_tokens > 0
+    assert calls[1].reply_tokens > 0
+    assert not any(call.counted for call in calls)
+
+
+def test_what_a_model_uses_to_write_programs_counts_in_usage(house: House, tmp_path: Path) -> None:
+    pytest.importorskip("pydantic_ai")
+    broken, whole = fenced("this is no Python ("), fenced(DANCE + "# counted\n")
+    with serving([{"text": broken}, {"text": whole}]) as fake:
+        house.authoring.model = model_at("openai", fake.url, folder=tmp_path)
+        assert house.do(ASKED).outcome == "completed"
+    total = totals(tmp_path, "model")["openai:fake"]
+    told = house.all(ModelCalled)
+    assert (total.calls, total.estimated) == (2, 0)
+    assert total.prompt_tokens == sum(call.prompt_tokens for call in told) > 0
+    assert total.reply_tokens == sum(call.reply_tokens for call in told) > 0
+
+
+def test_a_program_that_needs_no_model_uses_none(house: House) -> None:
+    house.do("Generate a ROS 2 Python program to drive forward 15 cm")
+    assert not house.all(ModelCalled)
+
+
 def test_the_same_program_is_kept_once(house: House) -> None:
     house.do("Generate a ROS 2 Python program called “there and back” to drive forward 10 cm then back 10 cm")
     house.do("Generate a ROS 2 Python program called “there and back” to drive forward 10 cm then back 10 cm")
@@ -269,14 +303,14 @@ def test_findings_ask_and_a_no_moves_nothing(house: House) -> None:
 
 
 def test_who_said_yes_beforehand_is_not_asked(house: House) -> None:
-    house.session._options = Options(ask_findings=False)
+    house.session.options = Options(ask_findings=False)
     result = house.run(program("self.drive(0.2, 0.0, 0.5)\nreturn"))
     assert result.outcome == "completed"
     assert house.all(TruePose)[-1].vx_mps == 0.0  # it did not stop the robot: I did
 
 
 def test_what_was_written_just_now_can_be_asked_about(house: House) -> None:
-    house.session._options = replace(Options(), ask_new=True)
+    house.session.options = replace(Options(), ask_new=True)
     house.on_event = lambda event: (
         house.session.approve(event.turn, True)
         if isinstance(event, Rehearsed) and event.needs_approval
@@ -284,6 +318,23 @@ def test_what_was_written_just_now_can_be_asked_about(house: House) -> None:
     )
     result = house.do("Generate a ROS 2 Python program to drive forward 20 cm")
     assert house.all(Rehearsed)[0].needs_approval
+    assert result.outcome == "completed"
+
+
+@pytest.mark.parametrize("by_model", [True, False])
+def test_on_a_real_robot_a_program_of_a_model_is_asked_about_and_one_of_ours_is_not(
+    house: House, by_model: bool
+) -> None:
+    house.session.options = replace(Options(), approve_models=True)
+    house.on_event = lambda event: (
+        house.session.approve(event.turn, True)
+        if isinstance(event, Rehearsed) and event.needs_approval
+        else None
+    )
+    if by_model:
+        house.model(fenced(DANCE + "# asked about\n"))
+    result = house.do(ASKED if by_model else "Generate a ROS 2 Python program to drive forward 25 cm")
+    assert house.all(Rehearsed)[0].needs_approval is by_model
     assert result.outcome == "completed"
 
 

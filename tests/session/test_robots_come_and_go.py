@@ -13,6 +13,7 @@ import pytest
 
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.events import Event, Finished, Notice
+from chatrobot.core.reason import Reason
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.guard_link import SimulatedGuard
@@ -193,6 +194,34 @@ def test_after_wifi_is_back_all_goes_on(rig: Rig) -> None:
     assert end.path_m == pytest.approx(0.3, abs=0.02)
 
 
+def test_who_leaves_a_robot_out_of_sight_leaves_its_guard_at_work(rig: Rig) -> None:
+    said: list[str] = []
+    rig.motion._guard.goodbye = lambda: said.append("goodbye")  # type: ignore[method-assign]
+    rig.do("drive 0.1 m")
+    rig.motion.leave()
+    assert said == ["goodbye"]
+    rig.begin("drive 2 m")
+    rig.pass_time(1.0)
+    rig.network.is_down = True
+    rig.pass_time(4.0)
+    rig.motion.leave()
+    assert said == ["goodbye"], "its base may hold the last command for ever"
+
+
+def test_where_the_wire_is_closed_for_good_all_that_was_asked_for_has_failed(rig: Rig) -> None:
+    rig.begin("drive 5 m")
+    rig.begin("drive 1 m")
+    rig.pass_time(1.0)
+    rig.motion.give_up(Reason("wire_gone"))
+    rig.events += rig.joint._events  # type: ignore[attr-defined]
+    ends = [rig.end_of(turn) for turn in (1, 2)]
+    assert [(end.outcome, end.reason and end.reason.code) for end in ends if end] == [
+        ("failed", "wire_gone")
+    ] * 2
+    assert ends[0] is not None
+    assert ends[0].path_m > 0.1, "what it has done is told"
+
+
 def test_a_robot_that_stood_all_the_while_gets_no_zeros_when_it_is_back(rig: Rig) -> None:
     """Somebody else may drive it by then."""
     rig.begin("drive 0.2 m")
@@ -268,6 +297,18 @@ def test_a_robot_that_does_not_answer_is_said_not_to() -> None:
     deaf = Rig(lambda profile: replace(profile, wiring=replace(profile.wiring, cmd_vel_topic="nobody")))
     end = deaf.do("drive 1 m")
     assert (end.outcome, end.reason and end.reason.code) == ("failed", "does_not_move")
+
+
+def test_a_plan_whose_robot_moves_on_at_its_end_is_not_completed(rig: Rig) -> None:
+    somebody = rig.hub.connect()
+    rig.begin("drive 0.3 m")
+    rig.pass_time(0.8)
+    rig.each_step = lambda: somebody.publish("cmd_vel", TwistMessage(0.0, 0.0, 0.4))
+    rig.pass_time(8.0)
+    end = rig.end_of(1)
+    assert end is not None
+    assert (end.outcome, end.reason and end.reason.code) == ("failed", "moves_on")
+    assert rig.motion.zeroing.is_active, "zeros go on"
 
 
 class TestTwoPublishers:

@@ -12,7 +12,7 @@ from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
 from chatrobot.session.stops import Stops
 from chatrobot.session.zeroing import Zeroing
 
-PERSON, FAULT = Reason("stopped_by", {"source": "console", "why": "stop"}), Reason("odometry_late")
+PERSON = Reason("stopped_by", {"source": "console", "why": "stop"})
 
 
 class HaltingTransport:
@@ -53,7 +53,7 @@ def test_a_stop_is_out_before_it_is_booked_and_booked_once() -> None:
 
 def test_the_stop_at_the_end_of_a_motion_is_nobodys_and_leaves_what_waits() -> None:
     stops, transport, zeroing = rig()
-    stops.halt_and_book(FAULT)
+    stops.halt_and_book()
     assert transport.zeros == 1
     assert zeroing.is_active
     assert stops.book() is None
@@ -66,7 +66,7 @@ def test_a_persons_stop_is_not_lost_in_a_motions_own() -> None:
             stops.halt(PERSON)
         else:
             transport.meanwhile = lambda stops=stops: stops.halt(PERSON)  # type: ignore[misc]
-        stops.halt_and_book(FAULT)
+        stops.halt_and_book()
         assert transport.zeros == 2
-        assert stops.book() is not None
+        assert stops.book() == PERSON, "and it keeps its name"
         assert stops.book() is None

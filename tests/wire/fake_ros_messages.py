@@ -32,6 +32,9 @@ _DEFINITIONS = {
     "sensor_msgs/Imu": "std_msgs/Header header, geometry_msgs/Vector3 angular_velocity",
     "sensor_msgs/LaserScan": "std_msgs/Header header, float angle_min, float angle_max, float angle_increment, "
     "float range_min, float range_max, sequence<float> ranges",
+    "sensor_msgs/Image": "std_msgs/Header header, uint32 height, uint32 width, string encoding, "
+    "uint8 is_bigendian, uint32 step, sequence<uint8> data",
+    "sensor_msgs/CompressedImage": "std_msgs/Header header, string format, sequence<uint8> data",
     "sensor_msgs/BatteryState": "float percentage, bool present",
     "diagnostic_msgs/KeyValue": "string key, string value",
     "diagnostic_msgs/DiagnosticStatus": "octet level, string name, string message, string hardware_id, "
@@ -40,8 +43,9 @@ _DEFINITIONS = {
 }
 _ZEROS: dict[str, Any] = {
     "bool": False, "double": 0.0, "float": 0.0, "string": "", "octet": b"\0", "int32": 0, "uint32": 0,
+    "uint8": 0,
 }  # fmt: skip
-_SEQUENCES = {"float": "f", "double": "d"}
+_SEQUENCES = {"float": "f", "double": "d", "uint8": "B"}
 
 
 class Message:

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from wire_contract import ONE_OF_EACH
 
 from chatrobot.core.wiring import Wiring
+from chatrobot.wire.codec import as_base64
 from chatrobot.wire.messages import Message, Number, Odometry, Text, TwistMessage
 from chatrobot.wire.ros_messages import is_sensor, ros_form, transform
 
@@ -21,7 +22,9 @@ PLAIN = Wiring()
 
 
 def as_object(fields: dict[str, Any]) -> Any:
-    return json.loads(json.dumps(fields), object_hook=lambda found: SimpleNamespace(**found))
+    return json.loads(
+        json.dumps(fields, default=as_base64), object_hook=lambda found: SimpleNamespace(**found)
+    )
 
 
 @pytest.mark.parametrize("message", ONE_OF_EACH, ids=lambda message: type(message).__name__)

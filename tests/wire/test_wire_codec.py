@@ -19,6 +19,8 @@ FIELDS: dict[object, st.SearchStrategy[object]] = {
     list[float]: st.lists(NUMBERS, max_size=20),
     str: st.text(),
     bool: st.booleans(),
+    int: st.integers(),
+    bytes: st.binary(max_size=20),
 }
 TOPICS = st.text(st.characters(codec="utf-8", exclude_characters="\0"))
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 import pytest
 from about import About
 from dds_rig import AcquaintedWire, Ends
-from wire_contract import WireContract
+from wire_contract import CAMERA, WireContract
 
 from chatrobot.wire.messages import Message
 
@@ -15,7 +15,7 @@ from chatrobot.wire.messages import Message
 class TestDdsWire(WireContract):
     @pytest.fixture
     def connect(self) -> Iterator[Callable[[], AcquaintedWire]]:  # type: ignore[override]
-        ends = Ends()
+        ends = Ends(CAMERA)
         yield ends.connect
         ends.close()
 

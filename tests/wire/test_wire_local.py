@@ -13,7 +13,7 @@ from wire_contract import PATIENCE_S, Inbox, WireContract
 
 from chatrobot.core.errors import WireError
 from chatrobot.wire.local import LocalHub, LocalWire
-from chatrobot.wire.messages import Number, Text, TwistMessage
+from chatrobot.wire.messages import Number, Picture, Text, TwistMessage
 
 
 @contextlib.contextmanager
@@ -79,6 +79,17 @@ class TestLocalWire(WireContract):
                 stranger.send(garbage)
             stranger.send(b"topic\0TwistMessage\0[1,0.5,2]")
             assert inbox.next() == TwistMessage(1.0, 0.5, 2.0)
+
+    def test_a_picture_larger_than_a_packet_is_dropped_and_the_wire_goes_on(
+        self, connect: Callable[[], LocalWire]
+    ) -> None:
+        inbox, pictures = Inbox(connect(), "topic", Number), Inbox(connect(), "camera", Picture)
+        sender = connect()
+        sender.publish("camera", Picture(1.0, "mono8", 1000, 1000, 1000, bytes(1_000_000)))
+        sender.publish("camera", Picture(2.0, "mono8", 1, 1, 1, b"x"))
+        sender.publish("topic", Number(1.0))
+        assert inbox.next() == Number(1.0)
+        assert pictures.next().stamp_s == 2.0
 
     def test_a_reader_that_is_frozen_does_not_block_the_others(
         self, connect: Callable[[], LocalWire], path: Path

@@ -13,7 +13,7 @@ from typing import Any
 import fake_rclpy
 import pytest
 from about import About
-from wire_contract import Inbox, WireContract
+from wire_contract import CAMERA, Inbox, WireContract
 
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.core.wiring import Wiring
@@ -65,7 +65,7 @@ class TestRosWire(WireContract):
     @pytest.fixture
     def connect(self, ros: fake_rclpy.Ros) -> Iterator[Callable[[], Any]]:  # type: ignore[override]  # noqa: ARG002
         ends = Ends()
-        yield ends
+        yield lambda: ends(wiring=CAMERA)
         ends.close()
 
     def as_it_arrives(self, message: Message) -> About:

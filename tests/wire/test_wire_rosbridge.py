@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import contextlib
 import queue
 import socket
@@ -11,11 +12,21 @@ from collections.abc import Callable, Iterator
 
 import pytest
 from about import About
-from wire_contract import PATIENCE_S, Inbox, WireContract
+from wire_contract import CAMERA, PATIENCE_S, Inbox, WireContract
 
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.robots.profile import Wiring
-from chatrobot.wire.messages import Flag, Imu, LaserScan, Message, Number, Odometry, Text, TwistMessage
+from chatrobot.wire.messages import (
+    Flag,
+    Imu,
+    LaserScan,
+    Message,
+    Number,
+    Odometry,
+    Picture,
+    Text,
+    TwistMessage,
+)
 
 pytest.importorskip("websockets", reason="pip install 'chatrobot[rosbridge]'")
 
@@ -50,8 +61,8 @@ def connect(robot: FakeRosbridge) -> Iterator[Connect]:
 
 class TestRosbridgeWire(WireContract):
     @pytest.fixture
-    def connect(self, connect: Connect) -> Connect:  # type: ignore[override]
-        return connect
+    def connect(self, connect: Connect) -> Callable[[], RosbridgeWire]:  # type: ignore[override]
+        return lambda: connect(CAMERA)
 
     def as_it_arrives(self, message: Message) -> About:
         return About(message)
@@ -242,6 +253,20 @@ def test_a_battery_is_told_in_per_cent(robot: FakeRosbridge, connect: Connect) -
     robot.say("/battery", {"percentage": None})
     robot.say("/battery", {"percentage": 0.5})
     assert heard.next() == Number(50.0)
+
+
+def test_a_camera_s_pictures_are_asked_for_now_and_then_and_come_as_base64(
+    robot: FakeRosbridge, connect: Connect
+) -> None:
+    pictures = Inbox(connect(), "camera", Picture)
+    asked = next(request for request in robot.of("subscribe") if request["topic"] == "/camera")
+    assert (asked["throttle_rate"], asked["queue_length"]) == (200, 1)
+    size = {"height": 480, "width": 640, "step": 1920}
+    data = base64.b64encode(bytes(640 * 480 * 3)).decode()
+    robot.say(
+        "/camera", {"header": {"stamp": {"sec": 0, "nanosec": 0}}, "encoding": "rgb8", **size, "data": data}
+    )
+    assert len(pictures.next().data) == 640 * 480 * 3
 
 
 def _rosapi(robot: FakeRosbridge) -> None:

@@ -11,17 +11,32 @@ from typing import Generic, TypeVar
 import pytest
 
 from chatrobot.core.errors import WireError
-from chatrobot.wire.messages import Flag, Imu, LaserScan, Message, Number, Odometry, Text, TwistMessage
+from chatrobot.core.wiring import Wiring
+from chatrobot.wire.messages import (
+    PICTURE_BYTES,
+    Flag,
+    Imu,
+    LaserScan,
+    Message,
+    Number,
+    Odometry,
+    Picture,
+    Text,
+    TwistMessage,
+)
 from chatrobot.wire.wire import Wire
 
 M = TypeVar("M", bound=Message)
 PATIENCE_S = 10.0
+CAMERA = Wiring(camera_topic="camera", camera_type="CompressedImage")
+"""How the ends of this suite are wired."""
 
 ONE_OF_EACH: tuple[Message, ...] = (
     TwistMessage(0.3, -0.1, 0.6),
     Odometry(1.5, 1.0, 2.0, 3.0, 0.1, 0.2, 0.3),
     Imu(1.5, 0.25),
     LaserScan(1.5, -math.pi, 0.0175, 0.05, 12.0, [1.0, math.inf, 0.07]),
+    Picture(1.5, "rgb8", 2, 2, 8, bytes(range(0, 160, 10))),
     Flag(True),
     Number(87.5),
     Text("去厨房 — go to the kitchen"),
@@ -66,6 +81,13 @@ class WireContract:
         arrived = inbox.next()
         assert type(arrived) is type(message)
         assert self.as_it_arrives(message) == arrived
+
+    def test_a_text_with_half_a_character_ends_nothing(self, connect: Callable[[], Wire]) -> None:
+        inbox = Inbox(connect(), "topic", Text)
+        sender = connect()
+        sender.publish("topic", Text("half \ud800"))
+        sender.publish("topic", Text("after"))
+        assert inbox.take(2)[-1] == Text("after")
 
     def test_messages_arrive_in_the_order_they_were_sent(self, connect: Callable[[], Wire]) -> None:
         inbox = Inbox(connect(), "topic", Number)
@@ -114,6 +136,19 @@ class WireContract:
         scan = LaserScan(1.0, -math.pi, 0.001, 0.05, 40.0, [i / 7.0 for i in range(6000)])
         connect().publish("scan", scan)
         assert self.as_it_arrives(scan) == inbox.next()
+
+    def test_a_picture_passes(self, connect: Callable[[], Wire]) -> None:
+        inbox = Inbox(connect(), "camera/image_raw", Picture)
+        rows = PICTURE_BYTES // 512
+        picture = Picture(1.0, "mono8", 512, rows, 512, bytes(i * i % 251 for i in range(512 * rows)))
+        connect().publish("camera/image_raw", picture)
+        assert self.as_it_arrives(picture) == inbox.next()
+
+    def test_a_picture_of_the_camera_arrives_as_the_file_it_is(self, connect: Callable[[], Wire]) -> None:
+        inbox = Inbox(connect(), "camera", Picture)
+        picture = Picture(1.0, "jpeg", 0, 0, 0, b"\xff\xd8\xff and what follows")
+        connect().publish("camera", picture)
+        assert self.as_it_arrives(picture) == inbox.next()
 
     def test_a_callback_may_publish_and_subscribe(self, connect: Callable[[], Wire]) -> None:
         wire, asker = connect(), connect()

@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-import select
+import contextlib
+import queue
 import sys
+import threading
 
 from chatrobot.cli.console.ride import Ride
 from chatrobot.cli.editor import edited_text
-from chatrobot.core.events import Event, Finished, Rehearsed
+from chatrobot.core.events import Event
+from chatrobot.language.consent import read_consent, wants_to_edit
+from chatrobot.session.question import Question
 from chatrobot.session.session import Session
 from chatrobot.sim.world import World
-
-_EDIT = frozenset({"e", "edit", "修改", "改"})
-_YES = frozenset({"y", "yes", "ok", "是", "好", "好的", "行", "可以", "对"})
 
 
 class Approver:
     """Hears the events of a session and answers those that ask.
 
     Args:
-        can_ask: a person sits at standard input and has nothing else to type there.
+        can_ask: a person sits at a `Keyboard`, which hands on what is typed by `type`.
         others_answer: whoever reads our events answers; see `talk`.
     """
 
@@ -28,11 +29,14 @@ class Approver:
     def __init__(self, *, can_ask: bool, others_answer: bool = False) -> None:
         self._can_ask = can_ask
         self._others_answer = others_answer
-        self._turn: int | None = None
+        self._question = Question()
         self._has_asked = False
         self._ride = Ride()
         self._world: World | None = None
         self._edited_plan: str | None = None
+        self._typed: queue.SimpleQueue[str] = queue.SimpleQueue()
+        self.editing = threading.Lock()
+        """Held while an editor has the terminal."""
 
     def attach(self, world: World) -> None:
         """What to draw the way in."""
@@ -41,18 +45,17 @@ class Approver:
     @property
     def is_waiting(self) -> bool:
         """A plan waits for an answer."""
-        return self._turn is not None
+        return self._question.turn is not None
 
     def hear(self, event: Event) -> None:
         self._ride.hear(event)
-        if isinstance(event, Rehearsed) and event.needs_approval:
-            self._turn, self._has_asked = event.turn, False
-        elif isinstance(event, Finished) and event.turn == self._turn:
-            self._turn = None
+        if self._question.hear(event):
+            self._has_asked = False
+            self._typed = queue.SimpleQueue()
 
     def answer(self, session: Session) -> None:
         """Answer what waits, if there is an answer by now. Never blocks."""
-        if self._turn is None:
+        if not self.is_waiting:
             return
         if self._can_ask:
             self._ask(session)
@@ -65,23 +68,32 @@ class Approver:
 
     def give(self, session: Session, yes: bool) -> None:
         """Answer the plan that waits."""
-        if self._turn is not None:
-            session.approve(self._turn, yes)
-            self._turn = None
+        self._question.answer(session, yes)
 
     def _ask(self, session: Session) -> None:
         if not self._has_asked:
             self._draw_way()
             print(self.prompt, end="", file=sys.stderr, flush=True)
             self._has_asked = True
-        if select.select([sys.stdin], [], [], 0.0)[0]:
-            self.take(session, sys.stdin.readline().strip().casefold())
+        with contextlib.suppress(queue.Empty):
+            self.take(session, self._typed.get_nowait())
+
+    def type(self, line: str) -> None:
+        """A line was typed: no answer where no question is shown. From any thread."""
+        if self._has_asked and self.is_waiting:
+            self._typed.put(line)
+
+    def lose_keyboard(self) -> None:
+        """Nothing more will be typed: that is a no. From any thread."""
+        self.type("")
+        self._can_ask = False
 
     def take(self, session: Session, answer: str) -> None:
-        """What the person typed, in lower case."""
-        self.give(session, answer in _YES)
-        if answer in _EDIT and self._ride.plan_text and self._ride.program is None:
-            self._edited_plan = edited_text(self._ride.plan_text, ".txt").strip() or None
+        """What the person typed: anything but a yes is none."""
+        self.give(session, read_consent(answer) is True)
+        if wants_to_edit(answer) and self._ride.plan_text and self._ride.program is None:
+            with self.editing:
+                self._edited_plan = edited_text(self._ride.plan_text, ".txt").strip() or None
 
     def take_edited(self) -> str | None:
         """The plan as the person has changed it; it is rehearsed and asked about like a new one."""

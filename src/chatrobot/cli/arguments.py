@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Sequence
-from typing import Any, NoReturn, TypeVar
+import re
+from collections.abc import Sequence
+from typing import Any
 
 from chatrobot import __version__
+from chatrobot.cli.options import DEFAULT_ROBOT, SHOWN, SHOWN_OF_PROGRAMS, Parser, options_of, port
 from chatrobot.core.errors import UsageError
-
-Number = TypeVar("Number", int, float)
-DEFAULT_ROBOT = "wheeltec_mini_mec"
-"""The same as `robots.load.DEFAULT_PROFILE` (a test compares); importing that would read TOML for a help text."""
 
 COMMANDS = {
     "do": "one instruction, or a dialogue turn by turn, then exit",
@@ -50,11 +48,10 @@ exit codes: 0 completed or answered, 1 failed, 2 usage, 3 unclear, 4 refused, 5 
 """
 
 
-class _Parser(argparse.ArgumentParser):
-    """Wrong usage leaves through `main` like every other mistake, not out of the middle of parsing."""
-
-    def error(self, message: str) -> NoReturn:
-        raise UsageError(message, allowed=f"see {self.prog} --help")
+_PART_OF_SPEECH = re.compile(
+    r"[-+]?\d*[.,]?\d+|c?m|mm|s|deg|degrees?|met(?:er|re)s?|seconds?|an?|the|to|at|by|for|of|and|then"
+)
+"""What nobody says alone."""
 
 
 def parse(arguments: Sequence[str]) -> argparse.Namespace:
@@ -73,6 +70,8 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         )
     parsed = parser.parse_args(list(arguments))
     parsed.command = parsed.command or ""
+    if parsed.command == "do":
+        _expect_quotes(parsed.texts)
     are_parameters = all(word == "-p" for word in ros_args[::2])
     if ros_args and not (parsed.command in _NODES or (parsed.command in _TALKS and are_parameters)):
         raise UsageError("--ros-args is for nodes", allowed="chatrobot node … or chatrobot sim … --on ros")
@@ -81,6 +80,19 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         if not hasattr(parsed, name):
             setattr(parsed, name, value)
     return parsed
+
+
+def _expect_quotes(texts: Sequence[str]) -> None:
+    """`do forward 1 m` would be three turns, and `m` alone drives.
+
+    Raises:
+        UsageError: these are the words of one sentence, and not the turns of a dialogue.
+    """
+    are_words = len(texts) > 2 and all(text.isascii() and not re.search(r"\s", text) for text in texts)
+    if are_words and any(_PART_OF_SPEECH.fullmatch(text.casefold()) for text in texts):
+        raise UsageError(
+            f"{len(texts)} words are {len(texts)} turns", allowed=f'chatrobot do "{" ".join(texts)}"'
+        )
 
 
 def split_ros_args(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
@@ -98,7 +110,7 @@ def split_ros_args(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
     return ours, theirs
 
 
-def _first_word(arguments: Sequence[str], options: _Parser) -> str | None:
+def _first_word(arguments: Sequence[str], options: Parser) -> str | None:
     """The first argument that is neither an option nor the value of one."""
     takes_value = {
         name for action in options._actions if action.nargs is None for name in action.option_strings
@@ -112,9 +124,9 @@ def _first_word(arguments: Sequence[str], options: _Parser) -> str | None:
     return None
 
 
-def _parsers() -> tuple[_Parser, _Parser]:
-    options = _options()
-    parser = _Parser(
+def _parsers() -> tuple[Parser, Parser]:
+    options = options_of()
+    parser = Parser(
         prog="chatrobot",
         description=_DESCRIPTION,
         epilog=_EPILOG,
@@ -129,78 +141,11 @@ def _parsers() -> tuple[_Parser, _Parser]:
             name,
             help=text,
             description=f"{text[0].upper()}{text[1:]}.",
-            parents=[options],
+            parents=[options_of(SHOWN.get(name))],
             allow_abbrev=False,
         )
         _ARGUMENTS.get(name, _no_arguments)(command)
     return parser, options
-
-
-def _options() -> _Parser:
-    """Good before and after the command: hence no defaults here, the one would undo the other."""
-    parser = _Parser(add_help=False, argument_default=argparse.SUPPRESS, allow_abbrev=False)
-    add = parser.add_argument_group("options").add_argument
-    add(
-        "--on",
-        metavar="WHERE",
-        help="which robot: sim (the default), dds or ros[://DOMAIN[/NAMESPACE]], or rosbridge[:ws://HOST:9090]",
-    )
-    add(
-        "--robot",
-        metavar="PROFILE",
-        help=f"a robot profile, by name or .toml file (default: {DEFAULT_ROBOT})",
-    )
-    add("--interpreter", choices=("auto", "offline", "model"), help="who understands (default: auto)")
-    add("--model", metavar="PROVIDER:NAME", help="the language model to ask what is not understood offline")
-    add(
-        "--rounds", type=_positive(int), metavar="N", help="how often a model may look and go on (default: 6)"
-    )
-    add(
-        "--budget-tokens",
-        type=_positive(int),
-        metavar="N",
-        help="what a model may use for one text (default: 20000)",
-    )
-    add(
-        "--budget-s",
-        type=_positive(float),
-        metavar="SECONDS",
-        help="what a model's turn may take (default: 600)",
-    )
-    add("--fast", action="store_true", help="simulated time, as quick as it goes")
-    add("--json", action="store_true", help="one JSON object a line; without a command: text in, events out")
-    add(
-        "--trace", action="store_true", help="with --json: the simulated robot's true pose, 50 times a second"
-    )
-    add(
-        "--sim",
-        metavar="KEY=VALUE,…",
-        help="how the simulated robot lies: slip=0.03,latency_s=0.05,noise=on,seed=1",
-    )
-    add("--world", metavar="WORLD", help="empty, home or a world file (default: home; eval: empty)")
-    add("--approve", action="store_true", help="ask before each plan")
-    add("--yes", action="store_true", help="do each plan without asking")
-    add("--config-dir", metavar="DIR", help="where places and robot profiles live")
-    add(
-        "-p",
-        dest="parameters",
-        action="append",
-        metavar="NAME:=VALUE",
-        help="the tutorial's parameters: generate_code:=True (base), revChatGPT:=True",
-    )
-    return parser
-
-
-def _positive(kind: Callable[[str], Number]) -> Callable[[str], Number]:
-    """A reader of numbers above zero."""
-
-    def read(text: str) -> Number:
-        value = kind(text)
-        if not 0 < value < float("inf"):
-            raise argparse.ArgumentTypeError(f"{text!r} is not above zero")
-        return value
-
-    return read
 
 
 def _do(parser: argparse.ArgumentParser) -> None:
@@ -270,7 +215,7 @@ def _usage(parser: argparse.ArgumentParser) -> None:
 
 def _fake_model(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("script", metavar="SCRIPT.yaml", help="what it answers: docs/models.md has the form")
-    parser.add_argument("--port", type=int, default=8399, help="0: any that is free (default: 8399)")
+    parser.add_argument("--port", type=port, default=8399, help="0: any that is free (default: 8399)")
     parser.add_argument(
         "--host", default="127.0.0.1", help="where to listen; beyond loopback a token is asked for"
     )
@@ -283,7 +228,7 @@ def _program(parser: argparse.ArgumentParser) -> None:
             name,
             help=text,
             description=f"{text[0].upper()}{text[1:]}.",
-            parents=[_options()],
+            parents=[options_of(SHOWN_OF_PROGRAMS.get(name))],
             allow_abbrev=False,
         )
         for argument, meaning in takes.items():

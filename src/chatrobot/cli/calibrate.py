@@ -19,6 +19,7 @@ from chatrobot.cli.lines import LineReader
 from chatrobot.cli.printer import printer_for
 from chatrobot.core.errors import UsageError
 from chatrobot.core.events import Result
+from chatrobot.language.consent import read_consent
 from chatrobot.language.data_files import load_table
 from chatrobot.reflex import is_stop
 from chatrobot.robots.calibration import (
@@ -33,7 +34,6 @@ from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.options import Options
 
-_YES = ("y", "yes", "ok", "是", "好", "好的", "可以")
 _SKIP = ("skip", "跳过")
 
 
@@ -149,7 +149,7 @@ def _calibrate(dialogue: Dialogue, profile: RobotProfile, robot: str, folder: Pa
 def _measure(dialogue: Dialogue, trial: Trial) -> Measured | None:
     """What the person measured, and what odometry saw; None where they skip it."""
     answer = dialogue.ask(f"{trial.name}_ready")
-    if answer not in _YES:
+    if read_consent(answer) is not True:
         if answer in _SKIP:
             return None
         raise Left

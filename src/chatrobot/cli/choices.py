@@ -16,6 +16,8 @@ from chatrobot.session.model_choice import chosen_model
 from chatrobot.session.model_terms import ModelOptions
 from chatrobot.session.options import Options
 
+_SOURCES = {"option": "--model", "environment": "CHATROBOT_MODEL", "stored": "the model you chose"}
+
 
 def setup_from(
     args: argparse.Namespace,
@@ -67,7 +69,7 @@ def model_from(args: argparse.Namespace, *, named: bool = False, server_held: bo
     try:
         model = chosen_model(args.model, config_folder(args), server_held=server_held)
     except ModelError as error:
-        raise UsageError(render_reason(error.reason, "en"), where="--model") from error
+        raise UsageError(render_reason(error.reason, "en"), where=_source_of_model(args)) from error
     if model is None and args.interpreter == "model":
         raise UsageError(
             "no language model is set up",
@@ -77,6 +79,15 @@ def model_from(args: argparse.Namespace, *, named: bool = False, server_held: bo
     if server_held and args.command != "node":
         print(explain_server_held(model), file=sys.stderr)
     return model
+
+
+def _source_of_model(args: argparse.Namespace) -> str:
+    """Where the name of the model comes from."""
+    from chatrobot.models.choice import resolve
+    from chatrobot.models.config import ModelConfig
+
+    choice = resolve(args.model, ModelConfig(config_folder(args)))
+    return _SOURCES[choice.source] if choice is not None else "--model"
 
 
 def explain_server_held(model: Model | None) -> str:

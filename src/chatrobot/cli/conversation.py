@@ -56,7 +56,7 @@ class Conversation:
 
     @property
     def is_leaving(self) -> bool:
-        """A signal or a broken pipe has ended this conversation."""
+        """A signal, a stop from the keyboard or a broken pipe has ended this conversation."""
         return self._watch.is_leaving or self._is_cut_off
 
     @property
@@ -92,6 +92,12 @@ class Conversation:
             self.post(lambda: self.session.stop(why))
         else:
             self.session.stop(why)
+
+    def halt(self, why: str) -> None:
+        """Stop the robot and end here: what was still to be said is not."""
+        with contextlib.suppress(JointError):  # Motion is gone: the main thread tells
+            self.stop(why)
+        self._is_cut_off = True
 
     def post(self, action: Callable[[], object]) -> None:
         """Have `action` done by the main thread."""

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import argparse
-import sys
 
 from chatrobot.cli.approver import Approver
 from chatrobot.cli.choices import setup_from
 from chatrobot.cli.conversation import Conversation
+from chatrobot.cli.keyboard import Keyboard, has_keyboard
 from chatrobot.cli.printer import printer_for
 
 
 def run(args: argparse.Namespace) -> int:
     """The exit code of the last turn."""
     printer = printer_for(args)
-    approver = Approver(can_ask=sys.stdin.isatty())
+    approver = Approver(can_ask=has_keyboard())
     with Conversation(setup_from(args, programs=True), printer, approver) as conversation:
+        Keyboard(conversation, approver).start()
         for text in args.texts:
             if conversation.is_leaving:
                 break

@@ -19,10 +19,8 @@ from chatrobot.models.fake.server import Call, FakeModel
 def run(args: argparse.Namespace) -> int:
     """Until Ctrl-C. Beyond loopback callers need a token, which is printed."""
     script = load_script(Path(args.script))
-    token = ""
     if args.host not in LOOPBACK and not script.keys:
-        token = secrets.token_urlsafe(24)
-        script = replace(script, keys=(token,))
+        script = replace(script, keys=(secrets.token_urlsafe(24),))
     fake = FakeModel(script, host=args.host, port=args.port, on_call=_show_json if args.json else _show)
     try:
         fake.start()
@@ -30,7 +28,7 @@ def run(args: argparse.Namespace) -> int:
         raise UsageError(
             f"cannot listen on {args.host}:{args.port}: {error.strerror}", allowed="--port 0"
         ) from None
-    _tell(fake, token, script.models[0], as_json=args.json)
+    _tell(fake, script.keys[0] if script.keys else "any", script.models[0], as_json=args.json)
     try:
         fake.closing.wait()
     except KeyboardInterrupt:
@@ -38,13 +36,13 @@ def run(args: argparse.Namespace) -> int:
     return STOPPED
 
 
-def _tell(fake: FakeModel, token: str, model: str, *, as_json: bool) -> None:
+def _tell(fake: FakeModel, key: str, model: str, *, as_json: bool) -> None:
     if as_json:
         sys.stdout.write(json_line({"event": "listening", "url": fake.url, "model": model}))
         sys.stdout.flush()
         return
     print(f"a fake model listens on {fake.url}; it ends with Ctrl-C. To use it:")
-    print(f"  export OPENAI_BASE_URL={fake.url}/v1 OPENAI_API_KEY={token or 'any'}")
+    print(f"  export OPENAI_BASE_URL={fake.url}/v1 OPENAI_API_KEY={key}")
     print(f"  chatrobot --model openai:{model}")
     print("OpenAI (Chat Completions, Responses), Anthropic, Google and Ollama are understood.", flush=True)
 

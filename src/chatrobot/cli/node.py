@@ -21,6 +21,7 @@ def run(args: argparse.Namespace) -> int:
     """0 where its input has ended, 5 where it was asked to end."""
     if args.fast or args.trace or args.sim:
         raise UsageError("a node drives a robot on a wire", allowed="leave out --fast, --trace and --sim")
+    args.approval = "all" if args.approve else "none" if args.yes else "profile"
     ros_args = [*args.ros_args, *(word for given in args.parameters for word in ("-p", given))]
     if _address(args).startswith("ros:"):
         from chatrobot.cli.ros_node import open_citizen
@@ -84,6 +85,7 @@ def _run_base(args: argparse.Namespace, citizen: Citizen | None, connect: Connec
             args.interpreter,
             model_from(args, server_held=args.revChatGPT),
             ModelOptions(rounds=args.rounds, budget_tokens=args.budget_tokens, budget_s=args.budget_s),
+            args.approval,
         ),
         _say,
         connect,

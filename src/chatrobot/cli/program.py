@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -13,10 +12,11 @@ from chatrobot.cli.conversation import Conversation
 from chatrobot.cli.editor import edited_text
 from chatrobot.cli.folders import config_folder, profile_folders
 from chatrobot.cli.json_lines import json_line
+from chatrobot.cli.keyboard import Keyboard, has_keyboard
 from chatrobot.cli.printer import printer_for
 from chatrobot.cli.program_approver import ProgramApprover
 from chatrobot.core.errors import UsageError
-from chatrobot.programs.library import KeptProgram, Library
+from chatrobot.programs.library import KeptProgram, Library, clean_name
 from chatrobot.session.options import Options
 
 _READ_BYTES = 1_000_000
@@ -64,8 +64,11 @@ def _say_kept(conversation: Conversation, program: KeptProgram) -> int:
 
 
 def _read(path: Path) -> str:
-    with path.open("rb") as file:
-        data = file.read(_READ_BYTES)
+    try:
+        with path.open("rb") as file:
+            data = file.read(_READ_BYTES)
+    except OSError as error:
+        raise UsageError(f"it cannot be read ({error.strerror})", where=str(path)) from error
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -74,7 +77,7 @@ def _read(path: Path) -> str:
 
 def _drive(args: argparse.Namespace, say: Callable[[Conversation], int]) -> int:
     printer = printer_for(args)
-    can_ask = sys.stdin.isatty() and not args.json
+    can_ask = has_keyboard() and not args.json
     is_new = args.action == "new"
     options = Options(
         approve=args.approve and not args.yes,
@@ -83,6 +86,7 @@ def _drive(args: argparse.Namespace, say: Callable[[Conversation], int]) -> int:
     )
     approver = ProgramApprover(can_ask=can_ask)
     with Conversation(setup_from(args, options=options, programs=True), printer, approver) as conversation:
+        Keyboard(conversation, approver).start()
         conversation.see_through(say(conversation))
         while (edited := approver.edited()) is not None and not conversation.is_leaving:
             conversation.see_through(conversation.session.say_source(*edited))
@@ -93,12 +97,14 @@ def _drive(args: argparse.Namespace, say: Callable[[Conversation], int]) -> int:
 
 
 def _list(args: argparse.Namespace) -> int:
+    from rich.cells import cell_len, set_cell_size
+
     programs = _library(args).all()
     for program in programs:
         if args.json:
             print(json_line({"event": "program", **_about(program)}), end="")
         else:
-            print(f"{program.name:<24}{_summary(program)}")
+            print(f"{set_cell_size(program.name, max(24, cell_len(program.name) + 2))}{_summary(program)}")
     if not programs and not args.json:
         print('No programs are kept yet: chatrobot program new "…"')
     return 0
@@ -164,8 +170,10 @@ def _edit(args: argparse.Namespace) -> int:
 
 
 def _rename(args: argparse.Namespace) -> int:
-    _library(args).rename(args.name, args.to)
-    print(f"“{args.name}” is now “{args.to}”.")
+    library = _library(args)
+    old = library.get(args.name).name
+    library.rename(old, args.to)
+    print(f"“{old}” is now “{clean_name(args.to)}”.")
     return 0
 
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 from chatrobot.cli.approver import Approver
 from chatrobot.cli.editor import edited_text
 from chatrobot.core.events import Event, ProgramWritten
+from chatrobot.language.consent import wants_to_edit
 from chatrobot.session.session import Session
-
-_EDIT = frozenset({"e", "edit", "改", "编辑"})
 
 
 class ProgramApprover(Approver):
@@ -31,6 +30,7 @@ class ProgramApprover(Approver):
         super().hear(event)
 
     def take(self, session: Session, answer: str) -> None:
-        if answer in _EDIT and self._shown is not None:
-            self._edited = (self._shown.program, edited_text(self._shown.source, ".py"))
+        if wants_to_edit(answer) and self._shown is not None:
+            with self.editing:
+                self._edited = (self._shown.program, edited_text(self._shown.source, ".py"))
         super().take(session, answer)

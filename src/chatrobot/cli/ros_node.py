@@ -27,6 +27,7 @@ def open_citizen(args: argparse.Namespace, address: str, ros_args: list[str]) ->
         "config_dir": args.config_dir or "",
         "interpreter": args.interpreter,
         "model": args.model,
+        "approval": args.approval,
         "rounds": args.rounds,
         "budget_tokens": args.budget_tokens,
         "budget_s": float(args.budget_s),

@@ -59,7 +59,7 @@ def run(args: argparse.Namespace) -> int:
             return USAGE  # it has said what was wrong
         raise JointError("the simulated robot did not start")
     if address:
-        print(f"the simulated {args.robot} is on {address}; it ends with Ctrl-C", flush=True)
+        print(f"the simulated {args.robot} is on {address.rstrip(':')}; it ends with Ctrl-C", flush=True)
     else:
         print(f"the simulated {args.robot} answers on {path}", flush=True)
         print(

@@ -24,10 +24,19 @@ PUSHED_RATE_RADPS = 0.06
 """Above this a "standing" robot is being turned by hand, and that is motion, not bias."""
 
 IMU_SILENT_S = 0.2
+REORDERED_S = 1.0
 HISTORY = 100
 """Estimates kept to tell where a scan was made: a second of them."""
 
 JUMP_MARGIN_M = 0.15
+JUMP_MARGIN_RAD = math.radians(25.0)
+GAP_S = 0.5
+"""After this long without a word the robot may have been switched off and on, and count from zero again."""
+
+CREEPING_MPS, CREEPING_RADPS = 0.03, 0.1
+"""Slower than this it goes nowhere in a gap; noise of a standing robot is below."""
+
+_GAP_POINTS = 50
 
 
 @dataclass(frozen=True)
@@ -85,6 +94,8 @@ class PoseEstimator:
     def on_imu(self, message: Imu) -> None:
         """A gyro sample: integrated while moving, averaged into the bias while standing."""
         dt = message.stamp_s - self._imu_at_s
+        if -REORDERED_S < dt <= 0.0:
+            return  # overtaken on its way: its time has been counted
         self._imu_at_s = message.stamp_s
         if not math.isfinite(message.wz_radps):
             return
@@ -126,12 +137,27 @@ class PoseEstimator:
             self._last = last
             return
         step = Pose(*message[1:4]).relative_to(Pose(*last[1:4]))
-        if math.hypot(step.x_m, step.y_m) > 2.0 * self._limits.max_speed_mps * dt + JUMP_MARGIN_M:
-            self.fault = Reason("odometry_jumped", {"jump_m": round(math.hypot(step.x_m, step.y_m), 2)})
+        jump = self._jump(step, Twist(*last[4:7]), dt)
+        if jump is not None:
+            self.fault = jump
             self.epoch += 1
             self._gyro_yaw_at_odometry = self._gyro_yaw
             return
         self._advance(message, step)
+
+    def _jump(self, step: Pose, before: Twist, dt_s: float) -> Reason | None:
+        """Why a robot that did `before` cannot have made that step in `dt_s`; None where it can."""
+        limits = self._limits
+        if dt_s <= GAP_S:
+            off_m = math.hypot(step.x_m, step.y_m) - 2.0 * limits.max_speed_mps * dt_s
+            off_rad = abs(wrap_angle(step.yaw_rad)) - 2.0 * limits.max_rate_radps * dt_s
+        else:
+            off_m, off_rad = _off_course(step, before, limits, dt_s)
+        if off_m > JUMP_MARGIN_M:
+            return Reason("odometry_jumped", {"jump_m": round(math.hypot(step.x_m, step.y_m), 2)})
+        if off_rad > JUMP_MARGIN_RAD:
+            return Reason("odometry_swung", {"jump_deg": round(math.degrees(wrap_angle(step.yaw_rad)))})
+        return None
 
     def _begin(self, message: Odometry) -> None:
         self._gyro_yaw_at_odometry = self._gyro_yaw
@@ -185,3 +211,26 @@ def _is_still(message: Odometry) -> bool:
     """The wheels do not turn."""
     speed_mps = math.hypot(message.vx_mps, message.vy_mps)
     return speed_mps < STANDING_SPEED_MPS and abs(message.wz_radps) < STANDING_RATE_RADPS
+
+
+def _off_course(step: Pose, before: Twist, limits: Limits, gap_s: float) -> tuple[float, float]:
+    """How far, in metres and radians, `step` is from all that the robot may have done in a gap of `gap_s`.
+
+    It stood, or went on along the course it was on, for a while and at any speed up to its limit.
+    """
+    moves = before.speed_mps >= CREEPING_MPS or abs(before.wz_radps) >= CREEPING_RADPS
+    gain = math.inf
+    if before.speed_mps > 0.0:
+        gain = limits.max_speed_mps / before.speed_mps
+    if before.wz_radps:
+        gain = min(gain, limits.max_rate_radps / abs(before.wz_radps))
+    fastest = before.scaled(max(1.0, gain)) if moves else Twist()
+    offs = []
+    for i in range(_GAP_POINTS + 1):
+        there = Pose().moved(fastest, gap_s * i / _GAP_POINTS)
+        # Between two points, and 10 % for wheels that slip.
+        slack_m = fastest.speed_mps * gap_s * (0.5 / _GAP_POINTS + 0.1 * i / _GAP_POINTS)
+        turn_rad = abs(wrap_angle(step.yaw_rad - there.yaw_rad))
+        slack_rad = abs(fastest.wz_radps) * gap_s * (0.5 / _GAP_POINTS + 0.1 * i / _GAP_POINTS)
+        offs.append((there.distance_to(step) - slack_m, turn_rad - slack_rad))
+    return min(offs, key=lambda off: max(off[0] / JUMP_MARGIN_M, off[1] / JUMP_MARGIN_RAD))

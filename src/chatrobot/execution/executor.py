@@ -13,7 +13,7 @@ from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.execution.course import TICK_S, Course
 from chatrobot.execution.estimator import Estimate
-from chatrobot.execution.health import sensor_fault, tracking_fault
+from chatrobot.execution.health import STANDS_LATE_S, is_seen_moving, sensor_fault, tracking_fault
 from chatrobot.execution.lookahead import must_brake
 from chatrobot.execution.mending import AT_THE_END, BETWEEN_STEPS, MEND_TRIES, Tolerance, mend
 from chatrobot.execution.sensors import Sensors
@@ -25,10 +25,16 @@ from chatrobot.plan.trajectory import Segment
 from chatrobot.robots.profile import RobotProfile
 
 SETTLE_S = 0.8
-"""The longest wait, at the end of a plan, for the robot to be seen standing."""
+"""The longest wait, at the end of a plan, for the robot to be seen standing, where it is not seen moving."""
 
 BARRED_S = 3.0
 """Somebody may walk past; after this long the way is barred and the plan ends."""
+
+LATE_BY_S = (0.15, 0.3, 0.45, 0.6)
+"""How long a bad Wi-Fi may keep our velocities and the robot's news together."""
+
+LAGS = frozenset({"does_not_move", "does_not_follow"})
+"""What a robot may look like that does what it is told, only late; one that goes another way is none of them."""
 
 RAMP_RULES = frozenset({"", "speed", "acceleration"})
 """What the governor does to any motion: no reason to wait."""
@@ -197,14 +203,19 @@ class Executor:
             return None
         if self._barred_since_s is not None:
             return None  # it was halted at once, and rolls on as far as it takes to brake
-        # Measured from where the robot really began: an error it brought along is not this motion's.
-        moved = reference.relative_to(segment.start)
-        return tracking_fault(
-            begin,
-            begin.compose(moved),
-            estimate.pose,
-            self._sensors.estimator.wheel_yaw_rad - wheel_yaw_rad,
-        )
+        wheel_turn_rad = self._sensors.estimator.wheel_yaw_rad - wheel_yaw_rad
+
+        def fault(reference: Pose) -> Reason | None:
+            # Measured from where the robot really began: an error it brought along is not this motion's.
+            moved = reference.relative_to(segment.start)
+            return tracking_fault(begin, begin.compose(moved), estimate.pose, wheel_turn_rad)
+
+        found = fault(reference)
+        if found is None or found.code not in LAGS:
+            return found
+        # What we ask and what we hear of it may take their time: was the reference there a moment ago?
+        before_s = (max(self._course.began_s, estimate.stamp_s - late_s) for late_s in LATE_BY_S)
+        return None if any(fault(self._course.at(at_s)) is None for at_s in before_s) else found
 
     def _cut_short(self, segment: Segment, t_s: float) -> Segment:
         """Brake where the plan's condition holds, or where a controlled stop was asked for."""
@@ -244,7 +255,7 @@ class Executor:
         if not self._sensors.has_odometry or estimate is None:
             return self._end("completed", None)
         seen = estimate.is_standing and estimate.stamp_s > self._settle_since_s
-        if not seen and waited_s < SETTLE_S:
+        if not seen and waited_s < (STANDS_LATE_S if is_seen_moving(self._sensors) else SETTLE_S):
             return ZERO_TWIST
         if seen and self._course.has_moved and self._mend(AT_THE_END, now_s):
             self._settle_since_s = None

@@ -8,8 +8,18 @@ from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.execution.sensors import Sensors
 
+ODOMETRY_LATE_S = 0.13
+"""Odometry comes ten times a second at least: with news older than this the robot goes slower."""
 ODOMETRY_SILENT_S = 0.2
-"""Four messages of the slowest odometry that we know; the robot then stands within 250 ms."""
+"""With news as old as this it is told to stand: it then does within 250 ms."""
+ODOMETRY_LOST_S = 0.45
+"""A packet that a bad Wi-Fi lost is there again after a quarter of a second: it stands and waits for no longer."""
+MOVING_MPS, MOVING_RADPS = 0.03, 0.1
+"""Above these it clearly moves; noise of a standing robot is below."""
+FRESH_S = 0.3
+"""Odometry older than this shows nothing."""
+STANDS_LATE_S = 2.0
+"""A robot that is told to stand and clearly moves after this long does not obey."""
 OFF_TRACK_M = 0.10
 OFF_TRACK_RAD = math.radians(15.0)
 OFF_TRACK_SHARE = 0.10
@@ -22,10 +32,32 @@ def sensor_fault(sensors: Sensors) -> Reason | None:
     if not sensors.has_odometry:
         return None
     age_s = sensors.odometry_age_s()
-    if age_s > ODOMETRY_SILENT_S:
-        return Reason("odometry_silent", {"age_s": round(min(age_s, 999.0), 2)})
+    if age_s > ODOMETRY_LOST_S:
+        return silence(sensors)
     fault, sensors.estimator.fault = sensors.estimator.fault, None
     return fault
+
+
+def silence(sensors: Sensors) -> Reason:
+    """How long odometry has been silent."""
+    return Reason("odometry_silent", {"age_s": round(min(sensors.odometry_age_s(), 999.0), 2)})
+
+
+def freshness(sensors: Sensors) -> float:
+    """What share of its speed a robot may go with odometry as old as it is now: 1, less where it is late, 0 where
+    it is silent."""
+    if not sensors.has_odometry:
+        return 1.0
+    left_s = ODOMETRY_SILENT_S - sensors.odometry_age_s()
+    return max(0.0, min(1.0, left_s / (ODOMETRY_SILENT_S - ODOMETRY_LATE_S)))
+
+
+def is_seen_moving(sensors: Sensors) -> bool:
+    """Odometry shows clearly, and just now, that it moves."""
+    estimate = sensors.estimate
+    if estimate is None or sensors.odometry_age_s() >= FRESH_S:
+        return False
+    return estimate.twist.speed_mps > MOVING_MPS or abs(estimate.twist.wz_radps) > MOVING_RADPS
 
 
 def tracking_fault(begin: Pose, reference: Pose, seen: Pose, wheel_turn_rad: float) -> Reason | None:

@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from typing import Any
 
 from chatrobot.core.clock import Clock
 from chatrobot.core.geometry import Pose
 from chatrobot.execution.estimator import Estimate, PoseEstimator
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.messages import Flag, Imu, LaserScan, Number, Odometry
+from chatrobot.wire.sensor_topics import subscribe_sensors
 from chatrobot.wire.wire import Wire
 
 OLD_NEWS_S = 0.5
 """What was measured longer ago is as old as that, however lately it came."""
+
+
+NO_RETURN_M = 0.001
+"""Zero is how cheap lidars say "no return", also those whose drivers call zero their minimum range."""
 
 
 class Sensors:
@@ -31,17 +38,14 @@ class Sensors:
 
     def attach(self, wire: Wire) -> None:
         """Subscribe to what the profile says the robot has."""
-        wiring = self._profile.wiring
-        if wiring.odom_topic:
-            wire.subscribe(wiring.odom_topic, Odometry, self._on_odometry)
-        if wiring.imu_topic:
-            wire.subscribe(wiring.imu_topic, Imu, self._on_imu)
-        if wiring.scan_topic:
-            wire.subscribe(wiring.scan_topic, LaserScan, self._on_scan)
-        if wiring.bumper_topic:
-            wire.subscribe(wiring.bumper_topic, Flag, self._on_bumper)
-        if wiring.battery_topic:
-            wire.subscribe(wiring.battery_topic, Number, self._on_battery)
+        hear: dict[str, Callable[[Any], None]] = {
+            "odom": self._on_odometry,
+            "imu": self._on_imu,
+            "scan": self._on_scan,
+            "bumper": self._on_bumper,
+            "battery": self._on_battery,
+        }
+        subscribe_sensors(wire, self._profile.wiring, hear)
 
     @property
     def has_odometry(self) -> bool:
@@ -88,11 +92,23 @@ class Sensors:
         self.estimator.on_odometry(message)
 
     def _on_scan(self, message: LaserScan) -> None:
-        self._scan_at_s = self._clock.now_s()
-        self.scan = message
+        scan = _usable(message)
+        if scan is not None:  # one that shows nothing is as good as silence
+            self._scan_at_s = self._clock.now_s()
+            self.scan = scan
 
     def _on_bumper(self, message: Flag) -> None:
         self.bumped = message.data
 
     def _on_battery(self, message: Number) -> None:
         self.battery_percent = message.data
+
+
+def _usable(scan: LaserScan) -> LaserScan | None:
+    """The scan, or None where no beam shows anything: a lidar that is covered or broken, a driver that fills in none
+    of its limits. Plus infinity does show something: that nothing is there (REP-117)."""
+    near_m, far_m = max(scan.range_min_m, NO_RETURN_M), scan.range_max_m
+    shows = near_m < far_m and any(
+        near_m <= range_m <= far_m or range_m == math.inf for range_m in scan.ranges_m
+    )
+    return scan._replace(range_min_m=near_m) if shows else None

@@ -17,7 +17,7 @@ from chatrobot.core.errors import WireError
 from chatrobot.core.memory_pressure import GUARD, prefer
 from chatrobot.core.wiring import Wiring
 from chatrobot.guard.watch import BEAT_S, GOODBYE, TRIPPED, Watch
-from chatrobot.wire.connect import advertise, comes_back, connect_wire
+from chatrobot.wire.connect import Returning, advertise, comes_back, connect_wire
 from chatrobot.wire.messages import Odometry, TwistMessage
 from chatrobot.wire.wire import Wire
 
@@ -81,6 +81,10 @@ class Guard:
             if not comes_back(self._wire):
                 raise
 
+    def _could_halt(self) -> bool:
+        """Our own end of the wire is there, as far as it can know."""
+        return self._wire.is_connected if isinstance(self._wire, Returning) else True
+
     def _may_leave(self, now_s: float, tripped_at_s: float) -> bool:
         self._hear_odometry()
         halted_s = now_s - tripped_at_s
@@ -112,6 +116,8 @@ class Guard:
             return True
         for word in words:
             self._watch.hear(bytes([word]), awake_or_not_s())
+        if not self._could_halt():
+            return False  # Motion takes our silence for what it is: nobody would halt the robot in its place
         answer = TRIPPED if self._watch.state == "tripped" else words[-1:]
         with contextlib.suppress(OSError):
             self._line.send(answer, socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)

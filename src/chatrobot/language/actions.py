@@ -12,7 +12,7 @@ from chatrobot.language.returning import goes_back, partly_back, way_back
 from chatrobot.language.slots import OUTLINES, check_all_used, check_extents
 from chatrobot.language.turning import face, is_turn, turn
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Step, Wait
+from chatrobot.plan.steps import Face, Step, Turn, Wait
 
 
 def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
@@ -23,7 +23,7 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     """
     frame = completed(frame, state)
     check_extents(frame)
-    _check_known(frame)
+    _check_known(frame, state)
     if goes_back(frame, state):
         return way_back(Frame(verb="return", pace=frame.pace), state, pace)
     if "to_start" in frame.flags and frame.direction and "length" in frame.q:
@@ -34,12 +34,13 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     return _acted(frame, state, pace)
 
 
-def _check_known(frame: Frame) -> None:
+def _check_known(frame: Frame, state: State) -> None:
     """What a single motion cannot mean: measures of a drawn shape, a `there`, a condition."""
     side = "side" in frame.roles and "length" in frame.q and not frame.turning  # 这次边长半米: of what?
     if side or OUTLINES & set(frame.roles):
         raise Unclear("unknown_part", frame.text)
-    told = frame.direction or frame.rot or "clock" in frame.q
+    turned = bool(state.steps) and isinstance(state.steps[-1], (Turn, Face)) and frame.has_extent
+    told = frame.direction or frame.rot or "clock" in frame.q or turned  # `turn left, then 1 m that way`
     if "there" in frame.flags and frame.verb not in STILL and not told:
         raise Unclear("which_place", frame.text)
     if "until" in frame.flags and not frame.has_extent and frame.verb != "face":

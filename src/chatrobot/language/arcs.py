@@ -37,6 +37,8 @@ def arc(frame: Frame, pace: Pace) -> list[Step]:
     left = is_left(frame)
     if left is None:
         raise Unclear("which_side", frame.text)
+    if frame.verb in ("slide", "shift") or {"no_turn", "sideways"} & frame.flags:
+        raise Unclear("contradiction", frame.text)  # along a curve, or without turning?
     backward = frame.direction.startswith("back")
     angle = frame.q.get("angle") or frame.q.get("turns")
     length, seconds = frame.q.get("length"), frame.q.get("time")

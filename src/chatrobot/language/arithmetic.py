@@ -1,4 +1,4 @@
-"""Several amounts that are one: `2 m minus 50 cm`, `twice as far as 60 cm`, `1 m 20 cm`."""
+"""Several amounts that are one: `2 m minus 50 cm`, `30 cm times four`, `twice as far as 60 cm`, `1 m 20 cm`."""
 
 from __future__ import annotations
 
@@ -9,33 +9,28 @@ from chatrobot.language.tokens import Atom, quantity
 
 _LESS, _MORE = frozenset({"minus", "less", "take away", "减", "减去"}), frozenset({"plus", "+", "加", "加上"})
 
+_TIMES, _OVER = (
+    frozenset({"times", "multiplied by", "*", "乘", "乘以"}),
+    frozenset({"divided by", "/", "÷", "除以"}),
+)
+
+_FACTORS = frozenset({"double", "triple", "treble", "quadruple"})
+
 _SUMS = ("length", "angle", "time")
 
 
 def calculated(atoms: list[Atom]) -> list[Atom]:
-    """`2 m minus 50 cm`, `twice as far as 60 cm`: one quantity."""
+    """`2 m minus 50 cm`, `30 cm times four`, `twice as far as 60 cm`: one quantity."""
+    lone = sum(a.kind == "q" and a.value in (*_SUMS, "turns") for a in atoms) == 1
+    drawn = any(a.kind in ("shape", "counter") for a in atoms)  # 3 * 2 m is a rectangle
     out: list[Atom] = []
     i = 0
     while i < len(atoms):
+        found = _added(out, atoms, i) or (_multiplied(out, atoms, i) if lone and not drawn else None)
+        if found is not None:
+            out[-1], i = found
+            continue
         atom = atoms[i]
-        sign = -1.0 if atom.text in _LESS else 1.0 if atom.text in _MORE else 0.0
-        second = atoms[i + 1] if sign and i + 1 < len(atoms) else None
-        first = out[-1] if out else None
-        if first and second and first.kind == second.kind == "q" and first.value == second.value in _SUMS:
-            text = f"{first.text} {atom.text} {second.text}"
-            out[-1] = quantity(first.value, first.number + sign * second.number, text, first.role)
-            i += 2
-            continue
-        if (
-            first
-            and atom.kind == first.kind == "q"
-            and atom.value == first.value in _SUMS
-            and atom.number < 0
-        ):
-            text = f"{first.text} {atom.text}"  # `2 m minus 50 cm`, read as a number below zero
-            out[-1] = quantity(first.value, first.number + atom.number, text, first.role)
-            i += 1
-            continue
         factor = _factor_before(out) if atom.kind == "q" and atom.value in ("length", "angle") else None
         if factor is not None:
             text = f"{out[factor].text} {atom.text}"
@@ -46,13 +41,45 @@ def calculated(atoms: list[Atom]) -> list[Atom]:
     return out
 
 
+def _added(out: list[Atom], atoms: list[Atom], i: int) -> tuple[Atom, int] | None:
+    """The last quantity of `out` with what is added or taken away at `i`, and the index after that."""
+    first, atom = out[-1] if out else None, atoms[i]
+    if first is None or first.kind != "q" or first.value not in _SUMS:
+        return None
+    if is_kind(atoms, i, "q", first.value) and atom.number < 0:  # `2 m minus 50 cm`, as a number below zero
+        text = f"{first.text} {atom.text}"
+        return quantity(first.value, first.number + atom.number, text, first.role), i + 1
+    sign = -1.0 if atom.text in _LESS else 1.0 if atom.text in _MORE else 0.0
+    if not sign or not is_kind(atoms, i + 1, "q", first.value):
+        return None
+    text = f"{first.text} {atom.text} {atoms[i + 1].text}"
+    return quantity(first.value, first.number + sign * atoms[i + 1].number, text, first.role), i + 2
+
+
+def _multiplied(out: list[Atom], atoms: list[Atom], i: int) -> tuple[Atom, int] | None:
+    """`30 cm times four`, `3 * 20 cm`, `1.2 m / 2`; only where there is no other amount, which could be meant too."""
+    times, over = atoms[i].text in _TIMES, atoms[i].text in _OVER
+    first, second = out[-1] if out else None, atoms[i + 1] if i + 1 < len(atoms) else None
+    if not (times or over) or first is None or second is None or not first.kind == second.kind == "q":
+        return None
+    text = f"{first.text} {atoms[i].text} {second.text}"
+    if times and first.value == "number" and second.value in _SUMS:
+        return quantity(second.value, first.number * second.number, text, second.role), i + 2
+    ends = i + 2 >= len(atoms) or atoms[i + 2].kind in ("sep", "conn", "filler")
+    if first.value not in _SUMS or second.value != "number" or second.number <= 0 or not (times or ends):
+        return None
+    factor = second.number if times else 1.0 / second.number
+    return quantity(first.value, first.number * factor, text, first.role), i + 2
+
+
 def _factor_before(out: list[Atom]) -> int | None:
-    """Where `twice as far [as]` stands at the end of `out`."""
+    """Where `twice as far [as]` or `double` stands at the end of `out`."""
     at = len(out) - 1
     while at > 0 and out[at].kind == "glue" and out[at].text in ("as", "of"):
         at -= 1
-    said = at >= 0 and at < len(out) - 1 and is_kind(out, at, "q", "scale")
-    return at if said and " as " in out[at].text else None
+    if at < 0 or not is_kind(out, at, "q", "scale"):
+        return None
+    return at if out[at].text in _FACTORS or (at < len(out) - 1 and " as " in out[at].text) else None
 
 
 def summed(atoms: list[Atom]) -> list[Atom]:

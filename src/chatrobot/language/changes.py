@@ -18,11 +18,11 @@ def is_change(whole: Frame) -> bool:
     """Whether a frame changes the last motion rather than naming one of its own.
 
     Raises:
-        Unclear: for steps that are to be repeated but were never said.
+        Unclear: for steps that are to be repeated but were never said, or until something holds.
     """
     if "same_amount" in whole.flags:
         return False
-    if "again" in whole.flags and "count" in whole.q:
+    if "again" in whole.flags and ("count" in whole.q or {"until", "total"} & whole.flags):
         raise Unclear("nothing_before", whole.text)
     if whole.shape or whole.place:
         return False

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from chatrobot.language.frames import EXTENTS, SLOTTED, TURN, Frame
+from chatrobot.language.frames import EXTENTS, SLOTTED, STILL, TURN, Frame
 from chatrobot.language.joining import joined_frame
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
@@ -35,6 +36,12 @@ def read_frames(atoms: Sequence[Atom]) -> list[Frame]:
     loose = next((frame for frame in frames if _hangs_loose(frame)), None)
     if loose is not None and not drawing:
         raise Unclear("unclear_motion", loose.text)
+    for still, after in itertools.pairwise(frames):
+        held = still.verb in STILL and still.text == "hold" and not still.q
+        if held and after.joined == "none" and after.direction:
+            raise Unclear(
+                "unclear_motion", f"{still.text} {after.text}"
+            )  # `hold right`: to wait, or to turn?
     return frames
 
 

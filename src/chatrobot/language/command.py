@@ -8,7 +8,7 @@ from dataclasses import replace
 from chatrobot import reflex
 from chatrobot.language import questions
 from chatrobot.language.asides import check_finished, is_choice
-from chatrobot.language.frames import STILL, Frame
+from chatrobot.language.frames import GO, STILL, TURN, Frame
 from chatrobot.language.heeded import check_heeded
 from chatrobot.language.interpretation import Interpretation, planned, stopped
 from chatrobot.language.names import names_in
@@ -22,6 +22,7 @@ from chatrobot.language.until import UntilObstacle, read_until
 from chatrobot.plan.steps import Drive, ObstacleWithin, Step
 
 _MOVING = frozenset({"q", "dir", "rot", "shape", "place", "defined", "number", "pace", "condition"})
+_DOINGS = frozenset({*GO, *TURN, "curve", "make", "uturn", "return"})
 
 
 def read_command(plain: str, reading: Reading) -> Interpretation:
@@ -164,7 +165,10 @@ def _question(plain: str, atoms: list[Atom], ability: bool, reading: Reading) ->
         if steps and any(f.has_extent or (f.moves and not plain_question) for f in frames):
             return None
     except Unclear:
-        pass
+        ways = any(a.kind in ("dir", "rot", "shape") for a in atoms)
+        doing = ways or any(a.kind == "verb" and a.value in _DOINGS for a in atoms)
+        if doing and questions.asks_a_favour(plain, language):
+            raise  # could you …: it is to be done, and no fact answers it
     if questions.orders(plain, language):
         return None
     topic = questions.topic_of(plain, language)

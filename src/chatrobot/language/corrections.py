@@ -8,22 +8,27 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from chatrobot.language.amends import MARK
 from chatrobot.language.frames import EXTENTS, Frame
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
 
 _NO = frozenset({"no", "nope", "不", "wait", "sorry", "oops", "whoops", "等等", "no no", "rather"})
+_ONLY_AFTER = frozenset({"rather", "wrong", "make it", "还是", "算了", "不是", "应该是"})
+"""Corrections only after something in the same sentence."""
+_DENIED = frozenset({"no", "nope", "no no", "oops", "whoops", "sorry", "oh no", "oh"})
 _DENIALS = frozenset({"不是", "not that"})
 _AFTERTHOUGHTS = frozenset({"i mean", "i meant", "i mean to say", "rather"})
 _UNIT_FACTOR = re.compile(r"\d[\d.e+-]*")
 _PIECE = ("dir", "rot", "q", "pace", "verb", "shape")
+MEANT = "meant"
+"""The flag of what corrects the turn before."""
+_BEFORE_MEANT = frozenset({"sep", "filler", "glue", "negation", "correction"})
 
 
 def corrected(atoms: Sequence[Atom]) -> list[Atom]:
-    """The atoms as if they had been said right at once."""
-    out = list(atoms)
+    """The atoms as if they had been said right at once; a flag before what corrects the turn before."""
+    out = _of_the_turn_before(list(atoms))
     while True:
         at = next((i for i in range(len(out)) if _is_correction(out, i)), None)
         if at is None:
@@ -39,13 +44,45 @@ def corrected(atoms: Sequence[Atom]) -> list[Atom]:
                 after = after[1:]
             out = after
         else:
-            out = _replaced(_trimmed(before), out[at], after)
+            out = _replaced(_trimmed(before), after)
+
+
+def _of_the_turn_before(atoms: list[Atom]) -> list[Atom]:
+    """`no, I meant right`, `sorry, left`, `not left, right`: a correction of the turn before.
+
+    Amounts alone are a total: what is missing to it is done.
+    """
+    at = 0
+    while at < len(atoms) and (atoms[at].kind in _BEFORE_MEANT or atoms[at].value == "other_way"):
+        at += 1
+    real = [a for a in atoms[at:] if a.kind not in ("sep", "filler", "glue")]
+    ways = any(a.kind in ("dir", "rot") for a in real)
+    said = [a for a in atoms[:at] if (a.kind, a.value) == ("correction", "replace")]
+    meant = any(a.text not in _ONLY_AFTER for a in said) and (
+        ways or any(a.kind in ("verb", "shape", "place") for a in real)
+    )
+    amounts = bool(real) and all(a.kind == "q" for a in real)
+    swapped = any((a.kind, a.value) == ("flag", "instead") for a in real)
+    lone = amounts or (
+        ways and all(a.kind in ("dir", "rot", "q", "negation") or a.value == "instead" for a in real)
+    )
+    denied = len(atoms) > 1 and atoms[0].text in _DENIED and atoms[1].kind == "sep"
+    negated = any(a.kind == "negation" and a.text == "not" for a in atoms) and len(real) > 1
+    opposite = [a for a in atoms[:at] if a.value == "other_way"]
+    if said and opposite and not real:
+        return [Atom("flag", MEANT, said[0].text), opposite[0]]  # 不对，反方向
+    if amounts and (said or denied):
+        return [Atom("flag", "short_of", atoms[0].text), *atoms[at:]]
+    if meant or (lone and ways and (denied or negated or swapped or atoms[0].text == "i said")):
+        start = at if meant or not negated else 0
+        return [Atom("flag", MEANT, (said or atoms)[0].text), *atoms[start:]]
+    return atoms
 
 
 def _is_correction(atoms: list[Atom], i: int) -> bool:
     atom = atoms[i]
     if atom.kind == "correction":
-        if atom.text in ("rather", "wrong", "make it", "还是", "算了", "不是", "应该是"):
+        if atom.text in _ONLY_AFTER:
             return i > 0 and any(a.kind in _PIECE for a in atoms[:i])
         return True
     if atom.kind == "flag" and atom.value == "instead" and is_chinese(atom.text):
@@ -76,7 +113,7 @@ def _trimmed(atoms: list[Atom]) -> list[Atom]:
     return atoms
 
 
-def _replaced(before: list[Atom], word: Atom, after: list[Atom]) -> list[Atom]:
+def _replaced(before: list[Atom], after: list[Atom]) -> list[Atom]:
     start = 0
     while start < len(after) and after[start].kind in ("sep", "filler", "glue", "negation", "correction"):
         start += 1
@@ -96,8 +133,8 @@ def _replaced(before: list[Atom], word: Atom, after: list[Atom]) -> list[Atom]:
             name, before[last].number * factor, f"{before[last].text} {unit.text}", repr(factor)
         )
         return [*before[:last], amount, *before[last + 1 :], *rest]
-    if not any(a.kind in _PIECE for a in before):
-        return _of_the_turn_before(before, word, said, rest)
+    if pieces and all(a.kind == "q" for a in pieces) and not any(a.kind in _PIECE for a in before):
+        return [Atom("flag", "short_of", "not"), *said, *rest]
     if not pieces:
         raise Unclear("unknown_part", " ".join(a.text for a in after[:end]))
     if _is_clause(pieces):
@@ -111,21 +148,6 @@ def _replaced(before: list[Atom], word: Atom, after: list[Atom]) -> list[Atom]:
         else:
             out[at] = _in_the_unit_of(out[at], piece)
     return [*out, *added, *rest]
-
-
-def _of_the_turn_before(before: list[Atom], word: Atom, said: list[Atom], rest: list[Atom]) -> list[Atom]:
-    """不对，往左; 转反了: nothing in this sentence is corrected, so it is what was done before it."""
-    pieces = [a for a in said if a.kind in _PIECE]
-    if pieces and all(a.kind == "q" for a in pieces):
-        return [Atom("flag", "short_of", "not"), *said, *rest]
-    if not pieces and rest and rest[0].kind == "conn":
-        return rest  # 不对，再左转三十度: on from here
-    opposite = any((a.kind, a.value) == ("flag", "other_way") for a in said)
-    if not (pieces or opposite or "反" in word.text):
-        raise Unclear("unknown_part", word.text)
-    if not (pieces or opposite):
-        said = [Atom("flag", "other_way", word.text), *said]
-    return [*[a for a in before if a.text not in _NO], Atom("flag", MARK, word.text), *said, *rest]
 
 
 def _in_the_unit_of(before: Atom, number: Atom) -> Atom:
@@ -178,8 +200,8 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
     i = 0
     while i < len(atoms):
         if i == 0 and len(atoms) > 1 and atoms[0].text in ("no", "不") and atoms[1].kind == "sep":
-            total = any(a.kind == "flag" and a.value == "total" for a in atoms)
-            out.append(Atom("flag", "short_of" if total else MARK, atoms[0].text))
+            if any(a.kind == "flag" and a.value == "total" for a in atoms):
+                out.append(Atom("flag", "short_of", atoms[0].text))
             i = 2
             continue
         if atoms[i].kind != "negation" and not (atoms[i].kind == "correction" and atoms[i].text in _DENIALS):

@@ -7,8 +7,10 @@ from collections.abc import Sequence
 from chatrobot.language.changes import a_bit_of, changed, is_change
 from chatrobot.language.context import Context
 from chatrobot.language.frames import Frame
-from chatrobot.language.last_motion import last_steps
+from chatrobot.language.last_motion import steps_of
 from chatrobot.language.manner import Pace
+from chatrobot.language.meant import is_correction
+from chatrobot.language.numbers import is_chinese
 from chatrobot.language.totals import to_total
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import last_two, same_way_back, undone
@@ -48,6 +50,8 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     if whole.verb == "face" and "to_start" in whole.flags:
         raise Unclear("unclear_motion", whole.text)  # to drive there or to look there?
     if (whole.verb == "return" or "to_start" in whole.flags) and not whole.q and not whole.place:
+        if {"bit", "halfway"} & whole.flags and not is_chinese(whole.text):
+            raise Unclear("how_far", whole.text)  # `come back a little`: not all the way
         if whole.direction and whole.direction != "back":
             return None
         start = context.dialogue.start_pose
@@ -56,7 +60,9 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     if more is not None:
         return more
     if is_change(whole):
-        return changed(last_steps(context), whole, pace)
+        if is_correction(context.dialogue.last_motion):
+            raise Unclear("unclear_motion", whole.text)  # what was done, or what was meant?
+        return changed(steps_of(context.dialogue.last_motion), whole, pace)
     return None
 
 
@@ -66,8 +72,8 @@ def _more_of_before(whole: Frame, context: Context, pace: Pace) -> list[Step] | 
         return None
     on = "more" in whole.flags or any(text.endswith(("more", "further", "farther")) for text in whole.texts)
     if on and "bit" in whole.flags <= {"bit", "more"} and not whole.roles:
-        return [a_bit_of(last_steps(context), whole, pace)]
-    if "again" in whole.flags and ("both" in whole.texts[-1:] or "both" in whole.flags):
+        return [a_bit_of(steps_of(context.dialogue.last_motion), whole, pace)]
+    if "again" in whole.flags and ("both" in whole.flags or any("both" in t.split() for t in whole.texts)):
         return last_two(context, whole.text, steps="both" in whole.flags)
     return None
 

@@ -11,6 +11,8 @@ from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Drive, Step
 
+_SLIDING = frozenset({"no_turn", "sideways"})
+
 
 @dataclass
 class State:
@@ -116,7 +118,7 @@ def _meant_unit(frame: Frame, value: float, state: State) -> tuple[str, float] |
 def _goes_on_in_degrees(frame: Frame, value: float, state: State) -> bool:
     """`turn left 40 degrees, then right 50`: after a turn by an angle."""
     on = "more" in frame.flags and not frame.moves
-    turning = frame.turning or frame.direction in SIDES or on
+    turning = (frame.turning or frame.direction in SIDES or on) and not _SLIDING & frame.flags
     after_turn = state.last == "turn" and state.angle is not None
     return after_turn and not frame.has_extent and turning and 1 <= value <= 1080 and frame.verb not in GO
 
@@ -126,7 +128,11 @@ def _goes_on_in_unit(frame: Frame, value: float, state: State) -> bool:
     if frame.turning or frame.is_arc or value < 1:
         return False
     on = "more" in frame.flags and (state.last == "drive" or frame.verb in GO)
-    sideways = frame.verb in ("slide", "shift") or frame.direction in DIAGONALS.values()
+    sideways = (
+        frame.verb in ("slide", "shift")
+        or bool(_SLIDING & frame.flags)
+        or frame.direction in DIAGONALS.values()
+    )
     along = frame.direction in ("forward", "back") or (frame.verb in GO and not frame.direction)
     before = state.length.number if state.length is not None else 0.0
     return (on or sideways or along) and before / 10 <= value * (state.unit_m or 0.0) <= 5 * before
@@ -134,6 +140,6 @@ def _goes_on_in_unit(frame: Frame, value: float, state: State) -> bool:
 
 def _means_degrees(frame: Frame, value: float) -> bool:
     """`turn left 90`, `left 90`, `do a 180`: a multiple of 15 at a turn is degrees."""
-    turning = frame.turning or (not frame.verb and frame.direction in SIDES)
+    turning = frame.turning or (not frame.verb and frame.direction in SIDES and not _SLIDING & frame.flags)
     spinning = frame.verb == "make" and not frame.direction and value % 90 == 0
     return (turning or spinning) and not frame.has_extent and 15 <= value <= 1080 and value % 15 == 0

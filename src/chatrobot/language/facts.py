@@ -7,7 +7,9 @@ from collections.abc import Mapping, Sequence
 from functools import lru_cache
 
 from chatrobot.language.data_files import LANGUAGES, load_table
+from chatrobot.language.lexicon import lexicon
 from chatrobot.language.tokens import Atom, quantity
+from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Drive, Plan
 
 _IS = frozenset(
@@ -36,6 +38,42 @@ def _counts() -> tuple[tuple[re.Pattern[str], dict[str, int]], ...]:
 def _unit_patterns() -> tuple[re.Pattern[str], ...]:
     tables = [load_table(language, "facts") for language in LANGUAGES]
     return tuple(re.compile(pattern) for table in tables for pattern in table.get("units", ()))
+
+
+@lru_cache(maxsize=1)
+def _measured_things() -> tuple[tuple[str, str], ...]:
+    tables = [load_table(language, "facts").get("measured", {}) for language in LANGUAGES]
+    return tuple((table["said"], table["counted"]) for table in tables if table)
+
+
+def with_measured_things(text: str) -> str:
+    """`my ruler is 30 cm long, go ahead three rulers` → `go ahead three times 30 cm`, for a thing of no other meaning.
+
+    Raises:
+        Unclear: for an amount that belongs to a thing which is not counted then.
+    """
+    for said, counted in _measured_things():
+        found = re.search(said, text)
+        if found is None or _is_known(found["thing"]):
+            continue
+        rest = f"{text[: found.start()]} {text[found.end() :]}".strip()
+        number = re.compile(counted.replace("THING", re.escape(found["thing"])))
+        if number.search(rest):
+            measure = found["measure"]
+            return number.sub(lambda m, measure=measure: _so_many(m["count"], measure), rest)  # type: ignore[misc]
+        raise Unclear("unknown_part", found[0].strip(" ,.;:"))
+    return text
+
+
+def _is_known(thing: str) -> bool:
+    """Whether it is a word that means something in a command: a side, a step, a radius."""
+    words = lexicon().words
+    meanings = [meaning for end in ("", "s") for meaning in words.get((thing + end,), ())]
+    return any(kind not in ("filler", "glue") for kind, _ in meanings)
+
+
+def _so_many(count: str, measure: str) -> str:
+    return measure if count in ("a", "an", "one", "1") else f"{count} times {measure}"
 
 
 def defined_unit(text: str) -> tuple[str, str] | None:

@@ -79,6 +79,9 @@ class Frame:
 
     @property
     def is_arc(self) -> bool:
+        """Whether it turns as it goes; what is said to go without turning does not."""
+        if "no_turn" in self.flags and self.verb != "curve" and not {"radius", "rate"} & set(self.q):
+            return False
         return (
             self.verb == "curve"
             or {"speed", "rate"} <= set(self.q)
@@ -185,7 +188,9 @@ class Frame:
         if old == "curve" and (verb == "turn" or (verb == "go" and not {"angle", "length"} <= set(self.q))):
             return True
         if (self.is_arc or "while" in self.flags) and {old, verb} <= {*GO, *TURN}:
-            return self._set_verb("curve")
+            return self._set_verb(
+                "slide" if "slide" in (old, verb) else "curve"
+            )  # a slide that turns is no curve
         if old in STILL and verb in STILL and not extent:
             return self._set_verb("wait")
         if {old, verb} <= GO and not extent:

@@ -11,7 +11,7 @@ from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
 from chatrobot.language.context import Context
 from chatrobot.language.facing import without_compass
-from chatrobot.language.facts import defined_unit, with_known_counts
+from chatrobot.language.facts import defined_unit, with_known_counts, with_measured_things
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
 from chatrobot.language.phrases import describe_plan, say
@@ -64,6 +64,7 @@ class OfflineInterpreter:
 
 def _in_words(plain: str, reading: Reading) -> Interpretation:
     """What is neither numbers alone nor a stop: a definition, a place, an answer, a unit, else a command."""
+    plain = with_measured_things(plain)
     definition = forms.read_definition(plain, reading.language)
     if definition is not None:
         return _defined(definition, reading)

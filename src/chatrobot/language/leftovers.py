@@ -19,6 +19,11 @@ def settled_word(atoms: Sequence[Atom], i: int) -> Atom:
     return settle(atoms, i) if settle is not None else atom
 
 
+def _verb(atoms: Sequence[Atom], i: int) -> Atom:
+    driven = atoms[i].text == "hold" and is_kind(atoms, i + 1, "q", "speed")  # `hold 0.4 m/s forward`
+    return Atom("verb", "go", atoms[i].text) if driven else atoms[i]
+
+
 def _direction(atoms: Sequence[Atom], i: int) -> Atom:
     straight = atoms[i].text.endswith("straight") and is_kind(atoms, i + 1, "dir")
     return _glue(atoms, i) if straight else atoms[i]  # `driving straight back`
@@ -32,6 +37,10 @@ def _then(atoms: Sequence[Atom], i: int) -> Atom:
     return Atom("conn", "then", atoms[i].text)
 
 
+def _ordinal(atoms: Sequence[Atom], i: int) -> Atom:
+    return _then(atoms, i) if atoms[i].text == "third" else atoms[i]
+
+
 def _leftover_number(atoms: Sequence[Atom], i: int) -> Atom:
     atom = atoms[i]
     if atom.value == "point" and is_chinese(atom.text):
@@ -39,7 +48,7 @@ def _leftover_number(atoms: Sequence[Atom], i: int) -> Atom:
     if atom.value == "point":  # `point left`, but not `back to the point`
         ends = i + 1 >= len(atoms) or atoms[i + 1].kind in ("sep", "conn")
         return Atom("unknown", atom.text, atom.text) if ends and i else Atom("verb", "face", atom.text)
-    unknown = atom.value in ("minus", "parts")
+    unknown = atom.value in ("minus", "parts", "root")
     return Atom("unknown", atom.text, atom.text) if unknown else _glue(atoms, i)
 
 
@@ -83,14 +92,31 @@ def _full_turn(atoms: Sequence[Atom], i: int) -> Atom:
     return _glue(atoms, i) if measured else Atom("verb", "turn", atoms[i].text)
 
 
+def _role(atoms: Sequence[Atom], i: int) -> Atom:
+    round_ = any(a.kind == "shape" or (a.kind, a.value) == ("verb", "curve") for a in atoms)
+    way = not round_ and is_kind(atoms, next_real(atoms, i + 1), "dir")  # `30 cm across to the right`
+    return _glue(atoms, i) if atoms[i].text == "across" and way else atoms[i]
+
+
 def _percent(atoms: Sequence[Atom], i: int) -> Atom:
     return _glue(atoms, i) if atoms[i].text == "成" else atoms[i]
 
 
-def _either_side(atoms: Sequence[Atom], i: int) -> Atom:
-    atom = atoms[i]  # 一米左右 is about a metre; alone, it would be both sides
-    alone = atom.text == "左右" and not (i and atoms[i - 1].kind == "q")
-    return Atom("unknown", atom.text, atom.text) if alone else atom
+def _flag(atoms: Sequence[Atom], i: int) -> Atom:
+    amount = is_kind(atoms, i - 1, "q", "time") or is_kind(atoms, i - 1, "q", "length")
+    ahead = (
+        atoms[i].text == "of forward" and amount
+    )  # `two seconds of forward`, not `30 degrees left of forward`
+    return Atom("dir", "forward", atoms[i].text) if ahead else atoms[i]
+
+
+def _glue_word(atoms: Sequence[Atom], i: int) -> Atom:
+    """Words that say nothing beside an amount; alone they would say something that nobody reads."""
+    atom = atoms[i]
+    sides = atom.text == "左右" and not (i and atoms[i - 1].kind == "q")  # 一米左右 is about a metre
+    amounts = [a for a in atoms[max(i - 2, 0) : i + 4] if a.kind == "q"]
+    angle = atom.text in ("angle", "the angle") and not amounts  # `the angle of a triangle`
+    return Atom("unknown", atom.text, atom.text) if sides or angle else atom
 
 
 def _unit_of_angle(atoms: Sequence[Atom], i: int) -> Atom:
@@ -102,9 +128,10 @@ def _unit_of_angle(atoms: Sequence[Atom], i: int) -> Atom:
 
 
 _SETTLED: dict[str, Callable[[Sequence[Atom], int], Atom]] = {
-    "dir": _direction, "num": _leftover_number, "filler": _pause, "unit_length": _unit_of_length, "second": _then,
-    "letter": _letter, "counter": _counter, "unit_times": _times, "per": _glue, "unit_turn": _full_turn,
-    "unit_percent": _percent, "glue": _either_side, "unit_angle": _unit_of_angle,
+    "verb": _verb, "dir": _direction, "num": _leftover_number, "filler": _pause, "unit_length": _unit_of_length,
+    "second": _then, "fraction": _ordinal, "letter": _letter, "counter": _counter, "unit_times": _times,
+    "per": _glue, "unit_turn": _full_turn, "role": _role, "flag": _flag, "unit_percent": _percent,
+    "glue": _glue_word, "unit_angle": _unit_of_angle,
 }  # fmt: skip
 
 

@@ -34,6 +34,9 @@ def read_number(atoms: Atoms, i: int) -> Number | None:
     if is_kind(atoms, i, "num", "minus"):
         inner = read_number(atoms, i + 1)
         return Number(-inner.value, inner.end, inner.percent) if inner else None
+    if is_kind(atoms, i, "num", "root"):
+        inner = read_number(atoms, i + 1)
+        return Number(math.sqrt(inner.value), inner.end) if inner and inner.value >= 0 else None
     if is_kind(atoms, i, "num", "percent_of"):
         inner = _plain(atoms, i + 1)
         return Number(inner.value / 100.0, inner.end, percent=True) if inner else None
@@ -101,6 +104,8 @@ def _fraction(atoms: Atoms, i: int) -> Number | None:
         end = i + 1
         return Number(0.5, end + 1 if is_kind(atoms, end, "num", "ge") else end)
     start = i + 1 if is_kind(atoms, i, "num", "article") else i
+    if start == i and is_kind(atoms, i, "fraction", "3") and _is_amount(atoms, i + 1):
+        return None  # `third, half a metre ahead`
     if is_kind(atoms, start, "fraction") and (start > i or atoms[start].value in ("2", "4", "3")):
         value = 1.0 / float(atoms[start].value)
         if is_kind(atoms, start + 1, "num", "article") and is_kind(atoms, start + 2, "number", "12"):
@@ -109,6 +114,10 @@ def _fraction(atoms: Atoms, i: int) -> Number | None:
             return Number(value * 12.0, start + 2)
         return Number(value, start + 1)
     return None
+
+
+def _is_amount(atoms: Atoms, i: int) -> bool:
+    return is_kind(atoms, i, "num", "half") or any(is_kind(atoms, i, k) for k in ("number", "fraction"))
 
 
 def _plain(atoms: Atoms, i: int) -> Number | None:

@@ -56,6 +56,11 @@ def asks_ability(text: str, language: str) -> bool:
     return found.search(text) is not None
 
 
+def asks_a_favour(text: str, language: str) -> bool:
+    """`Could you …`: something to be done, though it is put as a question."""
+    return "favour" in load_table(language, "questions") and bool(_pattern(language, "favour").search(text))
+
+
 def topic_of(text: str, language: str) -> str:
     """What a question is about, or an empty string."""
     return next((name for name, pattern in _topics(language) if pattern.search(text)), "")

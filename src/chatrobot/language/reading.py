@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from chatrobot.language.amends import amended
 from chatrobot.language.asides import without_asides
 from chatrobot.language.brackets import unrolled
 from chatrobot.language.chatter import without_chatter
@@ -21,6 +20,7 @@ from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.last_motion import state_after
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.manner import Pace
+from chatrobot.language.meant import instead
 from chatrobot.language.multiples import with_multiples
 from chatrobot.language.names import names_in
 from chatrobot.language.order import in_order
@@ -80,8 +80,16 @@ class Reading:
         Raises:
             Unclear: where a clause cannot be acted on.
         """
-        undone = amended(frames, self.context)
-        return [*undone, *(refer(frames, self.context, self.pace) or self.steps_of_their_own(frames))]
+        return instead(frames, self.context, self._steps) or self._steps(frames)
+
+    def _steps(self, frames: list[Frame]) -> list[Step]:
+        on = len(frames) > 1 and frames[0].verb == "undo" and (frames[1].has_extent or frames[1].direction)
+        undone = (
+            refer(frames[:1], self.context, self.pace) if on and frames[1].joined in ("and", "then") else None
+        )
+        if undone:  # `undo that and go back 1 m`
+            return [*undone, *self.steps_of_their_own(frames[1:])]
+        return refer(frames, self.context, self.pace) or self.steps_of_their_own(frames)
 
     def steps_of_their_own(self, frames: list[Frame]) -> list[Step]:
         """The steps of frames that do not refer to an earlier turn as a whole."""

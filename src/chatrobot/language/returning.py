@@ -9,6 +9,7 @@ from chatrobot.language.ellipsis import State
 from chatrobot.language.frames import DIRECTIONS, SIDES, Frame
 from chatrobot.language.inverse import inverse
 from chatrobot.language.manner import Pace
+from chatrobot.language.numbers import is_chinese
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Drive, Go, Step, Turn, Wait
 
@@ -31,6 +32,8 @@ def way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
         return _some_way_back(frame, state, pace)
     if set(frame.q) - {"speed", "percent", "fold", "faster"}:
         raise Unclear("unclear_motion", frame.text)
+    if "bit" in frame.flags and not is_chinese(frame.text):
+        raise Unclear("how_far", frame.text)  # `…, then come back a little`
     if frame.direction or (frame.has_extent and frame.verb != "return"):
         raise Unclear("unclear_motion", frame.text)
     speed = pace.speed(frame)
@@ -52,12 +55,24 @@ def partly_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
     """
     if "length" in frame.q:
         angle = DIRECTIONS[state.direction] if state.last == "drive" else 0.0
+        if _has_turned_about(state) and not is_chinese(frame.text):  # 退 is backwards, whichever way it looks
+            if frame.text.startswith(("and back", "now back", "back")):
+                raise Unclear("which_way", frame.text)
+            angle = math.pi
         opposite = math.remainder(angle + math.pi, 2 * math.pi)
         return [Drive(frame.q["length"].number, direction_rad=opposite, speed_mps=pace.speed(frame))]
     if state.left is None or state.last != "turn":
         raise Unclear("which_side", frame.text)
     amount = frame.q.get("angle") or frame.q["turns"]
     return [Turn(amount.number, left=not state.left, rate_radps=pace.rate(frame))]
+
+
+def _has_turned_about(state: State) -> bool:
+    """`do a 180 and come back 50 cm`: the way back lies ahead now."""
+    last = state.steps[-1] if state.steps else None
+    if not isinstance(last, Turn) or last.angle_rad is None:
+        return False
+    return abs(math.remainder(last.angle_rad - math.pi, 2 * math.pi)) < 1e-6
 
 
 def _some_way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:

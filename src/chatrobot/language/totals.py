@@ -7,8 +7,9 @@ import math
 from chatrobot.core.geometry import Pose
 from chatrobot.language.context import Context
 from chatrobot.language.frames import Frame
-from chatrobot.language.last_motion import steps_of
+from chatrobot.language.last_motion import said_unit_m, steps_of
 from chatrobot.language.manner import Pace
+from chatrobot.language.tokens import quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Drive, Step, Turn
 
@@ -24,6 +25,7 @@ def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
     assert last is not None
     moved = last.end_pose.relative_to(last.start_pose)
     step = steps[-1]
+    whole = _with_unit(whole, last.text, step)
     if "length" in whole.q and isinstance(step, Drive) and len(steps) == 1:
         done = math.hypot(moved.x_m, moved.y_m)
         if "to_start" in whole.flags or "total" in whole.flags:
@@ -43,6 +45,19 @@ def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
         missing = angle.number - abs(moved.yaw_rad)
         return [Turn(abs(missing), left=step.left if missing > 0 else not step.left)]
     raise Unclear("nothing_before", whole.text)
+
+
+def _with_unit(whole: Frame, text: str, step: Step) -> Frame:
+    """`make that 60`, after a turn: degrees; after a drive: in the unit that was said."""
+    number = whole.q.get("number")
+    unit_m = said_unit_m(text) if isinstance(step, Drive) else None
+    if number is None or not (unit_m or isinstance(step, Turn)):
+        return whole
+    whole = whole.copy()
+    del whole.q["number"]
+    name, factor = ("length", unit_m) if unit_m else ("angle", math.radians(1.0))
+    whole.q[name] = quantity(name, number.number * factor, number.text)
+    return whole
 
 
 def _run_start(context: Context, step: Drive) -> Pose:

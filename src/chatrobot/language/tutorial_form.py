@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from functools import lru_cache
 
@@ -90,6 +91,8 @@ def _plainer(text: str) -> str:
 
 
 def _twist(values: dict[str, float], seconds: float) -> RawTwist:
+    if not 0.0 < seconds < math.inf:
+        raise Unclear("bad_number", f"{seconds:g} s")
     try:
         return twist_from(values, seconds)
     except ImpossibleTwistError as error:

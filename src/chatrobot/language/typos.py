@@ -13,6 +13,8 @@ from functools import lru_cache
 from chatrobot.language.lexicon import lexicon
 
 _ANTONYMS = frozenset({"left", "right", "forward", "back", "backward", "clockwise", "anticlockwise"})
+_TRIPLED = re.compile(r"([a-z])\1{2,}")
+"""`gooo`, `leeeft`: no word has a letter three times running."""
 _ROWS = ("qwertyuiop", "asdfghjkl", "zxcvbnm")
 _VOWELS = frozenset("aeiouy")
 _SOUNDS = (
@@ -34,6 +36,11 @@ def _correct(word: str) -> str:
     words = lexicon()
     if len(word) < 3:
         return word
+    drawn_out = [
+        known for letters in (r"\1", r"\1\1") if (known := _TRIPLED.sub(letters, word)) in words.core
+    ]
+    if drawn_out and _TRIPLED.search(word):
+        return drawn_out[0]
     transposed = [w for w in _transpositions(word) if w in words.core and len(w) >= 3]
     if transposed:
         return transposed[0]

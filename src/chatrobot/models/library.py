@@ -160,8 +160,9 @@ def _messages(messages: Sequence[Message]) -> list[ModelMessage]:
             found.append(ModelResponse(parts=[TextPart(content=message.text)]))
         elif message.role == "user":
             content: list[UserContent] = [message.text]
-            if message.image_png is not None:
-                content.append(BinaryContent(data=message.image_png, media_type="image/png"))
+            if message.picture is not None:
+                kind = "image/jpeg" if message.picture.startswith(b"\xff\xd8") else "image/png"
+                content.append(BinaryContent(data=message.picture, media_type=kind))
             found.append(
                 ModelRequest(parts=[UserPromptPart(content=content if len(content) > 1 else message.text)])
             )

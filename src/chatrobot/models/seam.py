@@ -17,11 +17,11 @@ Role = Literal["system", "user", "assistant"]
 
 @dataclass(frozen=True)
 class Message:
-    """One message. `image_png` is a picture that goes with it, for models that can see."""
+    """One message. `picture` goes with it, a JPEG or PNG file, for models that can see."""
 
     role: Role
     text: str
-    image_png: bytes | None = None
+    picture: bytes | None = None
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from chatrobot.core.errors import JointError, WireError
 from chatrobot.core.events import (
@@ -34,10 +34,13 @@ from chatrobot.programs.library import Library
 from chatrobot.reflex import is_release
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
+from chatrobot.session.approval import LAPSES_AFTER_S
 from chatrobot.session.authoring import Authoring
+from chatrobot.session.camera import wire_camera
 from chatrobot.session.model_choice import warm_up
 from chatrobot.session.model_terms import ModelOptions
 from chatrobot.session.options import Options
+from chatrobot.session.question import Question
 from chatrobot.session.session import Session
 from chatrobot.session.thinking import Interpreter, Mind
 from chatrobot.session.topic_joint import TopicJoint
@@ -45,7 +48,14 @@ from chatrobot.session.topics import CHATGPT_NODE, EVENTS, OPERATOR, REPLY, STOP
 from chatrobot.session.understanding import Understanding
 from chatrobot.sim.load import load_world
 from chatrobot.sim.world import World
-from chatrobot.wire.connect import Connect, advertise, connect_wire, is_on_this_machine, publishers_of
+from chatrobot.wire.connect import (
+    Connect,
+    advertise,
+    connect_wire,
+    is_on_this_machine,
+    publishers_of,
+    resolved,
+)
 from chatrobot.wire.messages import Flag, Text
 
 if TYPE_CHECKING:
@@ -56,12 +66,14 @@ PUMP_S = 0.1
 SWITCH_INTERVAL_S = 0.0005
 """The wire's thread must get in between: what it hears may be a stop."""
 LOOK_S = 1.0
+Approval = Literal["profile", "all", "none"]
 
 
 @dataclass(frozen=True)
 class BaseOptions:
     """`folder` is where places live; None for nowhere. The two flags are the tutorial's parameters. `model`
-    is asked what is not understood without one."""
+    is asked what is not understood without one. `approval`: what waits for a person's yes: each plan, none, or what a
+    model wrote, where the robot's profile asks for approval."""
 
     wire: str
     profile: str
@@ -72,6 +84,7 @@ class BaseOptions:
     interpreter: Interpreter = "auto"
     model: Model | None = None
     model_options: ModelOptions = field(default_factory=ModelOptions)
+    approval: Approval = "profile"
 
 
 class BaseNode:
@@ -99,9 +112,13 @@ class BaseNode:
         self._joint = TopicJoint(self._wire, "base", is_on_this_machine=is_on_this_machine(options.wire))
         self._next_look_s = 0.0
         self._has_twin = False
-        self._asked_turn: int | None = None
+        self._question = Question()
         authoring = self._authoring(profile, world, understanding) if options.generate_code else None
-        session_options = Options(interpreter=options.interpreter)
+        session_options = Options(
+            interpreter=options.interpreter,
+            approve=options.approval == "all",
+            approve_models=options.approval == "profile" and profile.approval == "plan",
+        )
         mind = self._mind(profile)
         self._session = Session(
             self._joint, understanding, self._hear_event, session_options, authoring, mind
@@ -109,12 +126,16 @@ class BaseNode:
         self._operators = Operators(lambda: self._session.is_idle, self._lose_operator)
 
     def _mind(self, profile: RobotProfile) -> Mind | None:
-        """Plans come in parts where the profile allows it; there is nobody here to ask for a yes."""
+        """Plans come in parts where the profile allows it; otherwise whole, and who said it is asked for a yes."""
         options = self._options
         if options.model is None:
             return None
         streams = profile.approval == "stream" and profile.can_turn_on_the_spot
-        return Mind(options.model, replace(options.model_options, streams=streams), profile)
+        wiring = profile.wiring
+        if wiring.camera_topic:  # as this node finds it, remapped or in a namespace
+            wiring = replace(wiring, camera_topic=resolved(self._wire, wiring.camera_topic))
+        camera = wire_camera(options.wire, wiring)
+        return Mind(options.model, replace(options.model_options, streams=streams), profile, camera)
 
     def run(self, is_leaving: Callable[[], bool], on_ready: Callable[[], None]) -> None:
         """Until `is_leaving`; `on_ready` is called once it listens. Understands and pumps in the calling thread.
@@ -176,12 +197,14 @@ class BaseNode:
                     self._say_or_answer(message.data)
 
     def _say_or_answer(self, text: str) -> None:
-        turn, yes = self._asked_turn, read_consent(text)
-        if turn is not None and yes is not None:
-            self._asked_turn = None
-            self._session.approve(turn, yes)
-        else:
+        """Yes and no answer what was asked; whoever says something else does not want it done."""
+        if self._question.turn is None:
             self._session.say(text)
+            return
+        yes = read_consent(text)
+        if yes is None:
+            self._session.say(text)  # first of all: it may be a stop
+        self._question.answer(self._session, yes is True)
 
     def _lose_operator(self) -> None:
         with contextlib.suppress(JointError):
@@ -215,6 +238,7 @@ class BaseNode:
         self._has_twin = has_twin
 
     def _hear_event(self, event: Event) -> None:
+        self._question.hear(event)
         language = self._session.understanding.language
         if isinstance(event, (Interpreted, ProgramWritten, Result)):
             self._publish(EVENTS, json.dumps(event.to_json(), separators=(",", ":"), ensure_ascii=False))
@@ -227,12 +251,14 @@ class BaseNode:
         elif isinstance(event, ProgramWritten):
             self._say_written(event, language)
         elif isinstance(event, Rehearsed) and event.needs_approval:
-            self._asked_turn = event.turn
-            self._say(" ".join([*_sentences(event.findings, language), say(language, "ask_program")]))
-        elif isinstance(event, Finished) and event.turn == self._asked_turn:
-            self._asked_turn = None
+            self._ask(event, language)
         elif isinstance(event, Finished) and event.turn == 0 and event.reason is not None:
             self._say(render_reason(event.reason, language))
+
+    def _ask(self, event: Rehearsed, language: str) -> None:
+        """Programs read the question on the events' topic: `rehearsed`, with `needs_approval`."""
+        about = {"length_m": event.length_m, "duration_s": event.duration_s, "limit_s": LAPSES_AFTER_S}
+        self._say(" ".join([*_sentences(event.findings, language), say(language, "ask_plan", **about)]))
 
     def _say_written(self, event: ProgramWritten, language: str) -> None:
         """Its source goes to whoever shows it on the events' topic; here it is named, with what is risky in it."""

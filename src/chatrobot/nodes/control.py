@@ -160,7 +160,8 @@ class ControlNode:
         if self._is_leaving:
             return
         self._ours.add(envelope.turn)
-        if self._foreign.has_work:  # the lowest priority: it gives way
+        is_part = envelope.payload.get("mode") == "extend"
+        if self._foreign.has_work and not is_part:  # the lowest priority: it gives way
             envelope = replace(envelope, payload={**envelope.payload, "mode": "replace"})
         self._runner.receive(envelope)
 

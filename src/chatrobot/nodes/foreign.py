@@ -77,9 +77,8 @@ class Foreign:
             with self._lock:
                 self._waiting += 1
             self._runner.receive(self._sender.envelope("beat", term_s=LOCAL_TERM_S))
-            self._runner.receive(
-                self._sender.envelope("plan", TURN, plan_text=plan_text, mode="queue", longest_s=LONGEST_S)
-            )
+            plan = {"plan_text": plan_text, "mode": "queue", "longest_s": LONGEST_S}
+            self._runner.receive(self._sender.envelope("plan", TURN, **plan), said_in=stops)
 
 
 def read_foreign(text: str) -> str | None:

@@ -13,6 +13,8 @@ from chatrobot.wire.connect import Connect, advertise, connect_wire, is_on_this_
 from chatrobot.wire.messages import Flag, Text
 
 NODE = "chatrobot_input"
+_COMMANDS = {"/stop": "stop", "/estop": "emergency stop", "/release": "release the emergency stop"}
+"""Those of the console that make sense here; who hears them decides."""
 LISTENER_S = 3.0
 BOTH_S = 1.0
 """Base and control both listen; before the first line it waits so long for the second of them."""
@@ -49,6 +51,7 @@ class InputNode:
         Returns:
             False where nobody listens.
         """
+        text = _COMMANDS.get(text.strip().casefold(), text)
         if is_stop(text):
             self._wire.publish(USER_INPUT, Text(text))
             return True

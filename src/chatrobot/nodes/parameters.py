@@ -47,6 +47,13 @@ BASE = (
         "interpreter", "auto", "Who understands: auto, offline or model.", None, ("auto", "offline", "model")
     ),
     Parameter("model", "", "The language model, PROVIDER:NAME; empty for the one that was set up, if any."),
+    Parameter(
+        "approval",
+        "profile",
+        "What waits for a person's yes: all plans, none, or profile: a model's, where the robot's profile says so.",
+        None,
+        ("profile", "all", "none"),
+    ),
     Parameter("rounds", 6, "How often a model may look and go on in one turn.", (1, 100)),
     Parameter("budget_tokens", 20_000, "How many tokens all calls of one turn may use.", (100, 10_000_000)),
     Parameter("budget_s", 600.0, "How long one turn may take in all, seconds.", (1.0, 86_400.0)),

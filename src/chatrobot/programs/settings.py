@@ -47,12 +47,5 @@ class ProgramSettings:
 
 def robot_topics(wiring: Wiring) -> dict[str, str]:
     """The topics of one robot by what they are, resolved."""
-    names = {
-        "cmd_vel": wiring.cmd_vel_topic,
-        "odom": wiring.odom_topic,
-        "scan": wiring.scan_topic,
-        "imu": wiring.imu_topic,
-        "battery": wiring.battery_topic,
-        "bumper": wiring.bumper_topic,
-    }
-    return {key: f"/{name.lstrip('/')}" for key, name in names.items() if name}
+    topics = {"cmd_vel": wiring.cmd_vel_topic, **wiring.sensor_topics}
+    return {name: f"/{topic.lstrip('/')}" for name, topic in topics.items()}

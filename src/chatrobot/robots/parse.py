@@ -74,7 +74,11 @@ PERCENT_RANGE = Range(0.0, 100.0, "%", with_low=True)
 SENSORS = ("odom", "scan", "imu")
 TIMEOUT_RANGE = Range(0.0, 60.0, 's, or "forever"')
 FOOTPRINT_RANGE = Range(-5.0, 5.0, "m", with_low=True)
-WIRING_CHOICES = {"cmd_vel_type": ("Twist", "TwistStamped"), "odom_type": ("Odometry", "turtlesim/Pose")}
+WIRING_CHOICES = {
+    "cmd_vel_type": ("Twist", "TwistStamped"),
+    "odom_type": ("Odometry", "turtlesim/Pose"),
+    "camera_type": ("Image", "CompressedImage"),
+}
 FOREVER = "forever"
 
 SOURCE_MEANING = "where the number comes from: a document, a measurement, or that it is a cautious guess"

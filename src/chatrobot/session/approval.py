@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from chatrobot.core.geometry import Pose
@@ -9,6 +10,8 @@ from chatrobot.core.reason import Reason
 
 LAPSES_AFTER_S = 30.0
 LAPSES_AFTER_M = 0.05
+LAPSES_AFTER_RAD = math.radians(5.0)
+"""Over a metre it is the same as 9 cm aside; a gyro at rest drifts far less."""
 
 
 @dataclass(frozen=True)
@@ -24,4 +27,6 @@ class Approval:
             return Reason("approval_too_late", {"limit_s": LAPSES_AFTER_S})
         if pose.distance_to(self.start) > LAPSES_AFTER_M:
             return Reason("approval_robot_moved", {"limit_m": LAPSES_AFTER_M})
+        if abs(pose.yaw_rad - self.start.yaw_rad) > LAPSES_AFTER_RAD:
+            return Reason("approval_robot_moved", {"limit_deg": round(math.degrees(LAPSES_AFTER_RAD))})
         return None

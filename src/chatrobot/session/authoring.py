@@ -5,6 +5,7 @@ Nothing here runs a program: its source goes to Motion, which rehearses it in th
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -15,7 +16,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.language.program_request import ProgramRequest, read_program_name, read_request
-from chatrobot.models.seam import CallLimits, Message, Model, ModelError
+from chatrobot.models.seam import CallLimits, Message, Model, ModelError, Usage
 from chatrobot.plan.context import Impossible, RoutePlanner
 from chatrobot.plan.steps import Plan
 from chatrobot.programs.check import check
@@ -26,6 +27,7 @@ from chatrobot.programs.writing.program import write_program
 from chatrobot.programs.writing.wanted import Wanted
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.draft import Draft
+from chatrobot.session.model_call import estimated
 
 MOST_REPAIRS = 2
 LIMITS = CallLimits(reply_tokens=4000)
@@ -38,6 +40,15 @@ class NotWrittenError(Exception):
         self.outcome = outcome
         self.reply = reply
         super().__init__(reply)
+
+
+@dataclass(frozen=True)
+class Spent:
+    """What one call of the model that writes has used, and how long it took."""
+
+    model: str
+    usage: Usage
+    duration_s: float
 
 
 @dataclass
@@ -75,6 +86,7 @@ class Authoring:
         self.model = model
         self.prefers_model = prefers_model
         self._routes = routes
+        self._spent: list[Spent] = []
         self._cancels = 0
         self._cancel_reply: Callable[[], None] | None = None
 
@@ -200,6 +212,7 @@ class Authoring:
     def _ask(self, messages: Sequence[Message], language: str) -> str:
         assert self.model is not None
         before = self._cancels
+        began_s = time.monotonic()
         reply = self.model.ask(messages, LIMITS)
         self._cancel_reply = reply.cancel
         pieces: list[str] = []
@@ -211,9 +224,16 @@ class Authoring:
                 raise NotWrittenError("failed", render_reason(error.reason, language)) from error
         finally:
             self._cancel_reply = None
+            usage = reply.usage or estimated(messages, "".join(pieces))
+            self._spent.append(Spent(self.model.name, usage, time.monotonic() - began_s))
         if self._cancels != before:
             raise NotWrittenError("stopped", say(language, "stopped_now"))
         return "".join(pieces)
+
+    def take_spent(self) -> list[Spent]:
+        """The calls since this was asked last, given up ones too."""
+        spent, self._spent = self._spent, []
+        return spent
 
     # --- what became of it ---
 

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Outcome, Progress, Started
 from chatrobot.core.reason import Reason
+from chatrobot.execution.health import is_seen_moving
 from chatrobot.session.clearance import Clearance
 from chatrobot.session.governed_robot import GovernedRobot
 from chatrobot.session.inbox import Inbox
@@ -62,6 +63,8 @@ class Driver:
         barrier = self._clearance.barrier_for(job.lease, now_s) or self._robot.begin(job.lease, now_s)
         if barrier is not None:
             self._give_up("refused", barrier)
+        elif self._stops.is_unbooked:
+            return  # stopped a moment ago, from another thread: the wheel was taken after it; it will end as stopped
         elif isinstance(job, ProgramJob):
             self._launch_program(job)
         else:
@@ -102,9 +105,14 @@ class Driver:
             return
         run.tick(now_s)
         if run.is_done:
-            if run.outcome != "completed":
-                self._stops.halt_and_book(run.reason or Reason("stopped"))
-            self._end(run, run.outcome, run.reason)
+            outcome, reason = run.outcome, run.reason
+            if outcome == "completed" and is_seen_moving(
+                self._robot.sensors
+            ):  # told to stand, and waited for
+                outcome, reason = "failed", Reason("moves_on")
+            if outcome != "completed":
+                self._stops.halt_and_book()
+            self._end(run, outcome, reason)
 
     def expect(self, duration_s: float) -> None:
         """The plan under way has become longer: so long in all."""
@@ -130,6 +138,13 @@ class Driver:
             self._end(self._run, "failed" if why.code in FAILURES else "stopped", why)
         elif self.job is not None:
             self._give_up("stopped", why)
+
+    def fail(self, why: Reason) -> None:
+        """The way to the robot is gone for good: what was under way has failed."""
+        if self._run is not None:
+            self._end(self._run, "failed", why)
+        elif self.job is not None:
+            self._give_up("failed", why)
 
     def _end(self, run: Run | ProgramRun, outcome: Outcome, reason: Reason | None) -> None:
         self.job = self._run = None

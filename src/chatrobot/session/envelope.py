@@ -118,7 +118,7 @@ class Envelope:
         is obeyed whatever its payload, which is then left out.
         """
         try:
-            data = json.loads(packet)
+            data = json.loads(packet, object_pairs_hook=_each_key_once)
             envelope = cls(**data)
         except (ValueError, TypeError, RecursionError):
             return None
@@ -134,6 +134,14 @@ class Envelope:
         if _is_allowed(envelope.word, envelope.payload):
             return envelope
         return replace(envelope, payload={}) if envelope.word in ("stop", "emergency_stop") else None
+
+
+def _each_key_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Who names a key twice means one of two things, and we would have to guess which. A stop is one in any case."""
+    fields = dict(pairs)
+    if len(fields) < len(pairs) and fields.get("word") not in ("stop", "emergency_stop"):
+        raise ValueError("a key stands twice")
+    return fields
 
 
 def _is_allowed(word: Word, payload: Any) -> bool:

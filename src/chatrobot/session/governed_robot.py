@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 from chatrobot.core.reason import Reason
+from chatrobot.execution.executor import RAMP_RULES
+from chatrobot.execution.health import freshness, sensor_fault, silence
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor, Verdict
 from chatrobot.governor.rule import Sensed
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.transports.transport import Transport
 from chatrobot.wire.messages import LaserScan
+
+LATE_ODOMETRY = "odometry"
+"""The rule in whose name we ask the governor for less than was wanted."""
 
 
 class GovernedRobot:
@@ -35,8 +42,22 @@ class GovernedRobot:
         return self.governor.begin(lease, now_s, self._sensed()).refusal
 
     def govern(self, asked: Twist, lease: str, now_s: float) -> Verdict:
-        """What may be sent of `asked`, to a robot that is by now where odometry saw it going."""
-        return self.governor.govern(asked, lease, now_s, self.sensors.pose_now(), self._sensed())
+        """What may be sent of `asked`, to a robot that is by now where odometry saw it going.
+
+        With news that grows old it goes slower, and stands where nobody sees any more where it goes.
+        """
+        share = freshness(self.sensors)
+        may_ask = asked.scaled(share) if share < 1.0 else asked
+        verdict = self.governor.govern(may_ask, lease, now_s, self.sensors.pose_now(), self._sensed())
+        if share == 1.0 or verdict.action == "refused" or verdict.rule not in RAMP_RULES:
+            return verdict
+        return replace(
+            verdict, action="limited", rule=LATE_ODOMETRY, asked=asked, reason=silence(self.sensors)
+        )
+
+    def fault(self) -> Reason | None:
+        """Why nobody sees any more where it goes."""
+        return sensor_fault(self.sensors)
 
     def send(self, verdict: Verdict) -> None:
         """Send what was allowed, unless a stop came since."""

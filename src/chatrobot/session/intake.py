@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Collection
 
 from chatrobot.core.reason import Reason
 from chatrobot.session.envelope import Envelope
@@ -21,7 +22,7 @@ class Intake:
 
     def void_turn(self, lease: str, turn: int) -> None:
         """A stop said after that turn: plans of it and of earlier ones may still be on their way."""
-        self._void_turns[lease] = turn
+        self._void_turns[lease] = max(turn, self._void_turns.get(lease, turn))
 
     def is_old(self, envelope: Envelope) -> bool:
         """A later one of the same lease was here before. Beats, sent by a thread of their own, count for themselves."""
@@ -46,6 +47,13 @@ class Intake:
         for job in void:
             self.jobs.remove(job)
         return void
+
+    def take(self, jobs: Collection[Job]) -> list[Job]:
+        """Remove and return those of `jobs` that wait."""
+        taken = [job for job in self.jobs if any(job is one for one in jobs)]
+        for job in taken:
+            self.jobs.remove(job)
+        return taken
 
     def take_all(self) -> list[Job]:
         """Remove and return everything."""

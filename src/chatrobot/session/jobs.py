@@ -7,6 +7,7 @@ from collections.abc import Callable
 from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Notice, Outcome
 from chatrobot.core.reason import Reason
+from chatrobot.governor.priority import Priority
 from chatrobot.session.approval import Approval
 from chatrobot.session.driver import Driver
 from chatrobot.session.envelope import Envelope
@@ -80,24 +81,36 @@ class Jobs:
         """It was overtaken by a later word, most likely a stop: its turn ends here."""
         self._finish(Job.of(envelope, epoch, self._clock.now_s()), "stopped", why)
 
+    def refuse(self, envelope: Envelope, epoch: int, why: Reason) -> None:
+        """Its source may not ask for anything."""
+        self._finish(Job.of(envelope, epoch, self._clock.now_s()), "refused", why)
+
     def _give_way(self, job: Job) -> Reason | None:
         """A source of higher priority takes over at once; one of lower priority is refused, with the reason."""
-        current, leases = self.current, self._robot.governor.leases
-        if current is None or current.lease == job.lease:
-            return None
-        holder, comer = leases.source_of(current.lease), leases.source_of(job.lease)
-        if leases.priority_of(job.lease) < leases.priority_of(current.lease):
-            return Reason("outranked", {"source": holder})
-        if leases.priority_of(job.lease) > leases.priority_of(current.lease):
-            handed_over = Reason("handed_over", {"source": holder, "to": comer})
+        leases, current = self._robot.governor.leases, self.current
+        priority = leases.priority_of(job.lease)
+        before = [*([current] if current is not None else []), *self._intake.jobs]
+        for other in before:
+            if leases.priority_of(other.lease) > priority:
+                return Reason("outranked", {"source": leases.source_of(other.lease)})
+        lower = [other for other in before if leases.priority_of(other.lease) < priority]
+        if lower:
+            names = {"source": leases.source_of(lower[0].lease), "to": leases.source_of(job.lease)}
+            handed_over = Reason("handed_over", names)
             self._emit(Notice(job.turn, handed_over))
-            self._replace(handed_over)
+            for waiting in self._intake.take(lower):
+                self._finish(waiting, "stopped", handed_over)
+            if lower[0] is current:
+                self._end_current_gently(handed_over)
         return None
 
     def _replace(self, why: Reason) -> None:
         """New motion takes the place of the old, after a controlled stop; what was queued is dropped."""
         for job in self._intake.take_all():
             self._finish(job, "stopped", why)
+        self._end_current_gently(why)
+
+    def _end_current_gently(self, why: Reason) -> None:
         self._drop_prepared("stopped", why)
         self._driver.ramp_down(why)
 
@@ -183,11 +196,15 @@ class Jobs:
 
     # --- approved ---
 
-    def approve(self, turn: int, yes: bool) -> None:
+    def approve(self, envelope: Envelope) -> None:
         """A person's answer to what was rehearsed in that turn."""
         job = self._preparing
-        if job is None or job.approval is None or job.turn != turn:
+        if job is None or job.approval is None or job.turn != envelope.turn:
             return
+        is_a_persons = self._robot.governor.leases.priority_of(job.lease) >= Priority.PLAN
+        if is_a_persons and job.lease != envelope.lease:
+            return  # another person was asked, about another plan that happens to have this number
+        yes = bool(envelope.payload.get("yes"))
         lapse = job.approval.lapsed(self._clock.now_s(), self._robot.pose)
         if not yes or lapse is not None:
             self._drop_prepared("refused", lapse or Reason("not_approved"))
@@ -210,6 +227,13 @@ class Jobs:
         self._drop_prepared("stopped", why)
         for job in self._intake.take_void(self._stops.count):
             self._finish(job, "stopped", why)
+
+    def fail_all(self, why: Reason) -> None:
+        """The way to the robot is gone for good: all that was asked for has failed."""
+        self._driver.fail(why)
+        self._drop_prepared("failed", why)
+        for job in self._intake.take_all():
+            self._finish(job, "failed", why)
 
     def refuse_all(self, why: Reason) -> None:
         """Refuse what is queued."""

@@ -25,6 +25,12 @@ class CallEnd:
 Item = Union[str, CallEnd]
 
 
+def estimated(messages: Sequence[Message], reply: str = "") -> Usage:
+    """What a call has used where nobody counted: a token for four characters."""
+    prompt = sum(len(message.text) for message in messages) // 4
+    return Usage(prompt_tokens=prompt, reply_tokens=len(reply) // 4, counted=False)
+
+
 class ModelCall:
     """Begins at once. `take` gives what has come since; `cancel` may be called from any thread.
 
@@ -43,8 +49,7 @@ class ModelCall:
         self.began_s = time.monotonic()
         self.has_spoken = False
         self.has_ended = False
-        prompt = sum(len(message.text) for message in messages) // 4
-        self._estimate = Usage(prompt_tokens=prompt, counted=False)
+        self._estimate = estimated(messages)
         threading.Thread(
             target=self._run, args=(model, tuple(messages), limits), name="model call", daemon=True
         ).start()

@@ -49,6 +49,19 @@ class Surroundings(Protocol):
         """What the model asked to see."""
         ...
 
+    def begin_looking(self) -> None:
+        """The model wants a picture. Returns at once."""
+        ...
+
+    @property
+    def has_picture(self) -> bool:
+        """Nothing is gained by waiting for one any longer."""
+        ...
+
+    def give_up_looking(self) -> None:
+        """The model cannot see."""
+        ...
+
     def measured(self, finished: Finished | None) -> str:
         """What was driven, in words."""
         ...

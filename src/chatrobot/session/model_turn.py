@@ -27,12 +27,15 @@ from chatrobot.plan.base import Step
 from chatrobot.plan.primitives.say import Say
 from chatrobot.plan.text import format_step
 from chatrobot.session.model_call import CallEnd
+from chatrobot.session.model_look import ModelLook
 from chatrobot.session.model_round import ModelRound
 from chatrobot.session.model_terms import Ended, ModelOptions, Surroundings, summed, told
+from chatrobot.session.observations import without_pictures
 from chatrobot.session.plan_feed import PlanFeed
 from chatrobot.session.prompt import correction
 from chatrobot.session.quoting import one_line
 from chatrobot.session.spending import Spending
+from chatrobot.session.tutorial_mode import is_short_form
 
 if TYPE_CHECKING:
     from chatrobot.session.joint import Joint
@@ -40,11 +43,11 @@ if TYPE_CHECKING:
 MAX_RETRIES = 2
 """A bad reply never causes more further calls than these."""
 
-LOOK_S = 2.0
-"""How long Motion may take to say what the lidar sees."""
-
 WORTH_ANOTHER_TRY = frozenset({"model_empty", "model_called_tool"})
 """What a model did, not what became of the call: it may do better when it is told."""
+
+PICTURE_REFUSED = frozenset({"model_rejected", "model_server_error", "model_not_found"})
+"""How providers say that a model cannot see: 400, 500 or, with OpenRouter, 404."""
 
 PLAN_REFUSED = frozenset({"lasts_too_long", "plan_too_large", "plan_text"})
 
@@ -56,6 +59,7 @@ class ModelTurn:
         messages: what the model is told, the person's words last.
         mode: what the first run does to one that is under way.
         approve, rehearse_only: as in `Options`; either means that a plan goes to Motion as a whole.
+        frees_form: what stands wholly in the tutorial's form, and is short, needs no approval.
     """
 
     def __init__(
@@ -70,6 +74,7 @@ class ModelTurn:
         mode: Literal["queue", "replace", "append"],
         *,
         approve: bool = False,
+        frees_form: bool = False,
         rehearse_only: bool = False,
         only_talks: bool = False,
     ) -> None:
@@ -82,12 +87,13 @@ class ModelTurn:
         self._surroundings = surroundings
         self._emit = emit
         self._comes_whole = approve or rehearse_only or only_talks or not options.streams
+        self._frees_form = frees_form
         self._rehearse_only = rehearse_only
         self._only_talks = only_talks
         self._spending = Spending(options)
         self._feed = PlanFeed(turn, joint, emit, mode, approve=approve, rehearse_only=rehearse_only)
         self._cancelled: Reason | None = None
-        self._look_until_s: float | None = None
+        self._look: ModelLook | None = None
         self._total: Finished | None = None
         self._all_done: tuple[Step, ...] = ()
         self._done: tuple[Step, ...] = ()
@@ -150,8 +156,7 @@ class ModelTurn:
                 self._end_call(item)
             elif self._listens:
                 self._take(self._round.reader.feed(item))
-        if self._look_until_s is not None and time.monotonic() > self._look_until_s:
-            self._answer_looks(None)
+        self._end_look()
 
     def hear(self, event: Event) -> None:
         """An event of this turn."""
@@ -162,8 +167,9 @@ class ModelTurn:
             self._round.call.cancel()  # what it would say after this counts no more
         elif isinstance(event, Finished):
             self._end_run(event)
-        elif isinstance(event, Looked) and self._look_until_s is not None:
-            self._answer_looks(event)
+        elif isinstance(event, Looked) and self._look is not None:
+            self._look.hear(event)
+            self._end_look()
 
     # --- a round: one call and the run that comes of it ---
 
@@ -201,7 +207,8 @@ class ModelTurn:
             self._emit(Interpreted(self.turn, "model", "", one_line(current.reader.text)))
         self._feed.close()
         if not self._feed.is_open and current.run is None and self._may_run:
-            self._feed.send_whole(plan_text)
+            free = self._frees_form and is_short_form(current.steps)
+            self._feed.send_whole(plan_text, unasked=free)
         if not self._feed.is_open:
             self._end_round()
 
@@ -250,7 +257,7 @@ class ModelTurn:
         elif (problem := current.problem) is not None:
             self._end_with(problem)
         elif current.reader.looks and not self._rehearse_only:
-            self._look()
+            self._begin_look()
         elif run is None and self._total is None:
             self._conclude("answered", None)
         else:
@@ -271,8 +278,17 @@ class ModelTurn:
             self._conclude("completed", None)  # nothing is left to do
         elif problem.code == "plan_text" or problem.code in WORTH_ANOTHER_TRY:
             self._retry("unclear", problem)
+        elif problem.code in PICTURE_REFUSED and any(message.picture for message in self._messages):
+            self._ask_without_pictures()
         else:
             self._conclude("failed", problem)
+
+    def _ask_without_pictures(self) -> None:
+        """It may be the picture that this model cannot take: ask once more in words alone, and show it no other."""
+        self._surroundings.give_up_looking()
+        self._emit(Notice(self.turn, Reason("model_cannot_see", {"model": self._model.name})))
+        self._messages = without_pictures(self._messages)
+        self._begin_round()
 
     def _retry(self, outcome: Outcome, problem: Reason) -> None:
         """Tell the model what was wrong, and where to go on."""
@@ -287,16 +303,17 @@ class ModelTurn:
         words = correction(told(problem), done, self._surroundings.measured(self._total))
         self._go_on(Message("user", words))
 
-    def _look(self) -> None:
+    def _begin_look(self) -> None:
         self._feed.say_held()
-        if "scan" in self._round.reader.looks:
-            self._look_until_s = time.monotonic() + LOOK_S
-            self._joint.send("look", self.turn)
-        else:
-            self._answer_looks(None)
+        self._look = ModelLook(self._round.reader.looks, self.turn, self._joint, self._surroundings)
+        self._end_look()
 
-    def _answer_looks(self, looked: Looked | None) -> None:
-        self._look_until_s = None
+    def _end_look(self) -> None:
+        """Tell the model what there is to see, once it has been seen."""
+        look = self._look
+        if look is None or not look.is_over:
+            return
+        self._look = None
         spent = self._spending.used_up() or self._spending.rounds_used_up()
         if spent is not None:
             self._conclude("stopped", spent)
@@ -309,11 +326,12 @@ class ModelTurn:
             "rounds": self._options.rounds,
         }
         self._emit(Notice(self.turn, Reason("model_looks", at)))
-        self._go_on(self._surroundings.observation(looks, looked, self._round.run))
+        self._go_on(self._surroundings.observation(looks, look.scan, self._round.run))
 
     def _go_on(self, message: Message) -> None:
         said = Message("assistant", self._round.reader.text[:2000] or "# nothing")
-        self._messages = [*self._messages, said, message]
+        earlier = without_pictures(self._messages) if message.picture is not None else self._messages
+        self._messages = [*earlier, said, message]
         self._begin_round()
 
     def _conclude(self, outcome: Outcome, reason: Reason | None) -> None:

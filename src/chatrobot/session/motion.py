@@ -86,6 +86,7 @@ class Motion:
         self._relay = Relay(clock, robot, self.see_it_stand, self._notice)
         self._freeze = FreezeWatch(clock, guard, self.halt)
         self._telling = Telling(self.sensors, self._driver, emit)
+        self._emergency: Envelope | None = None
 
     # --- from any thread -------------------------------------------------------------------------------------
 
@@ -97,17 +98,23 @@ class Motion:
         """Have `action` done on the control thread with the next tick."""
         self._inbox.post(action)
 
-    def receive(self, envelope: Envelope) -> None:
-        """Take in an envelope. A stop is out before this returns; the rest is done with the next tick."""
+    def receive(self, envelope: Envelope, said_in: int | None = None) -> None:
+        """Take in an envelope. A stop is out before this returns; the rest is done with the next tick.
+
+        Args:
+            said_in: what `stops` was when it was said, where that was before it came here.
+        """
         if envelope.word == "emergency_stop":
+            self._emergency = envelope
             self._governor.latch(envelope.source, str(envelope.payload.get("why", "")))
         if envelope.word in ("stop", "emergency_stop"):
             why = str(envelope.payload.get("why", ""))
             self._intake.void_turn(envelope.lease, envelope.turn)
             self.halt(Reason("stopped_by", {"source": envelope.source, "why": why}))
         # What was said before a stop must not run after it, however late it is handled.
-        epoch = self._stops.count
-        self.post(lambda: self._handle(envelope, epoch))
+        epoch = self._stops.count if said_in is None else said_in
+        emergency = self._emergency
+        self.post(lambda: self._handle(envelope, epoch, emergency))
 
     def lose(self, lease: str) -> None:
         """The source behind `lease` is gone without a goodbye: a loss, and it stops."""
@@ -148,6 +155,15 @@ class Motion:
         """Send zeros until it does: nobody knows what it has heard last."""
         self.zeroing.begin(self._clock.now_s())
 
+    def give_up(self, why: Reason) -> None:
+        """The wire is closed for good, and with it the way to the robot: all that was asked for ends as failed."""
+        self._jobs.fail_all(why)
+
+    def leave(self) -> None:
+        """Goodbye to the guard; where the robot is out of sight no word is said, so that it goes on sending zeros."""
+        if not self.zeroing.has_lost_sight:
+            self._guard.goodbye()
+
     def tick(self) -> None:
         """One period of the control loop."""
         now_s = self._clock.now_s()
@@ -167,7 +183,7 @@ class Motion:
         self._jobs.expire_approval(now_s)
         if not self._driver.is_driving:
             self.zeroing.tick(now_s)
-        self._relay.tick(now_s, self._is_free())
+        self._relay.tick(now_s, self._is_free)
         self._begin_next(now_s)
         self._telling.tick(now_s)
 
@@ -186,15 +202,18 @@ class Motion:
     def _is_free(self) -> bool:
         """Nothing of ours drives, waits or stops the robot, and nothing keeps it from moving."""
         is_idle = self._jobs.are_done and not self.zeroing.is_active and not self.sensors.bumped
-        return is_idle and self.clearance.barrier() is None
+        return is_idle and not self._stops.is_unbooked and self.clearance.barrier() is None
 
     def _notice(self, reason: Reason) -> None:
         self._emit(Notice(0, reason))
 
     # --- what was said ---------------------------------------------------------------------------------------
 
-    def _handle(self, envelope: Envelope, epoch: int) -> None:
-        """One envelope, received in that stop epoch. Stops have been heard already; here they are only booked."""
+    def _handle(self, envelope: Envelope, epoch: int, emergency: Envelope | None) -> None:
+        """One envelope, received in that stop epoch, after that emergency stop.
+
+        Stops have been heard already; here they are only booked.
+        """
         if self._intake.is_old(envelope):
             if envelope.word in ("plan", "program"):
                 self._jobs.void(envelope, epoch, self._stops.last_reason)
@@ -202,21 +221,36 @@ class Motion:
         now_s = self._clock.now_s()
         self._sources.hear(envelope, now_s)
         if envelope.word in ("plan", "program"):
-            self._jobs.accept(envelope, epoch)
+            self._accept(envelope, epoch)
             self._begin_next(now_s)
         elif envelope.word == "look":
             self._emit(Looked(envelope.turn, sectors_m(self._profile, self.sensors.scan)))
         elif envelope.word == "approve":
             if priority_of(envelope.source) >= Priority.PLAN:  # a person's word, not an agent's
-                self._jobs.approve(envelope.turn, bool(envelope.payload.get("yes")))
+                self._jobs.approve(envelope)
         elif envelope.word == "release":
-            self._release(envelope)
+            self._release(envelope, emergency)
         elif envelope.word == "goodbye":
             self._sources.leave(envelope.lease)
 
-    def _release(self, envelope: Envelope) -> None:
+    def _accept(self, envelope: Envelope, epoch: int) -> None:
+        if self._sources.has_left(envelope.lease):
+            self._jobs.refuse(envelope, epoch, Reason("lease_lapsed", {"source": envelope.source}))
+        else:
+            self._jobs.accept(envelope, epoch)
+
+    def _release(self, envelope: Envelope, emergency: Envelope | None) -> None:
+        """Release what was set when the release was said; an emergency stop that came after it holds."""
+        if self._emergency is not emergency:
+            return
         who = {"source": envelope.source}
-        if not self._governor.release(envelope.source):
+        released = self._governor.release(envelope.source)
+        newer = self._emergency
+        if (
+            newer is not None and newer is not emergency
+        ):  # it came in between, and may have seen the old one set
+            self._governor.latch(newer.source, str(newer.payload.get("why", "")))
+        elif not released:
             self._emit(Notice(envelope.turn, Reason("release_refused", who)))
         elif envelope.source != "console":  # the person there sees it
             self._emit(Notice(envelope.turn, Reason("released", who)))

@@ -122,7 +122,11 @@ class MotionRunner:
             self._lookout.look_around()
 
     def run(self, has_left: Callable[[], bool], each_tick: Callable[[], None]) -> None:
-        """The control loop, until `has_left`; then the guard is told goodbye."""
+        """The control loop, until `has_left`; then the guard is told goodbye.
+
+        Raises:
+            WireError: the wire is closed for good. What was under way has been told to have failed.
+        """
         for target in (self._plan, self._serve_stop, self._lookout.watch):
             threading.Thread(target=target, daemon=True).start()
         _settle_memory()
@@ -135,7 +139,12 @@ class MotionRunner:
                 each_tick()
                 if time.monotonic() >= next_s:  # not where an event drove this tick before its time
                     next_s = max(next_s, time.monotonic() - TICK_S) + TICK_S
-            self._guard.goodbye()
+        except WireError:
+            self.motion.give_up(Reason("wire_gone"))
+            each_tick()
+            raise
+        else:
+            self.motion.leave()
             self.wire.close()
         finally:
             self.programs.close()
@@ -143,9 +152,9 @@ class MotionRunner:
 
     # --- from any thread ---
 
-    def receive(self, envelope: Envelope) -> None:
-        """Take in an envelope; a stop is out before this returns."""
-        self.motion.receive(envelope)
+    def receive(self, envelope: Envelope, said_in: int | None = None) -> None:
+        """Take in an envelope; a stop is out before this returns. `said_in`: see `Motion.receive`."""
+        self.motion.receive(envelope, said_in)
         self._rivals.note_source(envelope.lease)
         if envelope.word != "beat":
             self._wake.set()

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
 from chatrobot.core.events import Finished, Looked
 from chatrobot.core.geometry import Pose
@@ -11,10 +12,9 @@ from chatrobot.models.seam import Message
 from chatrobot.session.prompt import place_lines, pose_line
 
 _SECTORS = ("ahead", "ahead left", "left", "behind left", "behind", "behind right", "right", "ahead right")
-NOTHING = "no camera picture to be had"
-
-Camera = Callable[[], "bytes | None"]
-"""Takes a picture now: PNG, or None where there is none."""
+ATTACHED = "data: the camera picture is attached"
+SEEN = "data: there was a camera picture here"
+NOTHING = "data: no camera picture to be had"
 
 
 def observation(
@@ -24,9 +24,9 @@ def observation(
     places: Mapping[str, Pose],
     looked: Looked | None,
     finished: Finished | None,
-    camera: Camera | None,
+    take: Callable[[], bytes | None],
 ) -> Message:
-    """The answer to a `look` line. What became of the last motion always comes first."""
+    """The answer to a `look` line. What became of the last motion always comes first. `take` takes a picture."""
     lines = [outcome_line(finished)] if finished is not None or "outcome" in looks else []
     picture: bytes | None = None
     for look in looks:
@@ -37,10 +37,20 @@ def observation(
         elif look == "places":
             lines += place_lines(places) or ["data: no places are known"]
         elif look == "camera":
-            picture = camera() if camera is not None else None
-            lines.append("data: the camera picture is attached" if picture else f"data: {NOTHING}")
+            picture = take()
+            lines.append(ATTACHED if picture else NOTHING)
     lines.append("Go on with plan text; end without `look` when the task is done.")
     return Message("user", "\n".join(lines), picture)
+
+
+def without_pictures(messages: Sequence[Message]) -> list[Message]:
+    """The same in words alone: an older picture is sent again with no later call."""
+    return [
+        replace(message, picture=None, text=message.text.replace(ATTACHED, SEEN))
+        if message.picture
+        else message
+        for message in messages
+    ]
 
 
 def outcome_line(finished: Finished | None) -> str:

@@ -62,10 +62,10 @@ class PlanFeed:
                 self._emit(Streamed(self._turn, line))
             self._send("\n".join(lines), more=True)
 
-    def send_whole(self, plan_text: str) -> None:
-        """All of it at once, where nothing of it has been sent."""
+    def send_whole(self, plan_text: str, *, unasked: bool = False) -> None:
+        """All of it at once, where nothing of it has been sent. `unasked`: this one needs no approval."""
         if plan_text:
-            self._send(plan_text, more=False)
+            self._send(plan_text, more=False, unasked=unasked)
 
     def close(self) -> None:
         """No more steps will come."""
@@ -82,7 +82,7 @@ class PlanFeed:
             if isinstance(step, Say):
                 self._emit(Said(self._turn, step.text))
 
-    def _send(self, plan_text: str, *, more: bool) -> None:
+    def _send(self, plan_text: str, *, more: bool, unasked: bool = False) -> None:
         if self._is_cancelled:
             return
         mode = "extend" if self.is_open else self._mode
@@ -94,7 +94,7 @@ class PlanFeed:
             plan_text=plan_text,
             mode=mode,
             more=more,
-            approve=self._approve,
+            approve=self._approve and not unasked,
             rehearse_only=self._rehearse_only,
         )
         self._mode = "queue"  # what comes later in this turn goes on after it

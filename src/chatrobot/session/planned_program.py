@@ -9,7 +9,7 @@ from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.plan.findings import Finding
 from chatrobot.programs.events import Died, Ended, Log, Raised
-from chatrobot.session.planner import DRAWN_POINTS, Planned
+from chatrobot.session.planner import Planned, drawn
 from chatrobot.session.program_rehearsal import ProgramRehearsal
 
 LOG_LINES = 50
@@ -67,8 +67,6 @@ class PlannedProgram(Planned):
     def event(self, needs_approval: bool) -> Rehearsed:
         shown = self._shown
         findings = tuple(FindingSeen(self.turn, f.severity, f.reason, (), f.t_s) for f in shown.findings)
-        stride = max(1, len(shown.path) // DRAWN_POINTS)
-        rows = [*shown.path[:-1:stride].tolist(), shown.path[-1].tolist()]
         return Rehearsed(
             self.turn,
             self.ok,
@@ -76,7 +74,7 @@ class PlannedProgram(Planned):
             shown.length_m,
             Pose(*(float(value) for value in shown.path[-1, 1:])),
             findings,
-            tuple((row[1], row[2], row[3]) for row in rows),
+            drawn(shown.path),
             needs_approval,
         )
 

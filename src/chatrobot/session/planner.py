@@ -10,6 +10,7 @@ from chatrobot.core.events import Event, FindingSeen, Rehearsed
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.governor.kernel import Kernel, make_kernel
+from chatrobot.plan.known_world import Floats
 from chatrobot.plan.lowering import CoreWalk
 from chatrobot.plan.rehearsal import Rehearsal, rehearse
 from chatrobot.plan.route import GridRoutePlanner
@@ -77,8 +78,6 @@ class Planned:
             FindingSeen(self.turn, found.severity, found.reason, tuple(i + 1 for i in found.index), found.t_s)
             for found in rehearsal.findings
         )
-        stride = max(1, len(rehearsal.path) // DRAWN_POINTS)
-        rows = [*rehearsal.path[:-1:stride].tolist(), rehearsal.path[-1].tolist()]
         return Rehearsed(
             self.turn,
             rehearsal.ok,
@@ -86,9 +85,16 @@ class Planned:
             rehearsal.length_m,
             rehearsal.end_pose,
             findings,
-            tuple((row[1], row[2], row[3]) for row in rows),
+            drawn(rehearsal.path),
             needs_approval,
         )
+
+
+def drawn(path: Floats) -> tuple[tuple[float, float, float], ...]:
+    """x_m, y_m, yaw_rad of a path whose rows ([n, 4]) begin with a time; thinned, but for its end."""
+    stride = max(1, len(path) // DRAWN_POINTS)
+    rows = [*path[:-1:stride].tolist(), path[-1].tolist()]
+    return tuple((row[1], row[2], row[3]) for row in rows)
 
 
 def _later(step: tuple[int, ...], steps_before: int) -> tuple[int, ...]:

@@ -12,6 +12,7 @@ from typing import Protocol
 from chatrobot.core.events import Event, Finished, Outcome, ProgramLog, Progress
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.reason import Reason
+from chatrobot.execution.health import STANDS_LATE_S, is_seen_moving
 from chatrobot.governor.governor import Verdict
 from chatrobot.governor.lease import TERM_S
 from chatrobot.programs.events import Died, Ended, Log, Output, ProgramEvent, Raised, TwistAsked
@@ -23,7 +24,7 @@ from chatrobot.session.program_job import ProgramJob
 from chatrobot.session.soft_zero import softened
 
 SETTLE_S = 1.0
-"""A robot that is told to stand is waited for no longer than this."""
+"""A robot that is told to stand is waited for no longer than this, where it is not seen moving."""
 STARTING_S = 3.0
 """A program that says nothing for so long after its launch is not coming."""
 LOG_LINES = 500
@@ -58,6 +59,7 @@ class ProgramRun:
         self.outcome: Outcome = "completed"
         self.reason: Reason | None = None
         self._program = program
+        self._robot = robot
         self._sensors = robot.sensors
         self._emit = emit
         self._motion = GovernedMotion(job, robot, now_s)
@@ -77,6 +79,7 @@ class ProgramRun:
             for event in self._program.poll_until(now_s - self._began_s):
                 self._hear(event, now_s)
             self._notice_silence(now_s)
+            self._notice_fault()
         asked = self._held.at(now_s) if self._ended_s is None else ZERO_TWIST
         if self.outcome == "completed":
             asked = softened(asked, self._sent, self._limits, now_s - since_s)
@@ -86,7 +89,8 @@ class ProgramRun:
         if self._ended_s is not None and verdict.sent.twist.is_zero:
             estimate = self._sensors.estimate
             standing = estimate is None or estimate.is_standing
-            self.is_done = standing or now_s - self._ended_s > SETTLE_S
+            patience_s = STANDS_LATE_S if is_seen_moving(self._sensors) else SETTLE_S
+            self.is_done = standing or now_s - self._ended_s > patience_s
 
     def ramp_down(self, why: Reason) -> None:
         """A controlled stop: the program is ended, the robot brought to stand."""
@@ -147,6 +151,12 @@ class ProgramRun:
     def _notice_silence(self, now_s: float) -> None:
         if self._ended_s is None and now_s - self._heard_s > TERM_S:
             self._end("failed", Reason("program_silent"))
+
+    def _notice_fault(self) -> None:
+        """As for a plan: nobody sees any more where the robot goes, its fence included."""
+        fault = self._robot.fault()
+        if fault is not None:
+            self._end("failed", fault)
 
     # --- telling ---
 

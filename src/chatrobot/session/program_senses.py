@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from chatrobot.core.wiring import Wiring
-from chatrobot.wire.messages import Flag, Imu, LaserScan, Number, Odometry
+from chatrobot.wire.messages import Odometry
+from chatrobot.wire.sensor_topics import subscribe_sensors
 from chatrobot.wire.wire import Wire
 
 Words = tuple[Any, ...]
@@ -27,16 +28,14 @@ class Senses:
 
     def attach(self, wire: Wire, wiring: Wiring) -> None:
         """Subscribe to what the profile says the robot has."""
-        if wiring.odom_topic:
-            wire.subscribe(wiring.odom_topic, Odometry, self._on_odometry)
-        if wiring.scan_topic:
-            wire.subscribe(wiring.scan_topic, LaserScan, self._on_scan)
-        if wiring.imu_topic:
-            wire.subscribe(wiring.imu_topic, Imu, self._on_imu)
-        if wiring.bumper_topic:
-            wire.subscribe(wiring.bumper_topic, Flag, lambda flag: self._keep(("bumper", flag.data)))
-        if wiring.battery_topic:
-            wire.subscribe(wiring.battery_topic, Number, lambda number: self._keep(("battery", number.data)))
+        hear: dict[str, Callable[[Any], None]] = {
+            "odom": self._on_odometry,
+            "scan": lambda scan: self._keep(("scan", *scan[1:])),
+            "imu": lambda imu: self._keep(("imu", imu.wz_radps, self._yaw_rad)),
+            "bumper": lambda flag: self._keep(("bumper", flag.data)),
+            "battery": lambda number: self._keep(("battery", number.data)),
+        }
+        subscribe_sensors(wire, wiring, hear)
 
     def forget(self) -> None:
         """Another program begins: it listens to nothing yet."""
@@ -67,12 +66,6 @@ class Senses:
     def _on_odometry(self, message: Odometry) -> None:
         self._yaw_rad = message.yaw_rad
         self._keep(("odom", *message[1:]))
-
-    def _on_scan(self, message: LaserScan) -> None:
-        self._keep(("scan", *message[1:]))
-
-    def _on_imu(self, message: Imu) -> None:
-        self._keep(("imu", message.wz_radps, self._yaw_rad))
 
 
 def stamped(words: Words, stamp_s: float) -> Sequence[Any]:

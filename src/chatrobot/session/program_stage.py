@@ -23,7 +23,8 @@ from chatrobot.sim.robot import SimRobot
 from chatrobot.sim.world import EMPTY_WORLD, World
 from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.memory import MemoryHub
-from chatrobot.wire.messages import Flag, Imu, LaserScan, Message, Odometry
+from chatrobot.wire.messages import Flag, Imu, LaserScan, Message, Number
+from chatrobot.wire.sensor_topics import subscribe_sensors
 
 LEASE = "rehearsal"
 STEADY_STEP_S = 2.0 * TICK_S
@@ -86,10 +87,7 @@ class ProgramStage:
 
     def listen(self, sensor: str, depth: int) -> None:
         if sensor not in self._boxes:
-            kind = _KINDS.get(sensor)
-            topic = getattr(self._profile.wiring, f"{sensor}_topic")
-            if kind is not None and topic is not None:
-                self._wire.subscribe(topic, kind, self._hear(sensor))
+            subscribe_sensors(self._wire, self._profile.wiring, {sensor: self._hear(sensor)})
             self.robot.listen_to(sensors=True, lidar=sensor == "scan" or "scan" in self._boxes)
         before = self._boxes.get(sensor, ())
         self._boxes[sensor] = deque(before, maxlen=max(1, min(depth, 100)))
@@ -154,7 +152,7 @@ class ProgramStage:
     def _values(self, message: Message) -> Sequence[Any]:
         if isinstance(message, Imu):
             return (*message, self.robot.true_pose.yaw_rad)
-        if isinstance(message, Flag):
+        if isinstance(message, (Flag, Number)):
             return (self.now_s, message.data)
         if isinstance(message, LaserScan):
             return (*message[:-1], [round(range_m, 4) for range_m in message.ranges_m])
@@ -165,9 +163,6 @@ class ProgramStage:
         for sensor, values in self._newest.items():
             self._boxes[sensor].append(values)
         self._newest.clear()
-
-
-_KINDS: dict[str, type[Any]] = {"odom": Odometry, "imu": Imu, "scan": LaserScan, "bumper": Flag}
 
 
 def limited_reason(verdict: Verdict) -> Reason:

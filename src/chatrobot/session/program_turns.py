@@ -10,7 +10,7 @@ from chatrobot.core.events import (
     Event,
     Finished,
     Interpreted,
-    Outcome,
+    ModelCalled,
     ProgramRehearsed,
     Rehearsed,
     Started,
@@ -21,6 +21,8 @@ from chatrobot.language.normalise import has_chinese
 from chatrobot.language.phrases import render_reason
 from chatrobot.session.authoring import MOST_REPAIRS, Authoring, NotWrittenError, Rehearsal
 from chatrobot.session.draft import Draft
+from chatrobot.session.orders import Orders
+from chatrobot.session.turn_book import TurnBook
 from chatrobot.session.understanding import Understanding
 
 MENDABLE = frozenset(
@@ -35,25 +37,6 @@ MENDABLE = frozenset(
 """What a model is asked to mend."""
 
 
-@dataclass(frozen=True)
-class Hooks:
-    """What a program's turn needs of its session.
-
-    Args:
-        emit: shows an event.
-        conclude: ends a turn that did not move.
-        track: this turn is now Motion's; its `finished` ends it.
-        send: a `program` envelope with that payload.
-        is_void: a stop came after that turn was said.
-    """
-
-    emit: Callable[[Event], None]
-    conclude: Callable[[int, Outcome, str], None]
-    track: Callable[[int, str, Interpretation], None]
-    send: Callable[[int, dict[str, object]], None]
-    is_void: Callable[[int], bool]
-
-
 @dataclass
 class _Turn:
     draft: Draft
@@ -62,12 +45,27 @@ class _Turn:
 
 
 class ProgramTurns:
-    """Used by the session's pumping thread."""
+    """Used by the session's pumping thread.
 
-    def __init__(self, authoring: Authoring, understanding: Understanding, hooks: Hooks) -> None:
+    Args:
+        is_void_turn: a stop came after that turn was said.
+    """
+
+    def __init__(
+        self,
+        authoring: Authoring,
+        understanding: Understanding,
+        book: TurnBook,
+        orders: Orders,
+        emit: Callable[[Event], None],
+        is_void_turn: Callable[[int], bool],
+    ) -> None:
         self.authoring = authoring
         self._understanding = understanding
-        self._hooks = hooks
+        self._book = book
+        self._orders = orders
+        self._emit = emit
+        self._is_void_turn = is_void_turn
         self._turns: dict[int, _Turn] = {}
 
     def begin(self, turn: int, text: str, *, is_asked_for: bool = False, name: str = "") -> bool:
@@ -85,12 +83,15 @@ class ProgramTurns:
         request = replace(request, name=name or request.name)
         language: LanguageCode = "zh" if has_chinese(text) else "en"
         try:
-            draft = self.authoring.write(request, self._understanding.pose, language)
+            try:
+                draft = self.authoring.write(request, self._understanding.pose, language)
+            finally:
+                self._tell_spent(turn, 1)
         except NotWrittenError as refusal:
-            self._hooks.emit(Interpreted(turn, "offline", "", refusal.reply))
+            self._emit(Interpreted(turn, "offline", "", refusal.reply))
             meant = Interpretation(_MEANT.get(refusal.outcome, "refused"), refusal.reply, language)
             self._understanding.note_unmoved(text, meant)
-            self._hooks.conclude(turn, refusal.outcome, refusal.reply)
+            self._book.conclude(turn, refusal.outcome, refusal.reply)
             return True
         self.run(turn, text, draft)
         return True
@@ -99,9 +100,9 @@ class ProgramTurns:
         """Have Motion rehearse and run it, as soon as it can be read at all."""
         code = "program_new" if draft.is_new else "program_kept"
         reply = self._understanding.say(code, text, name=draft.program.name)
-        self._hooks.emit(Interpreted(turn, "model" if draft.by_model else "offline", "", reply))
+        self._emit(Interpreted(turn, "model" if draft.by_model else "offline", "", reply))
         self._turns[turn] = about = _Turn(draft)
-        self._hooks.track(turn, text, Interpretation("plan", reply, self._understanding.language))
+        self._book.track(turn, text, Interpretation("plan", reply, self._understanding.language))
         self._send(turn, about)
 
     def hear(self, event: Event) -> bool:
@@ -132,42 +133,56 @@ class ProgramTurns:
 
     def _send_mended(self, event: Finished, about: _Turn) -> bool:
         reason = event.reason
-        if reason is None or reason.code not in MENDABLE or self._hooks.is_void(event.turn):
+        if reason is None or reason.code not in MENDABLE or self._is_void_turn(event.turn):
             return False
         problem = about.rehearsal.program.problem if about.rehearsal.program is not None else ""
-        if not self._mend(about, reason, problem):
+        if not self._mend(event.turn, about, reason, problem):
             return False
         self._send(event.turn, about)
         return True
 
     def _send(self, turn: int, about: _Turn) -> None:
         """Show this version and hand it to Motion; one that cannot even be read is mended first, or ends the turn."""
-        self._hooks.emit(about.draft.event(turn))
+        self._emit(about.draft.event(turn))
         while (refusal := about.draft.checked.refusal) is not None:
-            if not self._mend(about, refusal.reason, ""):
+            if not self._mend(turn, about, refusal.reason, ""):
                 del self._turns[turn]
                 reply = render_reason(refusal.reason, self._understanding.language)
-                self._hooks.conclude(turn, "refused", reply)
+                self._book.conclude(turn, "refused", reply)
                 return
-            self._hooks.emit(about.draft.event(turn))
+            self._emit(about.draft.event(turn))
         self.authoring.keep(about.draft)
         draft = about.draft
         payload = {
             "code": draft.program.source,
             "name": draft.program.name,
             "remap": dict(draft.program.remap),
-            "is_new": draft.is_new,
-            "is_led_elsewhere": bool(draft.program.remap) and not draft.program.runs,
             "strict": draft.by_model and draft.version <= MOST_REPAIRS,
         }
-        self._hooks.send(turn, payload)
+        is_led_elsewhere = bool(draft.program.remap) and not draft.program.runs
+        self._orders.program(
+            turn, payload, is_new=draft.is_new, by_model=draft.by_model, is_led_elsewhere=is_led_elsewhere
+        )
 
-    def _mend(self, about: _Turn, problem: Reason, details: str) -> bool:
+    def _tell_spent(self, turn: int, call: int) -> None:
+        """What a model has used, as for plans; `call` counts those of the turn."""
+        for spent in self.authoring.take_spent():
+            usage = spent.usage
+            self._emit(
+                ModelCalled(
+                    turn, spent.model, call, usage.prompt_tokens, usage.cached_tokens, usage.reply_tokens,
+                    usage.cost_usd, usage.counted, spent.duration_s,
+                )
+            )  # fmt: skip
+
+    def _mend(self, turn: int, about: _Turn, problem: Reason, details: str) -> bool:
         """Have the model write the next version; False where there is none."""
         try:
             draft = self.authoring.mend(about.draft, problem, details, self._understanding.language)
         except NotWrittenError:
             return False  # what was wrong is told all the same
+        finally:
+            self._tell_spent(turn, about.draft.version + 1)
         if draft is None:
             return False
         about.draft, about.rehearsal = draft, Rehearsal()

@@ -51,29 +51,38 @@ class Relay:
             self._has_to_let_go = False
         self._heard = (now_s, twist)
 
-    def tick(self, now_s: float, is_free: bool) -> None:
+    def tick(self, now_s: float, is_free: Callable[[], bool]) -> None:
         """One period; `is_free`: nothing of ours drives, waits or stops the robot."""
         at_s, twist = self._heard
         is_asked = now_s - at_s <= TERM_S
-        if is_asked and not is_free:
+        if is_asked and not is_free():
             self._has_to_let_go = True
-        may_drive = is_asked and is_free and not self._has_to_let_go
+        may_drive = is_asked and not self._has_to_let_go
         if self.is_driving and not may_drive:
             self._end()
         elif not self.is_driving and may_drive and not twist.is_zero:
-            self._begin(now_s)
+            self._begin(now_s, is_free)
         if self.is_driving:
             self._drive(twist, at_s, now_s)
 
-    def _begin(self, now_s: float) -> None:
+    def _begin(self, now_s: float, is_free: Callable[[], bool]) -> None:
         self._robot.governor.leases.open(_LEASE, RELAY_TOPIC, TERM_S, now_s)
-        refusal = self._robot.begin(_LEASE, now_s)
+        refusal = self._robot.fault() or self._robot.begin(_LEASE, now_s)
         if refusal is not None:
             self._has_to_let_go = True
             self._tell(refusal)
-        self.is_driving = refusal is None
+        elif not is_free():  # stopped a moment ago, from another thread: the wheel was taken after it
+            self._has_to_let_go = True
+            self._robot.governor.end(_LEASE)
+        self.is_driving = not self._has_to_let_go
 
     def _drive(self, twist: Twist, at_s: float, now_s: float) -> None:
+        fault = self._robot.fault()
+        if fault is not None:
+            self._has_to_let_go = True
+            self._tell(fault)
+            self._end()
+            return
         self._robot.governor.leases.beat(_LEASE, at_s)
         verdict = self._robot.govern(twist, _LEASE, now_s)
         if verdict.action == "refused":

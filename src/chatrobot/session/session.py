@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 from chatrobot.core.errors import JointError, PlanTextError
 from chatrobot.core.events import Event, Finished, Interpreted, Remembered, Result, Telemetry
@@ -19,7 +18,8 @@ from chatrobot.session.joint import Joint
 from chatrobot.session.model_terms import Ended
 from chatrobot.session.observations import measured
 from chatrobot.session.options import Options
-from chatrobot.session.program_turns import Hooks, ProgramTurns
+from chatrobot.session.orders import Orders
+from chatrobot.session.program_turns import ProgramTurns
 from chatrobot.session.said import Kind, Said, SaidTexts
 from chatrobot.session.thinking import Mind, Thinking
 from chatrobot.session.turn_book import TurnBook
@@ -47,17 +47,29 @@ class Session:
         self._joint = joint
         self.understanding = understanding
         self._emit = on_event
-        self._options = options
+        self._orders = Orders(joint, options)
         self._said = SaidTexts()
         self._book = TurnBook(understanding, on_event)
         self._thinking = Thinking(
             mind, options.interpreter, joint, understanding, on_event, self._conclude_model_turn
         )
         self.authoring = authoring
-        hooks = Hooks(
-            on_event, self._book.conclude, self._book.track, self._send_program, self._said.is_void_turn
+        self._programs = (
+            ProgramTurns(
+                authoring, understanding, self._book, self._orders, on_event, self._said.is_void_turn
+            )
+            if authoring is not None
+            else None
         )
-        self._programs = ProgramTurns(authoring, understanding, hooks) if authoring is not None else None
+
+    @property
+    def options(self) -> Options:
+        """They may be replaced between two turns, but for who interprets."""
+        return self._orders.options
+
+    @options.setter
+    def options(self, options: Options) -> None:
+        self._orders.options = options
 
     @property
     def results(self) -> dict[int, Result]:
@@ -160,7 +172,7 @@ class Session:
             event = self._joint.next_event(0.0)
         self._thinking.pump()
         if self._joint.is_lost:
-            raise JointError("Motion is gone; its guard has halted the robot. Start chatrobot again.")
+            raise JointError("Motion is gone, and its guard sends the robot zeros. Start chatrobot again.")
         self._take_texts()
 
     def close(self) -> None:
@@ -173,7 +185,7 @@ class Session:
         """The one to take now: the first, unless it has to wait for what runs or is thought about."""
         for said in self._said.waiting:
             waits = said.is_instruction and not self._said.is_void(said)
-            if not waits or self._options.while_moving == "replace":
+            if not waits or self.options.while_moving == "replace":
                 return said
             if self._book.is_any_with_motion:
                 return None
@@ -243,7 +255,7 @@ class Session:
             self._book.conclude(said.turn, meant.outcome, meant.reply)
 
     def _ask_model(self, said: Said, meant: Interpretation) -> None:
-        options = self._options
+        options = self.options
         if options.while_moving == "replace":
             self._thinking.replace()
         self._thinking.begin(
@@ -251,14 +263,14 @@ class Session:
             said.text,
             meant,
             options.while_moving,
-            approve=options.approve,
+            approve="all" if options.approve else "models" if options.approve_models else "",
             rehearse_only=options.rehearse_only,
         )
         if self._said.is_void_turn(said.turn):
             self._thinking.cancel()  # a stop came while it was being understood
 
     def _conclude_model_turn(self, turn: int, text: str, ended: Ended) -> None:
-        reply = self.understanding.note_model_turn(text, ended, self._options.rehearse_only)
+        reply = self.understanding.note_model_turn(text, ended, self.options.rehearse_only)
         self._book.conclude(turn, ended.outcome, reply, ended.finished, ended.reason)
 
     def _read_plan(self, said: Said) -> None:
@@ -276,32 +288,11 @@ class Session:
         self._send_plan(said, meant, plan_text)
 
     def _send_plan(self, said: Said, meant: Interpretation, plan_text: str) -> None:
-        mode = "append" if meant.append else self._options.while_moving
+        mode = "append" if meant.append else self.options.while_moving
         if mode == "replace":
             self._thinking.replace()
         self._book.track(said.turn, said.text, meant)
-        self._joint.send(
-            "plan",
-            said.turn,
-            plan_text=plan_text,
-            mode=mode,
-            approve=self._options.approve,
-            rehearse_only=self._options.rehearse_only,
-        )
-
-    def _send_program(self, turn: int, payload: dict[str, Any]) -> None:
-        options = self._options
-        asks_new = payload.pop("is_new") and options.ask_new
-        asks_remap = payload.pop("is_led_elsewhere") and options.ask_findings
-        self._joint.send(
-            "program",
-            turn,
-            mode=options.while_moving,
-            approve=options.approve or asks_new or asks_remap,
-            ask_findings=options.ask_findings,
-            rehearse_only=options.rehearse_only,
-            **payload,
-        )
+        self._orders.plan(said.turn, plan_text, mode)
 
     def _hear(self, event: Event) -> None:
         if isinstance(event, Telemetry):
@@ -321,7 +312,7 @@ class Session:
         if instruction is None:
             return
         text, meant = instruction
-        reply = self.understanding.note_finished(text, meant, event, self._options.rehearse_only)
+        reply = self.understanding.note_finished(text, meant, event, self.options.rehearse_only)
         if self._programs is not None:
             reply = self._programs.ending(event.turn, reply)
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""

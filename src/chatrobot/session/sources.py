@@ -19,6 +19,8 @@ class Sources:
     def hear(self, envelope: Envelope, now_s: float) -> None:
         """Whatever a source says keeps its lease; a hello opens it."""
         self._leases.beat(envelope.lease, now_s)
+        if self.has_left(envelope.lease):
+            return
         if envelope.word == "hello" or self._was_there_before_us(envelope):
             term_s = min(seconds(envelope.payload.get("term_s"), LOCAL_TERM_S), LONGEST_TERM_S)
             self._leases.open(envelope.lease, envelope.source, term_s, now_s)
@@ -32,6 +34,10 @@ class Sources:
         """Gone without one: nothing more is done in its name. From any thread."""
         self._leases.end(lease)
         self._leaving.add(lease)
+
+    def has_left(self, lease: str) -> bool:
+        """No beat of it is waited for any more: what it says now could never lapse."""
+        return lease in self._leaving
 
     @property
     def some_have_left(self) -> bool:

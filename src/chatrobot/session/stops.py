@@ -21,11 +21,13 @@ class Stops:
         self._zeroing = zeroing
         self._clock = clock
         self._booked = epoch.value
+        self._asked = self._booked_ask = object()
         self.last_reason = Reason("stopped")
 
     def halt(self, why: Reason) -> None:
         """Stop now: the zero is out before this returns. It takes no lock and waits for nothing."""
         self.last_reason = why
+        self._asked = object()
         self._transport.halt()
 
     @property
@@ -41,17 +43,20 @@ class Stops:
         """Why the robot was stopped since the last time, None where it was not; from now on zeros are sent."""
         if not self.is_unbooked:
             return None
+        self._booked_ask = self._asked
         self._booked = self._epoch.value
         self._zeroing.begin(self._clock.now_s())
         return self.last_reason
 
-    def halt_and_book(self, why: Reason) -> None:
+    def halt_and_book(self) -> None:
         """The stop at the end of a motion that failed or was broken off: what waits is not touched by it.
 
         One that came from elsewhere in the same moment is left to be booked, and does clear what waits.
         """
-        is_alone = not self.is_unbooked
-        self.halt(why)
-        if is_alone and self._epoch.value == self._booked + 1:
-            self._booked += 1
+        self._transport.halt()
+        count = (
+            self._epoch.value
+        )  # two at the same instant may share one value: the count alone does not tell
+        if self._asked is self._booked_ask:
+            self._booked = count
         self._zeroing.begin(self._clock.now_s())

@@ -18,10 +18,11 @@ from chatrobot.models.seam import Message, Model
 from chatrobot.plan.base import Step
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session import prompt
+from chatrobot.session.camera import Camera
 from chatrobot.session.history import Exchange, History
 from chatrobot.session.model_terms import Ended, ModelOptions
 from chatrobot.session.model_turn import ModelTurn
-from chatrobot.session.observations import Camera, measured, observation
+from chatrobot.session.observations import measured, observation
 from chatrobot.session.quoting import one_line
 from chatrobot.session.tutorial_mode import connects_to_the_robot, is_form
 from chatrobot.session.understanding import Understanding
@@ -30,6 +31,9 @@ if TYPE_CHECKING:
     from chatrobot.session.joint import Joint
 
 Interpreter = Literal["auto", "offline", "model"]
+Approve = Literal["", "models", "all"]
+"""What needs a person's yes: nothing, what a model wrote, or each plan."""
+
 TOGETHER_S = 0.25
 """What is said within this time of the question before belongs to it: a pipe's lines keep their order."""
 
@@ -39,7 +43,7 @@ PATIENCE_S = 2.0
 
 @dataclass(frozen=True)
 class Mind:
-    """A model and how it is used. `camera` takes a picture for models that can see."""
+    """A model and how it is used. `camera` takes pictures for it; None where there is none, or it cannot see."""
 
     model: Model
     options: ModelOptions
@@ -81,6 +85,7 @@ class Thinking:
         self._history = History()
         self._turns: dict[int, _Turn] = {}
         self._is_tutorial = False
+        self._shown = _Shown(understanding, mind.camera if mind is not None else None)
 
     # --- from any thread ---
 
@@ -142,7 +147,7 @@ class Thinking:
         meant: Interpretation,
         mode: Literal["queue", "replace", "append"],
         *,
-        approve: bool,
+        approve: Approve,
         rehearse_only: bool,
     ) -> None:
         """Ask the model about `text`, which offline was understood as `meant`."""
@@ -164,10 +169,11 @@ class Thinking:
             mind.model,
             mind.options,
             self._joint,
-            _Shown(self._understanding, mind.camera),
+            self._shown,
             self._emit,
             mode,
-            approve=approve,
+            approve=approve != "",
+            frees_form=approve == "models" and self._is_tutorial,
             rehearse_only=rehearse_only,
             only_talks=connects,
         )
@@ -180,7 +186,9 @@ class Thinking:
         else:
             understanding = self._understanding
             request = prompt.request(text, understanding.pose, [], understanding.usable_places)
-            system = prompt.system_prompt(mind.profile, understanding.main_places)
+            system = prompt.system_prompt(
+                mind.profile, understanding.main_places, sees=self._shown.camera is not None
+            )
             news = [line for line in news if line]
         now = request if self._is_tutorial else "\n".join([*news, request])
         return request, [Message("system", system), *earlier, Message("user", now)]
@@ -226,6 +234,8 @@ class Thinking:
             request = turn.request if ended.answer else ""
             self._history.add(Exchange(turn.text, ended.answer, _end(ended), request), pin=turn.pins)
             self._conclude(number, turn.text, ended)
+        if not self._turns:
+            self._shown.end_looking()
 
 
 def _end(ended: Ended) -> str:
@@ -240,7 +250,7 @@ class _Shown:
 
     def __init__(self, understanding: Understanding, camera: Camera | None) -> None:
         self._understanding = understanding
-        self._camera = camera
+        self.camera = camera
 
     def describe(self, steps: tuple[Step, ...]) -> str:
         return self._understanding.describe(steps)
@@ -250,9 +260,27 @@ class _Shown:
     ) -> Message:
         places: dict[str, Pose] = {**self._understanding.main_places, **self._understanding.usable_places}
         pose = finished.pose if finished is not None else self._understanding.pose
-        return observation(
-            looks, pose=pose, places=places, looked=looked, finished=finished, camera=self._camera
-        )
+        return observation(looks, pose=pose, places=places, looked=looked, finished=finished, take=self._take)
+
+    def begin_looking(self) -> None:
+        if self.camera is not None:
+            self.camera.begin()
+
+    @property
+    def has_picture(self) -> bool:
+        return self.camera is None or self.camera.has_picture
+
+    def give_up_looking(self) -> None:
+        self.end_looking()
+        self.camera = None
+
+    def end_looking(self) -> None:
+        """No model is being asked any more."""
+        if self.camera is not None:
+            self.camera.end()
+
+    def _take(self) -> bytes | None:
+        return self.camera.take() if self.camera is not None else None
 
     def measured(self, finished: Finished | None) -> str:
         return measured(finished) if finished is not None else "nothing"

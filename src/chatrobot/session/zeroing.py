@@ -5,17 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from chatrobot.core.reason import Reason
+from chatrobot.execution.health import FRESH_S, STANDS_LATE_S, is_seen_moving
 from chatrobot.execution.sensors import Sensors
 
-PATIENCE_S = 2.0
+PATIENCE_S = STANDS_LATE_S
 """So long zeros are sent where nobody can see whether they help; a robot that moves on meanwhile does not obey."""
-
-FRESH_S = 0.3
-"""Odometry older than this shows nothing."""
-
-MOVING_MPS = 0.03
-MOVING_RADPS = 0.1
-"""Above these it clearly moves; noise of a standing robot is below."""
 
 
 class Zeroing:
@@ -44,6 +38,11 @@ class Zeroing:
         """Zeros are being sent."""
         return self._since_s is not None
 
+    @property
+    def has_lost_sight(self) -> bool:
+        """Nobody saw it stand after the last stop, and it has not been seen since."""
+        return self._was_out_of_sight
+
     def begin(self, now_s: float) -> None:
         self._since_s = now_s
         self._was_out_of_sight = False
@@ -56,7 +55,7 @@ class Zeroing:
             self._end()
         elif now_s - self._since_s <= PATIENCE_S:
             self._send_zero(now_s)
-        elif self._is_seen_moving():
+        elif self.is_seen_moving:
             self._send_zero(now_s)
             self._complain()
         else:
@@ -72,14 +71,14 @@ class Zeroing:
         if not self._was_out_of_sight or not self._is_in_sight():
             return
         self._was_out_of_sight = False
-        if self._is_seen_moving():
+        if self.is_seen_moving:
             self.begin(now_s)
             self._send_zero(now_s)
 
     def _complain(self) -> None:
         if self.disobeyed is not None:
             return
-        self.disobeyed = Reason("not_ours_alone", {"who": self.others}) if self.others else Reason("moves_on")
+        self.disobeyed = self.disobedience
         self._tell(self.disobeyed)
 
     def _is_in_sight(self) -> bool:
@@ -94,8 +93,12 @@ class Zeroing:
             and self._sensors.odometry_age_s() < FRESH_S
         )
 
-    def _is_seen_moving(self) -> bool:
-        estimate = self._sensors.estimate
-        if estimate is None or not self._is_in_sight():
-            return False
-        return estimate.twist.speed_mps > MOVING_MPS or abs(estimate.twist.wz_radps) > MOVING_RADPS
+    @property
+    def disobedience(self) -> Reason:
+        """What to say of a robot that moves though it has been told to stand."""
+        return Reason("not_ours_alone", {"who": self.others}) if self.others else Reason("moves_on")
+
+    @property
+    def is_seen_moving(self) -> bool:
+        """Odometry shows clearly, and just now, that it moves."""
+        return is_seen_moving(self._sensors)

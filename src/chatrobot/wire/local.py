@@ -7,6 +7,7 @@ that is what lets a stop go out past everything else.
 from __future__ import annotations
 
 import contextlib
+import errno
 import select
 import socket
 import threading
@@ -68,6 +69,8 @@ class LocalWire:
         except BlockingIOError:
             return  # the hub does not read: it is frozen, and a queue of old velocities would help nobody
         except OSError as error:
+            if error.errno == errno.EMSGSIZE:
+                return  # a picture larger than a packet: this wire takes small ones
             raise WireError("the other end of the wire is gone") from error
 
     def subscribe(self, topic: str, kind: type[M], callback: Callable[[M], None]) -> None:

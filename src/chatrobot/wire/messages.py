@@ -47,6 +47,21 @@ class LaserScan(NamedTuple):
     ranges_m: list[float]
 
 
+class Picture(NamedTuple):
+    """sensor_msgs/Image or sensor_msgs/CompressedImage.
+
+    `encoding` is rgb8, bgr8 or mono8, rows from top to bottom, `row_bytes` apart; or jpeg or png: then `data` is
+    that file, and the other numbers are zero.
+    """
+
+    stamp_s: float
+    encoding: str
+    width_px: int
+    height_px: int
+    row_bytes: int
+    data: bytes
+
+
 class Flag(NamedTuple):
     """std_msgs/Bool."""
 
@@ -65,5 +80,9 @@ class Text(NamedTuple):
     data: str
 
 
-Message = Union[TwistMessage, Odometry, Imu, LaserScan, Flag, Number, Text]
-MESSAGE_TYPES: tuple[type[Message], ...] = (TwistMessage, Odometry, Imu, LaserScan, Flag, Number, Text)
+Message = Union[TwistMessage, Odometry, Imu, LaserScan, Picture, Flag, Number, Text]
+MESSAGE_TYPES: tuple[type[Message], ...] = (
+    TwistMessage, Odometry, Imu, LaserScan, Picture, Flag, Number, Text,
+)  # fmt: skip
+PICTURE_BYTES = 131_072
+"""Every wire carries a picture of this size; those between machines also far larger ones."""

@@ -12,12 +12,24 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, TypeVar
 
 from chatrobot.core.wiring import RELAY_TOPIC, Wiring
-from chatrobot.wire.messages import Flag, Imu, LaserScan, Message, Number, Odometry, Text, TwistMessage
+from chatrobot.wire.messages import (
+    Flag,
+    Imu,
+    LaserScan,
+    Message,
+    Number,
+    Odometry,
+    Picture,
+    Text,
+    TwistMessage,
+)
+from chatrobot.wire.ros_pictures import compressed_from, compressed_to, image_from, image_to
 
-ODOM_FRAME, BASE_FRAME, LASER_FRAME = "odom", "base_link", "laser"
+ODOM_FRAME, BASE_FRAME, LASER_FRAME, CAMERA_FRAME = "odom", "base_link", "laser", "camera_optical_frame"
 
 T = TypeVar("T")
-_STAMPED = (Odometry, Imu, LaserScan)
+_STAMPED = (Odometry, Imu, LaserScan, Picture)
+_READ_DEPTH = 200
 
 
 class RosForm(NamedTuple):
@@ -41,22 +53,22 @@ def ros_form(topic: str, kind: type[Any], wiring: Wiring) -> RosForm:
         return _TURTLE_POSE
     if kind is Number and topic == wiring.battery_topic:
         return _BATTERY
+    if kind is Picture and topic == wiring.camera_topic and wiring.camera_type == "CompressedImage":
+        return _COMPRESSED
     return _PLAIN[kind]
 
 
 def is_sensor(topic: str, kind: type[Any], wiring: Wiring) -> bool:
     """Whether robots may publish this with ROS's sensor QoS (best effort)."""
-    sensors = (
-        wiring.odom_topic,
-        wiring.imu_topic,
-        wiring.scan_topic,
-        wiring.bumper_topic,
-        wiring.battery_topic,
-    )
-    return kind in _STAMPED or topic in sensors
+    return kind in _STAMPED or topic in (*wiring.sensor_topics.values(), wiring.camera_topic)
 
 
-def stamped(message: Message) -> Odometry | Imu | LaserScan | None:
+def read_depth(kind: type[Any]) -> int:
+    """How many messages a reader keeps: of a burst all, so that nothing is lost; of pictures the newest."""
+    return 1 if kind is Picture else _READ_DEPTH
+
+
+def stamped(message: Message) -> Odometry | Imu | LaserScan | Picture | None:
     """The message itself if it carries a stamp."""
     return message if isinstance(message, _STAMPED) else None
 
@@ -170,8 +182,13 @@ def _range_m(value: Any) -> float:
     return math.nan if value is None else float(value)
 
 
-def _data_to(message: Flag | Number | Text) -> dict[str, Any]:
+def _data_to(message: Flag | Number) -> dict[str, Any]:
     return {"data": message.data}
+
+
+def _text_to(message: Text) -> dict[str, Any]:
+    """JSON may hold half a character ("\\ud800"), which no ROS string can: what cannot be sent must not end us."""
+    return {"data": message.data.encode(errors="replace").decode()}
 
 
 def _of(kind: type[T], value: Any) -> T:
@@ -197,6 +214,11 @@ _BATTERY = RosForm(
     lambda message: {"percentage": message.data / 100.0, "present": True},
     _battery_from,
 )
+_COMPRESSED = RosForm(
+    "sensor_msgs/msg/CompressedImage",
+    lambda picture: {"header": _header(picture.stamp_s, CAMERA_FRAME), **compressed_to(picture)},
+    lambda message: compressed_from(message, _stamp_s(message)),
+)
 _PLAIN: dict[type[Message], RosForm] = {
     TwistMessage: RosForm("geometry_msgs/msg/Twist", _twist_to, _twist_from),
     Odometry: RosForm("nav_msgs/msg/Odometry", _odometry_to, _odometry_from),
@@ -206,7 +228,12 @@ _PLAIN: dict[type[Message], RosForm] = {
         lambda message: Imu(_stamp_s(message), float(message.angular_velocity.z)),
     ),
     LaserScan: RosForm("sensor_msgs/msg/LaserScan", _scan_to, _scan_from),
+    Picture: RosForm(
+        "sensor_msgs/msg/Image",
+        lambda picture: {"header": _header(picture.stamp_s, CAMERA_FRAME), **image_to(picture)},
+        lambda message: image_from(message, _stamp_s(message)),
+    ),
     Flag: RosForm("std_msgs/msg/Bool", _data_to, lambda message: Flag(_of(bool, message.data))),
     Number: RosForm("std_msgs/msg/Float64", _data_to, lambda message: Number(float(message.data))),
-    Text: RosForm("std_msgs/msg/String", _data_to, lambda message: Text(_of(str, message.data))),
+    Text: RosForm("std_msgs/msg/String", _text_to, lambda message: Text(_of(str, message.data))),
 }

@@ -17,7 +17,7 @@ from chatrobot.cli.console.lines import indented
 from chatrobot.cli.console.tables import example_place, place_in
 from chatrobot.cli.console.talk import Talk
 from chatrobot.cli.console.words import Words, language_of_environment
-from chatrobot.compose import Connection, OnEvent, Setup, connect
+from chatrobot.compose import SIMULATED, Connection, OnEvent, Setup, connect
 from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import JointError, UsageError
 from chatrobot.core.events import Event
@@ -86,7 +86,7 @@ def _converse(talk: Talk, setup: Setup) -> int:
     else:
         face = plain.Plain(talk, hang_up)
     talk.face = face
-    face.print(*greeting(talk))
+    face.print(*greeting(talk, setup.on))
     code = face.run()
     if code != 0:
         with contextlib.suppress(JointError):
@@ -96,16 +96,20 @@ def _converse(talk: Talk, setup: Setup) -> int:
     return code
 
 
-def greeting(talk: Talk) -> tuple[RenderableType, ...]:
-    """Which robot, which world, and three things to say."""
+def greeting(talk: Talk, on: str) -> tuple[RenderableType, ...]:
+    """Which robot, where it is, and three things to say."""
     words, world = talk.words, talk.connection.world
-    where = words.say("greeting_open") if world.is_empty else words.say("greeting_world", name=world.name)
+    title = talk.connection.profile.title
+    if on in SIMULATED:
+        where = words.say("greeting_open") if world.is_empty else words.say("greeting_world", name=world.name)
+        line = Text(words.say("greeting_robot", title=title, world=where))
+    else:
+        line = Text(words.say("greeting_wired", title=title, wire=on.rstrip(":")))
     place = place_in(words.language, world, example_place(world))
     second = words.say("example_place", place=place) if place else words.say("example_turn")
     first, third = words.say("example_first"), words.say("example_third")
-    line = Text(words.say("greeting_robot", title=talk.connection.profile.title, world=where))
     examples = Text(words.say("greeting_examples", first=first, second=second, third=third), "dim")
     for example in (first, second, third):
         examples.highlight_words([example], "not dim bold cyan")
-    line.highlight_words([talk.connection.profile.title], "bold")
+    line.highlight_words([title], "bold")
     return indented(line), indented(examples)

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from rich.cells import cell_len
 from rich.console import Console, ConsoleOptions, RenderableType, RenderResult
 from rich.text import Text
 
 INDENT = 2
+_CLOSING = frozenset("，。、；：！？）》”’…,.;:!?)")
+_OPENING = frozenset("（《“‘(")
 
 
 @dataclass(frozen=True)
@@ -17,11 +20,10 @@ class _Hanging:
     prefix: Text
     text: Text
 
-    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+    def __rich_console__(self, _: Console, options: ConsoleOptions) -> RenderResult:
         indent = self.prefix.cell_len
         prefix = self.prefix
-        for line in self.text.wrap(console, max(8, options.max_width - indent)):
-            line.rstrip()
+        for line in wrapped(self.text, max(8, options.max_width - indent)):
             yield Text.assemble(prefix, line)
             prefix = Text(" " * indent)
 
@@ -36,3 +38,34 @@ def marked(mark: str, style: str, text: str | Text) -> RenderableType:
     return _Hanging(
         Text.assemble(" " * INDENT, (mark.ljust(2), style)), Text(text) if isinstance(text, str) else text
     )
+
+
+def wrapped(text: Text, width: int) -> list[Text]:
+    """`text` in lines of at most `width` cells, broken at blanks and between Chinese characters, which have none."""
+    lines: list[Text] = []
+    for line in text.split("\n", allow_blank=True):
+        lines += line.divide(_breaks(line.plain, width))
+    for line in lines:
+        line.rstrip()
+    return lines
+
+
+def _breaks(line: str, width: int) -> list[int]:
+    """Where a new line begins."""
+    breaks: list[int] = []
+    cells, begin, may_break = 0, 0, 0
+    for number, char in enumerate(line):
+        if number and _may_part(line[number - 1], char):
+            may_break = number
+        cells += cell_len(char)
+        if cells > width and not char.isspace():
+            begin = may_break if may_break > begin else number
+            breaks.append(begin)
+            cells = cell_len(line[begin : number + 1])
+    return breaks
+
+
+def _may_part(before: str, char: str) -> bool:
+    if char.isspace() or char in _CLOSING or before in _OPENING:
+        return False
+    return before.isspace() or cell_len(before) == 2 or cell_len(char) == 2

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from rich.cells import cell_len
+
 from chatrobot.cli.console.ride import XY, Ride
 from chatrobot.cli.console.words import Words
 from chatrobot.cli.drawing.extent import extent_around
@@ -16,7 +18,7 @@ MAP_COLUMNS, MAP_ROWS = 24, 6
 LEAST_WIDTH = 50
 """A terminal narrower than this has no room for a map beside the words."""
 
-BAR_CELLS = 20
+BAR_CELLS, LEAST_BAR_CELLS, PERCENT_CELLS = 20, 4, 6
 _EIGHTHS = " ▏▎▍▌▋▊▉"
 
 STYLES = {
@@ -52,9 +54,11 @@ class Strip:
             return [("class:strip.alarm", f" {self._words.say('latched')} ")]
         if not self._ride.is_moving:
             return self._standing(width)
-        lines = [_cut(line, width) for line in self._words_beside()]
-        if self.shows_map and width >= LEAST_WIDTH:
-            lines = self._with_map(lines, width)
+        has_map = self.shows_map and width >= LEAST_WIDTH
+        room = width - MAP_COLUMNS - 2 if has_map else width
+        lines = [_cut(line, room) for line in self._words_beside(room)]
+        if has_map:
+            lines = self._with_map(lines)
         joined: Fragments = []
         for number, line in enumerate(lines):
             joined += ([("", "\n")] if number else []) + line
@@ -62,10 +66,12 @@ class Strip:
 
     def _standing(self, width: int) -> Fragments:
         words = f" {self._words.say('standing')} · {self._words.pose(self._ride.pose)}"
-        hint = self._words.say("strip_idle")
-        return _cut([("class:strip.dim", f"{words}   {hint}")], width)
+        hints = self._words.say("strip_idle").split("  ")
+        while hints and cell_len(f"{words}   {'  '.join(hints)}") > width:
+            hints.pop()
+        return _cut([("class:strip.dim", f"{words}   {'  '.join(hints)}".rstrip())], width)
 
-    def _words_beside(self) -> list[Fragments]:
+    def _words_beside(self, room: int) -> list[Fragments]:
         ride, say = self._ride, self._words.say
         facts = [
             say("at_pose", pose=self._words.pose(ride.pose)),
@@ -76,7 +82,9 @@ class Strip:
         more = [say("nearest", distance=f"{ride.nearest_m:.2f}")] if ride.nearest_m is not None else []
         if ride.battery_percent is not None:
             more.append(say("battery", percent=f"{ride.battery_percent:.0f}"))
-        head: Fragments = [("class:strip.key", f" {say('moving')}  "), *_bar(ride.fraction)]
+        label = f" {say('moving')}  "
+        bar_cells = max(LEAST_BAR_CELLS, min(BAR_CELLS, room - cell_len(label) - PERCENT_CELLS))
+        head: Fragments = [("class:strip.key", label), *_bar(ride.fraction, bar_cells)]
         if ride.of > 1:
             head.append(("", f"  {say('step', step=max(1, ride.step), of=ride.of)}"))
         lines: list[Fragments] = [head, [("", f" {' · '.join(facts)}")]]
@@ -85,10 +93,10 @@ class Strip:
         lines.append([("class:strip.dim", f" {say('strip_hint')}")])
         return lines
 
-    def _with_map(self, lines: list[Fragments], width: int) -> list[Fragments]:
+    def _with_map(self, lines: list[Fragments]) -> list[Fragments]:
         beside = [[], *lines, *([] for _ in range(MAP_ROWS))]
         return [
-            [("", " "), *map_fragments(row), ("", " "), *_cut(words, width - MAP_COLUMNS - 2)]
+            [("", " "), *map_fragments(row), ("", " "), *words]
             for row, words in zip(self._map_lines(), beside)
         ]
 
@@ -108,28 +116,26 @@ def map_fragments(row: list[tuple[str, str]]) -> Fragments:
     return [(f"class:map.{layer}" if layer else "", text) for layer, text in row]
 
 
-def _bar(fraction: float) -> Fragments:
-    eighths = round(fraction * BAR_CELLS * 8)
+def _bar(fraction: float, cells: int) -> Fragments:
+    eighths = round(fraction * cells * 8)
     full, part = divmod(eighths, 8)
     done = "█" * full + (_EIGHTHS[part] if part else "")
     return [
         ("class:strip.bar", done),
-        ("class:strip.rest", "─" * (BAR_CELLS - len(done))),
+        ("class:strip.rest", "─" * (cells - len(done))),
         ("", f" {fraction * 100:3.0f} %"),
     ]
 
 
 def _cut(line: Fragments, width: int) -> Fragments:
     """The line in at most `width` cells: a toolbar that wraps would push the prompt about."""
-    from prompt_toolkit.utils import get_cwidth
-
     left, cut = width, Fragments()
     for style, text in line:
         kept = text
-        while get_cwidth(kept) > left:
+        while cell_len(kept) > left:
             kept = kept[:-1]
         cut.append((style, kept))
-        left -= get_cwidth(kept)
+        left -= cell_len(kept)
         if kept != text:
             break
     return cut

@@ -116,5 +116,5 @@ def _table(*heads: str) -> Table:
     table = Table(box=None, show_header=bool(heads), pad_edge=False, padding=(0, 2), header_style="dim")
     table.add_column(heads[0] if heads else "", no_wrap=True)
     for head in heads[1:] or ("",):
-        table.add_column(head)
+        table.add_column(head, overflow="fold")
     return table

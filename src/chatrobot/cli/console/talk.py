@@ -33,18 +33,16 @@ from chatrobot.cli.lines import texts_in
 from chatrobot.compose import Connection
 from chatrobot.core.clock import Clock
 from chatrobot.core.errors import JointError
-from chatrobot.core.events import Event, Finished, Interpreted, Rehearsed, Result, Started, Telemetry
+from chatrobot.core.events import Event, Interpreted, Result, Started, Telemetry
+from chatrobot.language.consent import read_consent, wants_to_edit
 from chatrobot.programs.check import MAX_SOURCE_CHARS
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
+from chatrobot.session.question import Question
 
 TWICE_S = 1.5
 """Two Ctrl-C within this time leave."""
 
 ECHO_CHARS = 600
-
-YES = frozenset({"y", "yes", "ok", "okay", "do it", "go", "好", "好的", "是", "可以", "行", "执行"})
-NO = frozenset({"n", "no", "nope", "不", "不要", "否", "取消", "算了"})
-EDIT = frozenset({"e", "edit", "修改", "改"})
 
 
 class Talk:
@@ -69,7 +67,7 @@ class Talk:
         self.pump = Pump(self.session, self.lose, lambda: self.face.leave(1))
         self.latched = False
         self._clock = clock
-        self._asked: Rehearsed | None = None
+        self._question = Question()
         self._pasted = Pasted()
         self._muted: set[int] = set()
         self._leaving = False
@@ -172,9 +170,8 @@ class Talk:
             self.face.leave(0)
             return
         self._leaving = True
-        asked, self._asked = self._asked, None
-        if asked is not None:
-            self.attempt(lambda: self.session.approve(asked.turn, False))
+        if self._question.turn is not None:
+            self.attempt(lambda: self._question.answer(self.session, False))
             return
         self.tell("finishing")
 
@@ -229,16 +226,15 @@ class Talk:
 
     def _answer(self, text: str) -> bool:
         """True if `text` answers the question whether to do a plan."""
-        asked, word = self._asked, text.casefold().rstrip(".!。！")
-        if asked is None or word not in YES | NO | EDIT:
+        turn, yes, edits = self._question.turn, read_consent(text), wants_to_edit(text)
+        if turn is None or (yes is None and not edits):
             return False
-        self._asked = None
         self._echo(text)
-        if word in EDIT:
-            self._muted.add(asked.turn)
+        if edits:
+            self._muted.add(turn)
             program = self.ride.program
             self.face.edit(program.source if program is not None else self.ride.plan_text)
-        self.attempt(lambda: self.session.approve(asked.turn, word in YES))
+        self.attempt(lambda: self._question.answer(self.session, yes is True))
         return True
 
     def attempt(self, act: Callable[[], object]) -> None:
@@ -255,8 +251,7 @@ class Talk:
         self.ride.hear(event)
         with self._order:
             lines: list[RenderableType] = list(self.narrator.tell(event))
-            if isinstance(event, Rehearsed) and event.needs_approval:
-                self._asked = event
+            if self._question.hear(event):
                 lines += [
                     way_map(self.ride, self.connection.world),
                     Text(f"  {self.words.say('ask_approval')}", "bold"),
@@ -271,12 +266,6 @@ class Talk:
                 self._said_stopped = event.outcome == "stopped"
             if lines and event.turn not in self._muted:
                 self.face.print(*lines)
-        if (
-            isinstance(event, (Started, Finished))
-            and self._asked is not None
-            and event.turn == self._asked.turn
-        ):
-            self._asked = None
         if isinstance(event, Result):
             self._go_on_after(event)
             if self._leaving and self._has_nothing_to_do:
@@ -295,7 +284,7 @@ class Talk:
         self._say_next()
 
     def lose(self, error: JointError) -> None:
-        """Motion is gone: its guard has halted the robot; here is nothing left to talk to."""
+        """Motion is gone: its guard halts the robot; here is nothing left to talk to."""
         self.face.print(marked("✗", "bold red", str(error)))
         self.face.leave(1)
 

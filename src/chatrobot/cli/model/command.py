@@ -13,7 +13,7 @@ from chatrobot.language.phrases import render_reason
 from chatrobot.models.choice import resolve, store_choice
 from chatrobot.models.config import ModelConfig
 from chatrobot.models.discovery import find_local, listed_models
-from chatrobot.models.keys import KeyringError, delete_key, find_key, store_key, where_key_is
+from chatrobot.models.keys import KeyringError, delete_key, find_key, keyring_name, store_key, where_key_is
 from chatrobot.models.providers import Provider, providers, split_name
 from chatrobot.models.seam import ModelError
 from chatrobot.models.secret import Secret
@@ -107,9 +107,16 @@ def _use(args: argparse.Namespace, config: ModelConfig) -> int:
 
 
 def _key(args: argparse.Namespace, config: ModelConfig) -> int:  # noqa: ARG001 - one form for all actions
+    if not args.name:
+        raise UsageError("the key of which provider?", allowed="chatrobot model key PROVIDER")
     provider = provider_named(args.name.partition(":")[0])
     if not provider.key_variables:
         raise UsageError(f"{provider.name} has no key")
+    if not keyring_name():  # before a key is typed for nothing
+        raise UsageError(
+            "this system has no keyring that keeps a key safely; use the environment variable",
+            allowed=f"export {provider.key_variables[0]}=…",
+        )
     try:
         if args.delete:
             delete_key(provider)

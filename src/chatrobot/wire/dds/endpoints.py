@@ -31,18 +31,18 @@ from chatrobot.wire.ros_messages import RosForm, stamped
 from chatrobot.wire.stamps import StampTranslator, to_wall_s
 
 _WRITE_DEPTH = 10
-_READ_DEPTH = 200
-"""A writer's depth is ROS's; a reader that keeps more loses nothing of a burst, and nobody asks it."""
+"""ROS's; how much a reader keeps nobody asks."""
 _TAKE_AT_ONCE = 64
 _ANY = SampleState.Any | ViewState.Any | InstanceState.Any
 
 
 class Port(NamedTuple):
-    """A topic as ROS sees it. `best_effort`: its publishers may use the QoS of sensors."""
+    """A topic as ROS sees it. `best_effort`: its publishers may use the QoS of sensors; `depth`: of a reader."""
 
     dds_topic: str
     form: RosForm
     best_effort: bool
+    depth: int = 1
 
 
 class Writer:
@@ -117,7 +117,7 @@ class Reader:
         reliability = Policy.Reliability.BestEffort if port.best_effort else Policy.Reliability.Reliable(0)
         qos = Qos(
             reliability,
-            Policy.History.KeepLast(_READ_DEPTH),
+            Policy.History.KeepLast(port.depth),
             Policy.Durability.Volatile,
             # Other programs may name a message's fields as they like: ROS matches by the type's name.
             Policy.TypeConsistency.AllowTypeCoercion(True, True, True, False, False),

@@ -118,6 +118,8 @@ class RosTypes:
             dtype = np.dtype(_NUMPY_NAMES.get(inner[1][0], inner[1][0]))
             if given is None:
                 return np.zeros(length if kind == Nodetype.ARRAY else 0, dtype)
+            if isinstance(given, bytes):
+                return np.frombuffer(given, dtype)
             return np.asarray(given, dtype)
         return [self._value(inner, item) for item in given or ()]
 

@@ -22,7 +22,7 @@ from chatrobot.wire.dds.graph import Graph, participant_qos
 from chatrobot.wire.dds.names import dds_topic_name
 from chatrobot.wire.dds.ros_types import RosTypes
 from chatrobot.wire.messages import Message
-from chatrobot.wire.ros_messages import RosForm, is_sensor, ros_form
+from chatrobot.wire.ros_messages import RosForm, is_sensor, read_depth, ros_form
 from chatrobot.wire.wire import M
 
 _GID_24_DISTRIBUTIONS = ("foxy", "galactic", "humble", "iron")
@@ -166,7 +166,7 @@ class DdsWire:
 
     def _port(self, topic: str, kind: type[Any]) -> Port:
         form = ros_form(topic, kind, self._wiring)
-        return Port(self._name(topic), form, is_sensor(topic, kind, self._wiring))
+        return Port(self._name(topic), form, is_sensor(topic, kind, self._wiring), read_depth(kind))
 
     def _name(self, topic: str) -> str:
         return dds_topic_name(topic, self._namespace)

@@ -45,6 +45,8 @@ def _fill(message: Any, fields: Mapping[str, Any]) -> None:
             _fill(getattr(message, name), value)
         elif isinstance(value, (list, tuple)):
             setattr(message, name, _sequence(message, name, value))
+        elif isinstance(value, bytes) and isinstance(getattr(message, name), array):
+            setattr(message, name, array("B", value))
         elif type(value) is int and isinstance(getattr(message, name), float):
             setattr(message, name, float(value))  # ROS asserts it, or takes its bits for a float's
         else:

@@ -17,13 +17,12 @@ from chatrobot.wire.connect import Endpoint
 from chatrobot.wire.messages import Message
 from chatrobot.wire.ros.convert import message_class, to_message
 from chatrobot.wire.ros.node import RosNode
-from chatrobot.wire.ros_messages import RosForm, is_sensor, ros_form, stamped
+from chatrobot.wire.ros_messages import RosForm, is_sensor, read_depth, ros_form, stamped
 from chatrobot.wire.stamps import StampTranslator, to_wall_s
 from chatrobot.wire.wire import M
 
 _WRITE_DEPTH = 10
-_READ_DEPTH = 200
-"""A writer's depth is ROS's; a reader that keeps more loses nothing of a burst, and nobody asks it."""
+"""ROS's; how much a reader keeps nobody asks."""
 _LOOK_S = 0.005
 _UNKNOWN = "_NODE_NAME_UNKNOWN_"
 
@@ -119,7 +118,10 @@ class RosWire:
             )
             try:
                 self.node.handle.create_subscription(
-                    message_class(form.type_name), topic, subscription.deliver, _qos(_READ_DEPTH, reliability)
+                    message_class(form.type_name),
+                    topic,
+                    subscription.deliver,
+                    _qos(read_depth(kind), reliability),
                 )
             except (RuntimeError, NameValidationException) as error:
                 raise WireError(f"cannot listen on {topic}: {error}") from error

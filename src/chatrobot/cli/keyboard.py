@@ -1,0 +1,69 @@
+"""What a person types while a command runs: a stop, or the answer to a question that is there to be seen."""
+
+from __future__ import annotations
+
+import os
+import select
+import signal
+import sys
+import threading
+
+from chatrobot.cli.approver import Approver
+from chatrobot.cli.conversation import Conversation
+from chatrobot.cli.lines import MAX_LINE_BYTES
+from chatrobot.reflex import leads_with_stop
+
+
+def has_keyboard() -> bool:
+    """Somebody may type here: a terminal, and we are not in its background."""
+    try:
+        return sys.stdin.isatty() and os.tcgetpgrp(sys.stdin.fileno()) == os.getpgrp()
+    except (OSError, ValueError):
+        return False
+
+
+class Keyboard:
+    """Reads lines in a thread of its own, so that a stop is out when it is typed, and not when there is time.
+
+    What was typed before a question was shown is no answer to it. Without a terminal it does nothing.
+    """
+
+    def __init__(self, conversation: Conversation, approver: Approver) -> None:
+        self._conversation = conversation
+        self._approver = approver
+        self._reading = approver.editing
+
+    def start(self) -> None:
+        if has_keyboard():
+            signal.signal(
+                signal.SIGTTIN, signal.SIG_IGN
+            )  # once put in the background: the end of file, no stop
+            threading.Thread(target=self._read, name="keyboard", daemon=True).start()
+
+    def _read(self) -> None:
+        rest = b""
+        while True:
+            select.select([sys.stdin], [], [])
+            with self._reading:  # an editor has the terminal for itself
+                if not select.select([sys.stdin], [], [], 0.0)[0]:
+                    continue
+                chunk = _read_chunk()
+            *lines, rest = (rest + chunk).split(b"\n")
+            for line in lines:
+                self._hear(line.decode("utf-8", errors="replace").strip())
+            if not chunk:
+                self._approver.lose_keyboard()
+                return
+
+    def _hear(self, line: str) -> None:
+        if leads_with_stop(line):
+            self._conversation.halt(line)
+        else:
+            self._approver.type(line)
+
+
+def _read_chunk() -> bytes:
+    try:
+        return os.read(sys.stdin.fileno(), MAX_LINE_BYTES)
+    except OSError:  # the terminal has gone, or is another's now
+        return b""

@@ -1,0 +1,99 @@
+"""`No, I meant right`: the turn before is undone, and what was meant is done instead."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import lru_cache
+
+from chatrobot.language.context import Context, TurnRecord
+from chatrobot.language.corrections import MEANT, corrected
+from chatrobot.language.frames import GO, SIDES, TURN, Frame
+from chatrobot.language.inverse import inverse
+from chatrobot.language.lexicon import lexicon
+from chatrobot.language.normalise import normalise
+from chatrobot.language.quantities import read_quantities
+from chatrobot.language.tokens import Atom, tokenise
+from chatrobot.language.unclear import Unclear
+from chatrobot.plan.steps import Arc, Drive, Face, Go, Step, Turn
+
+
+def instead(
+    frames: list[Frame], context: Context, read: Callable[[list[Frame]], list[Step]]
+) -> list[Step] | None:
+    """The steps that put the turn before right; None where `frames` correct none that was done.
+
+    Raises:
+        Unclear: where it does not fit what was done.
+    """
+    if not any(MEANT in frame.flags for frame in frames):
+        return None
+    for frame in frames:
+        frame.flags.discard(MEANT)
+    last = context.dialogue.turns[-1] if context.dialogue.turns else None
+    if last is None or last.plan is None or any("short_of" in frame.flags for frame in frames):
+        return None  # a total is reached from where it is
+    if last.outcome != "completed":
+        raise Unclear("unclear_motion", frames[0].text)  # how much of it is there to undo?
+    done = list(last.plan.steps)
+    if len(frames) == 1 and not frames[0].has_extent and not frames[0].shape and not frames[0].place:
+        _point_back(frames[0], done)
+    meant = read(frames)
+    if len(done) > 1 and len(meant) == 1 and isinstance(meant[0], (Drive, Turn)):
+        raise Unclear("unclear_motion", frames[0].text)  # one of them was wrong: which?
+    if meant == done:
+        raise Unclear("unclear_motion", frames[0].text)  # `no, the other left`
+    turned = all(isinstance(step, Turn) for step in done)
+    absolute = isinstance(meant[0], Go) or (isinstance(meant[0], Face) and turned)
+    return meant if absolute else _net([*inverse(done), *meant])
+
+
+def _point_back(frame: Frame, done: list[Step]) -> None:
+    """A correction without amounts changes the motion that was done: that is how `again` reads it."""
+    only = done[0] if len(done) == 1 else None
+    fits = (isinstance(only, (Turn, Arc)) and frame.verb in ("", *TURN)) or (
+        isinstance(only, Drive) and frame.verb in ("", *GO)
+    )
+    if not fits:
+        if frame.verb in ("", "make"):
+            raise Unclear("unclear_motion", frame.text)
+        return
+    across = isinstance(only, Drive) and (abs(math.sin(only.direction_rad)) > 0.5) != (
+        frame.direction in SIDES
+    )
+    if across and frame.direction and frame.verb != "slide":
+        raise Unclear("unclear_motion", frame.text)  # `left` after a drive ahead: a turn, or sideways?
+    frame.verb = ""
+    frame.flags.add("again")
+
+
+def _net(steps: list[Step]) -> list[Step]:
+    """The way back and the way that was meant in one, where they lie on one line: 20 cm more, not 50 back and 70 on."""
+    back, on = steps[0], steps[1]
+    one_each = len(steps) == 2
+    if one_each and isinstance(back, Turn) and isinstance(on, Turn) and back.angle_rad and on.angle_rad:
+        net = sum(step.angle_rad * (1 if step.left else -1) for step in (back, on) if step.angle_rad)
+        return [replace(on, angle_rad=abs(net), left=net > 0)] if abs(net) > 1e-6 else steps
+    if one_each and isinstance(back, Drive) and isinstance(on, Drive) and back.distance_m and on.distance_m:
+        off = math.remainder(back.direction_rad - on.direction_rad, 2 * math.pi)
+        if on.until is None and abs(math.sin(off)) < 1e-6:
+            net = on.distance_m + back.distance_m * math.cos(off)
+            turned = math.remainder(on.direction_rad + math.pi, 2 * math.pi)
+            way = on.direction_rad if net > 0 else turned
+            return [replace(on, distance_m=abs(net), direction_rad=way)] if abs(net) > 1e-6 else steps
+    return steps
+
+
+def is_correction(record: TurnRecord | None) -> bool:
+    """Whether a turn put the one before right: what it did is then not what was meant by it."""
+    return record is not None and _says_meant(record.text)
+
+
+@lru_cache(maxsize=128)
+def _says_meant(text: str) -> bool:
+    try:
+        atoms: Sequence[Atom] = corrected(read_quantities(tokenise(normalise(text), lexicon(), {})))
+    except Unclear:
+        return False
+    return any((atom.kind, atom.value) == ("flag", MEANT) for atom in atoms)

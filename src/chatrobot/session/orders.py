@@ -1,0 +1,52 @@
+"""What a session has Motion do: plans and programs, under its options."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from chatrobot.session.joint import Joint
+from chatrobot.session.options import Options
+
+
+class Orders:
+    """Sends them. `options` may be replaced: those hold for what is sent from then on."""
+
+    def __init__(self, joint: Joint, options: Options) -> None:
+        self._joint = joint
+        self.options = options
+
+    def plan(self, turn: int, plan_text: str, mode: Literal["queue", "replace", "append"]) -> None:
+        """Have Motion rehearse and drive a plan."""
+        options = self.options
+        self._joint.send(
+            "plan",
+            turn,
+            plan_text=plan_text,
+            mode=mode,
+            approve=options.approve,
+            rehearse_only=options.rehearse_only,
+        )
+
+    def program(
+        self, turn: int, payload: dict[str, Any], *, is_new: bool, by_model: bool, is_led_elsewhere: bool
+    ) -> None:
+        """Have Motion rehearse and run a program, asking where the options say so.
+
+        Args:
+            payload: code, name, remap and strict of the envelope.
+            is_new: it was written just now.
+            by_model: a model wrote it.
+            is_led_elsewhere: its topics are led to the robot's, and it has not run like that before.
+        """
+        options = self.options
+        asks_new = is_new and (options.ask_new or (by_model and options.approve_models))
+        asks = asks_new or (is_led_elsewhere and options.ask_findings)
+        self._joint.send(
+            "program",
+            turn,
+            mode=options.while_moving,
+            approve=options.approve or asks,
+            ask_findings=options.ask_findings,
+            rehearse_only=options.rehearse_only,
+            **payload,
+        )

@@ -1,0 +1,50 @@
+"""What is typed while a command runs."""
+
+import sys
+
+import pytest
+
+from tests.console.terminal import Terminal
+
+
+def command(folder, *arguments):
+    return Terminal(
+        [sys.executable, "-m", "chatrobot", *arguments, "--config-dir", str(folder)],
+        environment={"EDITOR": "sed -i s/1/0.5/"},
+    )
+
+
+@pytest.mark.realtime
+def test_a_stop_that_is_typed_stops_the_robot_and_what_was_still_to_come(tmp_path):
+    with command(tmp_path, "do", "forward 2 m", "turn left") as terminal:
+        terminal.wait_for(r"0\.\d\d / 2.00 m")
+        terminal.enter("stop!")
+        assert terminal.wait_for_end() == 5
+        assert "Stopped (stop" in terminal.text
+        assert "turn left" not in terminal.text
+
+
+def test_a_yes_that_was_typed_before_the_question_is_no_answer(tmp_path):
+    with command(tmp_path, "do", "forward 1 m", "--approve", "--fast") as terminal:
+        terminal.enter("y")
+        terminal.wait_for(r"\[y/N\]")
+        terminal.enter("n")
+        assert terminal.wait_for_end() == 4
+        assert "Done" not in terminal.text
+
+
+def test_the_question_can_be_answered_with_an_edited_plan(tmp_path):
+    with command(tmp_path, "do", "forward 1 m", "--approve", "--fast") as terminal:
+        terminal.wait_for(r"\[y/N\]")
+        terminal.enter("e")
+        terminal.wait_for(r"\[y/N\]", times=2)
+        terminal.enter("y")
+        assert terminal.wait_for_end() == 0
+        assert "0.50 m of 0.50 m" in terminal.text
+
+
+def test_the_end_of_file_is_a_no(tmp_path):
+    with command(tmp_path, "do", "forward 1 m", "--approve", "--fast") as terminal:
+        terminal.wait_for(r"\[y/N\]")
+        terminal.type("\x04")
+        assert terminal.wait_for_end() == 4

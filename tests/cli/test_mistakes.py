@@ -1,0 +1,85 @@
+"""What people mistype, and what they are told; in this process, for nothing here begins to drive."""
+
+from __future__ import annotations
+
+import socket
+from pathlib import Path
+
+import pytest
+
+from chatrobot.cli.arguments import COMMANDS, parse
+from chatrobot.cli.entry import main
+from chatrobot.core.errors import UsageError
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["do", "forward", "1", "m"], 'chatrobot do "forward 1 m"'),
+        (["do", "go", "to", "the", "kitchen"], 'chatrobot do "go to the kitchen"'),
+        (["do", "hi", "--budget-s", "abc"], "'abc' is no number"),
+        (["do", "hi", "--rounds", "1.5"], "'1.5' is no whole number"),
+        (["fake-model", "x.yaml", "--port", "99999"], "0 to 65535"),
+        (["model", "key"], "the key of which provider?"),
+        (["program", "run", "no-such.py"], "no-such.py: it cannot be read"),
+    ],
+)
+def test_wrong_usage_is_told(
+    arguments: list[str], said: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    assert main(["--config-dir", str(tmp_path), *arguments]) == 2
+    assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "texts",
+    [["forward", "again", "undo"], ["forward 1 m", "2", "m"], ["forward", "2"], ["前进", "1", "米"]],
+)
+def test_the_turns_of_a_dialogue_need_no_quotes(texts: list[str]) -> None:
+    assert parse(["do", *texts]).texts == texts
+
+
+def test_a_wrong_name_of_a_model_is_blamed_on_where_it_stands(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    monkeypatch.setenv("CHATROBOT_MODEL", "clippy:95")
+    command = ["do", "hi", "--fast", "--config-dir", str(tmp_path)]
+    assert main(command) == 2
+    assert "CHATROBOT_MODEL: “clippy:95”" in capsys.readouterr().err
+    assert main([*command, "--model", "eliza"]) == 2
+    assert "--model: “eliza”" in capsys.readouterr().err
+
+
+def test_where_no_robot_answers_that_is_said_at_once(capsys: pytest.CaptureFixture[str]) -> None:
+    with socket.socket() as nobody:
+        nobody.bind(("127.0.0.1", 0))
+        port = nobody.getsockname()[1]
+        assert main(["do", "forward", "--on", f"rosbridge:ws://127.0.0.1:{port}"]) == 1
+    assert f"no rosbridge answers at ws://127.0.0.1:{port}" in capsys.readouterr().err
+
+
+def help_of(capsys: pytest.CaptureFixture[str], *command: str) -> str:
+    with pytest.raises(SystemExit):
+        parse([*command, "--help"])
+    return " ".join(capsys.readouterr().out.split())
+
+
+def test_help_lists_what_a_command_takes(capsys: pytest.CaptureFixture[str]) -> None:
+    assert "--robot" not in help_of(capsys, "stop")
+    assert "--trace" not in help_of(capsys, "plan")
+    assert "--json" in help_of(capsys, "usage")
+    for command in ("", "do", "eval"):
+        assert "--robot" in help_of(capsys, *filter(None, [command]))
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_option_may_stand_before_every_command(command: str) -> None:
+    words = {"do": ["x"], "plan": ["x"], "eval": ["x"], "node": ["input"], "fake-model": ["x"]}
+    after = ["list"] if command == "program" else words.get(command, [])
+    assert parse(["--robot", "turtlesim", command, *after]).robot == "turtlesim"
+    assert parse([command, *after, "--robot", "turtlesim"]).robot == "turtlesim"
+
+
+def test_an_unknown_program_action_is_wrong_usage() -> None:
+    with pytest.raises(UsageError):
+        parse(["program", "frob"])

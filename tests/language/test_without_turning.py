@@ -1,0 +1,50 @@
+"""Going without turning: never along a curve. And wishes put as questions: never answered with a fact."""
+
+from __future__ import annotations
+
+import pytest
+
+from chatrobot.plan.steps import Drive
+from tests.language.dialogue_runner import Conversation
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "Nudge yourself 30 cm across to the right, no turning.",
+        "Shift right by 30 cm while holding your heading.",
+        "slide 30 cm right so that you never turn",
+        "could you shuffle over to the right 30 cm? keep looking straight",
+        "slide right 30 cm, doing 10 cm every second",
+    ],
+)
+def test_it_slides(said: str) -> None:
+    plan = Conversation().say(said).plan
+    assert plan is not None
+    assert len(plan.steps) == 1
+    only = plan.steps[0]
+    assert isinstance(only, Drive)
+    assert only.distance_m == pytest.approx(0.3)
+    assert only.direction_rad < 0
+
+
+def test_to_slide_while_turning_is_asked_about() -> None:
+    assert Conversation().say("slide left 1 m while turning right 90 degrees").outcome == "unclear"
+
+
+def test_a_favour_that_is_not_understood_is_asked_about_not_answered() -> None:
+    assert Conversation().say("could you flurb over to the left facing me?").outcome == "unclear"
+    assert Conversation().say("could you tell me where you are?").outcome == "answered"
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["turn right 30 degrees and then drive two metres that way", "turn to face left, then 2 m towards it"],
+)
+def test_that_way_is_where_it_looks_after_a_turn(said: str) -> None:
+    assert Conversation().say(said).outcome == "plan"
+    assert Conversation().say("drive two metres that way").outcome == "unclear"
+
+
+def test_drawn_out_words_are_words() -> None:
+    assert Conversation().say("let's gooo, straight aheaaad").outcome == "plan"
