@@ -12,6 +12,7 @@ from tests.rig import Rig
 
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 from chatrobot.governor.fence import FenceRule, seconds_to_edge
+from chatrobot.governor.rule import FREE
 from chatrobot.plan.steps import Drive, Plan, Turn
 from chatrobot.robots.profile import Circle, Safety
 
@@ -44,6 +45,11 @@ def test_the_robot_stops_before_the_fence(
     corners = [rig.robot.true_pose.compose(Pose(x, y))[:2] for x, y in rig.profile.footprint]
     assert spare(np.array(corners)).min() >= -0.001
     assert math.hypot(*rig.robot.true_pose[:2]) > 0.05, "it should come near before it stops"
+
+
+def test_along_the_fence_nothing_is_limited() -> None:
+    rule = FenceRule(MECANUM, SQUARE)
+    assert rule.judge(Twist(0.5, 0.0, 0.0), at(Pose(0.0, 0.85, 0.0))) is FREE
 
 
 def test_inside_the_fence_nothing_is_limited() -> None:
@@ -88,6 +94,7 @@ def test_the_fence_is_where_it_is_and_not_around_the_origin() -> None:
     assert rule.judge(Twist(0.3, 0.0, 0.0), at(Pose(5.0, -3.0, 0.7))).factor == 1.0
     assert rule.judge(Twist(0.3, 0.0, 0.0), at(ORIGIN)).factor == 1.0, "it points towards the fence"
     assert rule.judge(Twist(-0.3, 0.0, 0.0), at(ORIGIN)).factor == 0.0
+    assert rule.judge(Twist(0.0, -0.5, 0.0), at(Pose(5.0, -3.0, 0.0))).factor == 1.0
     at_its_side = at(Pose(5.0, -3.8, 0.0))
     assert rule.judge(Twist(0.0, 0.5, 0.0), at_its_side).factor == 1.0
     assert rule.judge(Twist(0.0, -0.5, 0.0), at_its_side).factor < 1.0

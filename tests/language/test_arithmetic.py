@@ -15,6 +15,8 @@ from tests.language.dialogue_runner import Conversation
     [
         ("go forward 30 cm times four", 1.2),
         ("forward 3 * 20 cm", 0.6),
+        ("drive to the point 3 metres in front of you", 3.0),
+        ("go forward point 3 metres", 0.3),
         ("half a metre multiplied by 3, ahead", 1.5),
         ("forward 1.2 m / 2", 0.6),
         ("go back double 30 cm", -0.6),
@@ -38,8 +40,10 @@ def test_a_sum_is_worked_out(said: str, x_m: float) -> None:
     "said",
     [
         "forward 1 m left 90 times four",  # the angle, or both?
+        "forward 1 m left 90 degrees times four",
         "my car is 4 m long, go forward",
         "fwd 1 m / 90 left / 1 m",
+        "take the straight line to the point 3 metres in front of you and 4 metres to your left",
         "turn left by the angle in each corner of an equilateral triangle",
     ],
 )

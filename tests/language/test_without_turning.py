@@ -16,6 +16,7 @@ from tests.language.dialogue_runner import Conversation
         "slide 30 cm right so that you never turn",
         "could you shuffle over to the right 30 cm? keep looking straight",
         "slide right 30 cm, doing 10 cm every second",
+        "30 cm to starboard, sideways, no turning. Go.",
     ],
 )
 def test_it_slides(said: str) -> None:

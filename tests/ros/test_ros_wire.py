@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import statistics
 import sys
@@ -11,6 +12,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import PIL.Image
 import pytest
 from ros_rig import next_domain
 
@@ -20,8 +22,10 @@ from wire_contract import CAMERA, Inbox, WireContract
 
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.core.wiring import Wiring
+from chatrobot.session.camera import wire_camera
 from chatrobot.wire.connect import connect_ros
 from chatrobot.wire.messages import LaserScan, Message, Number, Odometry, Text, TwistMessage
+from chatrobot.wire.ros.convert import message_class
 from chatrobot.wire.ros.node import RosNode
 from chatrobot.wire.ros.wire import RosWire
 
@@ -169,3 +173,43 @@ def test_what_it_costs(connect: Callable[..., Any], record_property: Callable[[s
     record_property("median_ms", 1e3 * median_s)
     assert median_s < 0.005
     assert os.environ["ROS_DISTRO"]
+
+
+@pytest.mark.parametrize("kind", ["Image", "CompressedImage"])
+def test_a_camera_that_publishes_as_ros_s_sensors_do_is_looked_through(
+    monkeypatch: pytest.MonkeyPatch, connect: Callable[..., Any], kind: Any
+) -> None:
+    from array import array
+
+    from rclpy.qos import qos_profile_sensor_data
+
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    robot = connect()
+    message = message_class(f"sensor_msgs/msg/{kind}")()
+    if kind == "Image":
+        message.width, message.height, message.step, message.encoding = 640, 480, 1920, "bgr8"
+        message.data = array("B", bytes((200, 0, 0)) * 640 * 480)
+    else:
+        file = io.BytesIO()
+        PIL.Image.new("RGB", (640, 480), (0, 0, 200)).save(file, "JPEG")
+        message.format, message.data = "jpeg", array("B", file.getvalue())
+    publisher = robot.node.handle.create_publisher(type(message), "eye", qos_profile_sensor_data)
+    domain_id = robot.node.context.get_domain_id()
+    camera = wire_camera(f"ros://{domain_id}", Wiring(camera_topic="eye", camera_type=kind))
+    assert camera is not None
+    time.sleep(0.3)
+    assert publisher.get_subscription_count() == 0
+    began_s = time.monotonic()
+    camera.begin()
+    while not camera.has_picture and time.monotonic() < began_s + PATIENCE_S:
+        publisher.publish(message)
+        time.sleep(1.0 / 30.0)
+    print(f"the first picture after {time.monotonic() - began_s:.2f} s")
+    picture = camera.take()
+    assert picture is not None
+    assert PIL.Image.open(io.BytesIO(picture)).getpixel((320, 240)) == pytest.approx((0, 0, 200), abs=12)
+    camera.end()
+    ends_s = time.monotonic() + PATIENCE_S
+    while publisher.get_subscription_count() and time.monotonic() < ends_s:
+        time.sleep(0.05)
+    assert publisher.get_subscription_count() == 0

@@ -11,6 +11,7 @@ from chatrobot.core.clock import VirtualClock
 from chatrobot.core.events import Event, Finished
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.robots.load import load_profile
+from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.guard_link import SimulatedGuard
 from chatrobot.session.joint import Joint, SimulatedJoint
 from chatrobot.session.motion import Motion
@@ -38,8 +39,11 @@ class JointRig(Protocol):
 class SimulatedRig:
     """Everything in this thread."""
 
-    def __init__(self, _folder: Path, releasers: frozenset[str] = RELEASERS) -> None:
-        profile, clock, hub = load_profile(PROFILE), VirtualClock(), MemoryHub()
+    def __init__(
+        self, _folder: Path, releasers: frozenset[str] = RELEASERS, profile: RobotProfile | None = None
+    ) -> None:
+        profile, clock, self.hub = profile or load_profile(PROFILE), VirtualClock(), MemoryHub()
+        hub = self.hub
         self.velocities: list[TwistMessage] = []
         self.robot = SimRobot(
             profile, load_world("empty"), SimLies.parse(""), wire=hub.connect(), clock=clock

@@ -168,6 +168,38 @@ def test_a_model_that_looks_is_shown_what_the_robot_sees(
     wait_for(lambda: robot.listeners == 0)
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "what do you see?",
+        "Can you see a red ball?",
+        "What colour is the box before you?",
+        "你看到了什么",
+        "前面的球是什么颜色？",
+    ],
+)
+def test_who_asks_what_there_is_to_see_asks_the_model_where_there_is_a_camera(
+    monkeypatch: pytest.MonkeyPatch, robot: Robot, text: str
+) -> None:
+    talk = Talk(monkeypatch, robot, 'say "a ball"')
+    assert talk.do(text).reply == "a ball"
+
+
+@pytest.mark.parametrize("text", ["where are you?", "which way are you facing?"])
+def test_what_no_picture_shows_is_still_answered_here(
+    monkeypatch: pytest.MonkeyPatch, robot: Robot, text: str
+) -> None:
+    talk = Talk(monkeypatch, robot, 'say "never asked"')
+    assert talk.do(text).outcome == "answered"
+    assert not talk.model.asked
+
+
+def test_without_a_camera_the_lidar_answers() -> None:
+    talk = ModelTalk('say "never asked"')
+    assert talk.do("what do you see?").outcome == "answered"
+    assert not talk.model.asked
+
+
 def test_a_model_that_does_not_look_costs_the_camera_nothing(
     monkeypatch: pytest.MonkeyPatch, robot: Robot
 ) -> None:

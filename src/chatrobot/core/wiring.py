@@ -8,6 +8,9 @@ from typing import Literal
 RELAY_TOPIC = "chatrobot/cmd_vel"
 """Where other programs may send velocities for us to govern; of the same type as the robot's own."""
 
+JOYSTICK_TOPIC = "chatrobot/joystick"
+"""The same for a person with a joystick who looks at the robot: it goes before every plan."""
+
 
 @dataclass(frozen=True)
 class Wiring:

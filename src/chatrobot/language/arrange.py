@@ -59,6 +59,9 @@ def _without_calls(frames: list[Frame]) -> list[Frame]:
         bare = not (frame.direction or frame.rot or frame.q or frame.shape or frame.place or frame.words)
         if bare and frame.verb == "shift" and any(f.direction for f in frames[k + 1 :]):
             continue
+        signal = bare and frame.texts == ["go"] and not frame.flags and not frame.pace
+        if signal and out and frame.joined == "strong" and k + 1 == len(frames):
+            continue  # `…, no turning. Go.`
         if bare and not frame.verb and frame.flags == {"bit"} and out and not out[-1].has_extent:
             out[-1].flags.add("bit")
             continue

@@ -47,7 +47,8 @@ def _leftover_number(atoms: Sequence[Atom], i: int) -> Atom:
         return Atom("flag", "bit", atom.text)
     if atom.value == "point":  # `point left`, but not `back to the point`
         ends = i + 1 >= len(atoms) or atoms[i + 1].kind in ("sep", "conn")
-        return Atom("unknown", atom.text, atom.text) if ends and i else Atom("verb", "face", atom.text)
+        noun = i and (ends or atoms[i - 1].text in ("the", "a", "to the", "that"))
+        return Atom("unknown", atom.text, atom.text) if noun else Atom("verb", "face", atom.text)
     unknown = atom.value in ("minus", "parts", "root")
     return Atom("unknown", atom.text, atom.text) if unknown else _glue(atoms, i)
 

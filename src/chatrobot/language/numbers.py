@@ -29,6 +29,9 @@ def is_chinese(text: str) -> bool:
     return bool(text) and ord(text[0]) > 0x2E7F
 
 
+_NAMES_A_POINT = frozenset({"the", "a", "that", "this", "to the", "to a", "any", "some"})
+
+
 def read_number(atoms: Atoms, i: int) -> Number | None:
     """The number that begins at `i`, or None. An article alone is no number."""
     if is_kind(atoms, i, "num", "minus"):
@@ -193,7 +196,8 @@ def _joined(current: float | None, atom: Atom, value: float) -> float | None:
 
 def _decimals(atoms: Atoms, i: int, whole: float) -> Number | None:
     """The digits after a spoken point at `i`."""
-    if not is_kind(atoms, i, "num", "point"):
+    named = i > 0 and atoms[i - 1].text in _NAMES_A_POINT  # `to the point 3 metres ahead`
+    if named or not is_kind(atoms, i, "num", "point"):
         return None
     digits = ""
     i += 1

@@ -228,6 +228,20 @@ class Jobs:
         for job in self._intake.take_void(self._stops.count):
             self._finish(job, "stopped", why)
 
+    def hand_over(self, to: str) -> None:
+        """Somebody of higher priority takes the wheel: what was driven, prepared or queued ends, and it is told."""
+        jobs = [*([self.current] if self.current is not None else []), *self._intake.jobs]
+        if not jobs:
+            return
+        why = Reason(
+            "handed_over", {"source": self._robot.governor.leases.source_of(jobs[0].lease), "to": to}
+        )
+        self._emit(Notice(jobs[0].turn, why))
+        self._driver.end_stopped(why)
+        self._drop_prepared("stopped", why)
+        for job in self._intake.take_all():
+            self._finish(job, "stopped", why)
+
     def fail_all(self, why: Reason) -> None:
         """The way to the robot is gone for good: all that was asked for has failed."""
         self._driver.fail(why)

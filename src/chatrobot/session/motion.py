@@ -13,7 +13,7 @@ from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Looked, Notice
 from chatrobot.core.governed import StopEpoch
 from chatrobot.core.reason import Reason
-from chatrobot.core.wiring import RELAY_TOPIC
+from chatrobot.core.wiring import JOYSTICK_TOPIC, RELAY_TOPIC
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
 from chatrobot.governor.priority import RELEASERS, Priority, priority_of
@@ -38,6 +38,9 @@ from chatrobot.session.zeroing import Zeroing
 from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.messages import TwistMessage
 from chatrobot.wire.wire import Wire
+
+JOYSTICK = "joystick"
+"""The source in whose name a joystick drives."""
 
 
 class Motion:
@@ -84,6 +87,14 @@ class Motion:
             robot, self._intake, self._driver, planner, self._programs, self._stops, self._inbox, clock, emit
         )
         self._relay = Relay(clock, robot, self.see_it_stand, self._notice)
+        self._joystick = Relay(
+            clock,
+            robot,
+            self.see_it_stand,
+            self._notice,
+            source=JOYSTICK,
+            takes_over=lambda: self._jobs.hand_over(JOYSTICK),
+        )
         self._freeze = FreezeWatch(clock, guard, self.halt)
         self._telling = Telling(self.sensors, self._driver, emit)
         self._emergency: Envelope | None = None
@@ -128,6 +139,7 @@ class Motion:
         self.sensors.attach(wire)
         self._programs.attach(wire)
         wire.subscribe(RELAY_TOPIC, TwistMessage, self._relay.hear)
+        wire.subscribe(JOYSTICK_TOPIC, TwistMessage, self._joystick.hear)
         self._guard.handshake()
 
     @property
@@ -169,7 +181,7 @@ class Motion:
         now_s = self._clock.now_s()
         self._freeze.tick(
             now_s,
-            is_driven=self._driver.is_driving or self._relay.is_driving,
+            is_driven=self._driver.is_driving or self._relay.is_driving or self._joystick.is_driving,
             is_engaged=self._jobs.current is not None,
         )
         self._guard.beat()
@@ -178,6 +190,7 @@ class Motion:
         while (action := self._inbox.take()) is not None:
             action()
             self._book_stop()
+        self._joystick.tick(now_s, self._is_clear)
         self._driver.tick(now_s)
         self._book_stop()
         self._jobs.expire_approval(now_s)
@@ -201,8 +214,12 @@ class Motion:
 
     def _is_free(self) -> bool:
         """Nothing of ours drives, waits or stops the robot, and nothing keeps it from moving."""
-        is_idle = self._jobs.are_done and not self.zeroing.is_active and not self.sensors.bumped
-        return is_idle and not self._stops.is_unbooked and self.clearance.barrier() is None
+        return self._jobs.are_done and not self._joystick.is_driving and self._is_clear()
+
+    def _is_clear(self) -> bool:
+        """Nothing stops the robot, and nothing keeps it from moving."""
+        is_stopped = self.zeroing.is_active or self.sensors.bumped or self._stops.is_unbooked
+        return not is_stopped and self.clearance.barrier() is None
 
     def _notice(self, reason: Reason) -> None:
         self._emit(Notice(0, reason))
@@ -236,6 +253,8 @@ class Motion:
     def _accept(self, envelope: Envelope, epoch: int) -> None:
         if self._sources.has_left(envelope.lease):
             self._jobs.refuse(envelope, epoch, Reason("lease_lapsed", {"source": envelope.source}))
+        elif self._joystick.is_driving:  # what waited would set out by itself once the person lets go
+            self._jobs.refuse(envelope, epoch, Reason("outranked", {"source": JOYSTICK}))
         else:
             self._jobs.accept(envelope, epoch)
 

@@ -14,6 +14,7 @@ from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import say
+from chatrobot.language.sight import asks_to_see
 from chatrobot.models.seam import Message, Model
 from chatrobot.plan.base import Step
 from chatrobot.robots.profile import RobotProfile
@@ -128,6 +129,8 @@ class Thinking:
             return False
         if self._interpreter == "model" or meant.outcome == "unclear":
             return True
+        if meant.outcome == "answered" and self._shown.camera is not None and asks_to_see(text):
+            return True  # the lidar answers such a question only as long as nobody has eyes
         return self._is_tutorial and meant.outcome == "plan" and not is_form(text)
 
     def without_model(self, text: str, meant: Interpretation) -> Interpretation:
