@@ -1,4 +1,4 @@
-"""Some nine hundred things people say in Chinese: none may be done wrongly, and ever fewer be asked back about."""
+"""More than nine hundred things people say in Chinese: none may be done wrongly, and ever fewer be asked back about."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import yaml
 from tests.language.dialogue_runner import run_item
 
 SAYINGS = Path(__file__).parent / "sayings_zh.txt"
-LEAST_CORRECT = 850
+LEAST_CORRECT = 914
 
 
 def sayings() -> Iterator[dict[str, Any]]:

@@ -36,7 +36,8 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
 
 def _check_known(frame: Frame, state: State) -> None:
     """What a single motion cannot mean: measures of a drawn shape, a `there`, a condition."""
-    if OUTLINES & set(frame.roles):
+    side = "side" in frame.roles and "length" in frame.q and not frame.turning  # 这次边长半米: of what?
+    if side or OUTLINES & set(frame.roles):
         raise Unclear("unknown_part", frame.text)
     turned = bool(state.steps) and isinstance(state.steps[-1], (Turn, Face)) and frame.has_extent
     told = frame.direction or frame.rot or "clock" in frame.q or turned  # `turn left, then 1 m that way`

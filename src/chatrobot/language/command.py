@@ -72,6 +72,9 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     command = questions.without_quiz(plain, language)
     if command and not questions.is_question(command, language):
         return _understood(command, reading)
+    amounts = any(a.kind == "q" and a.value in ("length", "angle", "turns") for a in atoms)
+    if amounts and is_choice(plain, language):  # left or right, ninety degrees: no question of ours to answer
+        raise Unclear("contradiction", plain[:60])
     answered = _answered(plain, atoms, reading)
     if answered is not None:
         return answered

@@ -68,6 +68,9 @@ def _of_the_turn_before(atoms: list[Atom]) -> list[Atom]:
     )
     denied = len(atoms) > 1 and atoms[0].text in _DENIED and atoms[1].kind == "sep"
     negated = any(a.kind == "negation" and a.text == "not" for a in atoms) and len(real) > 1
+    opposite = [a for a in atoms[:at] if a.value == "other_way"]
+    if said and opposite and not real:
+        return [Atom("flag", MEANT, said[0].text), opposite[0]]  # 不对，反方向
     if amounts and (said or denied):
         return [Atom("flag", "short_of", atoms[0].text), *atoms[at:]]
     if meant or (lone and ways and (denied or negated or swapped or atoms[0].text == "i said")):

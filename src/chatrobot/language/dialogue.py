@@ -13,7 +13,7 @@ from chatrobot.language.meant import is_correction
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.totals import to_total
 from chatrobot.language.unclear import Unclear
-from chatrobot.language.undo import same_way_back, undone
+from chatrobot.language.undo import last_two, same_way_back, undone
 from chatrobot.plan.steps import Face, Go, Step
 
 
@@ -73,11 +73,8 @@ def _more_of_before(whole: Frame, context: Context, pace: Pace) -> list[Step] | 
     on = "more" in whole.flags or any(text.endswith(("more", "further", "farther")) for text in whole.texts)
     if on and "bit" in whole.flags <= {"bit", "more"} and not whole.roles:
         return [a_bit_of(steps_of(context.dialogue.last_motion), whole, pace)]
-    if "again" in whole.flags and any("both" in text.split() for text in whole.texts):
-        both = [turn.plan for turn in context.dialogue.turns if turn.plan is not None][-2:]
-        if len(both) < 2:
-            raise Unclear("nothing_before", whole.text)
-        return [step for plan in both for step in plan.steps]
+    if "again" in whole.flags and ("both" in whole.flags or any("both" in t.split() for t in whole.texts)):
+        return last_two(context, whole.text, steps="both" in whole.flags)
     return None
 
 

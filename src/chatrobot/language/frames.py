@@ -95,6 +95,11 @@ class Frame:
     def turning(self) -> bool:
         return self.verb in TURN or (not self.verb and bool(self.rot)) or self.verb == "uturn"
 
+    @property
+    def sided(self) -> bool:
+        """Whether it says left or right, or round which way."""
+        return bool(self.rot) or self.direction in SIDES
+
     def copy(self) -> Frame:
         """One that may be changed by itself; the atoms are shared, for nobody changes those."""
         return replace(

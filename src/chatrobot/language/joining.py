@@ -41,12 +41,21 @@ def joined_frame(last: Frame, first: Frame, joined: str) -> Frame | None:
         how.flags |= first.flags | {"sideways"}
         how.texts += first.texts
         return how
+    if _names_the_side(last, first):
+        first = first.copy()
+        first.verb = last.verb
     both = merged(last, first)
     if both is None:
         return None
     if joined in ("strong", "colon"):
         return both if _completes(last, first) else None
     return both if _belongs(last, first) else None
+
+
+def _names_the_side(last: Frame, first: Frame) -> bool:
+    """打转两圈，往左转: the side of the turn before, which has none."""
+    turns = last.verb in TURN and first.verb in TURN and last.has_extent and not first.q
+    return turns and first.sided and not last.sided and not first.flags
 
 
 def _says_how(last: Frame, first: Frame) -> bool:
@@ -94,6 +103,14 @@ def _belongs(last: Frame, first: Frame) -> bool:
         return False
     if last.is_arc and first.verb == "turn" and "angle" not in last.q and not (first.direction or first.rot):
         return True
+    if (
+        last.is_arc
+        and first.verb == "turn"
+        and first.sided
+        and not last.sided
+        and _is_round_only(last, first)
+    ):
+        return True
     if last.is_arc or first.is_arc:
         return not (
             last.has_extent and first.verb and "until" not in first.flags and first.has_extent and last.verb
@@ -106,6 +123,8 @@ def _belongs(last: Frame, first: Frame) -> bool:
         return True
     if first.verb and last.q and set(last.q) <= MANNER and not (last.direction or last.rot):
         return True
+    if _names_the_side(last, first):
+        return True
     if first.verb and last.verb:
         return (
             not last.has_extent
@@ -115,8 +134,13 @@ def _belongs(last: Frame, first: Frame) -> bool:
     if (first.direction or first.rot) and not first.has_extent and not first.verb:
         return _direction_follows(last, first)
     if first.direction and first.has_extent:
-        return not last.has_extent and not last.direction
+        return not last.has_extent and last.direction in ("", first.direction)
     return True
+
+
+def _is_round_only(last: Frame, first: Frame) -> bool:
+    """走一段一米的弧线，右转60度: how far round, and to which side."""
+    return set(first.q) == {"angle"} and "angle" not in last.q and "length" in last.q
 
 
 def _is_laps(frame: Frame) -> bool:

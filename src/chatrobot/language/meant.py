@@ -32,14 +32,16 @@ def instead(
     for frame in frames:
         frame.flags.discard(MEANT)
     last = context.dialogue.turns[-1] if context.dialogue.turns else None
-    if last is None or last.plan is None:
-        return None
+    if last is None or last.plan is None or any("short_of" in frame.flags for frame in frames):
+        return None  # a total is reached from where it is
     if last.outcome != "completed":
         raise Unclear("unclear_motion", frames[0].text)  # how much of it is there to undo?
     done = list(last.plan.steps)
     if len(frames) == 1 and not frames[0].has_extent and not frames[0].shape and not frames[0].place:
         _point_back(frames[0], done)
     meant = read(frames)
+    if len(done) > 1 and len(meant) == 1 and isinstance(meant[0], (Drive, Turn)):
+        raise Unclear("unclear_motion", frames[0].text)  # one of them was wrong: which?
     if meant == done:
         raise Unclear("unclear_motion", frames[0].text)  # `no, the other left`
     turned = all(isinstance(step, Turn) for step in done)

@@ -76,7 +76,7 @@ def _with_fraction(atoms: Atoms, number: Number) -> Number:
         if whole and 0 < whole.value < 1:
             return Number(value + whole.value, whole.end)
     halves = is_kind(atoms, end, "num", "ge") and is_kind(atoms, end + 1, "num", "half")
-    if halves and is_kind(atoms, end + 2, "unit_length"):
+    if halves and (is_kind(atoms, end + 2, "unit_length") or is_kind(atoms, end + 2, "unit_turn")):
         return Number(value * 0.5, end + 2)  # 两个半米; two and a half would be 两米半
     if halves:
         return Number(value + 0.5, end + 2)

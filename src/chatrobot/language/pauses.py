@@ -25,6 +25,8 @@ def paced_legs(frames: list[Frame], pace: Pace) -> list[Step] | None:
         whole, leg = _covered(frames)
     if whole is None or len(frames) == 1 or "count" in whole.q or any(f.shape for f in frames):
         return None
+    if any("at_point" in frame.flags for frame in frames):
+        return None  # 一共前进两米，走到一米的地方停三秒: one pause
     pause = next((f for f in frames if f.verb in STILL and "time" in f.q), None)
     name = name or next(n for n in ("length", "angle", "turns") if n in whole.q)
     if leg is None or pause is None or len(frames) > 3:

@@ -9,6 +9,7 @@ import re
 from functools import cache
 
 from chatrobot.language.data_files import load_table
+from chatrobot.language.normalise import has_chinese, normalise
 
 
 @cache
@@ -41,3 +42,8 @@ def rephrased(text: str, language: str) -> str:
         if rule.search(text):  # most do not match, and to prepare `said` takes longer than to see that
             text = rule.sub(said, text)
     return text
+
+
+def plain_text(said: str) -> str:
+    """What was `said` in an earlier turn, as this package reads it."""
+    return rephrased(normalise(said), "zh" if has_chinese(said) else "en")

@@ -65,7 +65,7 @@ def _corrected(units: Key, words: Lexicon, names: dict[Key, Meaning]) -> Key:
 
 
 def _bare(unit: str) -> Atom:
-    if unit[0].isdigit() or (unit[0] == "." and len(unit) > 1):
+    if unit[0].isdecimal() or (unit[0] == "." and len(unit) > 1):
         return Atom("number", unit.replace(",", ""), unit)
     if unit == "\n":
         return Atom("sep", "strong", unit)

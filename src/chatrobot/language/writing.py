@@ -121,7 +121,11 @@ def _trips(script: Script, frames: list[Frame], i: int) -> int | None:
     if trip is None and after is not None and not after.moves:
         trip = merged(frame, after)
     round_trips(script, trip or frame)
-    return i + 1 + (trip is not None)
+    end = i + 1 + (trip is not None)
+    back = frames[end] if end < len(frames) else None
+    if back is not None and back.verb == "return" and back.has_extent and back.joined != "then":
+        raise Unclear("contradiction", f"{frame.text} {back.text}")  # 每趟去一米、回半米
+    return end
 
 
 def _shape(script: Script, frames: list[Frame], i: int) -> int | None:

@@ -1,0 +1,87 @@
+"""四倍的30公分, 一米的三分之二, 20厘米乘以3: an amount said as a multiple or a part of another.
+
+Only amounts of one clause, side by side, are put together: a multiple of a speed is another thing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+
+from chatrobot.language.data_files import load_table
+from chatrobot.language.numbers import is_chinese
+from chatrobot.language.tokens import Atom, quantity
+
+_AMOUNTS = frozenset({"length", "angle", "turns", "time"})
+_ENDS = frozenset({"sep", "conn", "filler", "operator", "q"})
+
+
+@lru_cache(maxsize=1)
+def _operators() -> dict[str, str]:
+    sums = load_table("zh", "sums")
+    return {word: name for name in ("times", "over", "plus", "minus") for word in sums[name]}
+
+
+def with_multiples(atoms: Sequence[Atom]) -> list[Atom]:
+    """The atoms with `four times 30 cm` as one amount, where it is said in Chinese."""
+    out = list(atoms)
+    i = 0
+    while i < len(out):
+        found = _multiplied(out, i) or _reckoned(out, i)
+        if found is None:
+            i += 1
+            continue
+        made, end = found
+        out[i:end] = [made]
+    return out
+
+
+def _multiplied(atoms: Sequence[Atom], i: int) -> tuple[Atom, int] | None:
+    """四倍的30公分, 30公分的四倍, 一米的三分之二, 一米的一半."""
+    if not _is_of(atoms, i + 1) or i + 2 >= len(atoms) or atoms[i].kind != "q" or atoms[i + 2].kind != "q":
+        return None
+    first, second = atoms[i], atoms[i + 2]
+    if _is_factor(first) and second.value in _AMOUNTS:
+        return _times(second, first.number, f"{first.text} {second.text}"), i + 3
+    ends = i + 3 >= len(atoms) or atoms[i + 3].kind in _ENDS
+    if ends and first.value in _AMOUNTS and (_is_factor(second) or _is_part(second)):
+        return _times(first, second.number, f"{first.text} {second.text}"), i + 3
+    return None
+
+
+def _reckoned(atoms: Sequence[Atom], i: int) -> tuple[Atom, int] | None:
+    """20厘米乘以3, 3乘以20厘米, 一米六除以四; 一米的两倍减三十公分."""
+    if i + 2 >= len(atoms) or atoms[i].kind != "q" or atoms[i + 2].kind != "q":
+        return None
+    name = _operators().get(atoms[i + 1].text, "")
+    first, second = atoms[i], atoms[i + 2]
+    text = f"{first.text} {atoms[i + 1].text} {second.text}"
+    if not name or atoms[i + 1].kind == "q":
+        return None
+    if name in ("plus", "minus"):
+        sign = 1.0 if name == "plus" else -1.0
+        fits = first.value == second.value in _AMOUNTS
+        return (quantity(first.value, first.number + sign * second.number, text), i + 3) if fits else None
+    if first.value in _AMOUNTS and second.value == "number" and second.number > 0:
+        return _times(first, second.number if name == "times" else 1.0 / second.number, text), i + 3
+    if name == "times" and first.value == "number" and second.value in _AMOUNTS:
+        return _times(second, first.number, text), i + 3
+    return None
+
+
+def _is_of(atoms: Sequence[Atom], i: int) -> bool:
+    return 0 <= i < len(atoms) and atoms[i].kind == "glue" and atoms[i].text == "的"
+
+
+def _is_factor(atom: Atom) -> bool:
+    """`四倍`, and not `四倍速度`."""
+    return atom.value == "fold" and atom.text.endswith("倍") and atom.number > 0
+
+
+def _is_part(atom: Atom) -> bool:
+    """`三分之二`, `一半`, `百分之八十`."""
+    return atom.value in ("number", "percent") and is_chinese(atom.text) and 0 < atom.number < 1
+
+
+def _times(amount: Atom, factor: float, text: str) -> Atom:
+    return quantity(amount.value, amount.number * factor, text, amount.role)

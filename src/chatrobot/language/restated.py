@@ -1,0 +1,61 @@
+"""三尺，也就是一米: an amount that is said again in other words. It is one amount, and both must agree."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import cache
+
+from chatrobot.language.data_files import LANGUAGES, load_table
+from chatrobot.language.tokens import Atom
+from chatrobot.language.unclear import Unclear
+
+_SAME = ("length", "angle", "time")
+_TOLERANCE = 0.03
+"""三尺 is a metre to three parts in a hundred, whatever a foot is held to be."""
+
+
+@cache
+def _words() -> frozenset[str]:
+    tables = [load_table(language, "asides").get("clues", {}) for language in LANGUAGES]
+    return frozenset(word for table in tables for word in table.get("restated", ()))
+
+
+def without_restated(atoms: Sequence[Atom]) -> list[Atom]:
+    """The atoms without the second telling of an amount.
+
+    Raises:
+        Unclear: where the two do not agree.
+    """
+    out: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        again = _again(out, atoms, i)
+        if again is None:
+            out.append(atoms[i])
+            i += 1
+            continue
+        if not math.isclose(out[-1].number, atoms[again].number, rel_tol=_TOLERANCE):
+            raise Unclear("contradiction", f"{out[-1].text} {atoms[again].text}")
+        i = again + 1
+    return out
+
+
+def _again(out: Sequence[Atom], atoms: Sequence[Atom], i: int) -> int | None:
+    """Where, from `i` on, the last amount of `out` is told once more."""
+    if not out or out[-1].kind != "q" or _dimension(out[-1]) not in _SAME:
+        return None
+    end, said = i, False
+    while end < len(atoms) and (atoms[end].kind in ("glue", "filler") or _is_light(atoms[end])):
+        said = said or atoms[end].text in _words()
+        end += 1
+    told = end < len(atoms) and atoms[end].kind == "q" and _dimension(atoms[end]) == _dimension(out[-1])
+    return end if said and told else None
+
+
+def _is_light(atom: Atom) -> bool:
+    return atom.kind == "sep" and atom.value in ("weak", "paren")
+
+
+def _dimension(atom: Atom) -> str:
+    return "angle" if atom.value == "turns" else atom.value
