@@ -114,3 +114,21 @@ def test_brackets_are_read_in_chinese_too() -> None:
     once = [Turn, Drive]
     steps = _after("两遍（左转90度，前进1米），之后后退半米")
     assert [type(step) for step in steps] == [*once, *once, Drive]
+
+
+@pytest.mark.parametrize(
+    ("said", "times"),
+    [
+        ("前进，前进，再前进，每次半米", 3),
+        ("前进，前进，前进，都是半米", 3),
+        ("后退，后退，每次半米", 2),
+        ("forward, forward, and forward, half a metre each time", 3),
+        ("go forward, go forward, 50 cm each", 2),
+    ],
+)
+def test_a_motion_said_again_counts_again_where_each_one_has_its_amount(said: str, times: int) -> None:
+    assert [abs(metres) for metres in _lengths(said)] == [0.5] * times
+
+
+def test_a_motion_said_again_without_an_amount_only_urges() -> None:
+    assert len(_after("前进，前进")) == 1
