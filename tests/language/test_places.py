@@ -26,7 +26,9 @@ def driven(said: str) -> list[str]:
     return [step.place or "start" if isinstance(step, Go) else step.kind for step in plan.steps]
 
 
-@pytest.mark.parametrize("verb", ["go", "drive", "head", "walk", "come", "go straight", "return", "please get"])
+@pytest.mark.parametrize(
+    "verb", ["go", "drive", "head", "walk", "come", "go straight", "return", "please get"]
+)
 def test_back_before_a_place_says_where_to_and_not_which_way(verb: str) -> None:
     back = "" if verb == "return" else "back"
     assert driven(f"{verb} {back} home") == ["home"]
@@ -44,7 +46,9 @@ def test_a_manner_in_which_no_place_is_reached_is_asked_about(said: str) -> None
     assert meant_by(said).outcome == "unclear"
 
 
-@pytest.mark.parametrize("said", ["go to the kitchen and back", "go to the kitchen, back", "go to the kitchen, return"])
+@pytest.mark.parametrize(
+    "said", ["go to the kitchen and back", "go to the kitchen, back", "go to the kitchen, return"]
+)
 def test_there_and_back_is_two_ways(said: str) -> None:
     assert driven(said) == ["kitchen", "start"]
 

@@ -59,7 +59,9 @@ def _motion(frame: Frame) -> tuple[str, str, str]:
 def _said_again(last: Frame, first: Frame) -> bool:
     """The same motion in the same words, without an amount between them."""
     way = first.direction or first.rot
-    return bool(way) and _motion(last) == _motion(first) and not (last.has_extent or last.shape or first.shape)
+    return (
+        bool(way) and _motion(last) == _motion(first) and not (last.has_extent or last.shape or first.shape)
+    )
 
 
 def _marked_ends(frames: list[Frame]) -> list[Frame]:
