@@ -132,3 +132,31 @@ def test_a_motion_said_again_counts_again_where_each_one_has_its_amount(said: st
 
 def test_a_motion_said_again_without_an_amount_only_urges() -> None:
     assert len(_after("前进，前进")) == 1
+
+
+ITEMS = ("forward 1 m", "turn left 90 degrees", "2 m forward")
+ITEMS_ZH = ("前进一米", "左转九十度", "2米前进")
+
+
+@pytest.mark.parametrize("mark", ["{n}. ", "{n}, ", "{n}) ", "{n}: ", "({n}) ", "- "])
+@pytest.mark.parametrize("heading", ["", "do this:", "here is the plan:", "follow these steps in order:"])
+def test_a_list_is_a_sequence_however_it_is_numbered(mark: str, heading: str) -> None:
+    lines = [f"{mark.format(n=n)}{item}" for n, item in enumerate(ITEMS, 1)]
+    assert _after("\n".join([heading, *lines])) == _after(", then ".join(ITEMS))
+
+
+@pytest.mark.parametrize("mark", ["{n}、", "{n}，", "{n}. ", "{n}：", "- "])
+@pytest.mark.parametrize("heading", ["", "计划：", "按下面的步骤做："])
+def test_a_chinese_list_is_a_sequence_however_it_is_numbered(mark: str, heading: str) -> None:
+    lines = [f"{mark.format(n=n)}{item}" for n, item in enumerate(ITEMS_ZH[: 2 if "，" in mark else 3], 1)]
+    steps = _after("\n".join([heading, *lines]))
+    assert [type(step) for step in steps] == [Drive, Turn, Drive][: len(lines)]
+
+
+def test_numbers_that_do_not_count_a_list_are_asked_about() -> None:
+    assert not _after("1, forward 1 m\n3, turn left")
+    assert not _after("never do this:\n1, forward 1 m\n2, turn left")
+
+
+def test_numbered_items_may_stand_on_one_line() -> None:
+    assert _after("1、前进一米；2、左转九十度") == _after("前进一米，然后左转九十度")

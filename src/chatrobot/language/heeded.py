@@ -2,8 +2,8 @@
 
 Where the rules lose an amount or a direction on the way (a slot that nobody reads, two clauses merged into one), the
 plan looks fine and is not what was said. So every amount is changed a little, every direction turned round, and the
-rules are asked again: the plan must change. In a long list all of it is read again once for each clause of a kind, and else only
-the clauses around the change: to read all of it again for each of hundreds would take seconds.
+rules are asked again: the plan must change. In a long list all of it is read again once for each kind of clause, and
+else only the clauses around the change: to read all of it again for each of hundreds would take seconds.
 """
 
 from __future__ import annotations

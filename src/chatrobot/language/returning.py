@@ -15,7 +15,6 @@ from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Drive, Go, Step, Turn, Wait
 
-
 _BETWEEN = frozenset({"glue", "filler"})
 """What may stand between `back` and the place: `back to the kitchen`."""
 
