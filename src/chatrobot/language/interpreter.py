@@ -20,7 +20,7 @@ from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
 from chatrobot.language.rephrase import rephrased
 from chatrobot.language.tidy import tidy
-from chatrobot.language.tutorial_form import read_twist
+from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
 from chatrobot.robots.profile import RobotProfile
 
@@ -54,9 +54,9 @@ class OfflineInterpreter:
         program = read_program_request(plain)
         if program is not None:
             return planned(program, language)
-        twist = read_twist(plain)
-        if twist is not None:
-            return planned([twist], language)
+        twists = read_twists(plain)
+        if twists:
+            return planned([*twists], language)
         if reflex.is_stop(text) or reflex.is_stop(plain):
             return stopped(language)
         return _in_words(plain, Reading(language, context, self._profile, facing_rad))
