@@ -6,20 +6,22 @@ import re
 from functools import lru_cache
 
 from chatrobot import reflex
-from chatrobot.language import forms
+from chatrobot.language import forms, questions
 from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
 from chatrobot.language.context import Context
 from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import defined_unit, with_known_counts, with_measured_things
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
+from chatrobot.language.lexicon import lexicon
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.program_request import read_program_request
 from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
-from chatrobot.language.rephrase import rephrased
+from chatrobot.language.rephrase import is_item, rephrased
 from chatrobot.language.tidy import tidy
+from chatrobot.language.tokens import tokenise
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
 from chatrobot.robots.profile import RobotProfile
@@ -59,7 +61,28 @@ class OfflineInterpreter:
             return planned([*twists], language)
         if reflex.is_stop(text) or reflex.is_stop(plain):
             return stopped(language)
+        if _has_a_stop_line(text):
+            return Interpretation("stop", say(language, "stop_among_lines"), language)
+        courtesy = questions.courtesy_of(plain, language)
+        if courtesy:
+            return Interpretation("answered", say(language, f"answer_{courtesy}"), language)
         return _in_words(plain, Reading(language, context, self._profile, facing_rad))
+
+
+def _has_a_stop_line(text: str) -> bool:
+    """Whether one of several lines is a stop: lines are said one by one, and a stop counts as soon as it is there.
+
+    A point of a list is none, nor is `then stop`: those come after what stands before them.
+    """
+    lines = [line for line in normalise(text).split("\n") if line.strip()]
+    stops = [line for line in lines if reflex.is_stop(line) and not is_item(line)] if len(lines) > 1 else []
+    return any(not _goes_on(line) for line in stops)
+
+
+def _goes_on(line: str) -> bool:
+    """`then stop`, 然后停."""
+    beginnings = (tokenise(said, lexicon(), {}) for said in (line, line.split()[0]))
+    return any(atoms[0].kind == "conn" or atoms[0].value == "finally" for atoms in beginnings if atoms)
 
 
 def _in_words(plain: str, reading: Reading) -> Interpretation:

@@ -48,6 +48,11 @@ def without_numbers(text: str) -> str:
     )
 
 
+def is_item(line: str) -> bool:
+    """Whether a line is a point of a list."""
+    return bool(_ITEM.match(line)) or line.lstrip().startswith(("-", "*", "•"))
+
+
 def _heading_and_lines(text: str) -> tuple[list[str], list[str]]:
     lines = [line for line in text.split("\n") if line.strip()]
     headed = bool(lines) and lines[0].rstrip().endswith(":")
@@ -57,9 +62,7 @@ def _heading_and_lines(text: str) -> tuple[list[str], list[str]]:
 def _without_heading(text: str, language: str) -> str:
     """`Here is the plan:` and a list under it: nothing is to be done by the heading itself."""
     heading, lines = _heading_and_lines(text)
-    listed = bool(heading) and all(
-        _ITEM.match(line) or line.lstrip().startswith(("-", "*", "•")) for line in lines
-    )
+    listed = bool(heading) and all(is_item(line) for line in lines)
     if listed and len(lines) > 1 and _heading(language).fullmatch(heading[0].strip()):
         return "\n".join(lines)
     return text
