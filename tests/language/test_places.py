@@ -62,3 +62,31 @@ def test_back_before_anything_else_is_a_direction() -> None:
     plan = meant_by("back 1 m, then home").plan
     assert plan is not None
     assert isinstance(plan.steps[0], Drive)
+
+
+@pytest.mark.parametrize(
+    "said", ["go to the kichen", "go to the kitchn now", "drive back hoem", "go to hom, then forward 1 m"]
+)
+def test_a_misspelt_place_is_asked_about_and_never_driven_to(said: str) -> None:
+    meant = meant_by(said)
+    assert (meant.outcome, meant.code) == ("unclear", "did_you_mean")
+    assert "kitchen" in meant.reply or "home" in meant.reply
+
+
+@pytest.mark.parametrize("said", ["go to the chicken", "go to the kettle", "go to the kitten"])
+def test_another_word_is_no_misspelt_place(said: str) -> None:
+    assert meant_by(said).code != "did_you_mean"
+
+
+def test_a_yes_to_the_place_that_was_asked_about_goes_there() -> None:
+    asked = Context(Dialogue(places=PLACES, pending="go to the kichen"), world_places=CONTEXT.world_places)
+    plan = OfflineInterpreter(MECANUM).interpret("yes", asked).plan
+    assert plan is not None
+    assert [getattr(step, "place", "") for step in plan.steps] == ["kitchen"]
+    assert OfflineInterpreter(MECANUM).interpret("no", asked).plan is None
+
+
+def test_a_place_that_is_as_near_as_another_is_not_named() -> None:
+    places = {"desk1": Pose(1.0, 0.0, 0.0), "desk2": Pose(2.0, 0.0, 0.0), "docka": Pose(), "dockb": Pose()}
+    meant = OfflineInterpreter(MECANUM).interpret("go to dockc", Context(world_places=places))
+    assert (meant.outcome, meant.code) == ("unclear", "unknown_part")

@@ -9,11 +9,13 @@ from chatrobot import reflex
 from chatrobot.language import forms, questions
 from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
+from chatrobot.language.consent import read_consent
 from chatrobot.language.context import Context
 from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import defined_unit, with_known_counts, with_measured_things
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
 from chatrobot.language.lexicon import lexicon
+from chatrobot.language.names import Misspelt, misspelt_place
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.program_request import read_program_request
@@ -45,7 +47,7 @@ class OfflineInterpreter:
         try:
             return self._interpreted(text, language, context)
         except Unclear as problem:
-            return asked_back(problem, language)
+            return _did_you_mean(problem, text, language, context) or asked_back(problem, language)
 
     def _interpreted(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         plain = with_known_counts(without_compass(rephrased(normalise(text), language), language))
@@ -110,17 +112,47 @@ def _defined(definition: forms.Definition, reading: Reading) -> Interpretation:
     return Interpretation("answered", reply, language, define={definition.name: inner.plan})
 
 
+def _did_you_mean(
+    problem: Unclear, text: str, language: LanguageCode, context: Context
+) -> Interpretation | None:
+    """The question whether a place was misspelt, if it looks so."""
+    meant = _misspelt(problem, rephrased(normalise(text), language), context)
+    if meant is None:
+        return None
+    reply = say(language, "did_you_mean", part=problem.part, place=meant.place)
+    return Interpretation("unclear", reply, language, unaccounted=problem.part, code="did_you_mean")
+
+
+def _misspelt(problem: Unclear, plain: str, context: Context) -> Misspelt | None:
+    return misspelt_place(plain, problem.part, context) if problem.code == "unknown_part" else None
+
+
+def _agreed(plain: str, before: str, reading: Reading) -> Interpretation | None:
+    """A yes to `did you mean kitchen?`."""
+    if read_consent(plain) is not True:
+        return None
+    try:
+        read_command(before, reading)
+    except Unclear as problem:
+        meant = _misspelt(problem, before, reading.context)
+        return read_command(meant.text, reading) if meant is not None else None
+    return None
+
+
 def _pending(plain: str, reading: Reading) -> Interpretation | None:
     """A fragment answers what was asked back about the turn before."""
     pending = reading.context.dialogue.pending
     if not pending or len(pending) + len(plain) > MAX_CHARACTERS:
         return None
+    before = rephrased(normalise(pending), reading.language)
+    agreed = _agreed(plain, before, reading)
+    if agreed is not None:
+        return agreed
     atoms = tidy(reading.atoms(plain))
     ways = [k for k, a in enumerate(atoms) if k and a.kind == "dir" and atoms[k - 1].text == a.text]
     verbs = [a for k, a in enumerate(atoms) if k + 1 not in ways and a.text not in ("say",)]
     if any(a.kind in ("verb", "shape", "place") for a in verbs):
         return None
-    before = rephrased(normalise(pending), reading.language)
     for joined in (f"{before} {plain}", f"{before}, {plain}"):
         try:
             found = read_command(joined, reading)

@@ -11,7 +11,6 @@ from chatrobot.language.data_files import load_table
 from chatrobot.language.phrases import say
 from chatrobot.robots.profile import RobotProfile
 
-
 _LONGEST_COURTESY = 60
 
 
