@@ -160,3 +160,17 @@ def test_numbers_that_do_not_count_a_list_are_asked_about() -> None:
 
 def test_numbered_items_may_stand_on_one_line() -> None:
     assert _after("1、前进一米；2、左转九十度") == _after("前进一米，然后左转九十度")
+
+
+@pytest.mark.parametrize(
+    ("said", "first"),
+    [
+        ("两米乘一米的矩形", 2.0),
+        ("走一个1米乘2米的长方形", 1.0),
+        ("画一个长方形，两米乘一米", 2.0),
+        ("draw a 2 m by 1 m rectangle", 2.0),
+        ("a rectangle 1 m by 2 m", 1.0),
+    ],
+)
+def test_a_rectangle_begins_with_the_side_that_is_said_first(said: str, first: float) -> None:
+    assert [abs(metres) for metres in _lengths(said)] == [first, 3.0 - first] * 2

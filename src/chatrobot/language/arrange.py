@@ -199,8 +199,20 @@ def _shape_first(frames: list[Frame]) -> list[Frame]:
         at = len(out)
         while frame.shape and frame.joined in ("none", "weak", "and") and at and _is_measure(out[at - 1]):
             at -= 1
-        out.insert(at, frame)
+        out[at:] = _in_said_order(frame, out[at:])
     return out
+
+
+def _in_said_order(shape: Frame, before: list[Frame]) -> list[Frame]:
+    """The shape, then its measures. 两米乘一米的矩形: the side that is said first is driven first."""
+    frames = [shape, *before]
+    if shape.shape not in ("rectangle", "square") or any("length" not in frame.q for frame in frames):
+        return frames
+    lengths = [frame.q["length"] for frame in (*before, shape)]
+    frames = [frame.copy() for frame in frames]
+    for frame, length in zip(frames, lengths):
+        frame.q["length"] = length
+    return frames
 
 
 def _is_measure(frame: Frame) -> bool:
