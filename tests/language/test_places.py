@@ -69,13 +69,13 @@ def test_back_before_anything_else_is_a_direction() -> None:
 )
 def test_a_misspelt_place_is_asked_about_and_never_driven_to(said: str) -> None:
     meant = meant_by(said)
-    assert (meant.outcome, meant.code) == ("unclear", "did_you_mean")
+    assert (meant.outcome, meant.code) == ("unclear", "did_you_mean_place")
     assert "kitchen" in meant.reply or "home" in meant.reply
 
 
 @pytest.mark.parametrize("said", ["go to the chicken", "go to the kettle", "go to the kitten"])
 def test_another_word_is_no_misspelt_place(said: str) -> None:
-    assert meant_by(said).code != "did_you_mean"
+    assert meant_by(said).code != "did_you_mean_place"
 
 
 def test_a_yes_to_the_place_that_was_asked_about_goes_there() -> None:

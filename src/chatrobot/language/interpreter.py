@@ -119,8 +119,8 @@ def _did_you_mean(
     meant = _misspelt(problem, rephrased(normalise(text), language), context)
     if meant is None:
         return None
-    reply = say(language, "did_you_mean", part=problem.part, place=meant.place)
-    return Interpretation("unclear", reply, language, unaccounted=problem.part, code="did_you_mean")
+    reply = say(language, "did_you_mean_place", part=problem.part, place=meant.place)
+    return Interpretation("unclear", reply, language, unaccounted=problem.part, code="did_you_mean_place")
 
 
 def _misspelt(problem: Unclear, plain: str, context: Context) -> Misspelt | None:
