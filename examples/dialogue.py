@@ -1,5 +1,6 @@
 """A dialogue: every turn knows what was said and done before. What cannot be done is a value, not an exception."""
 
+import math
 import sys
 
 import chatrobot
@@ -17,4 +18,4 @@ with chatrobot.connect(world="empty", fast="--fast" in sys.argv) as robot:
     for text in TURNS:
         result = robot.do(text)
         print(f"{text!r}: {result.outcome}: {result.reply}")
-    print(f"at x {robot.pose.x_m:.2f} m, y {robot.pose.y_m:.2f} m")
+    print(f"{math.hypot(robot.pose.x_m, robot.pose.y_m):.2f} m from home")

@@ -194,8 +194,10 @@ def _check_no_question_beside(plain: str, reading: Reading) -> None:
         return
     marked = [sentence for sentence in sentences if sentence.endswith("?") or sentence in lines]
     asked = [sentence for sentence in marked if _is_only_asked(sentence, reading)]
+    if not asked:
+        return
     others = [a for sentence in sentences if sentence not in asked for a in reading.atoms(sentence)]
-    if asked and any(a.kind in _MOVING or (a.kind == "verb" and a.value in _DOINGS) for a in others):
+    if any(a.kind in _MOVING or (a.kind == "verb" and a.value in _DOINGS) for a in others):
         raise Unclear("question_beside", asked[0])
 
 
