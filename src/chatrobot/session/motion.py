@@ -273,5 +273,5 @@ class Motion:
             self._governor.latch(newer.source, str(newer.payload.get("why", "")))
         elif not released:
             self._emit(Notice(envelope.turn, Reason("release_refused", who)))
-        elif envelope.source != "console":  # the person there sees it
+        else:
             self._emit(Notice(envelope.turn, Reason("released", who)))
