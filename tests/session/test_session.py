@@ -174,3 +174,23 @@ def test_a_differential_base_asked_to_go_sideways_says_why_not_and_what_instead(
     assert result.outcome == "refused"
     assert "sideways" in result.reply
     assert "turn" in result.reply
+
+
+@pytest.mark.parametrize(
+    "text", ["where are you?", "which way are you facing?", "how far have you driven?", "你在哪里？"]
+)
+def test_where_a_robot_is_that_never_said_so_is_not_known(text: str) -> None:
+    result = Talk(sim="odom_silent_after_s=0").session.do(text)
+    assert result.outcome == "answered"
+    assert result.reply.startswith(("I don't know: nothing has been heard", "不知道：还没有收到"))
+    assert not any(digit in result.reply for digit in "0123456789")
+
+
+def test_where_a_robot_is_that_has_just_been_started_is_known() -> None:
+    assert Talk().session.do("where are you?").reply.startswith("I am 0.00 m ahead")
+
+
+def test_no_place_is_remembered_where_nobody_knows_which() -> None:
+    session = Talk(sim="odom_silent_after_s=0").session
+    assert session.do("remember this place as base").outcome == "refused"
+    assert session.understanding.usable_places == {}

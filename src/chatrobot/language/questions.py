@@ -11,6 +11,9 @@ from chatrobot.language.data_files import load_table
 from chatrobot.language.phrases import say
 from chatrobot.robots.profile import RobotProfile
 
+_MEASURED = frozenset({"position", "heading", "distance", "speed", "moving"})
+"""Topics that odometry alone can tell of."""
+
 
 @cache
 def _topics(language: str) -> tuple[tuple[str, re.Pattern[str]], ...]:
@@ -83,6 +86,8 @@ def answer(topic: str, language: str, context: Context, profile: RobotProfile) -
         "places": ", ".join(sorted({*context.dialogue.places, *context.world_places})) or "-",
         "last": context.dialogue.turns[-1].text if context.dialogue.turns else "-",
     }
+    if topic in _MEASURED and not state.has_said_so:
+        return say(language, "answer_unheard")
     if topic == "battery":
         if state.battery_percent is None:
             return say(language, "answer_battery_unknown")
