@@ -149,6 +149,11 @@ class Motion:
         return not self._jobs.are_done or bool(self._inbox) or self._stops.is_unbooked or is_zeroed
 
     @property
+    def has_work(self) -> bool:
+        """Something is driven, prepared or queued. From any thread."""
+        return not self._jobs.are_done
+
+    @property
     def stops(self) -> int:
         """Changes with every stop: what was asked before it does not count any more."""
         return self._stops.count
