@@ -194,3 +194,19 @@ def test_no_place_is_remembered_where_nobody_knows_which() -> None:
     session = Talk(sim="odom_silent_after_s=0").session
     assert session.do("remember this place as base").outcome == "refused"
     assert session.understanding.usable_places == {}
+
+
+@pytest.mark.parametrize(
+    ("text", "lie", "outcome", "said"),
+    [
+        ("forward 1 m", "stuck_after_m=0.3", "completed", "drove 1.00 m"),
+        ("turn left 90 degrees", "stuck_after_m=0", "failed", "the wheels turn and the robot does not"),
+        ("forward 1 m", "stuck_after_m=0.3,blocked=stall", "failed", "it does not follow"),
+    ],
+)
+def test_wheels_that_spin_are_noticed_as_far_as_the_docs_say(
+    text: str, lie: str, outcome: str, said: str
+) -> None:
+    """The first is no promise, only the truth about odometry: who mends it rewrites docs/simulation.md."""
+    result = Talk(sim=lie).session.do(text)
+    assert (result.outcome, said in result.reply) == (outcome, True)
