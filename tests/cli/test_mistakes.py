@@ -17,6 +17,10 @@ from chatrobot.core.errors import UsageError
     [
         (["do", "forward", "1", "m"], 'chatrobot do "forward 1 m"'),
         (["do", "go", "to", "the", "kitchen"], 'chatrobot do "go to the kitchen"'),
+        (["do", ""], 'chatrobot do "forward 1 m"'),
+        (["do", " \t\n\u200b"], 'chatrobot do "forward 1 m"'),
+        (["do", "forward 1 m", "", "--fast"], 'chatrobot do "forward 1 m"'),
+        (["plan", "　"], 'chatrobot plan "forward 1 m"'),
         (["do", "hi", "--budget-s", "abc"], "'abc' is no number"),
         (["do", "hi", "--rounds", "1.5"], "'1.5' is no whole number"),
         (["fake-model", "x.yaml", "--port", "99999"], "0 to 65535"),

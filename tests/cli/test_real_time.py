@@ -69,9 +69,25 @@ def test_chatrobot_stop_stops_what_runs_elsewhere(chatrobot: Command) -> None:
         moving(robot)
         done = chatrobot("stop")
         assert done.code == 0
-        assert "stopped" in done.out
+        assert "stopped: it was moving" in done.out
         assert robot.event("result")["outcome"] == "stopped"
         assert robot.end() == 5
+
+
+def test_chatrobot_stop_says_of_a_robot_that_stood_that_it_stood(chatrobot: Command) -> None:
+    with chatrobot.start("--json", *EMPTY) as robot:
+        robot.say("where are you?")
+        robot.event("result")
+        done = chatrobot("stop")
+        assert (done.code, done.out.partition(": ")[2]) == (
+            0,
+            "it was standing already; zeros were sent all the same\n",
+        )
+        robot.say("wait 60 s")
+        robot.event("started")
+        done = chatrobot("stop")
+        assert "it was standing; what it was told to do is not done any more" in done.out
+        assert robot.event("result")["outcome"] == "stopped"
 
 
 def test_chatrobot_stop_with_nothing_running_says_so(chatrobot: Command) -> None:

@@ -115,7 +115,7 @@ def test_after_an_emergency_stop_nothing_moves_until_it_is_released(chat):
     chat.enter("turn left 20 degrees")
     chat.wait_for("✗")
     chat.enter("/release")
-    chat.wait_for("Released")
+    chat.wait_for("The emergency stop is released")
     chat.enter("turn left 20 degrees")
     chat.wait_for(DONE)
 
@@ -126,7 +126,7 @@ def test_tab_completes_commands_and_places(chat):
     chat.type("\t")
     chat.wait_for("› /release")
     chat.type("\r")
-    chat.wait_for("Released")
+    chat.wait_for("The emergency stop is released")
     chat.type("go to the kitc\t")
     chat.wait_for("› go to the kitchen")
 

@@ -84,12 +84,12 @@ def test_a_pasted_yes_answers_no_question(talk, log):
 
 
 def test_commands_among_pasted_lines_are_done_in_their_order(talk, log):
-    talk.enter("forward 1 m\n/release\nturn left\n/undo")
+    talk.enter("forward 1 m\n/places\nturn left\n/undo")
     assert told(log) == [("say", "forward 1 m")]
     end_turn(talk, 1)
-    assert told(log)[1:] == [("release",), ("say", "turn left")]
+    assert told(log)[1:] == [("say", "turn left")]
     end_turn(talk, said_turn(log))
-    assert told(log)[3:] == [("say", "undo")]
+    assert told(log)[2:] == [("say", "undo")]
 
 
 def test_quit_waits_for_what_was_pasted_before_it(talk, log):
@@ -129,3 +129,21 @@ def test_a_stop_line_counts_from_the_moment_it_is_pasted(talk, log):
     assert told(log) == []
     talk.stop_for_paste("turn left\nstop\n")
     assert told(log) == [("stop", "stop")]
+
+
+@pytest.mark.parametrize("release", ["/release", "/Release", "/ release", "/release notes"])
+@pytest.mark.parametrize("before", ["", "where are you?\n"])
+def test_a_pasted_release_releases_nothing_and_what_follows_is_not_done(talk, log, before, release):
+    talk.emergency_stop("/estop")
+    talk.enter(f"{before}{release}\nforward 1 m")
+    end_turn(talk, said_turn(log), "answered") if before else None
+    assert ("release",) not in log
+    assert said(log) == (["where are you?"] if before else [])
+    assert "type /release by itself" in shown(log)
+    assert "not done: “forward 1 m”" in shown(log)
+    assert talk.latched
+
+
+def test_a_release_behind_a_pasted_stop_releases_nothing(talk, log):
+    talk.enter("/estop\n/release")
+    assert ("release",) not in log

@@ -6,8 +6,9 @@ import pytest
 
 from chatrobot.cli.console.clean import LONGEST_CHARS
 from chatrobot.cli.console.talk import TWICE_S
-from chatrobot.core.events import Finished, Interpreted, Result, Started
+from chatrobot.core.events import Finished, Interpreted, Notice, Result, Started
 from chatrobot.core.geometry import Pose
+from chatrobot.core.reason import Reason
 from tests.console.fakes import ask, shown, told
 
 
@@ -117,6 +118,7 @@ def test_emergency_stop_latches_the_screen_until_release(talk, log):
     talk.enter("/estop")
     assert talk.latched
     talk.enter("/release")
+    talk.hear(Notice(1, Reason("released", {"source": "console"})))
     assert not talk.latched
     assert told(log) == [("emergency_stop", "/estop"), ("release",)]
     talk.enter("emergency stop")
@@ -161,3 +163,43 @@ def test_one_stop_is_told_once(talk, log, moving_ends_first):
     talk.hear(Interpreted(3, "reflex", "", ""))
     talk.hear(Result(3, "stopped", "Stopped."))
     assert shown(log).count("Stopped") == 2
+
+
+def test_released_is_said_once_and_not_before_motion_has_released(talk, log):
+    talk.enter("/estop")
+    talk.enter("/release")
+    assert ("release",) in log
+    assert "is released" not in shown(log)
+    assert talk.latched
+    talk.hear(Notice(1, Reason("released", {"source": "console"})))
+    assert shown(log).count("is released") == 1
+    assert not talk.latched
+
+
+def test_a_refused_release_is_said_and_the_alarm_stays(talk, log):
+    talk.enter("/estop")
+    talk.enter("/release")
+    talk.hear(Notice(1, Reason("release_refused", {"source": "console"})))
+    assert "The emergency stop stays" in shown(log)
+    assert talk.latched
+
+
+def test_news_of_a_release_takes_no_alarm_away_that_was_raised_since(talk):
+    talk.enter("/estop")
+    talk.enter("/release")
+    talk.enter("/estop")
+    talk.hear(Notice(1, Reason("released", {"source": "console"})))
+    assert talk.latched
+
+
+@pytest.mark.parametrize("typed", ["/release notes are in the drawer", "/quit smoking", "/undo the laces"])
+def test_a_command_that_takes_nothing_does_nothing_where_more_was_typed(talk, log, typed):
+    talk.enter(typed)
+    assert told(log) == []
+    assert f"{typed.split()[0]} takes nothing behind it" in shown(log)
+
+
+@pytest.mark.parametrize(("typed", "word"), [("/stop it now", "stop"), ("/estop now", "emergency_stop")])
+def test_a_stop_is_a_stop_whatever_is_typed_behind_it(talk, log, typed, word):
+    talk.enter(typed)
+    assert told(log)[0][0] == word

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.geometry import Pose, Twist
@@ -14,6 +17,7 @@ from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
 from chatrobot.programs.events import ProgramEvent, TwistAsked
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
+from chatrobot.session.governed_motion import Stopwatch
 from chatrobot.session.governed_robot import GovernedRobot
 from chatrobot.session.job import Job
 from chatrobot.session.planner import Planner
@@ -87,3 +91,22 @@ def test_the_governor_is_told_where_the_robot_is_by_now(kind: type[Job]) -> None
     assert governor.poses == [sensors.pose_now()]
     assert governor.poses[0] is not None
     assert governor.poses[0].x_m == pytest.approx(seen.pose.x_m + seen.twist.vx_mps * LATE_S, abs=0.005)
+
+
+@given(st.lists(st.tuples(st.booleans(), st.floats(-0.1, 0.1)), max_size=30))
+def test_no_time_in_motion_or_pause_is_negative_whatever_tick_counts_it(
+    ticks: list[tuple[bool, float]],
+) -> None:
+    watch, now_s = Stopwatch(100.0), 100.0
+    for is_standing, later_s in ticks:
+        now_s += later_s
+        watch.count(is_standing, now_s)
+        assert (math.copysign(1.0, watch.paused_s), math.copysign(1.0, watch.moving_s)) == (1.0, 1.0)
+    assert watch.paused_s + watch.moving_s <= max(watch.counted_to_s - 100.0, 0.0) + 1e-9
+
+
+def test_what_is_counted_from_a_moment_after_the_tick_began_is_no_pause() -> None:
+    watch = Stopwatch(10.000167)
+    for is_standing, now_s in ((False, 10.0), (True, 10.0), (False, 10.02)):
+        watch.count(is_standing, now_s)
+    assert watch.paused_s == 0.0

@@ -174,3 +174,39 @@ def test_a_differential_base_asked_to_go_sideways_says_why_not_and_what_instead(
     assert result.outcome == "refused"
     assert "sideways" in result.reply
     assert "turn" in result.reply
+
+
+@pytest.mark.parametrize(
+    "text", ["where are you?", "which way are you facing?", "how far have you driven?", "你在哪里？"]
+)
+def test_where_a_robot_is_that_never_said_so_is_not_known(text: str) -> None:
+    result = Talk(sim="odom_silent_after_s=0").session.do(text)
+    assert result.outcome == "answered"
+    assert result.reply.startswith(("I don't know: nothing has been heard", "不知道：还没有收到"))
+    assert not any(digit in result.reply for digit in "0123456789")
+
+
+def test_where_a_robot_is_that_has_just_been_started_is_known() -> None:
+    assert Talk().session.do("where are you?").reply.startswith("I am 0.00 m ahead")
+
+
+def test_no_place_is_remembered_where_nobody_knows_which() -> None:
+    session = Talk(sim="odom_silent_after_s=0").session
+    assert session.do("remember this place as base").outcome == "refused"
+    assert session.understanding.usable_places == {}
+
+
+@pytest.mark.parametrize(
+    ("text", "lie", "outcome", "said"),
+    [
+        ("forward 1 m", "stuck_after_m=0.3", "completed", "drove 1.00 m"),
+        ("turn left 90 degrees", "stuck_after_m=0", "failed", "the wheels turn and the robot does not"),
+        ("forward 1 m", "stuck_after_m=0.3,blocked=stall", "failed", "it does not follow"),
+    ],
+)
+def test_wheels_that_spin_are_noticed_as_far_as_the_docs_say(
+    text: str, lie: str, outcome: str, said: str
+) -> None:
+    """The first is no promise, only the truth about odometry: who mends it rewrites docs/simulation.md."""
+    result = Talk(sim=lie).session.do(text)
+    assert (result.outcome, said in result.reply) == (outcome, True)

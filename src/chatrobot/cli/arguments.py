@@ -71,7 +71,10 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     parsed = parser.parse_args(list(arguments))
     parsed.command = parsed.command or ""
     if parsed.command == "do":
+        _expect_words(parsed.texts, "do")
         _expect_quotes(parsed.texts)
+    elif parsed.command == "plan":
+        _expect_words([parsed.text], "plan")
     are_parameters = all(word == "-p" for word in ros_args[::2])
     if ros_args and not (parsed.command in _NODES or (parsed.command in _TALKS and are_parameters)):
         raise UsageError("--ros-args is for nodes", allowed="chatrobot node … or chatrobot sim … --on ros")
@@ -80,6 +83,16 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         if not hasattr(parsed, name):
             setattr(parsed, name, value)
     return parsed
+
+
+def _expect_words(texts: Sequence[str], command: str) -> None:
+    """An empty text would be asked of a language model.
+
+    Raises:
+        UsageError: one of them has nothing in it that could be read.
+    """
+    if not all(any(sign.isprintable() and not sign.isspace() for sign in text) for text in texts):
+        raise UsageError("a text is empty", allowed=f'say what to do: chatrobot {command} "forward 1 m"')
 
 
 def _expect_quotes(texts: Sequence[str]) -> None:

@@ -41,7 +41,9 @@ class Parser(argparse.ArgumentParser):
     """Wrong usage leaves through `main` like every other mistake, not out of the middle of parsing."""
 
     def error(self, message: str) -> NoReturn:
-        raise UsageError(message, allowed=f"see {self.prog} --help")
+        from chatrobot.models.secret import scrub  # a key may have been typed where none belongs
+
+        raise UsageError(scrub(message, None), allowed=f"see {self.prog} --help")
 
 
 def options_of(shown: Sequence[str] | None = None) -> Parser:

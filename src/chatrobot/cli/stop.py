@@ -13,7 +13,13 @@ from chatrobot.wire.runtime_dir import stop_socket_paths
 ANSWER_S = 1.0
 """Motion answers as soon as its zero is out; one that has not after this long is frozen."""
 
-_ANSWERS = {b"moving": "stopped", b"standing": "it stood already"}
+_ANSWERS = {
+    b"moving": "stopped: it was moving, and zeros go on until it is seen standing",
+    b"waiting": "it was standing; what it was told to do is not done any more, and zeros were sent",
+    b"standing": "it was standing already; zeros were sent all the same",
+    b"unseen": "zeros were sent; whether it was moving nobody can see, for there is no odometry",
+}
+"""What Motion found, by odometry, when the zero was out."""
 
 
 def run(_: object = None) -> int:

@@ -243,6 +243,9 @@ class Notice(Event):
 class Finished(Event):
     """Motion's end of a turn: what odometry measured, never what was asked for.
 
+    Odometry counts wheels, and a gyro sees only turns: wheels that spin straight on are counted as way
+    (docs/simulation.md, "Wheels that spin").
+
     `planned_m` and `planned_turn_rad` are what the plan wanted up to its end, for "1.00 m of 1.00 m".
     """
 
@@ -264,7 +267,7 @@ class Finished(Event):
 
 @dataclass(frozen=True)
 class Result(Event):
-    """The last event of every turn."""
+    """The last event of every turn; pose and distances are what odometry measured, as in `Finished`."""
 
     name: ClassVar[str] = "result"
     outcome: Outcome

@@ -51,7 +51,10 @@ class Dialogue:
 
 @dataclass(frozen=True)
 class RobotState:
-    """How the robot is at this moment, in the odom frame. None: not known."""
+    """How the robot is at this moment, in the odom frame. None: not known.
+
+    `has_said_so` is False before its odometry has been heard: pose, twist and path are then nothing to tell.
+    """
 
     pose: Pose = ORIGIN
     twist: Twist = ZERO_TWIST
@@ -59,6 +62,7 @@ class RobotState:
     path_m: float = 0.0
     battery_percent: float | None = None
     obstacle_m: float | None = None
+    has_said_so: bool = True
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,8 @@ from chatrobot.language.phrases import say
 from chatrobot.robots.profile import RobotProfile
 
 _LONGEST_COURTESY = 60
+_MEASURED = frozenset({"position", "heading", "distance", "speed", "moving"})
+"""Topics that odometry alone can tell of."""
 
 
 @cache
@@ -105,6 +107,8 @@ def answer(topic: str, language: str, context: Context, profile: RobotProfile) -
         "places": ", ".join(sorted({*context.dialogue.places, *context.world_places})) or "-",
         "last": context.dialogue.turns[-1].text if context.dialogue.turns else "-",
     }
+    if topic in _MEASURED and not state.has_said_so:
+        return say(language, "answer_unheard")
     if topic == "battery":
         if state.battery_percent is None:
             return say(language, "answer_battery_unknown")

@@ -10,7 +10,7 @@ from urllib.parse import urlsplit
 
 from chatrobot.core.reason import Reason, Value
 from chatrobot.models.providers import Provider
-from chatrobot.models.secret import Secret, scrub
+from chatrobot.models.secret import PieceScrubber, Secret, scrub
 
 SAID_CHARS = 200
 MOST_CHARS = 5000
@@ -51,7 +51,10 @@ class Place:
 
     def quote(self, text: str) -> str:
         """What a provider said: one line, short, without the key and without the tags of a web page."""
-        line = " ".join(scrub(_TAG.sub(" ", text[:MOST_CHARS]), self.secret).split())
+        whole = PieceScrubber(self.secret).feed(
+            text[:MOST_CHARS]
+        )  # a key that was cut is none that scrub knows
+        line = " ".join(scrub(_TAG.sub(" ", whole), self.secret).split())
         return line if len(line) <= SAID_CHARS else line[: SAID_CHARS - 1] + "…"
 
 

@@ -132,7 +132,7 @@ class LibraryModel:
         try:
             library = _load(self._provider)
             await self._find_key()
-            if self._address:
+            if self._address and not (self._secret and self._secret.flaw):
                 self._build(library)
         except Exception:  # noqa: BLE001 - the first call meets the same, and tells
             return
@@ -143,6 +143,8 @@ class LibraryModel:
         place = Place(self._provider, self._model, self._address, self._secret)
         if not self._secret and self._provider.needs_key:
             raise ModelError(place.reason("model_no_key"))
+        if self._secret is not None and self._secret.flaw is not None:
+            raise ModelError(place.reason(f"model_key_{self._secret.flaw}"))
         if not self._address:
             raise ModelError(place.reason("model_no_address", variable=self._provider.base_url_variables[0]))
         try:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from chatrobot.core.reason import Reason
 from chatrobot.models.config import ModelConfig
 from chatrobot.models.seam import Model, ModelError
+from chatrobot.models.secret import scrub
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -157,7 +158,9 @@ def split_name(text: str) -> tuple[Provider, str]:
     provider_name, colon, name = text.strip().partition(":")
     provider = providers().get(provider_name.strip().lower())
     if provider is None or not colon or not name.strip():
-        raise ModelError(Reason("model_unknown", {"model": text, "providers": ", ".join(providers())}))
+        raise ModelError(
+            Reason("model_unknown", {"model": scrub(text, None), "providers": ", ".join(providers())})
+        )
     return provider, name.strip()
 
 

@@ -51,9 +51,9 @@ class Usage:
 class ModelError(ChatRobotError):
     """A call that came to nothing, or to less than a whole reply. `reason` says why and with it the way out.
 
-    Codes: model_missing_extra, model_unknown, model_no_key, model_wrong_key, model_no_network, model_rate_limit,
-    model_first_piece_timeout, model_timeout, model_cut_off, model_empty, model_refused, model_too_long,
-    model_not_found, model_server_error, model_broken_reply.
+    Codes: model_missing_extra, model_unknown, model_no_key, model_key_not_ascii, model_key_space, model_wrong_key,
+    model_no_network, model_rate_limit, model_first_piece_timeout, model_timeout, model_cut_off, model_empty,
+    model_refused, model_too_long, model_not_found, model_server_error, model_broken_reply.
     """
 
     def __init__(self, reason: Reason) -> None:

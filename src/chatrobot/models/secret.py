@@ -2,28 +2,46 @@
 
 from __future__ import annotations
 
+import json
 import re
+from typing import Literal
 from urllib.parse import quote
 
 HIDDEN = "•••"
 _SHORTEST = 6
 """Shorter "keys" (`none`, `x`) are placeholders; hiding them would mutilate ordinary words."""
+_QUOTES = {'"': '"', "'": "'", "`": "`", "“": "”", "‘": "’", "«": "»"}
 _LOOKS_LIKE_ONE = re.compile(
+    r"[^\s\"'“”‘’*]{0,40}\*{3,}[^\s\"'“”‘’]{0,40}|"  # as providers show one: its end behind asterisks
     r"\b(?:sk|pk|rk|gsk|hf|xai)[-_][A-Za-z0-9_\-*]{8,}|\bAIza[A-Za-z0-9_\-*]{8,}|(?i:\bbearer\s+)[A-Za-z0-9._~+/=\-]{8,}"
 )
 
 
+Flaw = Literal["not_ascii", "space"]
+"""Why something can be no key, without a character of it. A header of HTTP takes printable ASCII."""
+
+
 class Secret:
-    """A key. `reveal` is the one way to it; printing, formatting, pickling and comparing show nothing."""
+    """A key. `reveal` is the one way to it; printing, formatting, pickling and comparing show nothing.
+
+    Blanks and quotation marks that were pasted around it are no part of it.
+    """
 
     __slots__ = ("_value",)
 
     def __init__(self, value: str) -> None:
-        self._value = value.strip()
+        self._value = _bare(value)
 
     def reveal(self) -> str:
         """The key itself, for the header of a request and for the keyring."""
         return self._value
+
+    @property
+    def flaw(self) -> Flaw | None:
+        """What makes it no key that could be sent; None where it could."""
+        if any(letter.isspace() for letter in self._value):
+            return "space"
+        return None if all("!" <= letter <= "~" for letter in self._value) else "not_ascii"
 
     def __bool__(self) -> bool:
         return bool(self._value)
@@ -40,11 +58,26 @@ class Secret:
         raise TypeError("a secret is not stored")
 
 
+def _bare(value: str) -> str:
+    value = value.strip()
+    if len(value) >= 2 and _QUOTES.get(value[0]) == value[-1]:
+        return value[1:-1].strip()
+    return value
+
+
+def _forms(value: str) -> tuple[str, ...]:
+    """As a text may show it: as it is, in a URL, in Python's and JSON's quotation marks."""
+    return (
+        value, quote(value, safe=""), quote(value), value.encode("unicode_escape").decode("ascii"),
+        repr(value)[1:-1], json.dumps(value)[1:-1],
+    )  # fmt: skip
+
+
 def scrub(text: str, secret: Secret | None) -> str:
     """The text without the key, however it was quoted, and without anything that looks like one."""
     value = secret.reveal() if secret is not None else ""
     if len(value) >= _SHORTEST:
-        for form in (value, quote(value, safe=""), value.encode("unicode_escape").decode("ascii")):
+        for form in _forms(value):
             text = text.replace(form, HIDDEN)
     return _LOOKS_LIKE_ONE.sub(HIDDEN, text)
 

@@ -27,7 +27,8 @@ class Stopwatch:
     _has_moved: bool = False
 
     def count(self, standing: bool, now_s: float) -> None:
-        elapsed_s, self.counted_to_s = now_s - self.counted_to_s, now_s
+        elapsed_s = max(0.0, now_s - self.counted_to_s)
+        self.counted_to_s += elapsed_s  # a tick that began before what it counts counts nothing twice
         if not standing:
             self._has_moved = True
             self.moving_s += elapsed_s

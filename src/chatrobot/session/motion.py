@@ -149,6 +149,11 @@ class Motion:
         return not self._jobs.are_done or bool(self._inbox) or self._stops.is_unbooked or is_zeroed
 
     @property
+    def has_work(self) -> bool:
+        """Something is driven, prepared or queued. From any thread."""
+        return not self._jobs.are_done
+
+    @property
     def stops(self) -> int:
         """Changes with every stop: what was asked before it does not count any more."""
         return self._stops.count
@@ -273,5 +278,5 @@ class Motion:
             self._governor.latch(newer.source, str(newer.payload.get("why", "")))
         elif not released:
             self._emit(Notice(envelope.turn, Reason("release_refused", who)))
-        elif envelope.source != "console":  # the person there sees it
+        else:
             self._emit(Notice(envelope.turn, Reason("released", who)))

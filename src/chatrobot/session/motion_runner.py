@@ -200,7 +200,14 @@ class MotionRunner:
             self.halt(STOP, "")
 
     def _serve_stop(self) -> None:
-        serve_stop(lambda: self.halt("chatrobot stop", ""), lambda: self.motion.is_busy)
+        serve_stop(self._stop_and_tell)
+
+    def _stop_and_tell(self) -> str:
+        """Stop; what was found, for `chatrobot stop` to say: `moving`, `waiting`, `standing` or `unseen`."""
+        has_work = self.motion.has_work  # looked up, not asked for: nothing holds the zero up
+        self.halt("chatrobot stop", "")
+        sight = self.motion.zeroing.sight
+        return "waiting" if sight == "standing" and has_work else sight
 
 
 def _meet(

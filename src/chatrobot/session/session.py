@@ -25,6 +25,9 @@ from chatrobot.session.thinking import Mind, Thinking
 from chatrobot.session.turn_book import TurnBook
 from chatrobot.session.understanding import Understanding
 
+FIRST_NEWS_LOOKS, FIRST_NEWS_LOOK_S = 10, 0.1
+"""How often and how long an answer waits for the first word of odometry."""
+
 
 class Session:
     """See the module.
@@ -234,6 +237,8 @@ class Session:
         if self._programs is not None and self._programs.begin(said.turn, said.text):
             return
         meant = self.understanding.interpret(said.text)
+        if self.understanding.misses_robot(meant) and self._hears_robot_soon():
+            meant = self.understanding.interpret(said.text)
         if self._thinking.wants(said.text, meant):
             self._ask_model(said, meant)
             return
@@ -253,6 +258,17 @@ class Session:
             self.understanding.note_unmoved(said.text, meant)
             self._thinking.note(said.text, "", f"{meant.outcome}: {meant.reply}")
             self._book.conclude(said.turn, meant.outcome, meant.reply)
+
+    def _hears_robot_soon(self) -> bool:
+        """A robot that is there says where it is within a moment of the start."""
+        for _ in range(FIRST_NEWS_LOOKS):
+            event = self._joint.next_event(FIRST_NEWS_LOOK_S)
+            while event is not None:
+                self._hear(event)
+                event = self._joint.next_event(0.0)
+            if self.understanding.hears_robot:
+                return True
+        return False
 
     def _ask_model(self, said: Said, meant: Interpretation) -> None:
         options = self.options

@@ -10,8 +10,12 @@ from collections.abc import Callable
 from chatrobot.wire.runtime_dir import stop_socket_path
 
 
-def serve_stop(halt: Callable[[], None], is_busy: Callable[[], bool]) -> None:
-    """For ever: any packet on this process's socket stops, and is answered when the zero is out."""
+def serve_stop(stop: Callable[[], str]) -> None:
+    """For ever: who calls on this process's socket stops the robot, and is answered when the zero is out.
+
+    Args:
+        stop: stops, and returns in a word what was found.
+    """
     path = stop_socket_path(os.getpid())
     with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as listener:
         with contextlib.suppress(FileNotFoundError):
@@ -21,9 +25,9 @@ def serve_stop(halt: Callable[[], None], is_busy: Callable[[], bool]) -> None:
         while True:
             caller, _ = listener.accept()
             with caller:
-                halt()
+                found = stop()
                 with contextlib.suppress(OSError):
-                    caller.send(b"moving" if is_busy() else b"standing")
+                    caller.send(found.encode())
 
 
 def remove_stop_socket() -> None:

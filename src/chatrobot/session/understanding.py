@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 REMEMBERED_TURNS = 50
 """Older turns are forgotten: nobody says "again" about what was fifty instructions ago."""
 
+UNHEARD = "answer_unheard"
+
 
 class Understanding:
     """Interprets texts and keeps the dialogue. Used by one thread.
@@ -39,7 +41,7 @@ class Understanding:
     def __init__(self, profile: RobotProfile, world: World, folder: Path | None) -> None:
         self._interpreter = OfflineInterpreter(profile)
         self._dialogue = Dialogue()
-        self._state = RobotState()
+        self._state = RobotState(has_said_so=False)
         self._world_places = {alias: world.places[main] for alias, main in world.aliases.items()}
         self._main_places = dict(world.places)
         # The simulated robot's odometry begins anew with every session, as a real one's does at power-on.
@@ -80,7 +82,18 @@ class Understanding:
         dialogue = replace(self._dialogue, places=self._places.all())
         meant = self._interpreter.interpret(text, Context(dialogue, self._state, self._world_places))
         self.language = meant.language
+        if meant.remember_place and not self.hears_robot:  # nobody knows which place this is
+            meant = Interpretation("refused", say(self.language, UNHEARD), self.language)
         return meant
+
+    @property
+    def hears_robot(self) -> bool:
+        """Whether the robot has said where it is."""
+        return self._started
+
+    def misses_robot(self, meant: Interpretation) -> bool:
+        """What was said cannot be answered before the robot has said where it is."""
+        return not self.hears_robot and meant.reply == say(meant.language, UNHEARD)
 
     def accept(self, plan: Plan) -> Interpretation:
         """A plan as it is: there is nothing to understand."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Literal
 
 from chatrobot.core.reason import Reason
 from chatrobot.execution.health import FRESH_S, STANDS_LATE_S, is_seen_moving
@@ -10,6 +11,8 @@ from chatrobot.execution.sensors import Sensors
 
 PATIENCE_S = STANDS_LATE_S
 """So long zeros are sent where nobody can see whether they help; a robot that moves on meanwhile does not obey."""
+
+Sight = Literal["moving", "standing", "unseen"]
 
 
 class Zeroing:
@@ -42,6 +45,14 @@ class Zeroing:
     def has_lost_sight(self) -> bool:
         """Nobody saw it stand after the last stop, and it has not been seen since."""
         return self._was_out_of_sight
+
+    @property
+    def sight(self) -> Sight:
+        """What odometry shows of the robot just now."""
+        estimate = self._sensors.estimate
+        if estimate is None or not self._is_in_sight():
+            return "unseen"
+        return "standing" if estimate.is_standing else "moving"
 
     def begin(self, now_s: float) -> None:
         self._since_s = now_s

@@ -16,12 +16,17 @@ from chatrobot.cli.console.talk import Talk
 
 @dataclass(frozen=True)
 class Command:
-    """`at_once` ones run where the line was typed; the others where the session is pumped, as they read it."""
+    """`at_once` ones run where the line was typed; the others where the session is pumped, as they read it.
+
+    One that takes nothing does nothing where more was typed: that meant something else. Only a stop is a stop all
+    the same (`heeds_the_rest` is False).
+    """
 
     name: str
     act: Callable[[Talk, str], None]
     takes: str = ""
     at_once: bool = False
+    heeds_the_rest: bool = True
 
     @property
     def typed(self) -> str:
@@ -39,6 +44,8 @@ def run(talk: Talk, line: str) -> None:
     command = BY_NAME.get(word.casefold())
     if command is None:
         _unknown(talk, word)
+    elif argument.strip() and not command.takes and command.heeds_the_rest:
+        talk.tell("takes_nothing", command=command.typed)
     elif command.at_once:
         command.act(talk, argument.strip())
     else:
@@ -135,8 +142,7 @@ def _estop(talk: Talk, _: str) -> None:
 
 
 def _release(talk: Talk, _: str) -> None:
-    talk.release()
-    talk.tell("estop_released")
+    talk.release()  # Motion says whether it is
 
 
 def _quit(talk: Talk, _: str) -> None:
@@ -153,8 +159,8 @@ COMMANDS = (
     Command("program", _program, takes="[TEXT]"),
     Command("undo", _undo),
     Command("map", _map, takes="[big]"),
-    Command("stop", _stop, at_once=True),
-    Command("estop", _estop, at_once=True),
+    Command("stop", _stop, at_once=True, heeds_the_rest=False),
+    Command("estop", _estop, at_once=True, heeds_the_rest=False),
     Command("release", _release, at_once=True),
     Command("quit", _quit, at_once=True),
 )

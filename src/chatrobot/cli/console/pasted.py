@@ -74,6 +74,11 @@ def ends_a_paste(command: str) -> bool:
     return command.casefold().startswith(_LAST)
 
 
+def asks_for_release(command: str) -> bool:
+    """Whether it would release an emergency stop: only a person does who types it by itself."""
+    return command[1:].casefold().split()[:1] == ["release"]
+
+
 def quoted(texts: Sequence[str]) -> str:
     """The texts in quotation marks, each on one line and not too long."""
     return ", ".join(f"“{shorten(text, _SHOWN_CHARS, placeholder=' …')}”" for text in texts)

@@ -19,6 +19,7 @@ from chatrobot.cli.console.narrator import Narrator
 from chatrobot.cli.console.pasted import (
     MOST_TEXTS,
     Pasted,
+    asks_for_release,
     cut_at_stop,
     ends_a_paste,
     goes_on_after,
@@ -33,7 +34,7 @@ from chatrobot.cli.lines import texts_in
 from chatrobot.compose import Connection
 from chatrobot.core.clock import Clock
 from chatrobot.core.errors import JointError
-from chatrobot.core.events import Event, Interpreted, Result, Started, Telemetry
+from chatrobot.core.events import Event, Interpreted, Notice, Result, Started, Telemetry
 from chatrobot.language.consent import read_consent, wants_to_edit
 from chatrobot.programs.check import MAX_SOURCE_CHARS
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
@@ -66,6 +67,7 @@ class Talk:
         self.narrator = Narrator(words)
         self.pump = Pump(self.session, self.lose, lambda: self.face.leave(1))
         self.latched = False
+        self._release_is_due = False
         self._clock = clock
         self._question = Question()
         self._pasted = Pasted()
@@ -125,10 +127,11 @@ class Talk:
         with self._order:
             text = self._pasted.next()
             while text is not None and text.startswith("/") and text != "/undo":
-                undone = self._pasted.drop() if ends_a_paste(text) else ()
+                is_release = asks_for_release(text)
+                undone = self._pasted.drop() if is_release or ends_a_paste(text) else ()
                 self._echo(text, anew=True)
                 self._tell_undone(undone)
-                self._run_command(self, text)
+                self.tell("release_alone") if is_release else self._run_command(self, text)
                 text = self._pasted.next()
             if text is not None:
                 self._say_in_order(text if text != "/undo" else self.words.say("undo_words"), is_pasted=True)
@@ -183,13 +186,13 @@ class Talk:
     def emergency_stop(self, why: str) -> None:
         self.attempt(lambda: self.session.emergency_stop(why))
         self._tell_undone(self._pasted.drop())
-        self.latched = True
+        self._raise_alarm()
         self.face.refresh()
 
     def release(self) -> None:
+        """Ask Motion to; its notice says what became of it."""
+        self._release_is_due = True
         self.attempt(self.session.release)
-        self.latched = False
-        self.face.refresh()
 
     def _say(self, text: str) -> None:
         """What was typed takes the place of all that runs and waits."""
@@ -206,7 +209,10 @@ class Talk:
                 self._say_in_order(text)
         self._tell_undone(undone)
         if is_emergency_stop(text):
-            self.latched = True
+            self._raise_alarm()
+
+    def _raise_alarm(self) -> None:
+        self.latched, self._release_is_due = True, False
 
     def _say_in_order(self, text: str, *, is_pasted: bool = False) -> None:
         self.words.follow(text)
@@ -249,6 +255,8 @@ class Talk:
     def hear(self, event: Event) -> None:
         """Take an event in and show it."""
         self.ride.hear(event)
+        if isinstance(event, Notice) and event.reason.code == "released":
+            self._hear_release(str(event.reason.values.get("source")))
         with self._order:
             lines: list[RenderableType] = list(self.narrator.tell(event))
             if self._question.hear(event):
@@ -273,6 +281,12 @@ class Talk:
         if isinstance(event, (Telemetry, Started, Result)) and (
             self.ride.is_moving or not isinstance(event, Telemetry)
         ):
+            self.face.refresh()
+
+    def _hear_release(self, by: str) -> None:
+        """No alarm goes by a release that was asked for before it was raised."""
+        if by != "console" or self._release_is_due:
+            self.latched = self._release_is_due = False
             self.face.refresh()
 
     def _go_on_after(self, result: Result) -> None:

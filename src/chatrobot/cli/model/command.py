@@ -16,7 +16,7 @@ from chatrobot.models.discovery import find_local, listed_models
 from chatrobot.models.keys import KeyringError, delete_key, find_key, keyring_name, store_key, where_key_is
 from chatrobot.models.providers import Provider, providers, split_name
 from chatrobot.models.seam import ModelError
-from chatrobot.models.secret import Secret
+from chatrobot.models.secret import Flaw, Secret
 
 _SHOWN = 40
 NONE = "none"
@@ -69,10 +69,15 @@ def _key_state(provider: Provider, config: ModelConfig) -> str:
 
 def _list_one(name: str, config: ModelConfig) -> int:
     provider = provider_named(name)
-    models = listed_models(provider, config, find_key(provider, config))
+    secret = find_key(provider, config)
+    _check(provider, secret)
+    models = listed_models(provider, config, secret)
     if models is None:
+        host = urlsplit(provider.address(config)).netloc.rpartition("@")[
+            2
+        ]  # without a password in the address
         print(
-            f"{urlsplit(provider.address(config)).netloc or provider.name} does not list its models",
+            f"{host or provider.name} does not list its models",
             file=sys.stderr,
         )
         return 1
@@ -133,10 +138,37 @@ def _key(args: argparse.Namespace, config: ModelConfig) -> int:  # noqa: ARG001 
 
 
 def read_secret(provider: Provider) -> Secret:
-    """A key typed without being shown, or the first line of standard input where that is a pipe."""
-    if not sys.stdin.isatty():
-        return Secret(sys.stdin.readline())
-    return Secret(getpass.getpass(f"key for {provider.title} (not shown; made at {provider.key_page}): "))
+    """A key typed without being shown, or the first line of standard input where that is a pipe.
+
+    Raises:
+        UsageError: what was given can be no key.
+    """
+    try:
+        if not sys.stdin.isatty():
+            secret = Secret(sys.stdin.readline())
+        else:
+            asked = f"key for {provider.title} (not shown; made at {provider.key_page}): "
+            secret = Secret(getpass.getpass(asked))
+    except UnicodeDecodeError:  # it would show a character
+        raise _flawed(provider, "not_ascii") from None
+    _check(provider, secret)
+    return secret
+
+
+def _check(provider: Provider, secret: Secret | None) -> None:
+    if secret is not None and secret.flaw is not None:
+        raise _flawed(provider, secret.flaw)
+
+
+def _flawed(provider: Provider, flaw: Flaw) -> UsageError:
+    wrong = {
+        "not_ascii": "has a character that no key has",
+        "space": "has a space or a line break within",
+    }[flaw]
+    return UsageError(
+        f"the key of {provider.name} {wrong}: copy it again, alone and whole",
+        allowed="unaccented letters, digits and ASCII signs",
+    )
 
 
 def provider_named(name: str) -> Provider:
@@ -147,7 +179,8 @@ def provider_named(name: str) -> Provider:
     """
     provider = providers().get(name.strip().lower())
     if provider is None:
-        raise UsageError(f"there is no provider {name!r}", allowed=", ".join(providers()))
+        shown = repr(name) if name.isalpha() else "of that name"  # it may be a key, in the wrong place
+        raise UsageError(f"there is no provider {shown}", allowed=", ".join(providers()))
     return provider
 
 
