@@ -130,6 +130,12 @@ def test_a_motion_said_again_counts_again_where_each_one_has_its_amount(said: st
     assert [abs(metres) for metres in _lengths(said)] == [0.5] * times
 
 
+@pytest.mark.parametrize("said", ["left, left, left 30 degrees each", "左转，左转，再左转，每次三十度"])
+def test_a_turn_said_again_turns_by_its_own_angle(said: str) -> None:
+    turns = [step for step in _after(said) if isinstance(step, Turn)]
+    assert [math.degrees(turn.angle_rad or 0.0) for turn in turns] == pytest.approx([30.0] * 3)
+
+
 def test_a_motion_said_again_without_an_amount_only_urges() -> None:
     assert len(_after("前进，前进")) == 1
 

@@ -39,7 +39,9 @@ def _distributed(frames: list[Frame]) -> list[Frame]:
             for name in ("length", "angle", "turns"):
                 for taker in takers:
                     turning = taker.turning or taker.verb == "curve"
-                    if name in frame.q and name not in taker.q and turning == (name != "length"):
+                    either = not taker.verb and taker.direction in SIDES  # `left, left, 30 degrees each`
+                    fits = either or turning == (name != "length")
+                    if name in frame.q and name not in taker.q and fits:
                         taker.q[name] = frame.q[name]
             radius = "radius" in frame.roles and "length" in frame.q and not frame.moves
             bends = [f for f in out if f.turning and not {"length"} & set(f.q)] if radius else []
