@@ -54,12 +54,11 @@ coverage: setup
 		tests/governor tests/guard tests/reflex tests/safety
 	$(BIN)/coverage report
 
-# About half an hour on two cores; docs/safety.md argues what survives.
+# About ten minutes on two cores.
 mutants: setup
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[mutants]'
 	rm -rf mutants
-	$(BIN)/mutmut run --max-children 2
-	$(BIN)/mutmut results
+	$(BIN)/python -m scripts.mutants
 
 # Needs DejaVu Sans Mono and a font with Chinese on the system.
 pictures: setup

@@ -145,3 +145,18 @@ def test_a_base_that_brakes_more_weakly_than_it_gains_gets_the_weaker_ramp_down(
     assert faster.vx_mps - 0.5 * ahead == pytest.approx(sign * limits.acceleration_mps2 * 0.02)
     back = kernel(Twist(ahead, 0.0, 0.0), Twist(-ahead, 0.0, 0.0), 0.02)
     assert ahead - back.vx_mps == pytest.approx(sign * limits.deceleration_mps2 * 0.02)
+
+
+def test_braking_sideways_is_braking_and_setting_out_is_not() -> None:
+    mecanum = next(profile for profile in PROFILES if profile.name == "wheeltec_mini_mec")
+    weak = replace(mecanum, limits=replace(mecanum.limits, acceleration_mps2=1.0, deceleration_mps2=0.5))
+    kernel = make_kernel(weak)
+    assert kernel(Twist(0.0, 0.5, 0.0), Twist(0.0, 0.1, 0.0), 0.02).vy_mps == pytest.approx(0.49)
+    assert kernel(ZERO_TWIST, Twist(0.0, 0.5, 0.0), 0.02).vy_mps == pytest.approx(0.02)
+    assert kernel(Twist(0.3, 0.0, 0.0), Twist(0.3, 0.5, 0.0), 0.02).vy_mps == pytest.approx(0.02)
+
+
+def test_a_wheel_limit_gives_nothing_back_that_another_took() -> None:
+    mecanum = next(profile for profile in PROFILES if profile.name == "wheeltec_mini_mec")
+    limits = replace(mecanum.limits, max_speed_mps=0.5, max_wheel_speed_mps=1.2)
+    assert bounded(replace(mecanum, limits=limits), Twist(2.0, 0.0, 0.0)) == Twist(0.5, 0.0, 0.0)

@@ -48,3 +48,44 @@ def test_what_was_taken_back_may_count_for_nothing() -> None:
 def test_a_length_beside_a_word_that_takes_none_moves_nothing(said: str) -> None:
     meant = OfflineInterpreter(load_profile(DEFAULT_PROFILE)).interpret(said, Context())
     assert meant.outcome == "unclear"
+
+
+COMMA = Atom("sep", "weak", ",")
+
+
+def every_length(atoms: Sequence[Atom]) -> list[Step]:
+    """Rules that read every length and pass over all times."""
+    return [Drive(atom.number) for atom in atoms if atom.value == "length"]
+
+
+def test_a_long_list_is_not_read_again_as_a_whole_for_each_amount() -> None:
+    atoms = [atom for _ in range(300) for atom in (METRE, COMMA)]
+    read = 0
+
+    def counted(part: list[Atom]) -> list[Step]:
+        nonlocal read
+        read += len(part)
+        return every_length(part)
+
+    check_heeded(atoms, every_length(atoms), counted)
+    assert read < 20 * len(atoms)
+
+
+def test_what_is_passed_over_is_found_in_the_midst_of_a_long_list() -> None:
+    clauses = [atom for _ in range(150) for atom in (METRE, COMMA)]
+    atoms = [*clauses, METRE, SECONDS, COMMA, *clauses]
+    with pytest.raises(Unclear, match="3 s"):
+        check_heeded(atoms, every_length(atoms), every_length)
+
+
+def test_a_clause_that_is_passed_over_only_after_a_certain_one_is_found_in_a_long_list() -> None:
+    def lost_after_a_second(atoms: Sequence[Atom]) -> list[Step]:
+        kept = [
+            a for i, a in enumerate(atoms) if a.value == "length" and atoms[max(i - 2, 0)].value != "time"
+        ]
+        return [Drive(atom.number) for atom in kept] + [Drive(a.number) for a in atoms if a.value == "time"]
+
+    clauses = [atom for _ in range(60) for atom in (METRE, COMMA)]
+    atoms = [*clauses, SECONDS, COMMA, quantity("length", 2.0, "2 m"), COMMA, *clauses]
+    with pytest.raises(Unclear, match="2 m"):
+        check_heeded(atoms, lost_after_a_second(atoms), lost_after_a_second)

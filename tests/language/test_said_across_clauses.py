@@ -114,3 +114,63 @@ def test_brackets_are_read_in_chinese_too() -> None:
     once = [Turn, Drive]
     steps = _after("两遍（左转90度，前进1米），之后后退半米")
     assert [type(step) for step in steps] == [*once, *once, Drive]
+
+
+@pytest.mark.parametrize(
+    ("said", "times"),
+    [
+        ("前进，前进，再前进，每次半米", 3),
+        ("前进，前进，前进，都是半米", 3),
+        ("后退，后退，每次半米", 2),
+        ("forward, forward, and forward, half a metre each time", 3),
+        ("go forward, go forward, 50 cm each", 2),
+    ],
+)
+def test_a_motion_said_again_counts_again_where_each_one_has_its_amount(said: str, times: int) -> None:
+    assert [abs(metres) for metres in _lengths(said)] == [0.5] * times
+
+
+def test_a_motion_said_again_without_an_amount_only_urges() -> None:
+    assert len(_after("前进，前进")) == 1
+
+
+ITEMS = ("forward 1 m", "turn left 90 degrees", "2 m forward")
+ITEMS_ZH = ("前进一米", "左转九十度", "2米前进")
+
+
+@pytest.mark.parametrize("mark", ["{n}. ", "{n}, ", "{n}) ", "{n}: ", "({n}) ", "- "])
+@pytest.mark.parametrize("heading", ["", "do this:", "here is the plan:", "follow these steps in order:"])
+def test_a_list_is_a_sequence_however_it_is_numbered(mark: str, heading: str) -> None:
+    lines = [f"{mark.format(n=n)}{item}" for n, item in enumerate(ITEMS, 1)]
+    assert _after("\n".join([heading, *lines])) == _after(", then ".join(ITEMS))
+
+
+@pytest.mark.parametrize("mark", ["{n}、", "{n}，", "{n}. ", "{n}：", "- "])
+@pytest.mark.parametrize("heading", ["", "计划：", "按下面的步骤做："])
+def test_a_chinese_list_is_a_sequence_however_it_is_numbered(mark: str, heading: str) -> None:
+    lines = [f"{mark.format(n=n)}{item}" for n, item in enumerate(ITEMS_ZH[: 2 if "，" in mark else 3], 1)]
+    steps = _after("\n".join([heading, *lines]))
+    assert [type(step) for step in steps] == [Drive, Turn, Drive][: len(lines)]
+
+
+def test_numbers_that_do_not_count_a_list_are_asked_about() -> None:
+    assert not _after("1, forward 1 m\n3, turn left")
+    assert not _after("never do this:\n1, forward 1 m\n2, turn left")
+
+
+def test_numbered_items_may_stand_on_one_line() -> None:
+    assert _after("1、前进一米；2、左转九十度") == _after("前进一米，然后左转九十度")
+
+
+@pytest.mark.parametrize(
+    ("said", "first"),
+    [
+        ("两米乘一米的矩形", 2.0),
+        ("走一个1米乘2米的长方形", 1.0),
+        ("画一个长方形，两米乘一米", 2.0),
+        ("draw a 2 m by 1 m rectangle", 2.0),
+        ("a rectangle 1 m by 2 m", 1.0),
+    ],
+)
+def test_a_rectangle_begins_with_the_side_that_is_said_first(said: str, first: float) -> None:
+    assert [abs(metres) for metres in _lengths(said)] == [first, 3.0 - first] * 2

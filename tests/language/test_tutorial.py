@@ -40,3 +40,18 @@ def test_a_program_that_is_not_told_in_full_is_not_half_executed() -> None:
     meant = Conversation().say("write a python program that makes the robot follow a ball")
     assert meant.plan is None
     assert meant.code == "program"
+
+
+def test_several_lines_of_assignments_are_twists_one_after_the_other() -> None:
+    ahead = "linear.x = 1,linear.y = 0,linear.z = 0,angular.x = 0,angular.y = 0,angular.z = 0"
+    turning = "linear.x = 0,linear.y = 0,linear.z = 0,angular.x = 0,angular.y = 0,angular.z = 0.5"
+    assert plan_of(f"{ahead}\n{turning}") == (RawTwist(1.0, 0.0, 0.0, 1.0), RawTwist(0.0, 0.0, 0.5, 1.0))
+
+
+def test_lines_that_may_be_the_axes_of_one_velocity_are_asked_about() -> None:
+    assert Conversation().say("linear.x = 1\nlinear.y = 0\nangular.z = 0.5").outcome == "unclear"
+
+
+def test_one_line_that_cannot_be_moves_nothing_of_the_others() -> None:
+    assert Conversation().say("linear.x = 1\nlinear.x = 1,linear.z = 1").outcome == "refused"
+    assert Conversation().say("linear.x = 1\nlinear.x = 2\nforward 1 m").outcome == "unclear"

@@ -115,3 +115,10 @@ def test_in_the_corpora_exactly_the_stop_items_are_stops() -> None:
         for item in yaml.safe_load(path.read_text(encoding="utf-8")):
             for text in item.get("turns") or [item["say"]]:
                 assert is_stop(text) == (item["category"] == "stop"), item["id"]
+
+
+def test_a_release_is_short() -> None:
+    just = "release" + " please" * 41 + "      "
+    assert len(just) == 300
+    assert is_release(just)
+    assert not is_release(just + " ")

@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 
 import pytest
+from scripts.mutants import Mutant, argued
 
 from chatrobot.robots.load import ProfileEntry, list_profiles
 
@@ -27,6 +28,14 @@ def test_every_hazard_names_a_test() -> None:
     rows = [row for row in table.splitlines() if row.startswith("| ")][1:]
     assert len(rows) > 15
     assert [row for row in rows if "::test_" not in row.split("|")[3]] == []
+
+
+@pytest.mark.parametrize("mutant", argued(), ids=lambda mutant: mutant.where)
+def test_a_mutant_that_may_survive_is_of_code_that_is_there(mutant: Mutant) -> None:
+    package, module, *_ = mutant.where.split(".")
+    source = (ROOT / "src" / "chatrobot" / package / f"{module}.py").read_text(encoding="utf-8")
+    assert mutant.was in source
+    assert mutant.was != mutant.becomes
 
 
 def test_it_says_plainly_that_it_is_not_certified() -> None:

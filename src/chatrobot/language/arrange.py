@@ -112,17 +112,24 @@ def _without_titles(frames: list[Frame]) -> list[Frame]:
     """先转后走：…, 走L形：…: what stands before a colon and is spelt out after it."""
     out: list[Frame] = []
     for k, frame in enumerate(frames):
-        rest = frames[k + 1 :]
-        spelt = sum(1 for f in rest if f.has_extent) >= 2
-        bare = not (frame.q or frame.roles or frame.direction or frame.rot or frame.shape or frame.place)
-        title = bool(rest) and rest[0].joined == "colon" and frame.verb in ("", "go", "turn", "make")
-        if title and bare and spelt:
-            continue
-        letter = frame.shape in _LETTERS and not frame.q and sum("length" in f.q for f in rest) >= 2
-        if letter and any(f.turning or f.verb in TURN for f in rest):
-            continue
-        out.append(frame)
+        if not (_is_title(frame, frames, k) or _is_letter_spelt_out(frame, frames, k)):
+            out.append(frame)
     return out
+
+
+def _is_title(frame: Frame, frames: list[Frame], k: int) -> bool:
+    before_colon = k + 1 < len(frames) and frames[k + 1].joined == "colon"
+    if not before_colon or frame.verb not in ("", "go", "turn", "make"):
+        return False
+    bare = not (frame.q or frame.roles or frame.direction or frame.rot or frame.shape or frame.place)
+    return bare and sum(1 for f in frames[k + 1 :] if f.has_extent) >= 2
+
+
+def _is_letter_spelt_out(frame: Frame, frames: list[Frame], k: int) -> bool:
+    if frame.shape not in _LETTERS or frame.q:
+        return False
+    rest = frames[k + 1 :]
+    return sum("length" in f.q for f in rest) >= 2 and any(f.turning or f.verb in TURN for f in rest)
 
 
 def _without_announcements(frames: list[Frame]) -> list[Frame]:
@@ -141,13 +148,23 @@ def _without_announcements(frames: list[Frame]) -> list[Frame]:
 
 
 def _is_sum(frame: Frame, rest: list[Frame], name: str) -> bool:
-    parts = [f for f in rest if name in f.q]
-    if len(parts) < 2 or len(parts) != len(rest) or any(f.joined == "then" for f in parts[:1]):
+    if len(rest) < 2 or rest[0].joined == "then" or not _sums_up(frame, rest, name):
         return False
-    if frame.direction and any(f.direction not in ("", frame.direction) for f in parts):
+    if frame.direction and any(f.direction not in ("", frame.direction) for f in rest):
         return False  # `three feet forward, one back, two left`: a motion of its own
-    manners = all(f.rot or f.direction or f.pace or _MANNER & set(f.q) for f in parts)
-    return manners and abs(sum(f.q[name].number for f in parts) - frame.q[name].number) < 1e-9
+    return all(f.rot or f.direction or f.pace or _MANNER & set(f.q) for f in rest)
+
+
+def _sums_up(frame: Frame, rest: list[Frame], name: str) -> bool:
+    """Whether all of `rest` have that amount and make up the frame's; a long list is given up early."""
+    left = frame.q[name].number
+    for part in rest:
+        if name not in part.q:
+            return False
+        left -= part.q[name].number
+        if left < -1e-9:
+            return False
+    return left < 1e-9
 
 
 def _shared(frames: list[Frame]) -> list[Frame]:
@@ -182,8 +199,20 @@ def _shape_first(frames: list[Frame]) -> list[Frame]:
         at = len(out)
         while frame.shape and frame.joined in ("none", "weak", "and") and at and _is_measure(out[at - 1]):
             at -= 1
-        out.insert(at, frame)
+        out[at:] = _in_said_order(frame, out[at:])
     return out
+
+
+def _in_said_order(shape: Frame, before: list[Frame]) -> list[Frame]:
+    """The shape, then its measures. 两米乘一米的矩形: the side that is said first is driven first."""
+    frames = [shape, *before]
+    if shape.shape not in ("rectangle", "square") or any("length" not in frame.q for frame in frames):
+        return frames
+    lengths = [frame.q["length"] for frame in (*before, shape)]
+    frames = [frame.copy() for frame in frames]
+    for frame, length in zip(frames, lengths):
+        frame.q["length"] = length
+    return frames
 
 
 def _is_measure(frame: Frame) -> bool:

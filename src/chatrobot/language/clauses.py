@@ -30,8 +30,15 @@ def read_frames(atoms: Sequence[Atom]) -> list[Frame]:
     """
     frames: list[Frame] = []
     drawing = any(atom.kind == "shape" for atom in atoms)
-    for segment in _segments(atoms, drawing):
-        _join(frames, segment)
+    segments = _segments(atoms, drawing)
+    each = any(atom.kind == "flag" and atom.value in ("each", "all") for atom in atoms)
+    after_then = {_motion(segment.frames[0]) for segment in segments if segment.joined == "then"}
+    for segment in segments:
+        first = segment.frames[0]
+        if frames and _said_again(frames[-1], first) and (each or _motion(first) in after_then):
+            frames.extend(segment.frames)  # 前进，前进，再前进，每次半米: they are counted, not urged
+        else:
+            _join(frames, segment)
     frames = _marked_ends(frames)
     loose = next((frame for frame in frames if _hangs_loose(frame)), None)
     if loose is not None and not drawing:
@@ -43,6 +50,18 @@ def read_frames(atoms: Sequence[Atom]) -> list[Frame]:
                 "unclear_motion", f"{still.text} {after.text}"
             )  # `hold right`: to wait, or to turn?
     return frames
+
+
+def _motion(frame: Frame) -> tuple[str, str, str]:
+    return frame.verb, frame.direction, frame.rot
+
+
+def _said_again(last: Frame, first: Frame) -> bool:
+    """The same motion in the same words, without an amount between them."""
+    way = first.direction or first.rot
+    return (
+        bool(way) and _motion(last) == _motion(first) and not (last.has_extent or last.shape or first.shape)
+    )
 
 
 def _marked_ends(frames: list[Frame]) -> list[Frame]:

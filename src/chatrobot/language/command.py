@@ -22,6 +22,7 @@ from chatrobot.language.until import UntilObstacle, read_until
 from chatrobot.plan.steps import Drive, ObstacleWithin, Step
 
 _MOVING = frozenset({"q", "dir", "rot", "shape", "place", "defined", "number", "pace", "condition"})
+_SENTENCE_END = re.compile(r"(?<=[?!.,;。])\s|(?<=[?。;])")
 _DOINGS = frozenset({*GO, *TURN, "curve", "make", "uturn", "return"})
 
 
@@ -75,6 +76,7 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     amounts = any(a.kind == "q" and a.value in ("length", "angle", "turns") for a in atoms)
     if amounts and is_choice(plain, language):  # left or right, ninety degrees: no question of ours to answer
         raise Unclear("contradiction", plain[:60])
+    _check_no_question_beside(plain, reading)
     answered = _answered(plain, atoms, reading)
     if answered is not None:
         return answered
@@ -178,6 +180,38 @@ def _question(plain: str, atoms: list[Atom], ability: bool, reading: Reading) ->
         return None
     reply = questions.answer(topic, language, reading.context, reading.profile)
     return Interpretation("answered", reply, language)
+
+
+def _check_no_question_beside(plain: str, reading: Reading) -> None:
+    """`Where are you? Forward 1 m`: neither is passed over for the other.
+
+    Raises:
+        Unclear: naming the question.
+    """
+    lines = [line.strip() for line in plain.split("\n")]
+    sentences = [part.strip() for line in lines for part in _SENTENCE_END.split(line) if part.strip()]
+    if len(sentences) < 2:
+        return
+    marked = [sentence for sentence in sentences if sentence.endswith("?") or sentence in lines]
+    asked = [sentence for sentence in marked if _is_only_asked(sentence, reading)]
+    others = [a for sentence in sentences if sentence not in asked for a in reading.atoms(sentence)]
+    if asked and any(a.kind in _MOVING or (a.kind == "verb" and a.value in _DOINGS) for a in others):
+        raise Unclear("question_beside", asked[0])
+
+
+def _is_only_asked(sentence: str, reading: Reading) -> bool:
+    """Whether it is a question that a fact answers, and nothing to be done."""
+    language = reading.language
+    if not questions.is_question(sentence, language) or not questions.is_plain_question(sentence, language):
+        return False
+    atoms = reading.atoms(sentence)
+    if any(a.kind in ("q", "shape", "rot", "defined") for a in atoms):
+        return False
+    try:
+        answered = _answered(sentence, atoms, reading)
+    except Unclear:
+        return False
+    return answered is not None and answered.outcome == "answered"
 
 
 def _default(frames: list[Frame], reading: Reading) -> Interpretation | None:

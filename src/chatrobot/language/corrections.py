@@ -222,7 +222,8 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
             end += 1
         if scope.verb in ("turn", "spin") and not (scope.direction or scope.rot):
             out.append(Atom("flag", "no_turn", "don't turn"))
-        if not scope.moves and not scope.pace and not scope.flags:
+        announces = end < len(atoms) and (atoms[end].kind, atoms[end].value) == ("sep", "colon")
+        if not scope.moves and (announces or not (scope.pace or scope.flags)):  # `never do this: …`
             raise Unclear("unknown_part", " ".join(a.text for a in atoms[i:end]))
         i = end
     if len(out) < len(atoms) and not any(a.kind in ("verb", "dir", "rot", "shape") for a in out):

@@ -43,6 +43,9 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
         return [Go(start.x_m, start.y_m, start.yaw_rad, frame="odom", speed_mps=pace.speed(whole))]
     if whole.has_extent and {"original_heading", "to_start"} & whole.flags:
         return None  # a motion of its own comes before
+    if "original_heading" in whole.flags and whole.place:
+        said = " ".join(dict.fromkeys(whole.texts))
+        raise Unclear("unclear_motion", said)  # `turn back home`: to look back, or to drive there?
     if "original_heading" in whole.flags and whole.verb in ("face", "turn", "", "return", "go"):
         if set(whole.q) - {"rate", "percent", "faster"}:
             raise Unclear("unclear_motion", whole.text)  # 转回来一半: not all the way

@@ -2,11 +2,13 @@
 
 Where the rules lose an amount or a direction on the way (a slot that nobody reads, two clauses merged into one), the
 plan looks fine and is not what was said. So every amount is changed a little, every direction turned round, and the
-rules are asked again: the plan must change.
+rules are asked again: the plan must change. In a long list all of it is read again once for each kind of clause, and
+else only the clauses around the change: to read all of it again for each of hundreds would take seconds.
 """
 
 from __future__ import annotations
 
+import bisect
 from collections.abc import Callable, Sequence
 
 from chatrobot.language.tokens import Atom, quantity
@@ -32,6 +34,13 @@ _TAKEN_BACK = frozenset({"correction", "condition", "negation"})
 """Words after which what was said before may rightly count for nothing."""
 
 
+_LONG = 40
+"""So many amounts and directions are each asked about by themselves; it takes about a tenth of a second."""
+
+_AROUND = 3
+"""Separators on either side up to which a change in a long list is looked for: `, then` are two."""
+
+
 def check_heeded(
     atoms: Sequence[Atom], steps: Sequence[Step], read: Callable[[list[Atom]], Sequence[Step]]
 ) -> None:
@@ -42,17 +51,55 @@ def check_heeded(
     """
     if any(atom.kind in _TAKEN_BACK or (atom.kind, atom.value) == ("flag", "instead") for atom in atoms):
         return
-    for i, atom in enumerate(atoms):
-        changed = _changed(atom, atoms)
-        adverb = atom.text.endswith("straight") and i + 1 < len(atoms) and atoms[i + 1].kind == "dir"
-        if changed is None or adverb:
-            continue
+    asked = [(i, changed) for i, atom in enumerate(atoms) if (changed := _changed(atom, atoms)) is not None]
+    asked = [(i, changed) for i, changed in asked if not _is_adverb(atoms, i)]
+    if len(asked) > _LONG:
+        asked = _not_seen_nearby(asked, atoms, read)
+    for i, changed in asked:
         try:
             other = read([*atoms[:i], changed, *atoms[i + 1 :]])
         except Unclear:
             continue  # it matters
         if list(other) == list(steps):
-            raise Unclear("unclear_motion", atom.text)
+            raise Unclear("unclear_motion", atoms[i].text)
+
+
+def _not_seen_nearby(
+    asked: Sequence[tuple[int, Atom]], atoms: Sequence[Atom], read: Callable[[list[Atom]], Sequence[Step]]
+) -> list[tuple[int, Atom]]:
+    """The first change in each kind of clause, and those that change nothing in the clauses around them."""
+    breaks = [-1, *(i for i, a in enumerate(atoms) if a.kind in ("sep", "conn")), len(atoms)]
+    kinds = [(a.kind, a.value, "" if a.kind == "q" else a.text) for a in atoms]
+    seen: set[object] = set()
+    left = []
+    for i, changed in asked:
+        at = bisect.bisect_left(breaks, i)
+        clause = kinds[breaks[at - 1] + 1 : breaks[at]]
+        around = range(breaks[max(at - 1 - _AROUND, 0)] + 1, breaks[min(at + _AROUND, len(breaks) - 1)])
+        known = (i - breaks[at - 1], tuple(clause))
+        nearby = (i - around.start, tuple(kinds[around.start : around.stop]))
+        if known in seen and (nearby in seen or _changes(list(atoms), i, changed, around, read)):
+            seen.add(nearby)
+            continue
+        seen.add(known)
+        left.append((i, changed))
+    return left
+
+
+def _changes(
+    atoms: list[Atom], i: int, changed: Atom, around: range, read: Callable[[list[Atom]], Sequence[Step]]
+) -> bool:
+    """Whether the plan of the clauses around atom `i` is another one with `changed` in its place."""
+    try:
+        steps = list(read(atoms[around.start : around.stop]))
+        return list(read([*atoms[around.start : i], changed, *atoms[i + 1 : around.stop]])) != steps
+    except Unclear:
+        return False
+
+
+def _is_adverb(atoms: Sequence[Atom], i: int) -> bool:
+    """`straight forward`: no way of its own."""
+    return atoms[i].text.endswith("straight") and i + 1 < len(atoms) and atoms[i + 1].kind == "dir"
 
 
 def _changed(atom: Atom, atoms: Sequence[Atom]) -> Atom | None:

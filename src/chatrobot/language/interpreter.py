@@ -6,21 +6,25 @@ import re
 from functools import lru_cache
 
 from chatrobot import reflex
-from chatrobot.language import forms
+from chatrobot.language import forms, questions
 from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
+from chatrobot.language.consent import read_consent
 from chatrobot.language.context import Context
 from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import defined_unit, with_known_counts, with_measured_things
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
+from chatrobot.language.lexicon import lexicon
+from chatrobot.language.names import Misspelt, misspelt_place
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.program_request import read_program_request
 from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
-from chatrobot.language.rephrase import rephrased
+from chatrobot.language.rephrase import is_item, rephrased
 from chatrobot.language.tidy import tidy
-from chatrobot.language.tutorial_form import read_twist
+from chatrobot.language.tokens import tokenise
+from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
 from chatrobot.robots.profile import RobotProfile
 
@@ -43,7 +47,7 @@ class OfflineInterpreter:
         try:
             return self._interpreted(text, language, context)
         except Unclear as problem:
-            return asked_back(problem, language)
+            return _did_you_mean(problem, text, language, context) or asked_back(problem, language)
 
     def _interpreted(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         plain = with_known_counts(without_compass(rephrased(normalise(text), language), language))
@@ -54,12 +58,33 @@ class OfflineInterpreter:
         program = read_program_request(plain)
         if program is not None:
             return planned(program, language)
-        twist = read_twist(plain)
-        if twist is not None:
-            return planned([twist], language)
+        twists = read_twists(plain)
+        if twists:
+            return planned([*twists], language)
         if reflex.is_stop(text) or reflex.is_stop(plain):
             return stopped(language)
+        if _has_a_stop_line(text):
+            return Interpretation("stop", say(language, "stop_among_lines"), language)
+        courtesy = questions.courtesy_of(plain, language)
+        if courtesy:
+            return Interpretation("answered", say(language, f"answer_{courtesy}"), language)
         return _in_words(plain, Reading(language, context, self._profile, facing_rad))
+
+
+def _has_a_stop_line(text: str) -> bool:
+    """Whether one of several lines is a stop: lines are said one by one, and a stop counts as soon as it is there.
+
+    A point of a list is none, nor is `then stop`: those come after what stands before them.
+    """
+    lines = [line for line in normalise(text).split("\n") if line.strip()]
+    stops = [line for line in lines if reflex.is_stop(line) and not is_item(line)] if len(lines) > 1 else []
+    return any(not _goes_on(line) for line in stops)
+
+
+def _goes_on(line: str) -> bool:
+    """`then stop`, 然后停."""
+    beginnings = (tokenise(said, lexicon(), {}) for said in (line, line.split()[0]))
+    return any(atoms[0].kind == "conn" or atoms[0].value == "finally" for atoms in beginnings if atoms)
 
 
 def _in_words(plain: str, reading: Reading) -> Interpretation:
@@ -87,17 +112,47 @@ def _defined(definition: forms.Definition, reading: Reading) -> Interpretation:
     return Interpretation("answered", reply, language, define={definition.name: inner.plan})
 
 
+def _did_you_mean(
+    problem: Unclear, text: str, language: LanguageCode, context: Context
+) -> Interpretation | None:
+    """The question whether a place was misspelt, if it looks so."""
+    meant = _misspelt(problem, rephrased(normalise(text), language), context)
+    if meant is None:
+        return None
+    reply = say(language, "did_you_mean_place", part=problem.part, place=meant.place)
+    return Interpretation("unclear", reply, language, unaccounted=problem.part, code="did_you_mean_place")
+
+
+def _misspelt(problem: Unclear, plain: str, context: Context) -> Misspelt | None:
+    return misspelt_place(plain, problem.part, context) if problem.code == "unknown_part" else None
+
+
+def _agreed(plain: str, before: str, reading: Reading) -> Interpretation | None:
+    """A yes to `did you mean kitchen?`."""
+    if read_consent(plain) is not True:
+        return None
+    try:
+        read_command(before, reading)
+    except Unclear as problem:
+        meant = _misspelt(problem, before, reading.context)
+        return read_command(meant.text, reading) if meant is not None else None
+    return None
+
+
 def _pending(plain: str, reading: Reading) -> Interpretation | None:
     """A fragment answers what was asked back about the turn before."""
     pending = reading.context.dialogue.pending
     if not pending or len(pending) + len(plain) > MAX_CHARACTERS:
         return None
+    before = rephrased(normalise(pending), reading.language)
+    agreed = _agreed(plain, before, reading)
+    if agreed is not None:
+        return agreed
     atoms = tidy(reading.atoms(plain))
     ways = [k for k, a in enumerate(atoms) if k and a.kind == "dir" and atoms[k - 1].text == a.text]
     verbs = [a for k, a in enumerate(atoms) if k + 1 not in ways and a.text not in ("say",)]
     if any(a.kind in ("verb", "shape", "place") for a in verbs):
         return None
-    before = rephrased(normalise(pending), reading.language)
     for joined in (f"{before} {plain}", f"{before}, {plain}"):
         try:
             found = read_command(joined, reading)

@@ -11,6 +11,8 @@ def joined_frame(last: Frame, first: Frame, joined: str) -> Frame | None:
     """Both frames as one motion, or None where they are two; `joined` is the separator between them."""
     if "trip" in last.flags and "each" in first.flags and not first.verb:
         return None
+    if last.place and (first.direction or first.place or first.verb == "return"):
+        return None  # `go to the kitchen and back`: to a place, then another way
     if last.verb == "return" and joined == "and" and "length" in first.q and not first.verb:
         return None  # `come back, and a metre to the right`: another motion
     trip = "trip" in (*first.flags, *first.roles) and not first.has_extent

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable
 from functools import cache
 
@@ -22,6 +23,10 @@ def _phrases(language: str) -> dict[str, str]:
     return {str(key): str(value) for table in tables for key, value in table.items()}
 
 
+_MINUS_ZERO = re.compile(r"(?<![\w.\-])-(?=0(?:\.0+)?(?![\d.]))")
+"""What is rounded to nothing has no side: no robot is -0.00 m to the left."""
+
+
 class _Formatted(dict[str, Value]):
     def __missing__(self, key: str) -> str:
         return f"{{{key}}}"
@@ -34,7 +39,7 @@ def say(language: str, code: str, **values: Value) -> str:
         listed = ", ".join(f"{name}={_shown(value)}" for name, value in values.items())
         return f"{code} ({listed})" if listed else code
     try:
-        return template.format_map(_Formatted(values))
+        return _MINUS_ZERO.sub("", template.format_map(_Formatted(values)))
     except (ValueError, TypeError):
         return template
 

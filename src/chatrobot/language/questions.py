@@ -11,6 +11,7 @@ from chatrobot.language.data_files import load_table
 from chatrobot.language.phrases import say
 from chatrobot.robots.profile import RobotProfile
 
+_LONGEST_COURTESY = 60
 _MEASURED = frozenset({"position", "heading", "distance", "speed", "moving"})
 """Topics that odometry alone can tell of."""
 
@@ -18,6 +19,18 @@ _MEASURED = frozenset({"position", "heading", "distance", "speed", "moving"})
 @cache
 def _topics(language: str) -> tuple[tuple[str, re.Pattern[str]], ...]:
     return tuple((n, re.compile(p)) for n, p in load_table(language, "questions")["topics"].items())
+
+
+@cache
+def _courtesies(language: str) -> tuple[tuple[str, re.Pattern[str]], ...]:
+    """A phrase of the class, any number of times, with an address or an intensifier beside it."""
+    table = load_table(language, "questions")["courtesies"]
+    beside = str(table["beside"])
+    return tuple(
+        (name, re.compile(rf"(?:(?:{beside})[ ,.!~]*)*(?:(?:{said})[ ,.!~]*(?:(?:{beside})[ ,.!~]*)*)+"))
+        for name, said in table.items()
+        if name != "beside"
+    )
 
 
 @cache
@@ -49,6 +62,14 @@ def orders(text: str, language: str) -> bool:
         "orders" in load_table(language, "questions")
         and _pattern(language, "orders").search(text) is not None
     )
+
+
+def courtesy_of(text: str, language: str) -> str:
+    """`greeting`, `thanks` or `parting` where a text is that and nothing else; else an empty string."""
+    said = text.strip(" ,.!?~")
+    if len(said) > _LONGEST_COURTESY:
+        return ""
+    return next((name for name, pattern in _courtesies(language) if pattern.fullmatch(said)), "")
 
 
 def asks_ability(text: str, language: str) -> bool:

@@ -26,6 +26,7 @@ from chatrobot.language.names import names_in
 from chatrobot.language.order import in_order
 from chatrobot.language.quantities import read_quantities
 from chatrobot.language.restated import without_restated
+from chatrobot.language.returning import back_to_places
 from chatrobot.language.script import Memory
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import Atom, tokenise
@@ -68,7 +69,7 @@ class Reading:
         """The atoms of a normalised text."""
         atoms = tokenise(plain, lexicon(), names_in(self.context), by_ear=self.by_ear)
         atoms = without_restated(with_multiples(read_quantities(without_asides(atoms, self.language))))
-        atoms = with_headings(atoms, self.facing_rad)
+        atoms = back_to_places(with_headings(atoms, self.facing_rad))
         atoms = with_words_counted(atoms, self.context.dialogue.words)
         if any(a.kind == "role" and a.value == "apart" for a in atoms):  # rows side by side, no garden work
             atoms = [Atom("shape", "lawn", a.text) if a.text == "mow the lawn" else a for a in atoms]

@@ -32,8 +32,50 @@ def _dialect(language: str) -> tuple[dict[str, str], re.Pattern[str]]:
     return written, re.compile("|".join(map(re.escape, longest_first)) or "(?!)")
 
 
+_ITEM = re.compile(r"\s*\(?(\d{1,2})(?:[、:)] ?|[.,](?: |(?=[^\d\s])))")
+_NUMBERED = re.compile(r"(?:^|(?<=[\n;。:!.]))\s*(\d{1,2})[、:] ?(?=[^\d\s])")
+
+
+def without_numbers(text: str) -> str:
+    """A numbered list without its numbers: they must run from 1 on, or they are amounts."""
+    heading, lines = _heading_and_lines(text)
+    items = [_ITEM.match(line) for line in lines]
+    if len(items) > 1 and [int(item[1]) if item else 0 for item in items] == [*range(1, len(items) + 1)]:
+        return "\n".join([*heading, *(_ITEM.sub("; ", line, count=1) for line in lines)])
+    numbers = [int(number) for number in _NUMBERED.findall(text)]
+    return (
+        _NUMBERED.sub("; ", text) if len(numbers) > 1 and numbers == [*range(1, len(numbers) + 1)] else text
+    )
+
+
+def is_item(line: str) -> bool:
+    """Whether a line is a point of a list."""
+    return bool(_ITEM.match(line)) or line.lstrip().startswith(("-", "*", "•"))
+
+
+def _heading_and_lines(text: str) -> tuple[list[str], list[str]]:
+    lines = [line for line in text.split("\n") if line.strip()]
+    headed = bool(lines) and lines[0].rstrip().endswith(":")
+    return lines[:headed], lines[headed:]
+
+
+def _without_heading(text: str, language: str) -> str:
+    """`Here is the plan:` and a list under it: nothing is to be done by the heading itself."""
+    heading, lines = _heading_and_lines(text)
+    listed = bool(heading) and all(is_item(line) for line in lines)
+    if listed and len(lines) > 1 and _heading(language).fullmatch(heading[0].strip()):
+        return "\n".join(lines)
+    return text
+
+
+@cache
+def _heading(language: str) -> re.Pattern[str]:
+    return re.compile(load_table(language, "rephrase")["heading"])
+
+
 def rephrased(text: str, language: str) -> str:
     """`text` (normalised) in the words that the rest of the package reads."""
+    text = without_numbers(_without_heading(text, language))
     written, pattern = _contractions(language)
     text = pattern.sub(lambda found: written[found[0]], text)
     spoken, dialect = _dialect(language)

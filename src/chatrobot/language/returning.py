@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from chatrobot.language.driving import drive
 from chatrobot.language.ellipsis import State
@@ -10,8 +11,26 @@ from chatrobot.language.frames import DIRECTIONS, SIDES, Frame
 from chatrobot.language.inverse import inverse
 from chatrobot.language.manner import Pace
 from chatrobot.language.numbers import is_chinese
+from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Drive, Go, Step, Turn, Wait
+
+_BETWEEN = frozenset({"glue", "filler"})
+"""What may stand between `back` and the place: `back to the kitchen`."""
+
+
+def back_to_places(atoms: Sequence[Atom]) -> list[Atom]:
+    """`go back home`: `back` right before a place says where to, and not that it drives backwards."""
+    return [
+        Atom("glue", "x", atom.text) if _leads_to_a_place(atoms, i) else atom for i, atom in enumerate(atoms)
+    ]
+
+
+def _leads_to_a_place(atoms: Sequence[Atom], i: int) -> bool:
+    if (atoms[i].kind, atoms[i].value) != ("dir", "back") or atoms[i].text.split()[-1:] != ["back"]:
+        return False
+    following = next((atom for atom in atoms[i + 1 :] if atom.kind not in _BETWEEN), None)
+    return following is not None and following.kind == "place"
 
 
 def goes_back(frame: Frame, state: State) -> bool:

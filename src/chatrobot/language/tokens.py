@@ -56,12 +56,14 @@ def tokenise(text: str, words: Lexicon, names: dict[Key, Meaning], *, by_ear: bo
 
 def _corrected(units: Key, words: Lexicon, names: dict[Key, Meaning]) -> Key:
     known_names = {unit for key in names for unit in key}
-    return tuple(
-        unit
-        if len(unit) < 3 or unit in words.known or unit in known_names or (unit,) in words.guesses
-        else correct(unit)
-        for unit in units
-    )
+
+    def is_right(unit: str) -> bool:
+        known = unit in words.known or unit in known_names or (unit,) in words.guesses
+        return len(unit) < 3 or known
+
+    mended = tuple(unit if is_right(unit) else correct(unit) for unit in units)
+    # A place is never guessed: it is asked about.
+    return tuple(unit if (said,) in names else said for unit, said in zip(units, mended))
 
 
 def _bare(unit: str) -> Atom:

@@ -39,16 +39,33 @@ _NAME_FIRST = re.compile(rf"(?:yaw rate|yaw|angular|wz|omega) ?[=:]? ?(?={NUMBER
 _LETTERS = re.compile(rf"\bv ?= ?{NUMBER}.*\bw ?= ?{NUMBER}|\bw ?= ?{NUMBER}.*\bv ?= ?{NUMBER}")
 
 
+def read_twists(text: str) -> list[RawTwist]:
+    """The raw velocities that `text` (normalised) is, one after the other; none where it is something else.
+
+    Each line of the tutorial's form is one. Lines that could as well be the axes of a single one are not read so.
+
+    Raises:
+        Unclear: see `read_twist`.
+    """
+    lines = [line for line in text.split("\n") if line.strip()]
+    if len(lines) > 1:
+        read = [_tutorial_line(line) for line in lines]
+        told = [set(_DOTTED.findall(line)) for line in lines]
+        if all(told[0] & axes for axes in told[1:]):
+            twists = [twist for twist in read if twist is not None]
+            if len(twists) == len(lines):
+                return twists
+    twist = read_twist(text)
+    return [] if twist is None else [twist]
+
+
 def read_twist(text: str) -> RawTwist | None:
     """The raw velocity that `text` (normalised) is, or None where it is something else.
 
     Raises:
         Unclear: for a raw velocity that cannot be: not finite, out of the plane, or without a duration.
     """
-    try:
-        twist = read_tutorial_line(text)
-    except ImpossibleTwistError as error:
-        raise _unclear(error) from error
+    twist = _tutorial_line(text)
     if twist is not None:
         return twist
     marked = any(mark in text for mark in _marks())
@@ -59,6 +76,13 @@ def read_twist(text: str) -> RawTwist | None:
     if not marked and not any(mark in text for mark in _marks()):
         return None
     return _spoken(text)
+
+
+def _tutorial_line(line: str) -> RawTwist | None:
+    try:
+        return read_tutorial_line(line)
+    except ImpossibleTwistError as error:
+        raise _unclear(error) from error
 
 
 def _with_axes(text: str) -> str:

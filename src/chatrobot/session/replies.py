@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import TYPE_CHECKING
 
 from chatrobot.core.events import Finished
@@ -14,6 +15,9 @@ if TYPE_CHECKING:
 LEAST_DISTANCE_M = 0.005
 LEAST_ANGLE_RAD = math.radians(0.5)
 
+_STOPPED_TWICE = re.compile(r"([.?!。？！])[.。]")
+"""A reason that is a sentence of its own has its full stop, or its question mark, already."""
+
 
 def describe_end(finished: Finished, language: str) -> str:
     """What a plan came to: outcome, measured motion, and the reason if it did not complete."""
@@ -24,7 +28,11 @@ def describe_end(finished: Finished, language: str) -> str:
     if finished.outcome == "refused":
         return reason
     code = "stopped_after" if finished.outcome == "stopped" else "failed_after"
-    return say(language, code, moved=moved or say(language, "nothing_moved"), reason=reason)
+    return _ended_once(say(language, code, moved=moved or say(language, "nothing_moved"), reason=reason))
+
+
+def _ended_once(sentences: str) -> str:
+    return _STOPPED_TWICE.sub(r"\1", sentences)
 
 
 def describe_model_end(ended: Ended, language: str) -> str:
@@ -42,7 +50,7 @@ def describe_model_end(ended: Ended, language: str) -> str:
         return describe_end(finished, language)
     if ended.outcome == "unclear":
         why = say(language, "model_no_plan", problem=why, said=ended.said)
-    return say(language, "model_so_far", reason=why, moved=moved) if moved else why
+    return _ended_once(say(language, "model_so_far", reason=why, moved=moved)) if moved else why
 
 
 def _measured(finished: Finished, language: str) -> str:
