@@ -24,6 +24,12 @@ class Intake:
         """A stop said after that turn: plans of it and of earlier ones may still be on their way."""
         self._void_turns[lease] = max(turn, self._void_turns.get(lease, turn))
 
+    def forget(self, lease: str) -> None:
+        """Nothing is to be known of that lease any more."""
+        self._void_turns.pop(lease, None)
+        for is_beat in (True, False):
+            self._sequences.pop((lease, is_beat), None)
+
     def is_old(self, envelope: Envelope) -> bool:
         """A later one of the same lease was here before. Beats, sent by a thread of their own, count for themselves."""
         kind = (envelope.lease, envelope.word == "beat")

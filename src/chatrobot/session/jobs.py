@@ -61,6 +61,13 @@ class Jobs:
         """Nothing is prepared, driven or queued."""
         return self.current is None and not self._intake.jobs
 
+    def is_engaged(self, lease: str) -> bool:
+        """Something is prepared, driven or queued in that lease's name."""
+        current = self.current
+        return (current is not None and current.lease == lease) or any(
+            job.lease == lease for job in self._intake.jobs
+        )
+
     # --- accepted ---
 
     def accept(self, envelope: Envelope, epoch: int) -> None:

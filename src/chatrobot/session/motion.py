@@ -79,8 +79,10 @@ class Motion:
         self.zeroing = Zeroing(self.sensors, robot.send_zero, self._notice)
         self._stops = Stops(epoch, transport, self.zeroing, clock)
         self.clearance = Clearance(self._governor, guard)
-        self._sources = Sources(self._governor.leases)
         self._intake = Intake()
+        self._sources = Sources(
+            self._governor.leases, lambda lease: self._jobs.is_engaged(lease), self._intake.forget
+        )
         self._inbox = Inbox(background)
         self._driver = Driver(robot, self.clearance, self._stops, self._programs, self._inbox, clock, emit)
         self._jobs = Jobs(
@@ -238,11 +240,12 @@ class Motion:
 
         Stops have been heard already; here they are only booked.
         """
+        now_s = self._clock.now_s()
+        self._sources.note(envelope.lease, now_s)
         if self._intake.is_old(envelope):
             if envelope.word in ("plan", "program"):
                 self._jobs.void(envelope, epoch, self._stops.last_reason)
             return
-        now_s = self._clock.now_s()
         self._sources.hear(envelope, now_s)
         if envelope.word in ("plan", "program"):
             self._accept(envelope, epoch)

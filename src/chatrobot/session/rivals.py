@@ -16,6 +16,7 @@ from chatrobot.wire.wire import Wire
 
 BEAT_S = 0.1
 MANY_SOURCES = 20
+MANY_MOTIONS = 20
 SILENT_S = 1.0
 """A Motion that has not been heard for so long has left, or was killed; discovery may take longer to see it."""
 NODES = ("chatrobot_motion", "chatrobot_control")
@@ -67,7 +68,10 @@ class Rivals:
     def _hear(self, message: Text) -> None:
         about = read_beat(message.data)
         if about is not None and about.id != self._id:
-            self._heard[about.id] = (time.monotonic(), about.name)
+            # As a whole, for another thread reads it; the longest-silent stand first.
+            heard = {id: news for id, news in self._heard.items() if id != about.id}
+            heard[about.id] = (time.monotonic(), about.name)
+            self._heard = dict(list(heard.items())[-MANY_MOTIONS:])
 
 
 class MotionBeat(NamedTuple):
