@@ -20,7 +20,7 @@ NOTHING = "data: no camera picture to be had"
 def observation(
     looks: tuple[str, ...],
     *,
-    pose: Pose,
+    pose: Pose | None,
     places: Mapping[str, Pose],
     looked: Looked | None,
     finished: Finished | None,

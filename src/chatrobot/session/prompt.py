@@ -94,14 +94,16 @@ def place_lines(places: Mapping[str, Pose]) -> list[str]:
     return [f"data: places, X Y heading: {listed}"]
 
 
-def request(text: str, pose: Pose, news: list[str], remembered: Mapping[str, Pose]) -> str:
+def request(text: str, pose: Pose | None, news: list[str], remembered: Mapping[str, Pose]) -> str:
     """What a person says, after what has become of the robot since the model last spoke."""
     asked = text.strip()[:MAX_REQUEST_CHARS]
     return "\n".join([*news, *place_lines(remembered), pose_line(pose), f"The person says: {asked}"])
 
 
-def pose_line(pose: Pose) -> str:
-    """Where the robot is."""
+def pose_line(pose: Pose | None) -> str:
+    """Where the robot is, if it has said so."""
+    if pose is None:
+        return "data: where the robot is, is not known"
     return (
         f"data: the robot is at {pose.x_m:.2f} {pose.y_m:.2f}, heading {math.degrees(pose.yaw_rad):.0f} deg"
     )

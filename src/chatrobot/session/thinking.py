@@ -188,7 +188,7 @@ class Thinking:
             request, system = text.strip()[: prompt.MAX_REQUEST_CHARS], prompt.tutorial_prompt(mind.profile)
         else:
             understanding = self._understanding
-            request = prompt.request(text, understanding.pose, [], understanding.usable_places)
+            request = prompt.request(text, understanding.known_pose, [], understanding.usable_places)
             system = prompt.system_prompt(
                 mind.profile, understanding.main_places, sees=self._shown.camera is not None
             )
@@ -262,7 +262,7 @@ class _Shown:
         self, looks: tuple[str, ...], looked: Looked | None, finished: Finished | None
     ) -> Message:
         places: dict[str, Pose] = {**self._understanding.main_places, **self._understanding.usable_places}
-        pose = finished.pose if finished is not None else self._understanding.pose
+        pose = finished.pose if finished is not None else self._understanding.known_pose
         return observation(looks, pose=pose, places=places, looked=looked, finished=finished, take=self._take)
 
     def begin_looking(self) -> None:

@@ -55,6 +55,11 @@ class Understanding:
         return self._state.pose
 
     @property
+    def known_pose(self) -> Pose | None:
+        """The same; None where it has never said."""
+        return self._state.pose if self._state.has_said_so else None
+
+    @property
     def places(self) -> Places:
         return self._places
 
