@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from chatrobot.core.clock import VirtualClock
-from chatrobot.core.events import Event, Finished
+from chatrobot.core.events import Event, Finished, Telemetry
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
@@ -96,7 +96,8 @@ def events_until(rig: JointRig, wanted: Callable[[Event], bool], patience_s: flo
             seen.append(event)
             if wanted(event):
                 return seen
-    raise AssertionError(f"the event did not come; last seen: {seen[-3:]}")
+    told = [event for event in seen if not isinstance(event, Telemetry)]
+    raise AssertionError(f"the event did not come; seen besides telemetry: {told[-8:]}; last: {seen[-1:]}")
 
 
 def finished(rig: JointRig, turn: int) -> Finished:
