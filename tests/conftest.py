@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 
 from hypothesis import settings
@@ -15,3 +16,6 @@ settings.register_profile("mutants", deadline=None, max_examples=30, derandomize
 for number in (signal.SIGHUP, signal.SIGINT):
     if signal.getsignal(number) is signal.SIG_IGN:
         signal.signal(number, signal.SIG_DFL if number is signal.SIGHUP else signal.default_int_handler)
+
+# Hundreds of tests start a process of ours; where none may keep its bytecode, each compiles all of it anew.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
