@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -36,6 +37,12 @@ def test_a_mutant_that_may_survive_is_of_code_that_is_there(mutant: Mutant) -> N
     source = (ROOT / "src" / "chatrobot" / package / f"{module}.py").read_text(encoding="utf-8")
     assert mutant.was in source
     assert mutant.was != mutant.becomes
+
+
+def test_the_safety_case_counts_the_mutants_that_survive() -> None:
+    counted = re.findall(r"^  \| (\d+) \| (.+) \|$", CASE, re.MULTILINE)
+    assert sorted((why, int(count)) for count, why in counted) == sorted(Counter(argued().values()).items())
+    assert f"The other {len(argued())} are listed" in CASE
 
 
 def test_it_says_plainly_that_it_is_not_certified() -> None:
