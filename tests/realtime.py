@@ -94,7 +94,8 @@ class RunningRobot:
             text=True,
         )
         threading.Thread(target=self._read, daemon=True).start()
-        self.ear = self._listen(self._wait_for_file("sim-*.wire"))
+        self.wire_path = self._wait_for_file("sim-*.wire")
+        self.ear = self._listen(self.wire_path)
         self.motion_pid = int(self._wait_for_file("motion-*.stop").stem.removeprefix("motion-"))
 
     def say(self, text: str) -> float:

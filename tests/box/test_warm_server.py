@@ -99,6 +99,23 @@ def launch_forever(server: WarmServer) -> BoxedProcess:
     return process
 
 
+def test_a_program_is_scheduled_like_any_other_whoever_started_it() -> None:
+    """Motion is woken sooner than others, or runs in real time; a program that it runs must not."""
+    scheduled: list[int] = []
+
+    def start_scheduled_otherwise() -> None:  # what is set of a thread goes with it
+        os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))
+        with WarmServer([INSIDE], ["box_entries"]) as server:
+            server.start()
+            with launch_forever(server) as process:
+                scheduled.append(os.sched_getscheduler(process.pid))
+
+    thread = threading.Thread(target=start_scheduled_otherwise)
+    thread.start()
+    thread.join()
+    assert scheduled == [os.SCHED_OTHER]
+
+
 def test_kill_is_not_delayed_by_a_program_that_ignores_signals(server: WarmServer) -> None:
     with launch_forever(server) as process:
         began_s = time.monotonic()

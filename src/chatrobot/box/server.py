@@ -27,6 +27,7 @@ from chatrobot.box import attempts, child, wire_format
 from chatrobot.box.layers import Layers, build_walls, can_make_namespaces
 from chatrobot.box.libc import PR_SET_PDEATHSIG, pidfd_open, prctl
 from chatrobot.box.limits import BoxLimits
+from chatrobot.core.scheduling import wake_as_others_do
 
 THREAD_STACK_BYTES = 1 << 20
 MOST_DESCRIPTORS = 256
@@ -198,6 +199,7 @@ def main(descriptor: int, host_pidfd: int | None = None) -> None:
     prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     # Few numbers to close in each child; and where memory runs out, the box goes first.
     resource.setrlimit(resource.RLIMIT_NOFILE, (MOST_DESCRIPTORS, MOST_DESCRIPTORS))
+    wake_as_others_do()  # Motion, which started us, has it otherwise; nobody's program may
     with contextlib.suppress(OSError):
         Path("/proc/self/oom_score_adj").write_text(FIRST_WHEN_MEMORY_RUNS_OUT)
     host = socket.socket(fileno=descriptor)

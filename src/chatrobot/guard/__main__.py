@@ -15,6 +15,7 @@ import time
 from chatrobot.core.clock import awake_or_not_s
 from chatrobot.core.errors import WireError
 from chatrobot.core.memory_pressure import GUARD, prefer
+from chatrobot.core.scheduling import wake_promptly
 from chatrobot.core.wiring import Wiring
 from chatrobot.guard.watch import BEAT_S, GOODBYE, TRIPPED, Watch
 from chatrobot.wire.connect import Returning, advertise, comes_back, connect_wire
@@ -138,6 +139,7 @@ def main(arguments: list[str]) -> int:
     for name in ("SIGINT", "SIGTSTP", "SIGHUP", "SIGTTIN", "SIGTTOU", "SIGPIPE", "SIGTERM"):
         signal.signal(getattr(signal, name), signal.SIG_IGN)
     prefer(*GUARD)
+    wake_promptly()
     line = socket.socket(fileno=int(options["--fd"]))
     try:
         wiring = _wiring(options)

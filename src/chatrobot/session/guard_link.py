@@ -20,11 +20,12 @@ class GuardLink(Protocol):
     def beat(self) -> None: ...
 
     def is_alive(self) -> bool:
-        """True while the guard answers."""
+        """True while the guard answers, as it was last heard."""
         ...
 
     def was_tripped(self) -> bool:
-        """True once after the guard has tripped; a handshake is then due."""
+        """Hear what the guard has answered, at the beginning of each tick. True from when it has tripped until the
+        handshake that is then due."""
         ...
 
     def goodbye(self) -> None: ...
@@ -56,11 +57,9 @@ class GuardProcess:
         self._say(HANDSHAKE)
 
     def beat(self) -> None:
-        self._hear()
         self._say(BEAT)
 
     def is_alive(self) -> bool:
-        self._hear()
         return self._clock.now_s() - self._echo_at_s < ECHO_LOST_S
 
     def was_tripped(self) -> bool:
@@ -81,6 +80,7 @@ class GuardProcess:
             return False
         finally:
             self._line.setblocking(False)
+        self._hear()
         return self.is_alive()
 
     def _say(self, word: bytes) -> None:

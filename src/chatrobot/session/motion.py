@@ -191,7 +191,6 @@ class Motion:
             is_driven=self._driver.is_driving or self._relay.is_driving or self._joystick.is_driving,
             is_engaged=self._jobs.current is not None,
         )
-        self._guard.beat()
         self._robot.look()
         self._book_stop()
         while (action := self._inbox.take()) is not None:
@@ -205,6 +204,7 @@ class Motion:
             self.zeroing.tick(now_s)
         self._relay.tick(now_s, self._is_free)
         self._begin_next(now_s)
+        self._guard.beat()  # after the velocity: it wakes the guard, which may take this processor
         self._telling.tick(now_s)
 
     def _book_stop(self) -> None:

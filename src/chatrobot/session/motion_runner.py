@@ -20,6 +20,7 @@ from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Notice
 from chatrobot.core.memory_pressure import MOTION, prefer
 from chatrobot.core.reason import Reason
+from chatrobot.core.scheduling import wake_promptly
 from chatrobot.core.wiring import Wiring
 from chatrobot.governor.governor import TICK_S
 from chatrobot.governor.priority import RELEASERS
@@ -81,6 +82,7 @@ class MotionRunner:
     ) -> None:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         prefer(MOTION)
+        wake_promptly()
         given, known_world = load_profile(profile), load_world(world)
         self.wire, self.profile, said = _meet(connect, address, given, node, on_robot=on_robot)
         self._emit = emit

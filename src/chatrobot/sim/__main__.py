@@ -9,6 +9,7 @@ from collections.abc import Sequence
 
 from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import ChatRobotError, InputError, UsageError
+from chatrobot.core.scheduling import wake_promptly
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.control import SimControl
 from chatrobot.sim.lies import SimLies
@@ -60,6 +61,7 @@ def _serve(options: argparse.Namespace) -> None:
     lies = SimLies.parse(options.sim)
     world = load_world(options.world)
     clock = RealClock()
+    wake_promptly()
     hub = _open_wire(options, profile)
     server: SimServer | None = None
 

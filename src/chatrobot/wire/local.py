@@ -23,7 +23,8 @@ from chatrobot.wire.wire import M
 PACKET_BYTES = 262_144
 _PACKETS_A_TURN = 64
 """How many packets the hub takes from one process before it looks at the others and at the time."""
-_SUBSCRIBE = b"\0subscribe\0"
+SUBSCRIBE = b"\0subscribe\0"
+"""A process says this with a topic's name behind it, to hear that topic from then on."""
 
 
 class _Subscriptions:
@@ -76,7 +77,7 @@ class LocalWire:
     def subscribe(self, topic: str, kind: type[M], callback: Callable[[M], None]) -> None:
         self._subscriptions.add(topic, kind, callback)
         try:
-            self._socket.send(_SUBSCRIBE + topic.encode(), socket.MSG_NOSIGNAL)
+            self._socket.send(SUBSCRIBE + topic.encode(), socket.MSG_NOSIGNAL)
         except OSError as error:
             raise WireError("the other end of the wire is gone") from error
         if self._reader is None:
@@ -182,8 +183,8 @@ class LocalHub:
             if not packet:
                 self._drop(descriptor)
                 return
-            if packet.startswith(_SUBSCRIBE):
-                topics.add(packet[len(_SUBSCRIBE) :].decode(errors="replace"))
+            if packet.startswith(SUBSCRIBE):
+                topics.add(packet[len(SUBSCRIBE) :].decode(errors="replace"))
             else:
                 self._route(packet)
 
