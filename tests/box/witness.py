@@ -8,7 +8,6 @@ import resource
 import secrets
 import socket
 import subprocess
-import time
 from pathlib import Path
 from typing import Any
 
@@ -90,10 +89,9 @@ class Witness:
             "its rights and times": (writable.stat().st_mode, writable.stat().st_mtime) if there else None,
             "what arrived": [_arrived(each) for each in sockets],
             "the victim": self._look_at_the_victim(),
-            "shared memory": sorted(path.name for path in Path("/dev/shm").glob("chatrobot-*")),
+            "shared memory": Path("/dev/shm", self.world["shm"]).exists(),
             "System V": Path("/proc/sysvipc/shm").read_text() if Path("/proc/sysvipc/shm").exists() else "",
             "name of the machine": socket.gethostname(),
-            "clock": round(time.time() - time.monotonic(), 1),
         }
 
     def _look_at_the_victim(self) -> tuple[int, ...] | str:
