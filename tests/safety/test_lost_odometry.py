@@ -15,7 +15,7 @@ from chatrobot.robots.profile import Circle, RobotProfile
 from chatrobot.session.planner import Planned, Planner
 from chatrobot.session.program_job import ProgramJob
 from chatrobot.wire.messages import TwistMessage
-from tests.session.test_robots_come_and_go import Rig
+from tests.session.far_robot import Rig
 
 ASKED = Twist(0.3, 0.0, 0.0)
 FENCE_M = 1.2

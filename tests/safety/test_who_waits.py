@@ -8,7 +8,7 @@ import pytest
 
 from chatrobot.wire.messages import TwistMessage
 from tests.safety.test_who_drives import Crowd
-from tests.session.test_robots_come_and_go import Rig
+from tests.session.far_robot import Rig
 
 
 def standing_after_a_stop(folder: Path, *sources: str) -> Crowd:

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from tests.session import test_robots_come_and_go as come_and_go
+from tests.session import far_robot
 
 from chatrobot.wire.messages import Message
 from chatrobot.wire.ros_messages import stamped
@@ -28,7 +28,7 @@ class BadWifi:
     def __init__(
         self,
         inner: Wire,
-        network: come_and_go.Network,
+        network: far_robot.Network,
         delays_s: tuple[float, float],
         loss: float,
         in_order: bool,
@@ -80,12 +80,12 @@ def test_a_plan_is_done_over_a_bad_wifi(
 ) -> None:
     wires: list[BadWifi] = []
 
-    def far_wire(inner: Wire, network: come_and_go.Network) -> BadWifi:
+    def far_wire(inner: Wire, network: far_robot.Network) -> BadWifi:
         wires.append(BadWifi(inner, network, delays_s, 0.1, in_order, random.Random(7)))
         return wires[-1]
 
-    monkeypatch.setattr(come_and_go, "FarWire", far_wire)
-    rig = come_and_go.Rig()
+    monkeypatch.setattr(far_robot, "FarWire", far_wire)
+    rig = far_robot.Rig()
     rig.each_step = wires[0].arrive
     rig.pass_time(1.0)
     end = rig.do("drive 1 m")

@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 import pytest
-from tests.session.test_robots_come_and_go import Rig
+from tests.session.far_robot import Rig
 
 from chatrobot.core.geometry import Pose
 from chatrobot.robots.profile import RobotProfile

@@ -9,8 +9,8 @@ import pytest
 
 from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.events import Event, Interpreted, Result, TruePose
+from chatrobot.session.envelope import QUEUE_LIMIT
 from chatrobot.session.options import Options
-from chatrobot.session.said import QUEUE_LIMIT
 
 
 class Talk:

@@ -20,30 +20,8 @@ from chatrobot.wire.runtime_dir import runtime_dir
 
 def run(args: argparse.Namespace) -> int:
     """Until Ctrl-C, or until everybody who drove it has left; the exit code of its process."""
-    path = args.socket if getattr(args, "socket", None) else str(runtime_dir() / f"sim-{os.getpid()}.wire")
-    address = "" if args.on in ("auto", "sim") else wire_address(args.on)
-    if address.startswith("local:"):
-        path, address = address.partition(":")[2], ""
-    if args.ros_args and not address.startswith("ros:"):
-        raise UsageError("only a ROS node takes these", where="--ros-args", allowed="with --on ros")
-    robot = subprocess.Popen(
-        [
-            *(
-                sys.executable,
-                "-m",
-                "chatrobot.sim",
-                "--profile",
-                profile_argument(args.robot, profile_folders(args)),
-            ),
-            *("--world", args.world or "home", "--sim", args.sim),
-            *(("--on", address) if address else ("--socket", path)),
-            *(("--ros-args", *args.ros_args) if args.ros_args else ()),
-        ],
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        start_new_session=True,
-    )
-
+    address, path = _wire(args)
+    robot = _start(args, address, path)
     asked_to_end = False
 
     def end(_signal: int, _frame: FrameType | None) -> None:
@@ -58,17 +36,46 @@ def run(args: argparse.Namespace) -> int:
         if robot.wait() == USAGE:
             return USAGE  # it has said what was wrong
         raise JointError("the simulated robot did not start")
-    if address:
-        print(f"the simulated {args.robot} is on {address.rstrip(':')}; it ends with Ctrl-C", flush=True)
-    else:
-        print(f"the simulated {args.robot} answers on {path}", flush=True)
-        print(
-            "it ends with Ctrl-C, 15 s after now if nobody comes, or 2 s after the last one has left",
-            flush=True,
-        )
+    _tell(args.robot, address, path)
     code = robot.wait()
     if not asked_to_end:
         return code
     if not address:
         Path(path).unlink(missing_ok=True)  # asked in its first moments it leaves without tidying up
     return 0
+
+
+def _wire(args: argparse.Namespace) -> tuple[str, str]:
+    """The address of a wire that is there, or else empty; and the socket where it serves a wire of its own."""
+    path = args.socket if getattr(args, "socket", None) else str(runtime_dir() / f"sim-{os.getpid()}.wire")
+    address = "" if args.on in ("auto", "sim") else wire_address(args.on)
+    if address.startswith("local:"):
+        path, address = address.partition(":")[2], ""
+    if args.ros_args and not address.startswith("ros:"):
+        raise UsageError("only a ROS node takes these", where="--ros-args", allowed="with --on ros")
+    return address, path
+
+
+def _start(args: argparse.Namespace, address: str, path: str) -> subprocess.Popen[bytes]:
+    """In a session of its own: a terminal's signals come here, and this command ends it."""
+    profile = profile_argument(args.robot, profile_folders(args))
+    return subprocess.Popen(
+        [
+            *(sys.executable, "-m", "chatrobot.sim", "--profile", profile),
+            *("--world", args.world or "home", "--sim", args.sim),
+            *(("--on", address) if address else ("--socket", path)),
+            *(("--ros-args", *args.ros_args) if args.ros_args else ()),
+        ],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        start_new_session=True,
+    )
+
+
+def _tell(robot: str, address: str, path: str) -> None:
+    if address:
+        print(f"the simulated {robot} is on {address.rstrip(':')}; it ends with Ctrl-C", flush=True)
+        return
+    print(f"the simulated {robot} answers on {path}", flush=True)
+    leaves = "it ends with Ctrl-C, 15 s after now if nobody comes, or 2 s after the last one has left"
+    print(leaves, flush=True)

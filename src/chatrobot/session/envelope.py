@@ -37,6 +37,9 @@ def _is_term(value: object) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool) and 0.0 < value < math.inf
 
 
+QUEUE_LIMIT = 10
+"""What may wait while the robot moves, on either side; one more is refused rather than done in an hour."""
+
 MAX_CODE_CHARS = 60_000
 """Of a program in an envelope: a thousand lines and more, and it still fits into one packet."""
 _MAX_NAME_CHARS = 60

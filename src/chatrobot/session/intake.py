@@ -6,10 +6,8 @@ from collections import deque
 from collections.abc import Collection
 
 from chatrobot.core.reason import Reason
-from chatrobot.session.envelope import Envelope
+from chatrobot.session.envelope import QUEUE_LIMIT, Envelope
 from chatrobot.session.job import Job
-
-QUEUE_LIMIT = 10
 
 
 class Intake:

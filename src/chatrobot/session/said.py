@@ -9,9 +9,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from chatrobot.session.draft import Draft
-
-QUEUE_LIMIT = 10
-"""Texts that may wait while the robot moves; one more is refused rather than done in an hour."""
+from chatrobot.session.envelope import QUEUE_LIMIT
 
 Kind = Literal["text", "plan", "program", "draft", "stop", "emergency_stop", "too_many"]
 INSTRUCTIONS: tuple[Kind, ...] = ("text", "plan", "program", "draft")
