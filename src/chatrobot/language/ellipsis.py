@@ -9,9 +9,10 @@ from chatrobot.core.geometry import Pose
 from chatrobot.language.frames import DIAGONALS, GO, SIDES, Frame
 from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Drive, Step
+from chatrobot.plan.steps import Drive, Step, Turn, Wait
 
 _SLIDING = frozenset({"no_turn", "sideways"})
+_THE_SAME = ("the same", "do the same", "same", "likewise")
 
 
 @dataclass
@@ -38,7 +39,7 @@ def completed(frame: Frame, state: State) -> Frame:
     length = frame.q.get("length")
     if length is not None and length.role:
         state.unit_m = float(length.role)
-    frame = _with_same_amount(frame, state)
+    frame = _with_same_amount(_the_same_to(frame, state), state)
     state.length = frame.q.get("length", state.length)
     state.angle = frame.q.get("angle", frame.q.get("turns", state.angle))
     frame = _with_computed_length(frame, state)
@@ -57,6 +58,27 @@ def _with(frame: Frame, name: str, amount: Atom) -> Frame:
     frame = frame.copy()
     del frame.q[name]
     frame.q[amount.value] = amount
+    return frame
+
+
+def _the_same_to(frame: Frame, state: State) -> Frame:
+    """`slide left 1 m and the same to the right`: as far, in the manner of the motion before.
+
+    Raises:
+        Unclear: where that motion was to no side, so that to turn or to slide could be meant.
+    """
+    said = any(text.startswith(_THE_SAME) for text in frame.texts)
+    if not said or not frame.sided or frame.has_extent or frame.verb not in ("", "make") or not state.steps:
+        return frame
+    last, frame = next((s for s in reversed(state.steps) if not isinstance(s, Wait)), None), frame.copy()
+    if isinstance(last, Turn):
+        frame.verb = "turn"
+    elif isinstance(last, Drive) and math.sin(last.direction_rad) ** 2 > 0.9:
+        frame.verb = "slide"
+    else:
+        raise Unclear("unclear_motion", frame.text)
+    if _amount_before(frame, state) is not None:
+        frame.flags.add("same_amount")
     return frame
 
 

@@ -33,8 +33,35 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
         if comma is None:
             return list(atoms)
         first, second = tail[:comma], tail[comma + 1 :]
-        return [*first, _THEN, *second] if word.value == "after" else [*second, _THEN, *first]
-    return [*tail, _THEN, *head] if word.value == "after" else [*head, _THEN, *tail]
+        if word.value == "after":
+            return [*first, _THEN, *second]
+        end = _ends_at(second)
+        return [*second[:end], _THEN, *first, *second[end:]]
+    if word.value == "after":
+        end = _ends_at(tail, at_then=True)
+        return [*tail[:end], _THEN, *head, *tail[end:]]
+    return [*head, _THEN, *tail]
+
+
+def _ends_at(atoms: list[Atom], *, at_then: bool = False) -> int:
+    """Where that which is done first ends: at a full stop, or at an `afterwards` that comes after both.
+
+    `at_then`: at a comma and `then` too (`turn left after you drive 1 m, then drive 2 m`).
+    """
+    for i, atom in enumerate(atoms):
+        broken = (
+            at_then and i > 0 and atoms[i - 1].kind == "sep" and (atom.kind, atom.text) == ("conn", "then")
+        )
+        ends = (
+            broken
+            or (atom.kind, atom.value) == ("sep", "strong")
+            or (atom.kind == "conn" and "after" in atom.text)
+        )
+        if not ends or not any(a.kind in _CONTENT for a in atoms[:i]):
+            continue
+        if any(a.kind in _CONTENT for a in atoms[i + 1 :]):
+            return i
+    return len(atoms)
 
 
 def _is_told_again(head: list[Atom], tail: list[Atom]) -> bool:

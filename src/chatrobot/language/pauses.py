@@ -86,6 +86,8 @@ def insert_halfway(script: Script, frame: Frame) -> None:
     if not inner.moves and set(inner.q) == {"time"}:
         inner.verb = "wait"
     steps = act(inner, State(), script.pace)
+    if isinstance(halves[0], Arc) and not all(isinstance(step, (Wait, Say)) for step in steps):
+        raise Unclear("unclear_motion", frame.text)  # half of the circle, or something half way round?
     script.units[-1:] = [[halves[0]], steps, [halves[1]]]
 
 

@@ -36,6 +36,7 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
     """
     frames = arranged(frames)
     _check_amounts(frames)
+    _check_opener(frames)
     legs = paced_legs(frames, pace)
     if legs is not None:
         return legs
@@ -72,6 +73,19 @@ def _check_amounts(frames: list[Frame]) -> None:
         plain = frame.verb in ("", "go") and bool(frame.direction) and frame.direction not in SIDES
         if bare and plain and frame.joined == "weak" and "length" in last.q and last.verb in ("", "go"):
             raise Unclear("unclear_motion", f"{last.text} {frame.text}")
+
+
+def _check_opener(frames: list[Frame]) -> None:
+    """`Right, go forward 1 m`: a word to begin with, or a turn? Beside `left, …` it is a turn.
+
+    Raises:
+        Unclear: where it is the only side named so.
+    """
+    if len(frames) < 2 or frames[0].texts != ["right"] or frames[0].q or frames[1].joined != "weak":
+        return
+    named = [frame for frame in frames if frame.direction in SIDES and not (frame.verb or frame.has_extent)]
+    if len(named) == 1 and frames[1].verb and not frames[1].texts[0].endswith("ing"):
+        raise Unclear("unclear_motion", f"right, {frames[1].text}")
 
 
 def _take_all(script: Script, frames: list[Frame]) -> None:

@@ -1,0 +1,113 @@
+"""Phrasings that look like another: a word to begin with and a side, a shuffle and a turn, first and last."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
+from tests.language.dialogue_runner import Conversation
+
+
+def _told(step: Step) -> str:
+    """A step in a few letters: F1, B0.5, L1 and R1 (sideways), l90 and r90 (turns), w2, o180 (arc)."""
+    if isinstance(step, Drive):
+        way = {0: "F", 90: "L", 180: "B", -90: "R"}[round(math.degrees(step.direction_rad))]
+        return f"{way}{step.distance_m:g}" if step.distance_m else f"{way}{step.duration_s:g}s"
+    if isinstance(step, Turn):
+        degrees = f"{math.degrees(step.angle_rad):.0f}" if step.angle_rad else f"{step.duration_s:g}s"
+        return f"{'l' if step.left else 'r'}{degrees}"
+    if isinstance(step, Arc):
+        return f"{'(' if step.left else ')'}{math.degrees(step.angle_rad or 0.0):.0f}"
+    assert isinstance(step, Wait), step
+    return f"w{step.duration_s:g}"
+
+
+def _done(said: str) -> str:
+    """The steps, or the outcome where there are none."""
+    meant = Conversation().say(said)
+    return " ".join(map(_told, meant.plan.steps)) if meant.plan else meant.outcome
+
+
+@pytest.mark.parametrize(
+    ("said", "done"),
+    [
+        ("go back 60 cm, right, and then, when that's done, turn left 30 degrees", "B0.6 l30"),
+        ("so first you go forward 1 m, right, and then you turn left 90 degrees", "F1 l90"),
+        ("ok, right, so go forward 1 m", "F1"),
+        ("right, now go forward 1 m", "F1"),
+        ("right, go forward 1 m", "unclear"),
+        ("right, go 1 m, left, go 1 m", "R1 L1"),
+        ("right, 1 m", "R1"),
+        ("forward 1 m, right, and then left", "F1 r90 l90"),
+        ("right 90, forward 1 m", "r90 F1"),
+    ],
+)
+def test_a_word_to_begin_with_is_no_side(said: str, done: str) -> None:
+    assert _done(said) == done
+
+
+@pytest.mark.parametrize(
+    ("said", "done"),
+    [
+        ("before you turn left 90 degrees, drive 1 m; afterwards drive 50 cm", "F1 l90 F0.5"),
+        ("before you turn left 90 degrees, drive 1 m. Then drive 50 cm", "F1 l90 F0.5"),
+        ("before you turn left 90 degrees, drive 1 m and wait 2 s", "F1 w2 l90"),
+        ("turn left 90 after you drive 1 m, and after that drive 2 m", "F1 l90 F2"),
+        ("turn left 90 degrees after driving 1 m and waiting 2 seconds", "F1 w2 l90"),
+        ("turn left 90 degrees before you drive 1 m, then drive 2 m", "l90 F1 F2"),
+    ],
+)
+def test_what_comes_after_both_is_done_last(said: str, done: str) -> None:
+    assert _done(said) == done
+
+
+@pytest.mark.parametrize(
+    ("said", "done"),
+    [
+        ("sideways left 1 m, and the same to the right", "L1 R1"),
+        ("strafe left 50 cm and the same right", "L0.5 R0.5"),
+        ("turn left 40 degrees, wait 1 s, then the same to the right", "l40 w1 r40"),
+        ("forward 1 m and the same back", "F1 B1"),
+        ("forward 1 m and the same to the right", "unclear"),
+        ("turn right 30 degrees, then left again", "r30 l90"),
+    ],
+)
+def test_the_same_to_the_other_side_is_as_far_and_in_the_same_manner(said: str, done: str) -> None:
+    assert _done(said) == done
+
+
+@pytest.mark.parametrize(
+    ("said", "done"),
+    [
+        ("pop forward 20 cm, count to three, pop back 20 cm", "F0.2 w3 B0.2"),
+        ("forward 1 m then count slowly to ten and come back", "F1 w10 B1"),
+        ("go straight, count to four, then stop", "F4s"),
+        ("go forward 1 m, count to 3, then stop", "F1 w3"),
+    ],
+)
+def test_counting_takes_a_second_a_number(said: str, done: str) -> None:
+    assert _done(said) == done
+
+
+@pytest.mark.parametrize("verb", ["scooch", "shuffle", "scoot", "scooch over", "budge"])
+def test_to_make_room_is_to_go_sideways(verb: str) -> None:
+    assert _done(f"{verb} to the left") == "L0.5"
+    assert _done(f"{verb} 30 cm to the right") == "R0.3"
+
+
+def test_part_of_a_circle_is_not_all_of_it() -> None:
+    assert _done("halfway round a circle of 1 m radius, clockwise") == ")180"
+    assert _done("go half way round the roundabout to the left, radius 50 cm") == "(180"
+    assert _done("like going round a roundabout with 1 m radius, half way, turning right") == "unclear"
+    assert _done("a circle of 1 m radius to the left, halfway wait 2 s") == "(180 w2 (180"
+
+
+@pytest.mark.parametrize("said", ["floor it for 2 m", "gun it, 2 m", "put the pedal to the metal, 2 m ahead"])
+def test_flooring_it_is_as_fast_as_allowed(said: str) -> None:
+    plan = Conversation().say(said).plan
+    assert plan is not None
+    step = plan.steps[0]
+    assert isinstance(step, Drive)
+    assert step.speed_mps == pytest.approx(1.0)
