@@ -111,3 +111,44 @@ def test_flooring_it_is_as_fast_as_allowed(said: str) -> None:
     step = plan.steps[0]
     assert isinstance(step, Drive)
     assert step.speed_mps == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("said", "done"),
+    [
+        ("go forward and stop after 1 m", "F1"),
+        ("reverse, stopping after half a metre", "B0.5"),
+        ("go straight and turn left after 2 metres, then go 1 m", "F2 l90 F1"),
+        ("drive forward, and after 3 seconds turn right", "F3s r90"),
+        ("turn left 90 and after 3 seconds turn right 90", "l90 w3 r90"),
+        ("forward 1 m after 3 seconds", "w3 F1"),
+        ("go forward 3 m, after 1 m stop for 2 s", "F1 w2 F2"),
+        ("go forward 2 m, pausing 1 s after 1 m", "F1 w1 F1"),
+        ("go forward 3 m but stop after 1 m", "unclear"),
+        ("forward 2 m, turn left after 1 m", "unclear"),
+        ("wait 2 s after going 1 m", "F1 w2"),
+    ],
+)
+def test_an_amount_after_which_something_comes_is_no_motion_of_its_own(said: str, done: str) -> None:
+    assert _done(said) == done
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "take the next right",
+        "turn left at the corner",
+        "go on my mark",
+        "on my signal, go forward 1 m",
+        "drive back to the right 1 m",
+    ],
+)
+def test_what_only_a_person_can_see_or_say_is_asked_about(said: str) -> None:
+    assert _done(said) == "unclear"
+    assert _done("take a right") == "r90"
+
+
+def test_a_route_of_ways_alone_leaves_none_out() -> None:
+    assert _done("left, left, right") == "l90 l90 r90"
+    assert _done("forward, forward, left") == "F0.5 F0.5 l90"
+    assert _done("left, left!") == "l90"

@@ -31,7 +31,9 @@ def read_frames(atoms: Sequence[Atom]) -> list[Frame]:
     frames: list[Frame] = []
     drawing = any(atom.kind == "shape" for atom in atoms)
     segments = _segments(atoms, drawing)
-    each = any(atom.kind == "flag" and atom.value in ("each", "all") for atom in atoms)
+    each = any(atom.kind == "flag" and atom.value in ("each", "all") for atom in atoms) or _is_a_route(
+        segments
+    )
     after_then = {_motion(segment.frames[0]) for segment in segments if segment.joined == "then"}
     for segment in segments:
         first = segment.frames[0]
@@ -50,6 +52,13 @@ def read_frames(atoms: Sequence[Atom]) -> list[Frame]:
                 "unclear_motion", f"{still.text} {after.text}"
             )  # `hold right`: to wait, or to turn?
     return frames
+
+
+def _is_a_route(segments: Sequence[Segment]) -> bool:
+    """`Left, left, right`: ways and nothing else, and not all the same."""
+    bare = [s.frames[0] for s in segments if len(s.frames) == 1 and s.frames[0].texts[1:] == []]
+    ways = {frame.direction for frame in bare if frame.direction}
+    return len(bare) == len(segments) > 2 and len(ways) > 1
 
 
 def _motion(frame: Frame) -> tuple[str, str, str]:

@@ -20,6 +20,9 @@ def settled_word(atoms: Sequence[Atom], i: int) -> Atom:
 
 
 def _verb(atoms: Sequence[Atom], i: int) -> Atom:
+    to_a_side = atoms[i].text.endswith("back to") and is_kind(atoms, i + 1, "dir")
+    if to_a_side:  # `go back to the left`: backwards, or to where it was?
+        return Atom("unknown", atoms[i].text, f"{atoms[i].text} {atoms[i + 1].text}")
     driven = atoms[i].text == "hold" and is_kind(atoms, i + 1, "q", "speed")  # `hold 0.4 m/s forward`
     return Atom("verb", "go", atoms[i].text) if driven else atoms[i]
 

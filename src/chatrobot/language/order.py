@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from chatrobot.language.after_amount import ended_by_amount, with_after
 from chatrobot.language.tokens import Atom
 
 _CONTENT = ("verb", "dir", "rot", "q", "shape", "place")
@@ -12,6 +13,7 @@ _THEN = Atom("conn", "then", "")
 
 def in_order(atoms: Sequence[Atom]) -> list[Atom]:
     """The atoms with what is done first said first."""
+    atoms = with_after(atoms)
     at = next((i for i, a in enumerate(atoms) if a.kind == "order"), None)
     if at is None:
         return list(atoms)
@@ -19,6 +21,9 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
     leads = not any(a.kind in _CONTENT for a in head)
     if word.value == "after" and not leads and any(a.kind == "flag" and a.value == "first" for a in head):
         return in_order([*head, _THEN, *tail])  # `first …, after you …`: as said
+    ended = ended_by_amount(head, tail) if word.text == "after" and not leads else None
+    if ended is not None:
+        return in_order(ended)
     if word.value == "reverse":
         return _swapped(head, tail)
     if word.value == "preceding" and not leads and _is_told_again(head, tail):
