@@ -152,3 +152,43 @@ def test_a_route_of_ways_alone_leaves_none_out() -> None:
     assert _done("left, left, right") == "l90 l90 r90"
     assert _done("forward, forward, left") == "F0.5 F0.5 l90"
     assert _done("left, left!") == "l90"
+
+
+@pytest.mark.parametrize(
+    ("said", "done"),
+    [
+        ("five ten-centimetre steps back", "B0.1 B0.1 B0.1 B0.1 B0.1"),
+        ("two 50 cm legs forward and then left 90", "F0.5 F0.5 l90"),
+        ("half a dozen one-metre hops", "F1 F1 F1 F1 F1 F1"),
+        ("do two 45-degree turns to the right", "r45 r45"),
+        ("twenty five centimetre steps forward", "F0.25"),
+    ],
+)
+def test_a_count_before_an_amount_is_how_often(said: str, done: str) -> None:
+    assert _done(said) == done
+
+
+@pytest.mark.parametrize(
+    ("said", "done"),
+    [
+        ("go forward, not two metres but three", "F3"),
+        ("not 90 but 45 degrees left", "l45"),
+        ("after waiting for three seconds go 1 meter forward", "w3 F1"),
+        ("before going 1 m turn left", "l90 F1"),
+        ("quarter turn to port", "l90"),
+        ("half turn to starboard", "r180"),
+    ],
+)
+def test_what_is_not_meant_and_what_comes_first(said: str, done: str) -> None:
+    assert _done(said) == done
+
+
+def test_to_come_back_a_number_takes_the_unit_of_the_way_out() -> None:
+    def back(number: int) -> str:
+        talk = Conversation()
+        talk.say("go forward 80 centimetres")
+        meant = talk.say(f"Too far! Come back {number}.")
+        return " ".join(map(_told, meant.plan.steps)) if meant.plan else meant.outcome
+
+    assert back(30) == "B0.3"
+    assert back(200) == "unclear"

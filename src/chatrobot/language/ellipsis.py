@@ -155,9 +155,10 @@ def _goes_on_in_unit(frame: Frame, value: float, state: State) -> bool:
         or bool(_SLIDING & frame.flags)
         or frame.direction in DIAGONALS.values()
     )
-    along = frame.direction in ("forward", "back") or (frame.verb in GO and not frame.direction)
+    along = frame.direction in ("forward", "back") or (frame.verb in (*GO, "return") and not frame.direction)
     before = state.length.number if state.length is not None else 0.0
-    return (on or sideways or along) and before / 10 <= value * (state.unit_m or 0.0) <= 5 * before
+    most = before if frame.verb == "return" else 5 * before
+    return (on or sideways or along) and before / 10 <= value * (state.unit_m or 0.0) <= most
 
 
 def _means_degrees(frame: Frame, value: float) -> bool:

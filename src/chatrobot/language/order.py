@@ -35,9 +35,10 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
         return [*tail, _THEN, *head] if not leads else list(atoms)
     if leads:
         comma = next((i for i, a in enumerate(tail) if a.kind == "sep" and a.value == "weak"), None)
-        if comma is None:
+        at = comma if comma is not None else _second_order(tail)
+        if at is None:
             return list(atoms)
-        first, second = tail[:comma], tail[comma + 1 :]
+        first, second = tail[:at], tail[at + (comma is not None) :]
         if word.value == "after":
             return [*first, _THEN, *second]
         end = _ends_at(second)
@@ -46,6 +47,15 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
         end = _ends_at(tail, at_then=True)
         return [*tail[:end], _THEN, *head, *tail[end:]]
     return [*head, _THEN, *tail]
+
+
+def _second_order(tail: list[Atom]) -> int | None:
+    """`After waiting for 3 s | go 1 m`: where, without a comma, a gerund clause ends and the order begins."""
+    verbs = [i for i, a in enumerate(tail) if a.kind == "verb"]
+    if len(verbs) < 2 or not tail[verbs[0]].text.split()[0].endswith("ing"):
+        return None
+    said = any(a.kind in ("q", "dir", "rot", "place") for a in tail[: verbs[1]])
+    return verbs[1] if said and not tail[verbs[1]].text.split()[0].endswith("ing") else None
 
 
 def _ends_at(atoms: list[Atom], *, at_then: bool = False) -> int:
