@@ -192,3 +192,32 @@ def test_to_come_back_a_number_takes_the_unit_of_the_way_out() -> None:
 
     assert back(30) == "B0.3"
     assert back(200) == "unclear"
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "did you turn left?",
+        "did you go forward 1 m?",
+        "are you turning left",
+        "were you going backwards?",
+        "should I turn left?",
+        "does it turn left?",
+        "I'll go forward 1 m",
+    ],
+)
+def test_a_question_about_a_motion_orders_none(said: str) -> None:
+    assert Conversation().say(said).plan is None
+
+
+@pytest.mark.parametrize(
+    "said", ["could you go forward 1 m?", "shall we go forward 1 m?", "why don't you go forward 1 m"]
+)
+def test_a_request_put_as_a_question_is_still_done(said: str) -> None:
+    assert _done(said) == "F1"
+
+
+def test_to_stop_doing_something_is_not_to_do_it() -> None:
+    assert _done("stop going forward and turn left") == "l90"
+    assert _done("stop turning left, go back 1 m") == "B1"
+    assert _done("stop spinning round") == "stop"

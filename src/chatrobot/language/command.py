@@ -82,6 +82,10 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
         return answered
     if _is_stop(plain, reading):
         return stopped(language)
+    if questions.asks_about_motion(plain, language):
+        raise Unclear("question_beside", plain[:60].rstrip(" ?"))
+    if questions.tells_of_the_speaker(plain, language):
+        raise Unclear("unknown_part", plain[:60].rstrip(" ."))
     asks = questions.is_question(plain, language)
     _check_whole(plain, atoms, reading, asks=asks)
     until = read_until(plain, language)
@@ -164,7 +168,8 @@ def _question(plain: str, atoms: list[Atom], ability: bool, reading: Reading) ->
         steps = reading.steps(frames)
         steps = [] if is_choice(plain, language) else steps
         plain_question = questions.is_plain_question(plain, language)
-        if steps and any(f.has_extent or (f.moves and not plain_question) for f in frames):
+        asked = questions.asks_about_motion(plain, language)
+        if steps and not asked and any(f.has_extent or (f.moves and not plain_question) for f in frames):
             return None
     except Unclear:
         ways = any(a.kind in ("dir", "rot", "shape") for a in atoms)

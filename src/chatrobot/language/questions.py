@@ -85,6 +85,18 @@ def asks_a_favour(text: str, language: str) -> bool:
     return "favour" in load_table(language, "questions") and bool(_pattern(language, "favour").search(text))
 
 
+def asks_about_motion(text: str, language: str) -> bool:
+    """`Did you turn left?`, `should I go forward?`: nothing is to be done."""
+    return "about_motion" in load_table(language, "questions") and bool(
+        _pattern(language, "about_motion").search(text)
+    )
+
+
+def tells_of_the_speaker(text: str, language: str) -> bool:
+    """`I'll go forward 1 m`: a person does it."""
+    return "speaker" in load_table(language, "questions") and bool(_pattern(language, "speaker").search(text))
+
+
 def topic_of(text: str, language: str) -> str:
     """What a question is about, or an empty string."""
     return next((name for name, pattern in _topics(language) if pattern.search(text)), "")
