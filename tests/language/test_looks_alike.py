@@ -221,3 +221,20 @@ def test_to_stop_doing_something_is_not_to_do_it() -> None:
     assert _done("stop going forward and turn left") == "l90"
     assert _done("stop turning left, go back 1 m") == "B1"
     assert _done("stop spinning round") == "stop"
+
+
+@pytest.mark.parametrize(
+    "said", ["step left", "hop to the left", "glide over to the left", "ease over to the left"]
+)
+def test_a_step_to_the_side_is_no_turn(said: str) -> None:
+    assert _done(said) == "L0.5"
+    assert _done("step back") == "B0.5"
+
+
+def test_places_and_tricks_are_named_in_more_words_than_needed() -> None:
+    talk = Conversation()
+    assert talk.say("this is the charging corner, remember it").remember_place == "charging corner"
+    assert talk.say("learn a trick called bow: back 20 cm, wait 1 s, forward 20 cm").define
+    bowed = talk.say("do your bow trick").plan
+    assert bowed is not None
+    assert " ".join(map(_told, bowed.steps)) == "B0.2 w1 F0.2"
