@@ -24,6 +24,7 @@ from chatrobot.language.remembering import read_remembering
 from chatrobot.language.rephrase import is_item, rephrased
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import tokenise
+from chatrobot.language.told import check_not_told
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
 from chatrobot.robots.profile import RobotProfile
@@ -50,6 +51,7 @@ class OfflineInterpreter:
             return _did_you_mean(problem, text, language, context) or asked_back(problem, language)
 
     def _interpreted(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
+        check_not_told(normalise(text), language)
         plain = with_known_counts(without_compass(rephrased(normalise(text), language), language))
         rest, facing_rad = split_convention(plain, language)
         plain = rest or plain

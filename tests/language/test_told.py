@@ -1,0 +1,90 @@
+"""What only tells or asks about motion moves nothing, though it is made of the words of a command."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from tests.language.dialogue_runner import Conversation
+
+
+def said(*turns: str) -> Conversation:
+    talk = Conversation()
+    for turn in turns:
+        talk.say(turn)
+    return talk
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "我跑了一米", "他走了两米", "小明往前走了一米", "我刚才右转了九十度", "你走了一米", "刚才往前走了一米",
+        "你左转了吗", "前进了一米吗", "动了吗", "你是不是走了一米", "一米有多长", "如何前进一米", "往前走一米会怎么样",
+        "前面有一米空间吗", "你有一米长吗", "要不要往前走一米", "我要走了", "我往左，你就往右", "先别急着走",
+        "往前走一米，不是往后", "往左转，不是往右转", "往前走一米，不是让你往后",
+        "走开", "靠边站", "一圈五秒，转两圈", "走三米，一米五秒", "你先等一下，我先走",
+    ],
+)  # fmt: skip
+def test_a_report_and_a_question_move_nothing(text: str) -> None:
+    meant = Conversation().say(text)
+    assert meant.plan is None, meant.reply
+
+
+@pytest.mark.parametrize(
+    ("text", "x_m", "y_m", "turned_deg"),
+    [
+        ("走了一米再左转90度", 1.0, 0, 90),
+        ("往前走了一米之后左转90度", 1.0, 0, 90),
+        ("该左转了", 0, 0, 90),
+        ("要不往前走一米", 1.0, 0, 0),
+        ("你能前进一米吗", 1.0, 0, 0),
+        ("我往前走一米，你往后退一米", -1.0, 0, 0),
+        ("你往前走一米，我往后退一米", 1.0, 0, 0),
+        ("我们一起往前走一米", 1.0, 0, 0),
+        ("先别急着走，先右转九十度，再走八十公分", 0, -0.8, -90),
+        ("奶奶腿脚不好，你往后倒个一米二，让我过去", -1.2, 0, 0),
+        ("倒计时三秒后前进一米", 1.0, 0, 0),
+        ("三秒倒计时，左转九十度", 0, 0, 90),
+        ("十分缓慢地后退半米", -0.5, 0, 0),
+        ("往前两米太多了，一米就好", 1.0, 0, 0),
+        ("左转九十度太多了，四十五度吧", 0, 0, 45),
+        ("往前走一米，不是，一米五", 1.5, 0, 0),
+        ("向左偏移半米", 0, 0.5, 0),
+        ("向左偏十度走一米", 0.984807753, 0.173648178, 10),
+        ("你往后退一点，我先过", -0.25, 0, 0),
+        ("左转，不对，不是左转，是右转九十度", 0, 0, -90),
+    ],
+)
+def test_a_command_beside_it_is_done_and_nothing_else(
+    text: str, x_m: float, y_m: float, turned_deg: float
+) -> None:
+    talk = said(text)
+    assert talk.track.pose.x_m == pytest.approx(x_m, abs=1e-6)
+    assert talk.track.pose.y_m == pytest.approx(y_m, abs=1e-6)
+    assert math.degrees(talk.track.turned_rad) == pytest.approx(turned_deg, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("turns", "x_m", "turned_deg"),
+    [
+        (("往前走半米", "这回走两倍远"), 1.5, 0),
+        (("往前走半米", "这一回左转90度"), 0.5, 90),
+        (("往前走半米，这回慢一点",), 0.5, 0),
+        (("往前走半米", "下回走慢一点"), 0.5, 0),
+        (("前进一米", "那回来吧"), 0, 0),
+        (("前进一米", "慢一半再走一遍"), 2.0, 0),
+        (("前进一米", "快一倍"), 2.0, 0),
+        (("前进两米", "我要的是三米"), 3.0, 0),
+        (("前进两米", "你刚才走了两米，退回来一半"), 1.0, 0),
+        (("左转90度", "太多了，转回来一点"), 0, 75),
+        (("后退一米", "往回一点"), -0.75, 0),
+        (("记一下，这里是窗台", "前进一米", "去窗台"), 0, 0),
+    ],
+)
+def test_what_a_later_turn_says_is_not_taken_for_the_way_home(
+    turns: tuple[str, ...], x_m: float, turned_deg: float
+) -> None:
+    talk = said(*turns)
+    assert talk.track.pose.x_m == pytest.approx(x_m, abs=1e-6)
+    assert math.degrees(talk.track.turned_rad) == pytest.approx(turned_deg, abs=1e-6)
