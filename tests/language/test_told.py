@@ -23,7 +23,8 @@ def said(*turns: str) -> Conversation:
         "你左转了吗", "前进了一米吗", "动了吗", "你是不是走了一米", "一米有多长", "如何前进一米", "往前走一米会怎么样",
         "前面有一米空间吗", "你有一米长吗", "要不要往前走一米", "我要走了", "我往左，你就往右", "先别急着走",
         "往前走一米，不是往后", "往左转，不是往右转", "往前走一米，不是让你往后",
-        "走开", "靠边站", "一圈五秒，转两圈", "走三米，一米五秒", "你先等一下，我先走",
+        "走开", "靠边站", "一圈五秒，转两圈", "走三米，一米五秒", "你先等一下，我先走", "我让你走了吗",
+        "大家都前进了一米，你呢",
     ],
 )  # fmt: skip
 def test_a_report_and_a_question_move_nothing(text: str) -> None:
@@ -88,3 +89,43 @@ def test_what_a_later_turn_says_is_not_taken_for_the_way_home(
     talk = said(*turns)
     assert talk.track.pose.x_m == pytest.approx(x_m, abs=1e-6)
     assert math.degrees(talk.track.turned_rad) == pytest.approx(turned_deg, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("asked_back", "answer", "y_m", "turned_deg"),
+    [
+        ("往旁边挪二十公分", "右边", -0.2, 0),
+        ("向左或者向右平移半米", "左吧", 0.5, 0),
+        ("往左转还是往右转九十度", "右", 0, -90),
+        ("左转还是右转九十度", "往左", 0, 90),
+        ("横着走一米", "左边", 1.0, 0),
+        ("走20", "左边", 0, 0),
+    ],
+)
+def test_a_side_answers_what_was_left_open_and_is_no_turn_of_its_own(
+    asked_back: str, answer: str, y_m: float, turned_deg: float
+) -> None:
+    talk = said(asked_back, answer)
+    assert talk.track.pose.x_m == pytest.approx(0, abs=1e-6)
+    assert talk.track.pose.y_m == pytest.approx(y_m, abs=1e-6)
+    assert math.degrees(talk.track.turned_rad) == pytest.approx(turned_deg, abs=1e-6)
+
+
+def test_what_was_only_asked_about_is_not_done_with_the_next_command() -> None:
+    assert said("如何前进一米", "前进一米").track.pose.x_m == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["停止左转", "立刻停止向右平移", "停止往前走", "停止后退！", "暂停前进", "前进停止", "停止转圈", "停止前进三秒",
+     "停止后退一米"],
+)  # fmt: skip
+def test_to_stop_a_motion_is_not_to_make_it(text: str) -> None:
+    talk = said(text)
+    assert talk.track.path_m == 0
+    assert talk.track.turned_rad == 0
+
+
+def test_after_the_stop_of_one_motion_comes_another() -> None:
+    assert math.degrees(said("停止左转，右转九十度").track.turned_rad) == pytest.approx(-90)
+    assert said("停止后，退一米").track.pose.x_m == pytest.approx(-1.0)
