@@ -45,7 +45,7 @@ bench: setup
 faults: setup
 	$(BIN)/python -m scripts.faults
 
-# A million sequences take about ten minutes on two cores.
+# A million sequences take about twenty minutes on two cores.
 fuzz: setup
 	$(BIN)/python -m scripts.fuzz $(FUZZ)
 
