@@ -22,8 +22,10 @@ from chatrobot.language.program_request import read_program_request
 from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
 from chatrobot.language.rephrase import is_item, rephrased
+from chatrobot.language.sides import is_side, with_side
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import tokenise
+from chatrobot.language.told import check_not_told, tells
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
 from chatrobot.robots.profile import RobotProfile
@@ -50,6 +52,7 @@ class OfflineInterpreter:
             return _did_you_mean(problem, text, language, context) or asked_back(problem, language)
 
     def _interpreted(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
+        check_not_told(normalise(text), language)
         plain = with_known_counts(without_compass(rephrased(normalise(text), language), language))
         rest, facing_rad = split_convention(plain, language)
         plain = rest or plain
@@ -142,7 +145,11 @@ def _agreed(plain: str, before: str, reading: Reading) -> Interpretation | None:
 def _pending(plain: str, reading: Reading) -> Interpretation | None:
     """A fragment answers what was asked back about the turn before."""
     pending = reading.context.dialogue.pending
-    if not pending or len(pending) + len(plain) > MAX_CHARACTERS:
+    if (
+        not pending
+        or len(pending) + len(plain) > MAX_CHARACTERS
+        or tells(normalise(pending), reading.language)
+    ):
         return None
     before = rephrased(normalise(pending), reading.language)
     agreed = _agreed(plain, before, reading)
@@ -153,13 +160,18 @@ def _pending(plain: str, reading: Reading) -> Interpretation | None:
     verbs = [a for k, a in enumerate(atoms) if k + 1 not in ways and a.text not in ("say",)]
     if any(a.kind in ("verb", "shape", "place") for a in verbs):
         return None
-    for joined in (f"{before} {plain}", f"{before}, {plain}"):
+    sided = rephrased(with_side(normalise(pending), plain, reading.language), reading.language)
+    for joined in filter(None, (sided, f"{before} {plain}", f"{before}, {plain}")):
         try:
             found = read_command(joined, reading)
         except Unclear:
             continue
         if found.outcome == "plan":
             return found
+    if is_side(plain, reading.language) and any(a.kind in ("q", "number") for a in reading.atoms(before)):
+        raise Unclear(
+            "no_unit", pending
+        )  # what it is the side of was not understood: to turn there is no answer
     return None
 
 
