@@ -23,4 +23,5 @@ def with_side(before: str, answer: str, language: str) -> str:
     said = _pattern(language, "said").fullmatch(answer)
     if said is None or not _pattern(language, "open").search(before):
         return ""
-    return _pattern(language, "open").sub(f"往{said['side']}", before, count=1)
+    put = load_table(language, "sides")["put"].format(side=said["side"])
+    return _pattern(language, "open").sub(put, before, count=1)
