@@ -41,7 +41,7 @@ bench: setup
 	@for file in bench/[a-z]*.py; do \
 		echo "== $$file"; $(BIN)/python -m "bench.$$(basename "$$file" .py)" || exit 1; done
 
-# Twenty blows of each kind in real time: five minutes.
+# Twenty blows of each kind in real time: about three quarters of an hour.
 faults: setup
 	$(BIN)/python -m scripts.faults
 

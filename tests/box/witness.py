@@ -8,8 +8,12 @@ import resource
 import secrets
 import socket
 import subprocess
+import time
 from pathlib import Path
 from typing import Any
+
+CLOCK_SET_S = 0.1
+"""Keeping the time moves the clock by far less in the seconds that a witness stands."""
 
 
 class Witness:
@@ -47,6 +51,7 @@ class Witness:
             "host": os.getpid(),
             "shm": "chatrobot-" + secrets.token_hex(4),
         }
+        self._clock_ahead_s = _clock_ahead_s()
         self._before = self._look()
 
     def effects(self) -> list[str]:
@@ -92,6 +97,7 @@ class Witness:
             "shared memory": Path("/dev/shm", self.world["shm"]).exists(),
             "System V": Path("/proc/sysvipc/shm").read_text() if Path("/proc/sysvipc/shm").exists() else "",
             "name of the machine": socket.gethostname(),
+            "the clock was set": abs(_clock_ahead_s() - self._clock_ahead_s) > CLOCK_SET_S,
         }
 
     def _look_at_the_victim(self) -> tuple[int, ...] | str:
@@ -99,6 +105,11 @@ class Witness:
             return "dead"
         pid = self._victim.pid
         return os.getpriority(os.PRIO_PROCESS, pid), *resource.prlimit(pid, resource.RLIMIT_NOFILE)
+
+
+def _clock_ahead_s() -> float:
+    """How far the wall clock is ahead of the monotonic one."""
+    return time.time() - time.monotonic()
 
 
 def _listening(family: int, kind: int, address: Any) -> socket.socket:

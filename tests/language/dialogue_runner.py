@@ -56,6 +56,14 @@ class Conversation:
         )
 
 
+def conversation(*turns: str) -> Conversation:
+    """A dialogue in which these were said, one after the other."""
+    talk = Conversation()
+    for turn in turns:
+        talk.say(turn)
+    return talk
+
+
 def run_item(item: Mapping[str, Any]) -> tuple[Verdict, str]:
     """The verdict on one corpus item and why."""
     talk = Conversation()

@@ -6,36 +6,29 @@ import math
 
 import pytest
 
-from tests.language.dialogue_runner import Conversation
-
-
-def _talk(*turns: str) -> Conversation:
-    talk = Conversation()
-    for turn in turns:
-        talk.say(turn)
-    return talk
+from tests.language.dialogue_runner import Conversation, conversation
 
 
 def test_two_more_of_those_are_turns_not_degrees() -> None:
-    talk = _talk("turn right 30 degrees", "two more of those")
+    talk = conversation("turn right 30 degrees", "two more of those")
     assert math.degrees(talk.track.turned_rad) == pytest.approx(-90.0)
     assert math.degrees(
-        _talk("turn right 30 degrees", "one more of those").track.turned_rad
+        conversation("turn right 30 degrees", "one more of those").track.turned_rad
     ) == pytest.approx(-60.0)
 
 
 def test_both_again_repeats_both() -> None:
-    pose = _talk("forward 1 m", "left 90", "do both again").track.pose
+    pose = conversation("forward 1 m", "left 90", "do both again").track.pose
     assert [pose.x_m, pose.y_m] == pytest.approx([1.0, 1.0])
 
 
 def test_more_without_turning_is_a_length() -> None:
-    pose = _talk("forward 30 cm", "and 30 more to the left without turning").track.pose
+    pose = conversation("forward 30 cm", "and 30 more to the left without turning").track.pose
     assert [pose.x_m, pose.y_m, pose.yaw_rad] == pytest.approx([0.3, 0.3, 0.0])
 
 
 def test_the_same_to_the_right_is_the_same_length() -> None:
-    assert _talk("forward 50 cm", "same to the right").track.pose.y_m == pytest.approx(-0.5)
+    assert conversation("forward 50 cm", "same to the right").track.pose.y_m == pytest.approx(-0.5)
 
 
 @pytest.mark.parametrize(
@@ -47,7 +40,7 @@ def test_the_same_to_the_right_is_the_same_length() -> None:
     ],
 )
 def test_some_of_it_is_not_all_of_it(before: str, said: str) -> None:
-    assert _talk(before).say(said).outcome == "unclear"
+    assert conversation(before).say(said).outcome == "unclear"
 
 
 @pytest.mark.parametrize(
@@ -59,7 +52,7 @@ def test_some_of_it_is_not_all_of_it(before: str, said: str) -> None:
     ],
 )
 def test_ordinals_and_comparisons_are_no_amounts(said: str, metres: float) -> None:
-    assert _talk(said).track.path_m == pytest.approx(metres)
+    assert conversation(said).track.path_m == pytest.approx(metres)
 
 
 def test_to_hold_right_is_asked_about() -> None:

@@ -6,14 +6,7 @@ import math
 
 import pytest
 
-from tests.language.dialogue_runner import Conversation
-
-
-def _talk(*turns: str) -> Conversation:
-    talk = Conversation()
-    for turn in turns:
-        talk.say(turn)
-    return talk
+from tests.language.dialogue_runner import conversation
 
 
 @pytest.mark.parametrize(
@@ -39,13 +32,13 @@ def _talk(*turns: str) -> Conversation:
 def test_the_turn_before_counts_as_if_it_had_been_said_right_at_once(
     turns: tuple[str, ...], x_m: float, yaw_deg: float
 ) -> None:
-    pose = _talk(*turns).track.pose
+    pose = conversation(*turns).track.pose
     assert pose.x_m == pytest.approx(x_m, abs=1e-6)
     assert math.degrees(pose.yaw_rad) == pytest.approx(yaw_deg, abs=1e-6)
 
 
 def test_the_way_back_and_the_way_meant_are_one_where_they_lie_on_one_line() -> None:
-    talk = _talk("go forward 50 cm", "oops, that should have been 70 cm")
+    talk = conversation("go forward 50 cm", "oops, that should have been 70 cm")
     assert talk.track.path_m == pytest.approx(0.7)
 
 
@@ -60,17 +53,17 @@ def test_the_way_back_and_the_way_meant_are_one_where_they_lie_on_one_line() -> 
     ],
 )
 def test_a_correction_that_may_mean_two_things_is_asked_about(before: str, said: str) -> None:
-    assert _talk(before).say(said).outcome == "unclear"
+    assert conversation(before).say(said).outcome == "unclear"
 
 
 def test_once_more_after_a_correction_is_asked_about() -> None:
-    assert _talk("turn left 30 degrees", "no, I meant right").say("once more").outcome == "unclear"
+    assert conversation("turn left 30 degrees", "no, I meant right").say("once more").outcome == "unclear"
 
 
 def test_undoing_a_correction_takes_back_the_correction() -> None:
-    pose = _talk("turn left 90 degrees", "no, I meant right", "undo").track.pose
+    pose = conversation("turn left 90 degrees", "no, I meant right", "undo").track.pose
     assert math.degrees(pose.yaw_rad) == pytest.approx(90.0)
 
 
 def test_a_correction_of_nothing_is_a_command() -> None:
-    assert math.degrees(_talk("I meant right 30 degrees").track.pose.yaw_rad) == pytest.approx(-30.0)
+    assert math.degrees(conversation("I meant right 30 degrees").track.pose.yaw_rad) == pytest.approx(-30.0)

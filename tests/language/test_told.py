@@ -6,14 +6,7 @@ import math
 
 import pytest
 
-from tests.language.dialogue_runner import Conversation
-
-
-def said(*turns: str) -> Conversation:
-    talk = Conversation()
-    for turn in turns:
-        talk.say(turn)
-    return talk
+from tests.language.dialogue_runner import Conversation, conversation
 
 
 @pytest.mark.parametrize(
@@ -67,7 +60,7 @@ def test_a_report_and_a_question_move_nothing(text: str) -> None:
 def test_a_command_beside_it_is_done_and_nothing_else(
     text: str, x_m: float, y_m: float, turned_deg: float
 ) -> None:
-    talk = said(text)
+    talk = conversation(text)
     assert talk.track.pose.x_m == pytest.approx(x_m, abs=1e-6)
     assert talk.track.pose.y_m == pytest.approx(y_m, abs=1e-6)
     assert math.degrees(talk.track.turned_rad) == pytest.approx(turned_deg, abs=1e-6)
@@ -94,7 +87,7 @@ def test_a_command_beside_it_is_done_and_nothing_else(
 def test_what_a_later_turn_says_is_not_taken_for_the_way_home(
     turns: tuple[str, ...], x_m: float, turned_deg: float
 ) -> None:
-    talk = said(*turns)
+    talk = conversation(*turns)
     assert talk.track.pose.x_m == pytest.approx(x_m, abs=1e-6)
     assert math.degrees(talk.track.turned_rad) == pytest.approx(turned_deg, abs=1e-6)
 
@@ -113,14 +106,14 @@ def test_what_a_later_turn_says_is_not_taken_for_the_way_home(
 def test_a_side_answers_what_was_left_open_and_is_no_turn_of_its_own(
     asked_back: str, answer: str, y_m: float, turned_deg: float
 ) -> None:
-    talk = said(asked_back, answer)
+    talk = conversation(asked_back, answer)
     assert talk.track.pose.x_m == pytest.approx(0, abs=1e-6)
     assert talk.track.pose.y_m == pytest.approx(y_m, abs=1e-6)
     assert math.degrees(talk.track.turned_rad) == pytest.approx(turned_deg, abs=1e-6)
 
 
 def test_what_was_only_asked_about_is_not_done_with_the_next_command() -> None:
-    assert said("如何前进一米", "前进一米").track.pose.x_m == pytest.approx(1.0)
+    assert conversation("如何前进一米", "前进一米").track.pose.x_m == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize(
@@ -129,11 +122,11 @@ def test_what_was_only_asked_about_is_not_done_with_the_next_command() -> None:
      "停止后退一米"],
 )  # fmt: skip
 def test_to_stop_a_motion_is_not_to_make_it(text: str) -> None:
-    talk = said(text)
+    talk = conversation(text)
     assert talk.track.path_m == 0
     assert talk.track.turned_rad == 0
 
 
 def test_after_the_stop_of_one_motion_comes_another() -> None:
-    assert math.degrees(said("停止左转，右转九十度").track.turned_rad) == pytest.approx(-90)
-    assert said("停止后，退一米").track.pose.x_m == pytest.approx(-1.0)
+    assert math.degrees(conversation("停止左转，右转九十度").track.turned_rad) == pytest.approx(-90)
+    assert conversation("停止后，退一米").track.pose.x_m == pytest.approx(-1.0)

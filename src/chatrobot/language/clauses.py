@@ -56,7 +56,7 @@ def read_frames(atoms: Sequence[Atom]) -> list[Frame]:
 
 def _is_a_route(segments: Sequence[Segment]) -> bool:
     """`Left, left, right`: ways and nothing else, and not all the same."""
-    bare = [s.frames[0] for s in segments if len(s.frames) == 1 and s.frames[0].texts[1:] == []]
+    bare = [s.frames[0] for s in segments if len(s.frames) == 1 and len(s.frames[0].texts) <= 1]
     ways = {frame.direction for frame in bare if frame.direction}
     return len(bare) == len(segments) > 2 and len(ways) > 1
 

@@ -169,9 +169,8 @@ def _pending(plain: str, reading: Reading) -> Interpretation | None:
         if found.outcome == "plan":
             return found
     if is_side(plain, reading.language) and any(a.kind in ("q", "number") for a in reading.atoms(before)):
-        raise Unclear(
-            "no_unit", pending
-        )  # what it is the side of was not understood: to turn there is no answer
+        # What it is the side of was not understood: to turn there is no answer.
+        raise Unclear("no_unit", pending)
     return None
 
 

@@ -82,19 +82,22 @@ def asks_ability(text: str, language: str) -> bool:
 
 def asks_a_favour(text: str, language: str) -> bool:
     """`Could you …`: something to be done, though it is put as a question."""
-    return "favour" in load_table(language, "questions") and bool(_pattern(language, "favour").search(text))
+    return _has("favour", text, language)
 
 
 def asks_about_motion(text: str, language: str) -> bool:
     """`Did you turn left?`, `should I go forward?`: nothing is to be done."""
-    return "about_motion" in load_table(language, "questions") and bool(
-        _pattern(language, "about_motion").search(text)
-    )
+    return _has("about_motion", text, language)
 
 
 def tells_of_the_speaker(text: str, language: str) -> bool:
     """`I'll go forward 1 m`: a person does it."""
-    return "speaker" in load_table(language, "questions") and bool(_pattern(language, "speaker").search(text))
+    return _has("speaker", text, language)
+
+
+def _has(name: str, text: str, language: str) -> bool:
+    """Whether that pattern is found, in a language that has it."""
+    return name in load_table(language, "questions") and bool(_pattern(language, name).search(text))
 
 
 def topic_of(text: str, language: str) -> str:
