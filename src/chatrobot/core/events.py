@@ -247,6 +247,10 @@ class Finished(Event):
     (docs/simulation.md, "Wheels that spin").
 
     `planned_m` and `planned_turn_rad` are what the plan wanted up to its end, for "1.00 m of 1.00 m".
+
+    `executed` and `remaining` are plan text: the part of the plan that was driven, as odometry measured it, and the
+    part that was not. Driving one after the other is driving the whole plan. Both are empty for a program and where
+    nothing measures; `remaining` also where the plan was completed or refused.
     """
 
     name: ClassVar[str] = "finished"
@@ -263,6 +267,8 @@ class Finished(Event):
     steps_done: int = 0
     steps: int = 0
     measured: bool = True
+    executed: str = ""
+    remaining: str = ""
 
 
 @dataclass(frozen=True)
