@@ -111,7 +111,7 @@ class Driver:
             ):  # told to stand, and waited for
                 outcome, reason = "failed", Reason("moves_on")
             if outcome != "completed":
-                self._stops.halt_and_book()
+                self._stops.halt_and_book(reason or Reason("cause_unknown"))
             self._end(run, outcome, reason)
 
     def expect(self, duration_s: float) -> None:
