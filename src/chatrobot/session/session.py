@@ -9,6 +9,7 @@ from collections.abc import Callable
 
 from chatrobot.core.errors import JointError, PlanTextError
 from chatrobot.core.events import Event, Finished, Interpreted, Remembered, Result, Telemetry
+from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
@@ -54,6 +55,7 @@ class Session:
         self._orders = Orders(joint, options)
         self._said = SaidTexts()
         self._proposals = Proposals(understanding, self._said.is_void_turn)
+        self._stopped_by = Reason("cause_unknown")
         self._book = TurnBook(understanding, self._emit)
         self._thinking = Thinking(
             mind, options.interpreter, joint, understanding, self._emit, self._conclude_model_turn
@@ -120,16 +122,17 @@ class Session:
     def stop(self, why: str = "") -> None:
         """Stop the robot and drop what was said before this moment."""
         self._joint.send("stop", self._said.void(), why=why)
-        self._cancel_asking()
+        self._cancel_asking(why)
 
     def emergency_stop(self, why: str = "") -> None:
         """Stop the robot and keep it stopped until `release`."""
         self._joint.send("emergency_stop", self._said.void(), why=why)
-        self._cancel_asking()
+        self._cancel_asking(why)
 
-    def _cancel_asking(self) -> None:
+    def _cancel_asking(self, why: str) -> None:
         """End what models are being asked."""
-        self._thinking.cancel()
+        self._stopped_by = Reason("stopped_by", {"why": why})
+        self._thinking.cancel(self._stopped_by)
         if self.authoring is not None:
             self.authoring.cancel()
 
@@ -296,7 +299,7 @@ class Session:
             rehearse_only=options.rehearse_only,
         )
         if self._said.is_void_turn(said.turn):
-            self._thinking.cancel()  # a stop came while it was being understood
+            self._thinking.cancel(self._stopped_by)  # a stop came while it was being understood
 
     def _conclude_model_turn(self, turn: int, text: str, ended: Ended) -> None:
         reply = self.understanding.note_model_turn(text, ended, self.options.rehearse_only)

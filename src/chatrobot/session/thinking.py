@@ -90,10 +90,10 @@ class Thinking:
 
     # --- from any thread ---
 
-    def cancel(self) -> None:
+    def cancel(self, why: Reason) -> None:
         """A stop: end what models are being asked. Returns at once."""
         for turn in tuple(self._turns.values()):
-            turn.doing.cancel(Reason("stopped"))
+            turn.doing.cancel(why)
 
     @property
     def is_moving(self) -> bool:
