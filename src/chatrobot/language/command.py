@@ -97,7 +97,7 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     if default is not None:
         return default
     walked = reading.walked(frames)
-    corrects = any(MEANT in frame.flags for frame in frames)
+    corrects = any({MEANT, "short_of"} & frame.flags for frame in frames)
     steps = reading.steps(frames)
     if not asks:
         check_heeded(atoms, steps, lambda changed: reading.steps(frames_of(changed)))

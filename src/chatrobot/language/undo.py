@@ -118,9 +118,11 @@ def _leading_to(target: Pose, way: Way, here: Pose, profile: RobotProfile) -> tu
     if way is None or end is None:
         return (go,)
     off_m, off_rad = end.distance_to(target), abs(wrap_angle(end.yaw_rad - target.yaw_rad))
-    if off_m <= NEAR_M and off_rad <= NEAR_RAD:
-        return way
-    return (*way, go) if off_m <= FAR_M and off_rad <= FAR_RAD else (go,)
+    if off_m > FAR_M or off_rad > FAR_RAD:
+        return (go,)
+    is_near = off_m <= NEAR_M and off_rad <= NEAR_RAD
+    # A base that steers would drive a whole circle for a centimetre aside.
+    return way if is_near or not profile.can_turn_on_the_spot else (*way, go)
 
 
 def _last_steps(count: int, context: Context, said: str) -> int | list[Step]:

@@ -211,9 +211,10 @@ class Session:
         """It needs no model, and the one that is being asked says nothing."""
         if not self._thinking.may_be_overtaken(said.at_s):
             return False
-        return said.kind == "plan" or not self._thinking.wants(
-            said.text, self.understanding.interpret(said.text)
-        )
+        if said.kind == "plan":
+            return True
+        meant = self.understanding.interpret(said.text)
+        return not (meant.is_about_turn_before or self._thinking.wants(said.text, meant))
 
     def _take_texts(self) -> None:
         for said in self._said.take_too_many():
@@ -252,7 +253,8 @@ class Session:
         if self._programs is not None and self._programs.begin(said.turn, said.text):
             return
         meant = self.understanding.interpret(said.text, self._book.under_way)
-        if meant.is_about_turn_before and (self._book.is_any_with_motion or self._thinking.is_busy):
+        is_any_under_way = self._book.is_any_with_motion or self._thinking.is_busy
+        if is_any_under_way and meant.is_about_turn_before:
             self._end_turn_before(said)
             return
         if self.understanding.misses_robot(meant) and self._hears_robot_soon():
