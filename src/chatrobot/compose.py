@@ -190,6 +190,7 @@ def _connect_simulated(
     joint.live(SETTLE_S)
     if setup.trace:
         hub.connect().subscribe(TRUTH_TOPIC, Odometry, _tracer(on_event))
+        joint.step()  # the trace begins before anything moves
     authoring = _authoring(setup, profile, world, understanding)
     session = Session(joint, understanding, on_event, setup.options, authoring, mind_of(setup, profile))
 
