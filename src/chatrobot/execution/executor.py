@@ -23,10 +23,12 @@ from chatrobot.execution.health import (
 from chatrobot.execution.lookahead import must_brake
 from chatrobot.execution.mending import AT_THE_END, BETWEEN_STEPS, MEND_TRIES, Tolerance, mend
 from chatrobot.execution.sensors import Sensors
+from chatrobot.execution.tally import Tally
 from chatrobot.execution.tracking import feedback
 from chatrobot.plan.context import Impossible
 from chatrobot.plan.core_motion import CoreMotion, Emit, Pause
 from chatrobot.plan.lowering import NotYet, Walk
+from chatrobot.plan.split import Reached
 from chatrobot.plan.trajectory import Segment
 from chatrobot.robots.profile import RobotProfile
 
@@ -64,7 +66,9 @@ class Executor:
         self.planned_m = 0.0
         self.planned_turn_rad = 0.0
         self._course = Course(Pose())
+        self._tally = Tally()
         self._pause_until_s: float | None = None
+        self._pause_s = 0.0
         self._settle_since_s: float | None = None
         self._mends_left = MEND_TRIES
         self._is_mending = False
@@ -91,6 +95,14 @@ class Executor:
     def steps_done(self) -> int:
         """Steps finished, repeats counted each time."""
         return self.steps if self.is_done and self.reason is None else max(0, self.step - 1)
+
+    @property
+    def reached(self) -> Reached | None:
+        """How far the plan has been driven, as odometry shows it just now; None where there is no odometry."""
+        estimate = self._sensors.estimate
+        if estimate is None or not self._sensors.has_odometry:
+            return None
+        return self._tally.reached(estimate.pose)
 
     def progress(self, turn: int, now_s: float) -> Progress:
         """How far it is, by the rehearsed duration."""
@@ -164,18 +176,23 @@ class Executor:
         else:
             self.step, self.steps = item.number, item.total
             self._course.reference = item.start
+            self._tally.begin(item)
             self._begin_motion(item.motion, now_s)
         return True
 
     def _begin_motion(self, motion: CoreMotion | None, now_s: float) -> None:
         if isinstance(motion, Emit):
             self._tell(motion)
+            self._tally.end()
         elif isinstance(motion, Pause):
+            self._pause_s = motion.duration_s
             self._pause_until_s = self._course.free_from_s(now_s) + motion.duration_s
         elif motion is not None:
             self.planned_m += motion.twist.speed_mps * motion.hold_s
             self.planned_turn_rad += motion.twist.wz_radps * motion.hold_s
             self._begin_segment(Segment(motion, self._course.reference), now_s)
+        else:
+            self._tally.end()
 
     def _begin_segment(self, segment: Segment, now_s: float) -> None:
         self._course.begin(segment, now_s)
@@ -190,7 +207,7 @@ class Executor:
         t_s = now_s - self._course.began_s
         segment = self._cut_short(segment, t_s)
         if t_s >= segment.total_s:
-            return self._end_segment(now_s)
+            return self._end_segment(segment, now_s)
         if self._first_tick and segment.motion.asked is not None:
             self._first_tick = False
             return segment.motion.asked  # beyond the limits: the governor says so, once
@@ -244,9 +261,12 @@ class Executor:
         self._course.cut_short(shorter)
         return shorter
 
-    def _end_segment(self, now_s: float) -> Twist | None:
+    def _end_segment(self, segment: Segment, now_s: float) -> Twist | None:
         self._course.end(is_planned=not self._is_mending)
         if not self._is_mending:
+            is_cut_short = segment.ramp.hold_s < segment.motion.hold_s
+            if self._ending is None or not is_cut_short:
+                self._tally.end(segment.ramp.hold_s)
             self._walk.ended_at(self._course.reference)
             self._mends_left = MEND_TRIES
         self._is_mending = False
@@ -255,8 +275,11 @@ class Executor:
         return None
 
     def _pause(self, until_s: float, now_s: float) -> Twist | None:
+        self._tally.wait(self._pause_s - (until_s - now_s))
         if now_s < until_s and self._ending is None:
             return ZERO_TWIST
+        if now_s >= until_s:
+            self._tally.end()
         self._pause_until_s = None
         return None
 

@@ -117,7 +117,7 @@ class Driver:
             if is_waited_for and is_seen_moving(self._robot.sensors):
                 outcome, reason = "failed", Reason("moves_on")
             if outcome != "completed":
-                self._stops.halt_and_book()
+                self._stops.halt_and_book(reason or Reason("cause_unknown"))
             self._end(run, outcome, reason)
             if is_waited_for:
                 self._ends.tell_all()

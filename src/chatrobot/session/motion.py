@@ -250,7 +250,7 @@ class Motion:
         self._sources.note(envelope.lease, now_s)
         if self._intake.is_old(envelope):
             if envelope.word in ("plan", "program"):
-                self._jobs.void(envelope, epoch, self._stops.last_reason)
+                self._jobs.void(envelope, epoch)
             return
         self._sources.hear(envelope, now_s)
         if envelope.word in ("plan", "program"):
