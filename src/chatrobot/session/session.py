@@ -20,6 +20,7 @@ from chatrobot.session.model_terms import Ended
 from chatrobot.session.observations import measured
 from chatrobot.session.options import Options
 from chatrobot.session.orders import Orders
+from chatrobot.session.parting import PARTING
 from chatrobot.session.program_turns import ProgramTurns
 from chatrobot.session.said import Kind, Said, SaidTexts
 from chatrobot.session.thinking import Mind, Thinking
@@ -242,7 +243,7 @@ class Session:
         meant = self.understanding.interpret(said.text)
         if self.understanding.misses_robot(meant) and self._hears_robot_soon():
             meant = self.understanding.interpret(said.text)
-        if self._thinking.wants(said.text, meant):
+        if meant.code != PARTING and self._thinking.wants(said.text, meant):
             self._ask_model(said, meant)
             return
         meant = self._thinking.without_model(said.text, meant)
@@ -260,7 +261,8 @@ class Session:
         else:
             self.understanding.note_unmoved(said.text, meant)
             self._thinking.note(said.text, "", f"{meant.outcome}: {meant.reply}")
-            self._book.conclude(said.turn, meant.outcome, meant.reply)
+            reason = Reason(PARTING) if meant.code == PARTING else None
+            self._book.conclude(said.turn, meant.outcome, meant.reply, reason=reason)
 
     def _hears_robot_soon(self) -> bool:
         """A robot that is there says where it is within a moment of the start."""
