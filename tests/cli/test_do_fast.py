@@ -300,6 +300,6 @@ def test_what_a_person_sees_of_a_plan_is_tidy_and_what_runs_is_exact(chatrobot: 
     )
     exact = chatrobot(*said, "--json").named("interpreted")[0]["plan_text"]
     shown = chatrobot(*said).out
-    assert "51.42857142857142" in exact
+    assert "51.42857142857143" in exact
     assert "turn left 51.4 deg" in shown
     assert "51.428" not in shown
