@@ -52,7 +52,9 @@ def first_velocity(folder: Path) -> float:
     """Seconds from the start of `chatrobot do` until its first velocity is heard here."""
     began_s = time.monotonic()
     said = [*COMMAND, "do", "forward 0.1 m"]
-    with subprocess.Popen(said, env=environment(folder), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE) as process:
+    with subprocess.Popen(
+        said, env=environment(folder), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE
+    ) as process:
         wire = _wire_in(folder / "chatrobot", began_s + PATIENCE_S)
         heard = threading.Event()
         heard_s: list[float] = []

@@ -85,6 +85,8 @@ class GovernedMotion:
         planned_turn_rad: float,
         steps_done: int,
         steps: int,
+        executed: str = "",
+        remaining: str = "",
     ) -> Finished:
         """The end, as odometry measured it."""
         start, estimate = self._job.start, self._sensors.estimate
@@ -103,4 +105,6 @@ class GovernedMotion:
             steps_done=steps_done,
             steps=steps,
             measured=self._sensors.has_odometry,
+            executed=executed,
+            remaining=remaining,
         )

@@ -10,6 +10,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import Priority
 from chatrobot.session.approval import Approval
 from chatrobot.session.driver import Driver
+from chatrobot.session.ends import Ends
 from chatrobot.session.envelope import Envelope
 from chatrobot.session.governed_robot import GovernedRobot
 from chatrobot.session.inbox import Inbox
@@ -38,9 +39,11 @@ class Jobs:
         stops: Stops,
         inbox: Inbox,
         clock: Clock,
+        ends: Ends,
         emit: Callable[[Event], None],
     ) -> None:
         self._robot = robot
+        self._ends = ends
         self._intake = intake
         self._driver = driver
         self._planner = planner
@@ -272,4 +275,4 @@ class Jobs:
             self._finish(job, outcome, reason)
 
     def _finish(self, job: Job, outcome: Outcome, reason: Reason | None) -> None:
-        self._emit(job.unmoved(outcome, reason, self._robot.pose))
+        self._ends.tell(lambda: job.unmoved(outcome, reason, self._robot.pose))

@@ -92,4 +92,6 @@ def summed(total: Finished, run: Finished) -> Finished:
         steps_done=total.steps_done + run.steps_done,
         steps=total.steps + run.steps,
         measured=total.measured and run.measured,
+        executed="\n".join(filter(None, (total.executed, run.executed))),
+        remaining=run.remaining,
     )

@@ -3,9 +3,16 @@
 from __future__ import annotations
 
 from chatrobot.core.events import Event, Result
+from chatrobot.core.reason import Reason
+from chatrobot.language.interpretation import Interpretation
 
 PARTING = "parting"
 """The code of such an interpretation, and of the reason in its result."""
+
+
+def parting(meant: Interpretation) -> Reason | None:
+    """The reason of a result that ends the conversation; None for any other."""
+    return Reason(PARTING) if meant.code == PARTING else None
 
 
 def is_parting(event: Event) -> bool:

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
+from chatrobot.plan.base import Step
 from chatrobot.plan.context import MAX_DURATION_S
 from chatrobot.plan.lowering import NOT_YET, CoreWalk, NotYet, PlannedMotion, WalkItem, iterate_core
 from chatrobot.plan.rehearsal import Rehearsal
@@ -29,11 +30,21 @@ class Stream:
         self.is_planning = False
         self.refusal: Reason | None = None
         self.duration_s = 0.0
-        self.steps = 0
+        self.accepted: tuple[Step, ...] = ()
         self._longest_s = min(longest_s, MAX_DURATION_S)
         self._waiting: deque[str] = deque()
         self._count = 1
         self.walk: PartedWalk | None = None
+
+    @property
+    def steps(self) -> int:
+        """How many were accepted."""
+        return len(self.accepted)
+
+    @property
+    def waiting(self) -> tuple[str, ...]:
+        """The parts that have not been rehearsed."""
+        return tuple(self._waiting)
 
     def add(self, plan_text: str, more: bool) -> None:
         """Take in a part, which may be empty; nothing after the last one counts."""
@@ -65,7 +76,7 @@ class Stream:
             return refusal
         assert planned.rehearsal is not None
         self.duration_s = duration_s
-        self.steps += len(planned.rehearsal.plan.steps)
+        self.accepted += planned.rehearsal.plan.steps
         if self.walk is None:
             self.walk = PartedWalk(self, planned.rehearsal)
         else:
