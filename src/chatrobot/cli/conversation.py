@@ -15,6 +15,7 @@ from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.errors import JointError
 from chatrobot.core.events import EXIT_CODES, Event
 from chatrobot.language.interpretation import LanguageCode
+from chatrobot.session.parting import is_parting
 
 PUMP_S = 0.1
 
@@ -33,6 +34,8 @@ class Conversation:
         self._posted: queue.SimpleQueue[Callable[[], object]] = queue.SimpleQueue()
         self._watch = SignalWatch(self.stop)
         self._is_cut_off = False
+        self.has_parted = False
+        """The person said goodbye: nothing more is heard, and what runs is still done."""
         self._connection: Connection | None = None
 
     def __enter__(self) -> Conversation:
@@ -118,7 +121,7 @@ class Conversation:
 
     def finish(self) -> None:
         """See everything through that was heard."""
-        while not (self.session.is_idle and self._posted.empty()):
+        while not self.has_parted and not (self.session.is_idle and self._posted.empty()):
             self.step()
 
     def step(self) -> None:
@@ -161,4 +164,5 @@ class Conversation:
 
     def _on_event(self, event: Event) -> None:
         self._approver.hear(event)
+        self.has_parted = self.has_parted or is_parting(event)
         self.show(event)

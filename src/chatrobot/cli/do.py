@@ -18,7 +18,7 @@ def run(args: argparse.Namespace) -> int:
     with Conversation(setup_from(args, programs=True), printer, approver) as conversation:
         Keyboard(conversation, approver).start()
         for text in args.texts:
-            if conversation.is_leaving:
+            if conversation.is_leaving or conversation.has_parted:
                 break
             if len(args.texts) > 1:
                 printer.turn(text)

@@ -38,6 +38,7 @@ from chatrobot.core.events import Event, Interpreted, Notice, Result, Started, T
 from chatrobot.language.consent import read_consent, wants_to_edit
 from chatrobot.programs.check import MAX_SOURCE_CHARS
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
+from chatrobot.session.parting import is_parting
 from chatrobot.session.question import Question
 
 TWICE_S = 1.5
@@ -276,6 +277,8 @@ class Talk:
                 self.face.print(*lines)
         if isinstance(event, Result):
             self._go_on_after(event)
+            if is_parting(event):
+                self.leave()
             if self._leaving and self._has_nothing_to_do:
                 self.face.leave(0)
         if isinstance(event, (Telemetry, Started, Result)) and (
