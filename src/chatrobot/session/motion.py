@@ -18,6 +18,7 @@ from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
 from chatrobot.governor.priority import RELEASERS, Priority, priority_of
 from chatrobot.robots.profile import RobotProfile
+from chatrobot.session.budgets import Budgets
 from chatrobot.session.clearance import Clearance
 from chatrobot.session.driver import Driver
 from chatrobot.session.envelope import Envelope
@@ -85,8 +86,18 @@ class Motion:
         )
         self._inbox = Inbox(background)
         self._driver = Driver(robot, self.clearance, self._stops, self._programs, self._inbox, clock, emit)
+        self._budgets = Budgets(profile.safety.budget)
         self._jobs = Jobs(
-            robot, self._intake, self._driver, planner, self._programs, self._stops, self._inbox, clock, emit
+            robot,
+            self._intake,
+            self._driver,
+            planner,
+            self._programs,
+            self._budgets,
+            self._stops,
+            self._inbox,
+            clock,
+            emit,
         )
         self._relay = Relay(clock, robot, self.see_it_stand, self._notice)
         self._joystick = Relay(
@@ -257,6 +268,9 @@ class Motion:
                 self._jobs.approve(envelope)
         elif envelope.word == "release":
             self._release(envelope, emergency)
+        elif envelope.word == "limit":
+            for reason in self._budgets.change(envelope.source, envelope.payload):
+                self._emit(Notice(envelope.turn, reason))
         elif envelope.word == "goodbye":
             self._sources.leave(envelope.lease)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from chatrobot.core.events import Event, Finished, Outcome, Progress
 from chatrobot.core.reason import Reason
@@ -31,6 +32,9 @@ class Run:
         if self._executor.is_done:
             return
         verdict = self._motion.send(asked, now_s)
+        over = self._motion.over_budget()
+        if over is not None:
+            self.ramp_down(over)
         self._executor.note(verdict.rule, verdict.reason, verdict.sent.twist, now_s)
         self._tell(verdict)
 
@@ -56,19 +60,24 @@ class Run:
 
     def close(self) -> None:
         """Nothing is left behind."""
+        self._motion.close()
 
     def progress(self, now_s: float) -> Progress:
-        return self._executor.progress(self.job.turn, now_s)
+        progress = self._executor.progress(self.job.turn, now_s)
+        return replace(progress, fraction=None) if self.job.is_open_ended else progress
 
     def finished(self, outcome: Outcome, reason: Reason | None) -> Finished:
         """The end, as odometry measured it."""
+        is_whole = outcome == "completed"  # conditions that came true may have made it shorter than rehearsed
+        planned_m = self._executor.planned_m
         return self._motion.finished(
             outcome,
             reason,
-            planned_m=self._executor.planned_m,
+            planned_m=planned_m if is_whole else max(planned_m, self.job.length_m),
             planned_turn_rad=self._executor.planned_turn_rad,
             steps_done=self._executor.steps_done,
             steps=self._executor.steps,
+            open_ended=not is_whole and self.job.is_open_ended,
         )
 
     def _tell(self, verdict: Verdict) -> None:

@@ -34,7 +34,7 @@ class Ride:
     is_moving: bool = False
     step: int = 0
     of: int = 0
-    fraction: float = 0.0
+    fraction: float | None = 0.0
     nearest_m: float | None = None
     battery_percent: float | None = None
     path: tuple[XY, ...] = ()
