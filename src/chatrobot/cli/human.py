@@ -60,7 +60,8 @@ class HumanPrinter:
         elif isinstance(event, Progress):
             self._show_progress(event)
         elif isinstance(event, Result):
-            self._line(event.reply)
+            asks = f" {say(language, 'yes_or_no')}" if event.proposal is not None else ""
+            self._line(f"{event.reply}{asks}")
         else:
             self._show_rest(event, language)
 

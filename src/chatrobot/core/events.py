@@ -8,11 +8,12 @@ are in `odom` as the robot itself measures them (`TruePose` alone is the simulat
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, Literal
 
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
+from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
 
 Outcome = Literal["completed", "stopped", "refused", "unclear", "answered", "failed"]
@@ -256,6 +257,10 @@ class Finished(Event):
 
     `planned_m` is the way of the whole plan, for "0.60 m of 1.00 m", and `planned_turn_rad` what it wanted to turn up
     to its end. `open_ended`: the whole is not known, and `planned_m` is what was rehearsed of it.
+
+    `executed` and `remaining` are plan text: the part of the plan that was driven, as odometry measured it, and the
+    part that was not. Driving one after the other is driving the whole plan. Both are empty for a program and where
+    nothing measures; `remaining` also where the plan was completed or refused.
     """
 
     name: ClassVar[str] = "finished"
@@ -272,12 +277,17 @@ class Finished(Event):
     steps_done: int = 0
     steps: int = 0
     measured: bool = True
+    executed: str = ""
+    remaining: str = ""
     open_ended: bool = False
 
 
 @dataclass(frozen=True)
 class Result(Event):
-    """The last event of every turn; pose and distances are what odometry measured, as in `Finished`."""
+    """The last event of every turn; pose and distances are what odometry measured, as in `Finished`.
+
+    `proposal` is a plan that the reply asks about.
+    """
 
     name: ClassVar[str] = "result"
     outcome: Outcome
@@ -288,6 +298,12 @@ class Result(Event):
     duration_s: float = 0.0
     paused_s: float = 0.0
     reason: Reason | None = field(default=None)
+    proposal: Proposal | None = None
+
+    @property
+    def is_question(self) -> bool:
+        """The next text may answer it."""
+        return self.outcome == "unclear" or self.proposal is not None
 
 
 def _plain(value: Any) -> Any:
@@ -296,7 +312,7 @@ def _plain(value: Any) -> Any:
         return {key: round(number, 6) for key, number in zip(value._fields, value)}
     if isinstance(value, float):
         return round(value, 6)
-    if isinstance(value, (Reason, Event)):
+    if isinstance(value, (Reason, Event, Proposal)):
         return value.to_json()
     if isinstance(value, (tuple, list)):
         return [_plain(item) for item in value]
@@ -324,15 +340,16 @@ def _as_is(value: Any) -> Any:
     return value
 
 
-def _reason(value: Any) -> Reason | None:
-    return None if value is None else Reason.from_json(value)
+def _optional(read: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    return lambda value: None if value is None else read(value)
 
 
 _READERS: Mapping[str, Any] = {
     "Pose": lambda value: Pose(**value),
     "Twist": lambda value: Twist(**value),
-    "Reason": _reason,
-    "Reason | None": _reason,
+    "Reason": Reason.from_json,
+    "Reason | None": _optional(Reason.from_json),
+    "Proposal | None": _optional(Proposal.from_json),
     "tuple[int, ...]": tuple,
     "tuple[float | None, ...]": tuple,
     "tuple[str, ...]": tuple,

@@ -104,6 +104,8 @@ class GovernedMotion:
         planned_turn_rad: float,
         steps_done: int,
         steps: int,
+        executed: str = "",
+        remaining: str = "",
         open_ended: bool = False,
     ) -> Finished:
         """The end, as odometry measured it."""
@@ -123,5 +125,7 @@ class GovernedMotion:
             steps_done=steps_done,
             steps=steps,
             measured=self._sensors.has_odometry,
+            executed=executed,
+            remaining=remaining,
             open_ended=open_ended,
         )

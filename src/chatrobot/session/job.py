@@ -8,7 +8,9 @@ from dataclasses import dataclass, field
 from chatrobot.core.events import Finished, Outcome
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.core.reason import Reason
+from chatrobot.plan.base import Step
 from chatrobot.plan.lowering import Walk
+from chatrobot.plan.rehearsal import Rehearsal
 from chatrobot.session.approval import Approval
 from chatrobot.session.budgets import Account, Extent
 from chatrobot.session.envelope import Envelope, seconds
@@ -99,6 +101,25 @@ class Job:
         assert self.planned is not None
         return self.planned.walk()
 
+    @property
+    def rehearsal(self) -> Rehearsal | None:
+        """Of what it begins with."""
+        return self.planned.rehearsal if self.planned is not None else None
+
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """What was accepted to be driven."""
+        if self.stream is not None:
+            return self.stream.accepted
+        return self.rehearsal.plan.steps if self.rehearsal is not None else ()
+
     def unmoved(self, outcome: Outcome, reason: Reason | None, pose: Pose) -> Finished:
         """Its end where nothing moved."""
-        return Finished(self.turn, outcome, reason, pose, pose, 0.0, 0.0, 0.0, 0.0)
+        remaining = self.unread if outcome == "stopped" and not self.rehearse_only else ""
+        return Finished(self.turn, outcome, reason, pose, pose, 0.0, 0.0, 0.0, 0.0, remaining=remaining)
+
+    @property
+    def unread(self) -> str:
+        """All the plan text that came."""
+        parts = self.stream.waiting if self.stream is not None else ()
+        return "\n".join(part.strip("\n") for part in (self.plan_text, *parts))

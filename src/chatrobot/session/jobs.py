@@ -11,6 +11,7 @@ from chatrobot.governor.priority import Priority
 from chatrobot.session.approval import Approval
 from chatrobot.session.budgets import Budgets
 from chatrobot.session.driver import Driver
+from chatrobot.session.ends import Ends
 from chatrobot.session.envelope import Envelope
 from chatrobot.session.governed_robot import GovernedRobot
 from chatrobot.session.inbox import Inbox
@@ -40,9 +41,11 @@ class Jobs:
         stops: Stops,
         inbox: Inbox,
         clock: Clock,
+        ends: Ends,
         emit: Callable[[Event], None],
     ) -> None:
         self._robot = robot
+        self._ends = ends
         self._budgets = budgets
         self._intake = intake
         self._driver = driver
@@ -84,13 +87,18 @@ class Jobs:
         declined = self._give_way(job)
         if declined is None and mode == "replace":
             self._replace(Reason("replaced"))
-        declined = declined or self._intake.add(job, self._stops.count)
+        if declined is None and self._intake.is_void(job, self._stops.count):
+            self._finish(job, "stopped", self._stops.last_reason)
+            return
+        declined = declined or self._intake.add(job)
         if declined is not None:
-            self._finish(job, "stopped" if declined.code == "stopped" else "refused", declined)
+            self._finish(job, "refused", declined)
 
-    def void(self, envelope: Envelope, epoch: int, why: Reason) -> None:
-        """It was overtaken by a later word, most likely a stop: its turn ends here."""
-        self._finish(Job.of(envelope, epoch, self._clock.now_s()), "stopped", why)
+    def void(self, envelope: Envelope, epoch: int) -> None:
+        """A later word came before it, a stop or another: its turn ends here."""
+        job = Job.of(envelope, epoch, self._clock.now_s())
+        is_stopped = self._intake.is_void(job, self._stops.count)
+        self._finish(job, "stopped", self._stops.last_reason if is_stopped else Reason("overtaken"))
 
     def refuse(self, envelope: Envelope, epoch: int, why: Reason) -> None:
         """Its source may not ask for anything."""
@@ -278,4 +286,4 @@ class Jobs:
             self._finish(job, outcome, reason)
 
     def _finish(self, job: Job, outcome: Outcome, reason: Reason | None) -> None:
-        self._emit(job.unmoved(outcome, reason, self._robot.pose))
+        self._ends.tell(lambda: job.unmoved(outcome, reason, self._robot.pose))

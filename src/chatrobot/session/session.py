@@ -10,6 +10,7 @@ from typing import Any
 
 from chatrobot.core.errors import JointError, PlanTextError
 from chatrobot.core.events import Event, Finished, Interpreted, Remembered, Result, Telemetry
+from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
@@ -21,6 +22,7 @@ from chatrobot.session.observations import measured
 from chatrobot.session.options import Options
 from chatrobot.session.orders import Orders
 from chatrobot.session.program_turns import ProgramTurns
+from chatrobot.session.proposals import Proposals
 from chatrobot.session.said import Kind, Said, SaidTexts
 from chatrobot.session.thinking import Mind, Thinking
 from chatrobot.session.turn_book import TurnBook
@@ -50,17 +52,19 @@ class Session:
     ) -> None:
         self._joint = joint
         self.understanding = understanding
-        self._emit = on_event
+        self._on_event = on_event
         self._orders = Orders(joint, options)
         self._said = SaidTexts()
-        self._book = TurnBook(understanding, on_event)
+        self._proposals = Proposals(understanding, self._said.is_void_turn)
+        self._stopped_by = Reason("cause_unknown")
+        self._book = TurnBook(understanding, self._emit)
         self._thinking = Thinking(
-            mind, options.interpreter, joint, understanding, on_event, self._conclude_model_turn
+            mind, options.interpreter, joint, understanding, self._emit, self._conclude_model_turn
         )
         self.authoring = authoring
         self._programs = (
             ProgramTurns(
-                authoring, understanding, self._book, self._orders, on_event, self._said.is_void_turn
+                authoring, understanding, self._book, self._orders, self._emit, self._said.is_void_turn
             )
             if authoring is not None
             else None
@@ -119,16 +123,17 @@ class Session:
     def stop(self, why: str = "") -> None:
         """Stop the robot and drop what was said before this moment."""
         self._joint.send("stop", self._said.void(), why=why)
-        self._cancel_asking()
+        self._cancel_asking(why)
 
     def emergency_stop(self, why: str = "") -> None:
         """Stop the robot and keep it stopped until `release`."""
         self._joint.send("emergency_stop", self._said.void(), why=why)
-        self._cancel_asking()
+        self._cancel_asking(why)
 
-    def _cancel_asking(self) -> None:
+    def _cancel_asking(self, why: str) -> None:
         """End what models are being asked."""
-        self._thinking.cancel()
+        self._stopped_by = Reason("stopped_by", {"why": why})
+        self._thinking.cancel(self._stopped_by)
         if self.authoring is not None:
             self.authoring.cancel()
 
@@ -190,6 +195,10 @@ class Session:
         """Goodbye: what runs is still done."""
         self._joint.close()
 
+    def _emit(self, event: Event) -> None:
+        self._proposals.hear(event)
+        self._on_event(event)
+
     # --- what was said ---
 
     def _next_said(self) -> Said | None:
@@ -222,6 +231,10 @@ class Session:
     def _take(self, said: Said) -> None:
         if self._said.is_void(said):
             self._book.conclude(said.turn, "stopped", self.understanding.say("dropped_by_stop", said.text))
+            return
+        answer = self._proposals.answered(said)
+        if answer is not None:
+            self._act_on(said, answer)
         elif said.kind == "text":
             self._understand(said)
         elif said.kind == "plan":
@@ -250,7 +263,10 @@ class Session:
         if self._thinking.wants(said.text, meant):
             self._ask_model(said, meant)
             return
-        meant = self._thinking.without_model(said.text, meant)
+        self._act_on(said, self._thinking.without_model(said.text, meant))
+
+    def _act_on(self, said: Said, meant: Interpretation) -> None:
+        """Do what was understood without a model."""
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         interpreted = Interpreted(said.turn, "offline", plan_text, meant.reply)
         if meant.outcome == "plan":
@@ -265,7 +281,7 @@ class Session:
         else:
             self.understanding.note_unmoved(said.text, meant)
             self._thinking.note(said.text, "", f"{meant.outcome}: {meant.reply}")
-            self._book.conclude(said.turn, meant.outcome, meant.reply)
+            self._book.conclude(said.turn, meant.outcome, meant.reply, proposal=meant.proposal)
 
     def _hears_robot_soon(self) -> bool:
         """A robot that is there says where it is within a moment of the start."""
@@ -291,7 +307,7 @@ class Session:
             rehearse_only=options.rehearse_only,
         )
         if self._said.is_void_turn(said.turn):
-            self._thinking.cancel()  # a stop came while it was being understood
+            self._thinking.cancel(self._stopped_by)  # a stop came while it was being understood
 
     def _conclude_model_turn(self, turn: int, text: str, ended: Ended) -> None:
         reply = self.understanding.note_model_turn(text, ended, self.options.rehearse_only)

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
+from chatrobot.plan.base import Step
 from chatrobot.plan.context import MAX_DURATION_S
 from chatrobot.plan.lowering import NOT_YET, CoreWalk, NotYet, PlannedMotion, WalkItem, iterate_core
 from chatrobot.plan.rehearsal import Rehearsal
@@ -31,13 +32,23 @@ class Stream:
         self.refusal: Reason | None = None
         self.duration_s = self.length_m = 0.0
         self.certain = Extent()
-        self.steps = 0
+        self.accepted: tuple[Step, ...] = ()
         self._account = account
         self._has_unknown_part = False
         self._longest_s = min(longest_s, MAX_DURATION_S)
         self._waiting: deque[str] = deque()
         self._count = 1
         self.walk: PartedWalk | None = None
+
+    @property
+    def steps(self) -> int:
+        """How many were accepted."""
+        return len(self.accepted)
+
+    @property
+    def waiting(self) -> tuple[str, ...]:
+        """The parts that have not been rehearsed."""
+        return tuple(self._waiting)
 
     def add(self, plan_text: str, more: bool) -> None:
         """Take in a part, which may be empty; nothing after the last one counts."""
@@ -74,7 +85,7 @@ class Stream:
         self.duration_s, self.certain = duration_s, certain
         self.length_m += planned.length_m
         self._has_unknown_part = self._has_unknown_part or planned.is_open_ended
-        self.steps += len(planned.rehearsal.plan.steps)
+        self.accepted += planned.rehearsal.plan.steps
         if self.walk is None:
             self.walk = PartedWalk(self, planned.rehearsal)
         else:

@@ -180,7 +180,8 @@ class Narrator:
         self._plans.pop(event.turn, None)
         self._streamed.pop(event.turn, None)
         mark, style = _MARKS[event.outcome]
-        yield marked(mark, style, event.reply)
+        asks = f" {say(self._words.language, 'yes_or_no')}" if event.proposal is not None else ""
+        yield marked(mark, style, f"{event.reply}{asks}")
         if event.path_m > _LEAST_M or abs(event.turned_rad) > _LEAST_RAD:
             measured = self._words.say(
                 "measured", pose=self._words.pose(event.pose), duration=f"{event.duration_s:.1f}"

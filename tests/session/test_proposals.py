@@ -1,0 +1,129 @@
+"""A question that offers a plan carries it: a yes as the very next text runs it, and nothing else does."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from rich.console import Console
+from tests.session.test_session import Talk
+
+from chatrobot.cli.console.narrator import Narrator
+from chatrobot.cli.console.words import Words
+from chatrobot.core.events import Interpreted, Rehearsed, Result, event_from_json
+from chatrobot.core.proposal import Proposal
+from chatrobot.session import proposals
+from chatrobot.session.options import Options
+
+ASKING = "go to the kichen"
+
+
+def asked(**setup: object) -> Talk:
+    """A session that has just asked whether the kitchen was meant."""
+    talk = Talk(world="home", **setup)
+    result = talk.session.do(ASKING)
+    assert (result.outcome, result.path_m) == ("unclear", 0.0)
+    return talk
+
+
+def test_the_question_comes_with_the_plan_that_it_offers() -> None:
+    result = asked().session.results[1]
+    assert result.proposal == Proposal('go to 4 0.7 named "kitchen"', "Did you mean kitchen?")
+    assert result.reply.endswith(result.proposal.say)
+    line = json.loads(json.dumps(result.to_json()))
+    assert line["proposal"] == {"plan_text": 'go to 4 0.7 named "kitchen"', "say": "Did you mean kitchen?"}
+    assert event_from_json(line) == result
+
+
+def test_a_result_that_offers_nothing_says_so() -> None:
+    assert Talk().session.do("forward 10 cm").to_json()["proposal"] is None
+
+
+@pytest.mark.parametrize("word", ["yes", "y", "Yes, do it!", "go ahead", "ok", "好的", "可以"])
+def test_a_yes_runs_the_plan(word: str) -> None:
+    talk = asked()
+    result = talk.session.do(word)
+    assert result.outcome == "completed"
+    assert result.pose.distance_to(talk.connection.world.places["kitchen"]) < 0.05
+    heard = [event for event in talk.events if event.turn == 2]
+    assert [event.plan_text for event in heard if isinstance(event, Interpreted)] == [
+        'go to 4 0.7 named "kitchen"'
+    ]
+    assert any(isinstance(event, Rehearsed) for event in heard)
+
+
+def test_a_yes_is_approved_where_approval_is_asked() -> None:
+    talk = asked(options=Options(approve=True))
+    turn = talk.session.say("yes")
+    talk.pump_until(lambda: any(isinstance(e, Rehearsed) and e.needs_approval for e in talk.events))
+    talk.session.approve(turn, False)
+    talk.pump_until(lambda: turn in talk.results())
+    assert (talk.results()[turn].outcome, talk.results()[turn].path_m) == ("refused", 0.0)
+
+
+@pytest.mark.parametrize("word", ["no", "n", "No, thanks.", "不用了"])
+def test_a_no_drops_it(word: str) -> None:
+    talk = asked()
+    dropped = talk.session.do(word)
+    assert (dropped.outcome, dropped.proposal) == ("answered", None)
+    assert talk.session.do("yes").outcome == "unclear"
+
+
+@pytest.mark.parametrize(
+    ("between", "outcome"),
+    [
+        ("where are you?", "answered"),
+        ("forward 2 cm", "completed"),
+        ("stop", "stopped"),
+        ("hrmpf", "unclear"),
+    ],
+)
+def test_anything_else_is_understood_and_drops_it(between: str, outcome: str) -> None:
+    talk = asked()
+    assert talk.session.do(between).outcome == outcome
+    assert talk.session.do("yes").outcome != "completed"
+
+
+def test_a_stop_button_drops_it() -> None:
+    talk = asked()
+    talk.session.stop("button")
+    assert talk.session.do("yes").outcome == "unclear"
+
+
+def test_a_plan_given_as_such_drops_it() -> None:
+    talk = asked()
+    talk.session.say_plan("drive 0.02 m")
+    talk.session.say("yes")
+    talk.pump_until(lambda: len(talk.results()) == 3)
+    assert talk.results()[3].outcome == "unclear"
+
+
+def test_a_robot_that_was_moved_has_to_be_asked_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    talk = asked()
+    elsewhere = talk.session.understanding.pose._replace(x_m=0.2)
+    monkeypatch.setattr(type(talk.session.understanding), "pose", elsewhere)
+    late = talk.session.do("yes")
+    assert (late.outcome, late.path_m) == ("refused", 0.0)
+    assert "moved" in late.reply
+
+
+def test_a_yes_that_comes_late_has_to_be_said_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    talk = asked()
+    began_s = proposals.time.monotonic()
+    monkeypatch.setattr("chatrobot.session.said.time.monotonic", lambda: began_s + 31.0)
+    late = talk.session.do("yes")
+    assert (late.outcome, late.path_m) == ("refused", 0.0)
+
+
+def test_every_proposal_that_is_shown_asks_for_a_yes_or_a_no() -> None:
+    result = asked().session.results[1]
+    assert shown(result).endswith("Did you mean kitchen? y/n")
+    assert "y/n" not in shown(Result(1, "unclear", "What?"))
+
+
+def shown(result: Result) -> str:
+    """What the console prints of it."""
+    console = Console(width=200)
+    with console.capture() as capture:
+        console.print(*Narrator(Words("en")).tell(result))
+    return capture.get().strip()
