@@ -13,7 +13,7 @@ from chatrobot.cli.printer import Printer
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.errors import JointError
-from chatrobot.core.events import EXIT_CODES, Event
+from chatrobot.core.events import EXIT_CODES, Event, Outcome
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.session.parting import is_parting
 
@@ -108,16 +108,18 @@ class Conversation:
 
     # --- the main thread ---
 
-    def do(self, text: str) -> None:
-        """One turn, seen through to its result."""
-        self.see_through(self.session.say(text))
+    def do(self, text: str) -> Outcome:
+        """One turn, seen through to its result: how it ended."""
+        outcome = self.see_through(self.session.say(text))
         while (edited := self._approver.take_edited()) is not None:
-            self.see_through(self.session.say_plan(edited))
+            outcome = self.see_through(self.session.say_plan(edited))
+        return outcome
 
-    def see_through(self, turn: int) -> None:
-        """Let things happen until that turn has its result."""
+    def see_through(self, turn: int) -> Outcome:
+        """Let things happen until that turn has its result: how it ended."""
         while turn not in self.session.results:
             self.step()
+        return self.session.results[turn].outcome
 
     def finish(self) -> None:
         """See everything through that was heard."""

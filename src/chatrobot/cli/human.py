@@ -91,7 +91,7 @@ class HumanPrinter:
 
     def _show_progress(self, event: Progress) -> None:
         metres = self._way.advance(event.pose)
-        status = f"  {self._way}  {event.fraction:4.0%}"
+        status = f"  {self._way.text(event.fraction)}"
         if self._output.is_terminal:
             self._output.write(f"{_CLEAR_LINE}{status}")
             self._has_status = True
@@ -165,10 +165,14 @@ class _Way:
         self._last = pose
         return math.floor(self._driven_m) > math.floor(before_m)
 
-    def __str__(self) -> str:
+    def text(self, fraction: float | None) -> str:
+        """How far, and which turn; of how much, and the share, where the whole is known."""
         turned_deg = math.degrees(self._last.yaw_rad - self._start_yaw_rad) if self._last is not None else 0.0
-        turned = fixed(turned_deg, 0)
-        return f"{self._driven_m:.2f} / {self.planned_m:.2f} m  {'+' if float(turned) > 0 else ''}{turned}°"
+        rounded = fixed(turned_deg, 0)
+        turned = f"{'+' if float(rounded) > 0 else ''}{rounded}°"
+        if fraction is None:
+            return f"{self._driven_m:.2f} m  {turned}"
+        return f"{self._driven_m:.2f} / {self.planned_m:.2f} m  {turned}  {fraction:4.0%}"
 
 
 def _twist(twist: Twist) -> str:

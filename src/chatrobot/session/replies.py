@@ -66,8 +66,9 @@ def describe_model_end(ended: Ended, language: str) -> str:
 
 def _measured(finished: Finished, language: str) -> str:
     parts = []
-    if finished.planned_m > LEAST_DISTANCE_M:
-        code = "drove" if finished.measured else "drove_unmeasured"
+    if finished.planned_m > LEAST_DISTANCE_M or (finished.open_ended and finished.path_m > LEAST_DISTANCE_M):
+        code = "drove_open" if finished.open_ended else "drove"
+        code = code if finished.measured else f"{code}_unmeasured"
         parts.append(say(language, code, drove_m=f"{finished.path_m:.2f}", of_m=f"{finished.planned_m:.2f}"))
     if abs(finished.planned_turn_rad) > LEAST_ANGLE_RAD or abs(finished.turned_rad) > math.radians(3.0):
         parts.append(_turned(math.degrees(finished.turned_rad), language))

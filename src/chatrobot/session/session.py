@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 from chatrobot.core.errors import JointError, PlanTextError
 from chatrobot.core.events import Event, Finished, Interpreted, Remembered, Result, Telemetry
@@ -137,6 +138,13 @@ class Session:
     def release(self) -> None:
         """Release an emergency stop. For the local console alone."""
         self._joint.send("release")
+
+    def limit(self, **limits: Any) -> None:
+        """Change the motion budget, or ask for it: `max_distance_m`, `max_time_s`, each a number or `none`.
+
+        For the local console alone.
+        """
+        self._joint.send("limit", **limits)
 
     def approve(self, turn: int, yes: bool) -> None:
         """Answer a rehearsed plan that waits for a yes."""

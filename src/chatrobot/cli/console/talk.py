@@ -19,11 +19,11 @@ from chatrobot.cli.console.narrator import Narrator
 from chatrobot.cli.console.pasted import (
     MOST_TEXTS,
     Pasted,
-    asks_for_release,
     cut_at_stop,
     ends_a_paste,
     goes_on_after,
     is_plan,
+    must_be_typed,
     quoted,
 )
 from chatrobot.cli.console.pump import Pump
@@ -128,11 +128,11 @@ class Talk:
         with self._order:
             text = self._pasted.next()
             while text is not None and text.startswith("/") and text != "/undo":
-                is_release = asks_for_release(text)
-                undone = self._pasted.drop() if is_release or ends_a_paste(text) else ()
+                typed_alone = must_be_typed(text)
+                undone = self._pasted.drop() if typed_alone or ends_a_paste(text) else ()
                 self._echo(text, anew=True)
                 self._tell_undone(undone)
-                self.tell("release_alone") if is_release else self._run_command(self, text)
+                self.tell(f"{typed_alone}_alone") if typed_alone else self._run_command(self, text)
                 text = self._pasted.next()
             if text is not None:
                 self._say_in_order(text if text != "/undo" else self.words.say("undo_words"), is_pasted=True)
