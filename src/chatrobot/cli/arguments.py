@@ -30,6 +30,7 @@ DEFAULTS: dict[str, Any] = {
     "on": "auto", "robot": DEFAULT_ROBOT, "interpreter": "auto", "model": "", "fast": False, "json": False,
     "trace": False, "sim": "", "world": "", "approve": False, "yes": False, "config_dir": None,
     "rounds": 6, "budget_tokens": 20_000, "budget_s": 600.0, "parameters": [],
+    "max_distance": None, "max_time": None, "keep_going": False,
 }  # fmt: skip
 
 _NODES = ("node", "sim")
@@ -164,6 +165,11 @@ def _parsers() -> tuple[Parser, Parser]:
 def _do(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "texts", nargs="+", metavar="TEXT", help="what to do; several are turns of one dialogue"
+    )
+    parser.add_argument(
+        "--keep-going",
+        action="store_true",
+        help="do the rest, too, after a turn that was refused, stopped, failed or not understood",
     )
 
 

@@ -6,10 +6,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 from chatrobot.core.errors import JointError, PlanTextError
 from chatrobot.core.events import Event, Finished, Interpreted, Remembered, Result, Telemetry
-from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
@@ -20,6 +20,7 @@ from chatrobot.session.model_terms import Ended
 from chatrobot.session.observations import measured
 from chatrobot.session.options import Options
 from chatrobot.session.orders import Orders
+from chatrobot.session.parting import parting
 from chatrobot.session.program_turns import ProgramTurns
 from chatrobot.session.proposals import Proposals
 from chatrobot.session.said import Kind, Said, SaidTexts
@@ -56,7 +57,6 @@ class Session:
         self._said = SaidTexts()
         self._waits_for_end = 0
         self._proposals = Proposals(understanding, self._said.is_void_turn)
-        self._stopped_by = Reason("cause_unknown")
         self._book = TurnBook(understanding, self._emit)
         self._thinking = Thinking(
             mind, options.interpreter, joint, understanding, self._emit, self._conclude_model_turn
@@ -122,24 +122,30 @@ class Session:
 
     def stop(self, why: str = "") -> None:
         """Stop the robot and drop what was said before this moment."""
-        self._joint.send("stop", self._said.void(), why=why)
-        self._cancel_asking(why)
+        self._joint.send("stop", self._said.void(why), why=why)
+        self._cancel_asking()
 
     def emergency_stop(self, why: str = "") -> None:
         """Stop the robot and keep it stopped until `release`."""
-        self._joint.send("emergency_stop", self._said.void(), why=why)
-        self._cancel_asking(why)
+        self._joint.send("emergency_stop", self._said.void(why), why=why)
+        self._cancel_asking()
 
-    def _cancel_asking(self, why: str) -> None:
+    def _cancel_asking(self) -> None:
         """End what models are being asked."""
-        self._stopped_by = Reason("stopped_by", {"why": why})
-        self._thinking.cancel(self._stopped_by)
+        self._thinking.cancel(self._said.stopped_by)
         if self.authoring is not None:
             self.authoring.cancel()
 
     def release(self) -> None:
         """Release an emergency stop. For the local console alone."""
         self._joint.send("release")
+
+    def limit(self, **limits: Any) -> None:
+        """Change the motion budget, or ask for it: `max_distance_m`, `max_time_s`, each a number or `none`.
+
+        For the local console alone.
+        """
+        self._joint.send("limit", **limits)
 
     def approve(self, turn: int, yes: bool) -> None:
         """Answer a rehearsed plan that waits for a yes."""
@@ -259,7 +265,7 @@ class Session:
             return
         if self.understanding.misses_robot(meant) and self._hears_robot_soon():
             meant = self.understanding.interpret(said.text)
-        if self._thinking.wants(said.text, meant):
+        if parting(meant) is None and self._thinking.wants(said.text, meant):
             self._ask_model(said, meant)
             return
         self._act_on(said, self._thinking.without_model(said.text, meant))
@@ -287,7 +293,7 @@ class Session:
         else:
             self.understanding.note_unmoved(said.text, meant)
             self._thinking.note(said.text, "", f"{meant.outcome}: {meant.reply}")
-            self._book.conclude(said.turn, meant.outcome, meant.reply, proposal=meant.proposal)
+            self._book.conclude(said.turn, meant.outcome, meant.reply, None, parting(meant), meant.proposal)
 
     def _hears_robot_soon(self) -> bool:
         """A robot that is there says where it is within a moment of the start."""
@@ -313,7 +319,7 @@ class Session:
             rehearse_only=options.rehearse_only,
         )
         if self._said.is_void_turn(said.turn):
-            self._thinking.cancel(self._stopped_by)  # a stop came while it was being understood
+            self._thinking.cancel(self._said.stopped_by)  # a stop came while it was being understood
 
     def _conclude_model_turn(self, turn: int, text: str, ended: Ended) -> None:
         reply = self.understanding.note_model_turn(text, ended, self.options.rehearse_only)
