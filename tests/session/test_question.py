@@ -174,3 +174,14 @@ def test_all_else_that_a_connected_model_says_waits_for_a_yes(reply: str, option
 
 def test_the_form_frees_nothing_where_nobody_has_connected_the_model() -> None:
     waiting(ModelTalk(FORM, options=MODELS))
+
+
+def test_an_edited_plan_waits_for_a_yes_whatever_the_options() -> None:
+    talk = ModelTalk(PLAN)
+    turn = talk.session.say_edited_plan("drive 0.2 m")
+    talk.pump_until(lambda: any(isinstance(event, Rehearsed) for event in talk.events))
+    assert talk.of("rehearsed")[-1].needs_approval  # type: ignore[attr-defined]
+    assert not talk.moved()
+    talk.session.approve(turn, True)
+    talk.pump_until(lambda: turn in talk.session.results)
+    assert talk.session.results[turn].outcome == "completed"

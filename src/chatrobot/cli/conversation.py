@@ -107,9 +107,13 @@ class Conversation:
 
     def do(self, text: str) -> None:
         """One turn, seen through to its result."""
-        self.see_through(self.session.say(text))
-        while (edited := self._approver.take_edited()) is not None:
-            self.see_through(self.session.say_plan(edited))
+        self.see_through_edits(self.session.say(text))
+
+    def see_through_edits(self, turn: int) -> None:
+        """That turn, and those of what a person made of the plan or program that it asked about."""
+        self.see_through(turn)
+        while (say_edited := self._approver.take_edited()) is not None and not self.is_leaving:
+            self.see_through(say_edited(self.session))
 
     def see_through(self, turn: int) -> None:
         """Let things happen until that turn has its result."""
@@ -161,4 +165,5 @@ class Conversation:
 
     def _on_event(self, event: Event) -> None:
         self._approver.hear(event)
-        self.show(event)
+        if not self._approver.is_withdrawn(event):
+            self.show(event)

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+from chatrobot.cli.approver import Approver
 from chatrobot.cli.choices import setup_from
 from chatrobot.cli.conversation import Conversation
 from chatrobot.cli.editor import edited_text
@@ -14,7 +15,6 @@ from chatrobot.cli.folders import config_folder, profile_folders
 from chatrobot.cli.json_lines import json_line
 from chatrobot.cli.keyboard import Keyboard, has_keyboard
 from chatrobot.cli.printer import printer_for
-from chatrobot.cli.program_approver import ProgramApprover
 from chatrobot.core.errors import UsageError
 from chatrobot.programs.library import KeptProgram, Library, clean_name
 from chatrobot.session.options import Options
@@ -84,12 +84,10 @@ def _drive(args: argparse.Namespace, say: Callable[[Conversation], int]) -> int:
         ask_findings=not args.yes,
         ask_new=is_new and can_ask and not args.yes,
     )
-    approver = ProgramApprover(can_ask=can_ask)
+    approver = Approver(can_ask=can_ask)
     with Conversation(setup_from(args, options=options, programs=True), printer, approver) as conversation:
         Keyboard(conversation, approver).start()
-        conversation.see_through(say(conversation))
-        while (edited := approver.edited()) is not None and not conversation.is_leaving:
-            conversation.see_through(conversation.session.say_source(*edited))
+        conversation.see_through_edits(say(conversation))
     return conversation.exit_code
 
 
@@ -135,18 +133,22 @@ def _summary(program: KeptProgram) -> str:
 
 
 def _show(args: argparse.Namespace) -> int:
-    from chatrobot.cli.program_text import numbered
     from chatrobot.programs.check import check
     from chatrobot.robots.load import load_profile
+    from chatrobot.session.program_text import numbered
 
-    program = _library(args).get(args.name)
+    library = _library(args)
+    program = library.get(args.name)
+    place = library.place(program.name)
     if args.json:
-        print(json_line({"event": "program", **_about(program), "source": program.source}), end="")
+        about = {"event": "program", **_about(program), "source": program.source, "place": place}
+        print(json_line(about), end="")
         return 0
     profile = load_profile(args.robot, profile_folders(args))
     print(f"{program.name}  ({_summary(program)})")
     if program.provenance.sentence:
         print(f"asked for: {' '.join(program.provenance.sentence.split())}")
+    print(f"source: {place}")
     if program.description:
         print(program.description)
     for run in program.runs:

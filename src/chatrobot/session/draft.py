@@ -16,13 +16,16 @@ from chatrobot.programs.library import KeptProgram
 class Draft:
     """One version of a program.
 
-    `is_new`: it was written in this turn, so it is kept once it stands. `messages` is the conversation with the model
-    that wrote it, empty where none did. `promises` are what the request says and its numbers do not give.
+    `is_new`: it was written in this turn, so it is kept once it stands. `asks`: a person's yes is waited for, whatever
+    the options. `place` is the file of its source, "" where it is in none. `messages` is the conversation with the
+    model that wrote it, empty where none did. `promises` are what the request says and its numbers do not give.
     """
 
     program: KeptProgram
     checked: Checked
     is_new: bool = False
+    asks: bool = False
+    place: str = ""
     version: int = 1
     diff: str = ""
     promises: tuple[Reason, ...] = ()
@@ -32,18 +35,21 @@ class Draft:
     def by_model(self) -> bool:
         return bool(self.messages)
 
-    def next(self, source: str, checked: Checked, messages: tuple[Message, ...]) -> Draft:
-        """The version after this one."""
+    def next(self, source: str, checked: Checked, messages: tuple[Message, ...] = ()) -> Draft:
+        """The version after this one: a model's where there are `messages`, otherwise a person's."""
+        origin = self.program.provenance
         program = replace(
             self.program,
             source=source,
             remap=dict(checked.remap),
-            provenance=replace(self.program.provenance, versions=self.version + 1),
+            rehearsal={},
+            provenance=replace(origin, by="model" if messages else "person", versions=self.version + 1),
         )
         return replace(
             self,
             program=program,
             checked=checked,
+            is_new=True,
             version=self.version + 1,
             diff=difference(self.program.source, source),
             messages=messages,
@@ -66,6 +72,7 @@ class Draft:
             self.diff,
             self.is_new,
             tuple(marks),
+            self.place,
         )
 
 

@@ -67,6 +67,7 @@ class ProgramTurns:
         self._emit = emit
         self._is_void_turn = is_void_turn
         self._turns: dict[int, _Turn] = {}
+        self._shown: dict[str, Draft] = {}
 
     def begin(self, turn: int, text: str, *, is_asked_for: bool = False, name: str = "") -> bool:
         """Take the turn if it is about a program; `name` is what it is to be called.
@@ -104,6 +105,10 @@ class ProgramTurns:
         self._turns[turn] = about = _Turn(draft)
         self._book.track(turn, text, Interpretation("plan", reply, self._understanding.language))
         self._send(turn, about)
+
+    def run_edited(self, turn: int, name: str, source: str) -> None:
+        """Have what a person made of the program of that name rehearsed, and asked about."""
+        self.run(turn, name, self.authoring.edited(self._shown[name], source))
 
     def hear(self, event: Event) -> bool:
         """Take in Motion's event; True where Motion is done with the turn, and we are not."""
@@ -143,14 +148,14 @@ class ProgramTurns:
 
     def _send(self, turn: int, about: _Turn) -> None:
         """Show this version and hand it to Motion; one that cannot even be read is mended first, or ends the turn."""
-        self._emit(about.draft.event(turn))
+        self._show(turn, about.draft)
         while (refusal := about.draft.checked.refusal) is not None:
             if not self._mend(turn, about, refusal.reason, ""):
                 del self._turns[turn]
                 reply = render_reason(refusal.reason, self._understanding.language)
                 self._book.conclude(turn, "refused", reply)
                 return
-            self._emit(about.draft.event(turn))
+            self._show(turn, about.draft)
         self.authoring.keep(about.draft)
         draft = about.draft
         payload = {
@@ -161,8 +166,17 @@ class ProgramTurns:
         }
         is_led_elsewhere = bool(draft.program.remap) and not draft.program.runs
         self._orders.program(
-            turn, payload, is_new=draft.is_new, by_model=draft.by_model, is_led_elsewhere=is_led_elsewhere
+            turn,
+            payload,
+            is_new=draft.is_new,
+            by_model=draft.by_model,
+            is_led_elsewhere=is_led_elsewhere,
+            asks=draft.asks,
         )
+
+    def _show(self, turn: int, draft: Draft) -> None:
+        self._shown[draft.program.name] = draft
+        self._emit(draft.event(turn))
 
     def _tell_spent(self, turn: int, call: int) -> None:
         """What a model has used, as for plans; `call` counts those of the turn."""
