@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,9 +14,13 @@ from chatrobot.cli.editor import edited_text
 from chatrobot.cli.folders import config_folder, profile_folders
 from chatrobot.cli.json_lines import json_line
 from chatrobot.cli.keyboard import Keyboard, has_keyboard
+from chatrobot.cli.parameter_files import with_parameter_files
 from chatrobot.cli.printer import printer_for
 from chatrobot.core.errors import UsageError
 from chatrobot.programs.library import KeptProgram, Library, clean_name
+from chatrobot.programs.ros_args import RosArgumentsError, check_args
+from chatrobot.session.authoring import Authoring
+from chatrobot.session.draft import Draft
 from chatrobot.session.options import Options
 
 _READ_BYTES = 1_000_000
@@ -43,24 +47,35 @@ def _new(args: argparse.Namespace) -> int:
 
 
 def _run(args: argparse.Namespace) -> int:
-    path = Path(args.name).expanduser()
+    path, given = Path(args.name).expanduser(), _given(args)
     if path.suffix == ".py":
         source = _read(path)
-        return _drive(args, lambda conversation: _say_file(conversation, path, source))
+        return _drive(
+            args,
+            lambda conversation: _say(conversation, lambda made: made.draft_of_file(path, source), given),
+        )
     program = _library(args).get(args.name)
-    return _drive(args, lambda conversation: _say_kept(conversation, program))
+    return _drive(args, lambda conversation: _say(conversation, lambda made: made.draft_of(program), given))
 
 
-def _say_file(conversation: Conversation, path: Path, source: str) -> int:
+def _say(conversation: Conversation, draft_of: Callable[[Authoring], Draft], given: Sequence[str]) -> int:
     authoring = conversation.session.authoring
     assert authoring is not None
-    return conversation.session.say_draft(authoring.draft_of_file(path, source))
+    return conversation.session.say_draft(draft_of(authoring).with_args(given))
 
 
-def _say_kept(conversation: Conversation, program: KeptProgram) -> int:
-    authoring = conversation.session.authoring
-    assert authoring is not None
-    return conversation.session.say_draft(authoring.draft_of(program))
+def _given(args: argparse.Namespace) -> list[str]:
+    """The program's own command line, its parameter files read: in the box it can open none.
+
+    Raises:
+        InputError: it cannot be given to a program.
+    """
+    given = with_parameter_files(args.program_args)
+    try:
+        check_args(given)
+    except RosArgumentsError as error:
+        raise UsageError(str(error), where="behind --") from error
+    return given
 
 
 def _read(path: Path) -> str:

@@ -5,6 +5,7 @@ Nothing here runs a program: its source goes to Motion, which rehearses it in th
 
 from __future__ import annotations
 
+import shlex
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -99,11 +100,24 @@ class Authoring:
 
     # --- which program ---
 
-    def kept(self, text: str) -> Draft | None:
-        """The kept program that `text` asks to run; None where it asks for none."""
+    def kept(self, text: str, language: str) -> Draft | None:
+        """The kept program that `text` asks to run, with the arguments behind a `--`; None where it asks for none.
+
+        Raises:
+            NotWrittenError: it cannot be given those arguments.
+        """
         names = self.library.names()
-        name = read_program_name(text, names) if names else None
-        return self.draft_of(self.library.get(name)) if name is not None else None
+        if not names:
+            return None
+        said, _, command_line = text.partition(" -- ")
+        name = read_program_name(said, names)
+        if name is None:
+            return None
+        try:
+            return self.draft_of(self.library.get(name)).with_args(shlex.split(command_line))
+        except ValueError as error:
+            reason = Reason("program_arguments", {"problem": str(error)})
+            raise NotWrittenError("refused", render_reason(reason, language)) from error
 
     def draft_of(self, program: KeptProgram) -> Draft:
         """A program that is there already."""

@@ -19,6 +19,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.normalise import has_chinese
 from chatrobot.language.phrases import render_reason
+from chatrobot.language.program_request import ProgramRequest
 from chatrobot.session.authoring import MOST_REPAIRS, Authoring, NotWrittenError, Rehearsal
 from chatrobot.session.draft import Draft
 from chatrobot.session.orders import Orders
@@ -74,20 +75,14 @@ class ProgramTurns:
 
         Blocks while a model writes; a stop ends that.
         """
-        draft = None if is_asked_for else self.authoring.kept(text)
-        if draft is not None:
-            self.run(turn, text, draft)
-            return True
-        request = self.authoring.request(text, is_asked_for=is_asked_for)
-        if request is None:
-            return False
-        request = replace(request, name=name or request.name)
         language: LanguageCode = "zh" if has_chinese(text) else "en"
         try:
-            try:
-                draft = self.authoring.write(request, self._understanding.pose, language)
-            finally:
-                self._tell_spent(turn, 1)
+            draft = None if is_asked_for else self.authoring.kept(text, language)
+            if draft is None:
+                request = self.authoring.request(text, is_asked_for=is_asked_for)
+                if request is None:
+                    return False
+                draft = self._write(turn, replace(request, name=name or request.name), language)
         except NotWrittenError as refusal:
             self._emit(Interpreted(turn, "offline", "", refusal.reply))
             meant = Interpretation(_MEANT.get(refusal.outcome, "refused"), refusal.reply, language)
@@ -96,6 +91,12 @@ class ProgramTurns:
             return True
         self.run(turn, text, draft)
         return True
+
+    def _write(self, turn: int, request: ProgramRequest, language: LanguageCode) -> Draft:
+        try:
+            return self.authoring.write(request, self._understanding.pose, language)
+        finally:
+            self._tell_spent(turn, 1)
 
     def run(self, turn: int, text: str, draft: Draft) -> None:
         """Have Motion rehearse and run it, as soon as it can be read at all."""
@@ -161,10 +162,11 @@ class ProgramTurns:
         payload = {
             "code": draft.program.source,
             "name": draft.program.name,
-            "remap": dict(draft.program.remap),
+            "remap": draft.remap,
+            "args": list(draft.args),
             "strict": draft.by_model and draft.version <= MOST_REPAIRS,
         }
-        is_led_elsewhere = bool(draft.program.remap) and not draft.program.runs
+        is_led_elsewhere = bool(draft.remap) and not draft.program.runs
         self._orders.program(
             turn,
             payload,
