@@ -81,7 +81,7 @@ class ProgramWritten(Event):
     """A program was written, or found under its name. `marks` have the line they are about in `step`.
 
     `by` is who wrote this version, `version` counts from 1, `diff` is what changed since the one before; `is_new`
-    where it was written in this turn.
+    where it was written in this turn. `place` is the file that holds its source, "" where none does.
     """
 
     name: ClassVar[str] = "program_written"
@@ -93,6 +93,7 @@ class ProgramWritten(Event):
     diff: str = ""
     is_new: bool = False
     marks: tuple[FindingSeen, ...] = ()
+    place: str = ""
 
 
 @dataclass(frozen=True)
