@@ -127,3 +127,22 @@ def shown(result: Result) -> str:
     with console.capture() as capture:
         console.print(*Narrator(Words("en")).tell(result))
     return capture.get().strip()
+
+
+def test_a_way_that_is_blocked_is_offered_as_far_as_it_is_free() -> None:
+    talk = Talk(world="home")
+    blocked = talk.session.do("forward 10 m")
+    assert (blocked.outcome, blocked.path_m) == ("refused", 0.0)
+    assert blocked.proposal == Proposal("drive 2.65 m", "Shall I drive forward 2.65 m?")
+    assert blocked.reply.endswith("so I am not moving. 2.65 m are free. Shall I drive forward 2.65 m?")
+    done = talk.session.do("yes")
+    assert done.outcome == "completed"
+    assert done.path_m == pytest.approx(2.65, abs=0.01)
+    assert talk.session.do("forward 1 m").proposal is None, "nothing useful is free"
+
+
+def test_what_is_only_rehearsed_says_what_is_free_and_asks_nothing() -> None:
+    talk = Talk(world="home", options=Options(rehearse_only=True))
+    blocked = talk.session.do("前进十米")
+    assert blocked.proposal is None
+    assert blocked.reply.endswith("前面 2.65 米是空的。")

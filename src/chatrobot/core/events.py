@@ -247,7 +247,8 @@ class Finished(Event):
     Odometry counts wheels, and a gyro sees only turns: wheels that spin straight on are counted as way
     (docs/simulation.md, "Wheels that spin").
 
-    `planned_m` and `planned_turn_rad` are what the plan wanted up to its end, for "1.00 m of 1.00 m".
+    `planned_m` and `planned_turn_rad` are what the plan wanted up to its end, for "1.00 m of 1.00 m". `possible` is
+    plan text: what can be done of a plan that was refused.
 
     `executed` and `remaining` are plan text: the part of the plan that was driven, as odometry measured it, and the
     part that was not. Driving one after the other is driving the whole plan. Both are empty for a program and where
@@ -268,6 +269,7 @@ class Finished(Event):
     steps_done: int = 0
     steps: int = 0
     measured: bool = True
+    possible: str = ""
     executed: str = ""
     remaining: str = ""
 
