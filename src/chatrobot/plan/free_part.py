@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from chatrobot.core.geometry import Pose
-from chatrobot.plan.context import LoweringContext
+from chatrobot.plan.context import Impossible, LoweringContext
 from chatrobot.plan.core_motion import CoreMotion, RampedTwist
 from chatrobot.plan.known_world import Floats
 from chatrobot.plan.lowering import PlannedMotion
@@ -48,6 +48,17 @@ def free_part(
         return None, {}
     reached = Reached(blocked.number - 1, True, motions_done, share, step_start)
     return split(plan.steps, reached, replace(context, pose=here)).executed, free
+
+
+def nearest_part(plan: Plan, context: LoweringContext, impossible: Impossible) -> Plan | None:
+    """All that comes before an impossible step, and what can be done instead of it; None where nothing can."""
+    if impossible.instead is None:
+        return None
+    before = split(plan.steps, Reached(impossible.number - 1), context).executed
+    try:
+        return Plan((*(before.steps if before is not None else ()), impossible.instead))
+    except ValueError:  # it would be too long
+        return None
 
 
 def _free_share(motion: CoreMotion | None, way: Floats) -> tuple[float, int, dict[str, float]]:

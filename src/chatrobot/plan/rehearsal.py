@@ -24,7 +24,7 @@ from chatrobot.plan.context import (
 )
 from chatrobot.plan.core_motion import Pause, RampedTwist
 from chatrobot.plan.findings import Finding, Severity
-from chatrobot.plan.free_part import free_part
+from chatrobot.plan.free_part import free_part, nearest_part
 from chatrobot.plan.governed_path import TICK_S, GovernorCheck, pose_of
 from chatrobot.plan.known_world import Floats, GovernorKernel, KnownWorld
 from chatrobot.plan.lowering import CoreWalk, PlannedMotion, iterate_core
@@ -157,6 +157,7 @@ class _Run:
         for item in walk:
             if isinstance(item, Impossible):
                 self._find("refuse", item.reason, item.index, walk.pose)
+                self.possible = nearest_part(self.plan, self.context, item)
                 break
             if not self._is_within_bounds(item):
                 break

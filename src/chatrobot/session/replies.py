@@ -44,7 +44,7 @@ def offered(finished: Finished, language: str) -> Proposal | None:
 
 def _free(reason: Reason | None, language: str) -> str:
     """How far a way is free that is blocked."""
-    for code in ("free_m", "free_deg"):
+    for code in ("free_m", "free_deg", "short_m"):
         if reason is not None and code in reason.values:
             return say(language, code, **reason.values)
     return ""
