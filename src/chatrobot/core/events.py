@@ -258,6 +258,7 @@ class Finished(Event):
 
     `planned_m` is the way of the whole plan, for "0.60 m of 1.00 m", and `planned_turn_rad` what it wanted to turn up
     to its end. `open_ended`: the whole is not known, and `planned_m` is what was rehearsed of it.
+    `possible` is plan text: what can be done of a plan that was refused.
 
     `executed` and `remaining` are plan text: the part of the plan that was driven, as odometry measured it, and the
     part that was not. Driving one after the other is driving the whole plan. Both are empty for a program and where
@@ -278,6 +279,7 @@ class Finished(Event):
     steps_done: int = 0
     steps: int = 0
     measured: bool = True
+    possible: str = ""
     executed: str = ""
     remaining: str = ""
     open_ended: bool = False

@@ -23,6 +23,7 @@ from chatrobot.session.orders import Orders
 from chatrobot.session.parting import parting
 from chatrobot.session.program_turns import ProgramTurns
 from chatrobot.session.proposals import Proposals
+from chatrobot.session.replies import offered
 from chatrobot.session.said import Kind, Said, SaidTexts
 from chatrobot.session.thinking import Mind, Thinking
 from chatrobot.session.turn_book import TurnBook
@@ -360,4 +361,6 @@ class Session:
             reply = self._programs.ending(event.turn, reply)
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         self._thinking.note(text, plan_text, f"{event.outcome}: {measured(event)}")
-        self._book.conclude(event.turn, event.outcome, reply, event)
+        proposal = offered(event, meant.language) if not self.options.rehearse_only else None
+        reply = f"{reply} {proposal.say}" if proposal is not None else reply
+        self._book.conclude(event.turn, event.outcome, reply, event, proposal=proposal)
