@@ -110,9 +110,13 @@ class Conversation:
 
     def do(self, text: str) -> Outcome:
         """One turn, seen through to its result: how it ended."""
-        outcome = self.see_through(self.session.say(text))
-        while (edited := self._approver.take_edited()) is not None:
-            outcome = self.see_through(self.session.say_plan(edited))
+        return self.see_through_edits(self.session.say(text))
+
+    def see_through_edits(self, turn: int) -> Outcome:
+        """That turn, and those of what a person made of the plan or program that it asked about."""
+        outcome = self.see_through(turn)
+        while (say_edited := self._approver.take_edited()) is not None and not self.is_leaving:
+            outcome = self.see_through(say_edited(self.session))
         return outcome
 
     def see_through(self, turn: int) -> Outcome:
@@ -167,4 +171,5 @@ class Conversation:
     def _on_event(self, event: Event) -> None:
         self._approver.hear(event)
         self.has_parted = self.has_parted or is_parting(event)
-        self.show(event)
+        if not self._approver.is_withdrawn(event):
+            self.show(event)

@@ -118,18 +118,9 @@ class HumanPrinter:
             self._line(f"  {event.t_s:8.2f} s  x {x} m  y {y} m  {yaw}°")
 
     def _show_program(self, event: ProgramWritten, language: LanguageCode) -> None:
-        from chatrobot.cli.program_text import marked_only, marks_of, numbered
+        from chatrobot.session.program_text import body, headline
 
-        by = say(language, f"written_by_{event.by}")
-        self._line(say(language, "program_shown", name=event.program, by=by, version=event.version))
-        marks = marks_of(event.marks)
-        if event.diff:
-            lines = [f"  {line}" for line in event.diff.splitlines()[2:]]
-            lines += marked_only(event.source, marks, language)
-        else:
-            shown = numbered if event.is_new else marked_only
-            lines = list(shown(event.source, marks, language))
-        for line in lines:
+        for line in (headline(event, language), *body(event, language)):
             self._line(line)
 
     def _show_program_rehearsed(self, event: ProgramRehearsed, language: LanguageCode) -> None:

@@ -14,7 +14,7 @@ from chatrobot.plan.known_world import Floats
 from chatrobot.plan.lowering import CoreWalk
 from chatrobot.plan.rehearsal import Rehearsal, rehearse
 from chatrobot.plan.route import GridRoutePlanner
-from chatrobot.plan.text import parse_plan
+from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.session.budgets import Extent
 from chatrobot.sim.world import World
@@ -41,6 +41,12 @@ class Planned:
         if self.rehearsal is None:
             return self.unreadable
         return self.rehearsal.refusal.reason if self.rehearsal.refusal is not None else None
+
+    @property
+    def possible(self) -> str:
+        """Plan text of what can be done of it if it is refused; empty where nothing is worth a question."""
+        possible = self.rehearsal.possible if self.rehearsal is not None else None
+        return format_plan(possible) if possible is not None else ""
 
     @property
     def duration_s(self) -> float:

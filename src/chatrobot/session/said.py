@@ -12,14 +12,17 @@ from chatrobot.core.reason import Reason
 from chatrobot.session.draft import Draft
 from chatrobot.session.envelope import QUEUE_LIMIT
 
-Kind = Literal["text", "plan", "program", "draft", "stop", "emergency_stop", "too_many"]
-INSTRUCTIONS: tuple[Kind, ...] = ("text", "plan", "program", "draft")
+Kind = Literal[
+    "text", "plan", "edited_plan", "program", "draft", "source", "stop", "emergency_stop", "too_many"
+]  # fmt: skip
+INSTRUCTIONS: tuple[Kind, ...] = ("text", "plan", "edited_plan", "program", "draft", "source")
 """What may have to wait, and what a stop clears; the others are answered at once."""
 
 
 @dataclass(frozen=True)
 class Said:
-    """One text. `at_s` is when it was said (monotonic), `about` a program that is there, or the name of one to be."""
+    """One text. `at_s` is when it was said (monotonic), `about` a program that is there, the name of one to be, or
+    what a person made of the source of the one that `text` names."""
 
     turn: int
     text: str

@@ -23,6 +23,7 @@ from chatrobot.session.orders import Orders
 from chatrobot.session.parting import parting
 from chatrobot.session.program_turns import ProgramTurns
 from chatrobot.session.proposals import Proposals
+from chatrobot.session.replies import offered
 from chatrobot.session.said import Kind, Said, SaidTexts
 from chatrobot.session.thinking import Mind, Thinking
 from chatrobot.session.turn_book import TurnBook
@@ -102,6 +103,10 @@ class Session:
         """Take in a plan that a person or a program wrote itself; the number of its turn."""
         return self._take_in(plan_text, "plan")
 
+    def say_edited_plan(self, plan_text: str) -> int:
+        """Take in what a person made of a plan that waited for a yes: it is asked about anew, whatever the options."""
+        return self._take_in(plan_text, "edited_plan")
+
     def say_program(self, text: str, name: str = "") -> int:
         """Take in what a program is to do, asked for as one; the number of its turn."""
         return self._take_in(text, "program", name)
@@ -111,9 +116,8 @@ class Session:
         return self._take_in(draft.program.name, "draft", draft)
 
     def say_source(self, name: str, source: str) -> int:
-        """Take in what a person made of the program of that name; where that one is kept, it is kept so."""
-        assert self.authoring is not None
-        return self.say_draft(self.authoring.edited(name, source))
+        """Take in what a person made of the program of that name: it is asked about before it runs."""
+        return self._take_in(name, "source", source)
 
     def _take_in(self, text: str, kind: Kind, about: Draft | str = "") -> int:
         turn = self._said.add(text, kind, about, is_moving=self.is_moving)
@@ -217,7 +221,7 @@ class Session:
         """It needs no model, and the one that is being asked says nothing."""
         if not self._thinking.may_be_overtaken(said.at_s):
             return False
-        if said.kind == "plan":
+        if said.kind in ("plan", "edited_plan"):
             return True
         meant = self.understanding.interpret(said.text)
         return not (meant.is_about_turn_before or self._thinking.wants(said.text, meant))
@@ -238,9 +242,9 @@ class Session:
             self._act_on(said, answer)
         elif said.kind == "text":
             self._understand(said)
-        elif said.kind == "plan":
+        elif said.kind in ("plan", "edited_plan"):
             self._read_plan(said)
-        elif said.kind in ("program", "draft"):
+        elif said.kind in ("program", "draft", "source"):
             self._begin_program(said)
         else:
             code = "stopped_now" if said.kind == "stop" else "emergency_stopped"
@@ -252,6 +256,8 @@ class Session:
             self._book.conclude(said.turn, "refused", self.understanding.say("no_programs_here", said.text))
         elif isinstance(said.about, Draft):
             self._programs.run(said.turn, said.text, said.about)
+        elif said.kind == "source":
+            self._programs.run_edited(said.turn, said.text, said.about)
         else:
             self._programs.begin(said.turn, said.text, is_asked_for=True, name=said.about)
 
@@ -344,7 +350,7 @@ class Session:
         if mode == "replace":
             self._thinking.replace()
         self._book.track(said.turn, said.text, meant)
-        self._orders.plan(said.turn, plan_text, mode)
+        self._orders.plan(said.turn, plan_text, mode, asks=said.kind == "edited_plan")
 
     def _hear(self, event: Event) -> None:
         if isinstance(event, Telemetry):
@@ -370,4 +376,6 @@ class Session:
             reply = self._programs.ending(event.turn, reply)
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         self._thinking.note(text, plan_text, f"{event.outcome}: {measured(event)}")
-        self._book.conclude(event.turn, event.outcome, reply, event)
+        proposal = offered(event, meant.language) if not self.options.rehearse_only else None
+        reply = f"{reply} {proposal.say}" if proposal is not None else reply
+        self._book.conclude(event.turn, event.outcome, reply, event, proposal=proposal)
