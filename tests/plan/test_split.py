@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
@@ -123,6 +123,10 @@ def test_driving_what_was_executed_and_then_what_remains_is_driving_the_whole(
     item, motions_done = data.draw(st.sampled_from(choices))
     share = data.draw(st.floats(0.0, 1.0))
     pose, parts = stopped_in(plan, item, share, motions_done)
+    if isinstance(item.step, Go):
+        # Nearer than 1 cm a `go to` is there already, and a short leg leads to no exact heading.
+        assume(not 0.0 < pose.distance_to(item.start) < 0.011)
+        assume(not 0.0 < pose.distance_to(item.end) < 0.15)
 
     executed = driven(parts.executed, START)
     stand = end_of(executed, START)
