@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import queue
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from types import TracebackType
 
 from chatrobot.cli.approver import Approver
@@ -13,7 +13,8 @@ from chatrobot.cli.printer import Printer
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.errors import JointError
-from chatrobot.core.events import EXIT_CODES, Event
+from chatrobot.core.events import EXIT_CODES, Event, Notice
+from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.session.parting import is_parting
 
@@ -39,9 +40,9 @@ class Conversation:
         self._connection: Connection | None = None
 
     def __enter__(self) -> Conversation:
-        self._connection = connect(self._setup, self._on_event)
-        self.session = self._connection.session
-        self._approver.attach(self._connection.world)
+        connection = connect(self._setup, self._on_event)
+        self.session, self._connection = connection.session, connection
+        self._approver.attach(connection.world)
         self._watch.__enter__()
         return self
 
@@ -90,7 +91,9 @@ class Conversation:
                 self.session.say(text)
 
     def stop(self, why: str) -> None:
-        """Stop the robot and drop what is queued."""
+        """Stop the robot and drop what is queued. Before there is a robot nothing moves, nor will."""
+        if self._connection is None:
+            return
         if self._setup.fast:
             self.post(lambda: self.session.stop(why))
         else:
@@ -113,6 +116,11 @@ class Conversation:
         self.see_through(self.session.say(text))
         while (edited := self._approver.take_edited()) is not None:
             self.see_through(self.session.say_plan(edited))
+
+    def drop_if_stopped(self, texts: Sequence[str]) -> None:
+        """Where a stop came while the robot was started: say what is not begun."""
+        for text in texts if self.is_leaving else ():
+            self.show(Notice(0, Reason("dropped_by_stop", {"text": text})))
 
     def see_through(self, turn: int) -> None:
         """Let things happen until that turn has its result."""
