@@ -221,7 +221,8 @@ def test_a_plan_is_approved_over_json(chatrobot: Command) -> None:
 
 
 def test_ctrl_c_ends_a_long_simulation(chatrobot: Command) -> None:
-    with chatrobot.start("do", "wait 3000 seconds", "forward 1 m", "--json", *FAST) as robot:
+    long = ("do", "wait 3000 seconds", "forward 1 m", "--max-time", "none")
+    with chatrobot.start(*long, "--json", *FAST) as robot:
         robot.event("started")
         robot.process.send_signal(signal.SIGINT)
         assert robot.event("result")["outcome"] == "stopped"
@@ -230,6 +231,7 @@ def test_ctrl_c_ends_a_long_simulation(chatrobot: Command) -> None:
 
 def test_a_second_ctrl_c_quits_at_once_whatever_hangs(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "chatrobot", "do", "forward 500 m", "--json", "--trace", *FAST]
+    command += ["--max-distance", "none", "--max-time", "none"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, env=environment(tmp_path)) as process:
         assert process.stdout is not None
         wait_until_full(process.stdout.fileno())  # nobody reads: it hangs in the middle of a write

@@ -115,7 +115,7 @@ def test_editing_withdraws_the_plan_silently_and_sends_the_new_one(talk, log):
     talk.hear(Result(1, "refused", "not approved"))
     assert "not approved" not in shown(log)
     talk.take_edited("drive 2 m\n")
-    assert told(log)[-1] == ("say_plan", "drive 2 m")
+    assert told(log)[-1] == ("say_edited_plan", "drive 2 m")
 
 
 def test_what_is_too_long_is_never_done_in_part(talk, log):

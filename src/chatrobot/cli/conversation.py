@@ -13,7 +13,7 @@ from chatrobot.cli.printer import Printer
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.errors import JointError
-from chatrobot.core.events import EXIT_CODES, Event, Notice
+from chatrobot.core.events import EXIT_CODES, Event, Notice, Outcome
 from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.session.parting import is_parting
@@ -111,21 +111,27 @@ class Conversation:
 
     # --- the main thread ---
 
-    def do(self, text: str) -> None:
-        """One turn, seen through to its result."""
-        self.see_through(self.session.say(text))
-        while (edited := self._approver.take_edited()) is not None:
-            self.see_through(self.session.say_plan(edited))
+    def do(self, text: str) -> Outcome:
+        """One turn, seen through to its result: how it ended."""
+        return self.see_through_edits(self.session.say(text))
 
     def drop_if_stopped(self, texts: Sequence[str]) -> None:
         """Where a stop came while the robot was started: say what is not begun."""
         for text in texts if self.is_leaving else ():
             self.show(Notice(0, Reason("dropped_by_stop", {"text": text})))
 
-    def see_through(self, turn: int) -> None:
-        """Let things happen until that turn has its result."""
+    def see_through_edits(self, turn: int) -> Outcome:
+        """That turn, and those of what a person made of the plan or program that it asked about."""
+        outcome = self.see_through(turn)
+        while (say_edited := self._approver.take_edited()) is not None and not self.is_leaving:
+            outcome = self.see_through(say_edited(self.session))
+        return outcome
+
+    def see_through(self, turn: int) -> Outcome:
+        """Let things happen until that turn has its result: how it ended."""
         while turn not in self.session.results:
             self.step()
+        return self.session.results[turn].outcome
 
     def finish(self) -> None:
         """See everything through that was heard."""
@@ -173,4 +179,5 @@ class Conversation:
     def _on_event(self, event: Event) -> None:
         self._approver.hear(event)
         self.has_parted = self.has_parted or is_parting(event)
-        self.show(event)
+        if not self._approver.is_withdrawn(event):
+            self.show(event)

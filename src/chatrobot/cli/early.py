@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from chatrobot.core.motion_budget import MotionBudget
 from chatrobot.session.processes import SIMULATED, Processes
 
 if TYPE_CHECKING:
@@ -46,7 +47,8 @@ class Early:
             world = args.world or "home"
             load_world(world)
             SimLies.parse(args.sim)
-            self.processes = Processes.start(profile_argument(args.robot, folders), world, args.sim)
+            budget = MotionBudget(args.max_distance, args.max_time)
+            self.processes = Processes.start(profile_argument(args.robot, folders), world, args.sim, budget)
         return profile
 
     def _show(self, title: str) -> None:

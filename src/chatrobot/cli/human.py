@@ -91,7 +91,7 @@ class HumanPrinter:
 
     def _show_progress(self, event: Progress) -> None:
         metres = self._way.advance(event.pose)
-        status = f"  {self._way}  {event.fraction:4.0%}"
+        status = f"  {self._way.text(event.fraction)}"
         if self._output.is_terminal:
             self._output.write(f"{_CLEAR_LINE}{status}")
             self._has_status = True
@@ -118,18 +118,9 @@ class HumanPrinter:
             self._line(f"  {event.t_s:8.2f} s  x {x} m  y {y} m  {yaw}°")
 
     def _show_program(self, event: ProgramWritten, language: LanguageCode) -> None:
-        from chatrobot.cli.program_text import marked_only, marks_of, numbered
+        from chatrobot.session.program_text import body, headline
 
-        by = say(language, f"written_by_{event.by}")
-        self._line(say(language, "program_shown", name=event.program, by=by, version=event.version))
-        marks = marks_of(event.marks)
-        if event.diff:
-            lines = [f"  {line}" for line in event.diff.splitlines()[2:]]
-            lines += marked_only(event.source, marks, language)
-        else:
-            shown = numbered if event.is_new else marked_only
-            lines = list(shown(event.source, marks, language))
-        for line in lines:
+        for line in (headline(event, language), *body(event, language)):
             self._line(line)
 
     def _show_program_rehearsed(self, event: ProgramRehearsed, language: LanguageCode) -> None:
@@ -165,10 +156,14 @@ class _Way:
         self._last = pose
         return math.floor(self._driven_m) > math.floor(before_m)
 
-    def __str__(self) -> str:
+    def text(self, fraction: float | None) -> str:
+        """How far, and which turn; of how much, and the share, where the whole is known."""
         turned_deg = math.degrees(self._last.yaw_rad - self._start_yaw_rad) if self._last is not None else 0.0
-        turned = fixed(turned_deg, 0)
-        return f"{self._driven_m:.2f} / {self.planned_m:.2f} m  {'+' if float(turned) > 0 else ''}{turned}°"
+        rounded = fixed(turned_deg, 0)
+        turned = f"{'+' if float(rounded) > 0 else ''}{rounded}°"
+        if fraction is None:
+            return f"{self._driven_m:.2f} m  {turned}"
+        return f"{self._driven_m:.2f} / {self.planned_m:.2f} m  {turned}  {fraction:4.0%}"
 
 
 def _twist(twist: Twist) -> str:

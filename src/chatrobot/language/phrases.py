@@ -72,7 +72,7 @@ def _shown(value: Value) -> str:
 
 
 def render_reason(reason: Reason, language: str) -> str:
-    """A reason in words."""
+    """A reason in words; one that knows the name of what is in the way may have words of its own for it."""
     values: dict[str, Value] = dict(reason.values)
     if reason.code == "stopped_by":
         return _stop_cause(str(values.get("source", "")), str(values.get("why", "")), language)
@@ -80,7 +80,8 @@ def render_reason(reason: Reason, language: str) -> str:
     for key in ("source", "to"):
         if key in values:
             values[key] = names.get(values[key], values[key])
-    return say(language, reason.code, **values)
+    named = f"{reason.code}_named"
+    return say(language, named if "obstacle" in values and named in _phrases("en") else reason.code, **values)
 
 
 def _stop_cause(source: str, why: str, language: str) -> str:

@@ -94,4 +94,5 @@ def summed(total: Finished, run: Finished) -> Finished:
         measured=total.measured and run.measured,
         executed="\n".join(filter(None, (total.executed, run.executed))),
         remaining=run.remaining,
+        open_ended=total.open_ended or run.open_ended,
     )

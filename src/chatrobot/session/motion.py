@@ -18,6 +18,7 @@ from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
 from chatrobot.governor.priority import RELEASERS, Priority, priority_of
 from chatrobot.robots.profile import RobotProfile
+from chatrobot.session.budgets import Budgets
 from chatrobot.session.clearance import Clearance
 from chatrobot.session.driver import Driver
 from chatrobot.session.ends import Ends
@@ -88,8 +89,19 @@ class Motion:
         self._ends = ends = Ends(emit)
         stops, inbox = self._stops, self._inbox
         self._driver = Driver(robot, self.clearance, stops, programs, inbox, clock, ends, emit)
+        self._budgets = Budgets(profile.safety.budget)
         self._jobs = Jobs(
-            robot, self._intake, self._driver, planner, programs, stops, inbox, clock, ends, emit
+            robot,
+            self._intake,
+            self._driver,
+            planner,
+            programs,
+            self._budgets,
+            stops,
+            inbox,
+            clock,
+            ends,
+            emit,
         )
         self._relay = Relay(clock, robot, self.see_it_stand, self._notice)
         self._joystick = Relay(
@@ -263,6 +275,9 @@ class Motion:
                 self._jobs.approve(envelope)
         elif envelope.word == "release":
             self._release(envelope, emergency)
+        elif envelope.word == "limit":
+            for reason in self._budgets.change(envelope.source, envelope.payload):
+                self._emit(Notice(envelope.turn, reason))
         elif envelope.word == "goodbye":
             self._sources.leave(envelope.lease)
 

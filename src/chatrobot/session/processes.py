@@ -8,6 +8,7 @@ import uuid
 from dataclasses import dataclass
 from pathlib import Path
 
+from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget, limit_text
 from chatrobot.session.child import spawn, spawn_with_line
 from chatrobot.wire.runtime_dir import runtime_dir
 
@@ -23,11 +24,14 @@ class MotionProcess:
     line: socket.socket
 
     @classmethod
-    def start(cls, wire: str, profile: str, world: str) -> MotionProcess:
+    def start(cls, wire: str, profile: str, world: str, budget: MotionBudget = NOT_CHOSEN) -> MotionProcess:
+        """`budget` is the motion budget as the command line chose it."""
         return cls(
             *spawn_with_line(
                 "chatrobot.session.motion_process",
                 *("--profile", profile, "--world", world, "--wire", wire),
+                *("--max-distance", limit_text(budget.max_distance_m)),
+                *("--max-time", limit_text(budget.max_time_s)),
                 kind=socket.SOCK_SEQPACKET,
             )
         )
@@ -43,7 +47,7 @@ class Processes:
     is_taken: bool = False
 
     @classmethod
-    def start(cls, profile: str, world: str, sim: str) -> Processes:
+    def start(cls, profile: str, world: str, sim: str, budget: MotionBudget) -> Processes:
         """Both at once: Motion loads while the robot does."""
         wire_path = runtime_dir() / f"sim-{uuid.uuid4().hex[:12]}.wire"
         robot = spawn(
@@ -51,7 +55,7 @@ class Processes:
             *("--socket", str(wire_path), "--profile", profile),
             *("--world", world, "--sim", sim),
         )
-        return cls(wire_path, robot, MotionProcess.start(str(wire_path), profile, world))
+        return cls(wire_path, robot, MotionProcess.start(str(wire_path), profile, world, budget))
 
     def end(self) -> None:
         """Nobody needs them: nothing has been asked of them, so nothing moves."""

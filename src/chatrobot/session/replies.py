@@ -8,9 +8,12 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from chatrobot.core.events import Finished
+from chatrobot.core.proposal import Proposal
+from chatrobot.core.reason import Reason
 from chatrobot.core.shown import fixed
-from chatrobot.language.phrases import render_reason, say
+from chatrobot.language.phrases import describe_plan, render_reason, say
 from chatrobot.plan.steps import Face, Go, Step
+from chatrobot.plan.text import parse_plan
 
 if TYPE_CHECKING:
     from chatrobot.session.model_terms import Ended
@@ -29,7 +32,7 @@ def describe_end(finished: Finished, language: str, steps: Sequence[Step] = ()) 
         return say(language, "done", moved=moved) if moved else _done_standing(steps, language)
     reason = render_reason(finished.reason, language) if finished.reason is not None else ""
     if finished.outcome == "refused":
-        return reason
+        return " ".join(filter(None, (reason, _free(finished.reason, language))))
     code = "stopped_after" if finished.outcome == "stopped" else "failed_after"
     return _ended_once(say(language, code, moved=moved or say(language, "nothing_moved"), reason=reason))
 
@@ -40,6 +43,22 @@ def _done_standing(steps: Sequence[Step], language: str) -> str:
     if isinstance(only, Go):
         return say(language, "there_already" if only.place else "there_already_unnamed", place=only.place)
     return say(language, "already_facing" if isinstance(only, Face) else "done_standing")
+
+
+def offered(finished: Finished, language: str) -> Proposal | None:
+    """The question whether to do what is possible of a plan that was refused."""
+    if not finished.possible:
+        return None
+    text = describe_plan(parse_plan(finished.possible), language)
+    return Proposal(finished.possible, say(language, "offer", text=text))
+
+
+def _free(reason: Reason | None, language: str) -> str:
+    """How far a way is free that is blocked."""
+    for code in ("free_m", "free_deg", "short_m"):
+        if reason is not None and code in reason.values:
+            return say(language, code, **reason.values)
+    return ""
 
 
 def _ended_once(sentences: str) -> str:
@@ -66,8 +85,9 @@ def describe_model_end(ended: Ended, language: str) -> str:
 
 def _measured(finished: Finished, language: str) -> str:
     parts = []
-    if finished.planned_m > LEAST_DISTANCE_M:
-        code = "drove" if finished.measured else "drove_unmeasured"
+    if finished.planned_m > LEAST_DISTANCE_M or (finished.open_ended and finished.path_m > LEAST_DISTANCE_M):
+        code = "drove_open" if finished.open_ended else "drove"
+        code = code if finished.measured else f"{code}_unmeasured"
         parts.append(say(language, code, drove_m=f"{finished.path_m:.2f}", of_m=f"{finished.planned_m:.2f}"))
     if abs(finished.planned_turn_rad) > LEAST_ANGLE_RAD or abs(finished.turned_rad) > math.radians(3.0):
         parts.append(_turned(math.degrees(finished.turned_rad), language))

@@ -12,14 +12,17 @@ from chatrobot.core.reason import Reason
 from chatrobot.session.draft import Draft
 from chatrobot.session.envelope import QUEUE_LIMIT
 
-Kind = Literal["text", "plan", "program", "draft", "stop", "emergency_stop", "too_many"]
-INSTRUCTIONS: tuple[Kind, ...] = ("text", "plan", "program", "draft")
+Kind = Literal[
+    "text", "plan", "edited_plan", "program", "draft", "source", "stop", "emergency_stop", "too_many"
+]  # fmt: skip
+INSTRUCTIONS: tuple[Kind, ...] = ("text", "plan", "edited_plan", "program", "draft", "source")
 """What may have to wait, and what a stop clears; the others are answered at once."""
 
 
 @dataclass(frozen=True)
 class Said:
-    """One text. `at_s` is when it was said (monotonic), `about` a program that is there, or the name of one to be."""
+    """One text. `at_s` is when it was said (monotonic), `about` a program that is there, the name of one to be, or
+    what a person made of the source of the one that `text` names."""
 
     turn: int
     text: str
@@ -76,6 +79,11 @@ class SaidTexts:
         with self._lock:
             self._texts.remove(said)
         return said
+
+    def put_back(self, said: Said) -> None:
+        """It waits again, before all others."""
+        with self._lock:
+            self._texts.appendleft(said)
 
     def take_too_many(self) -> list[Said]:
         """Those that may not even wait."""

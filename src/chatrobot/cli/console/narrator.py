@@ -10,7 +10,6 @@ from rich.text import Text
 
 from chatrobot.cli.console.lines import indented, marked
 from chatrobot.cli.console.words import Words
-from chatrobot.cli.program_text import marked_only, marks_of, numbered
 from chatrobot.core.events import (
     Event,
     FindingSeen,
@@ -31,6 +30,7 @@ from chatrobot.core.geometry import Twist
 from chatrobot.core.shown import fixed
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.plan.shown import shown_plan
+from chatrobot.session.program_text import body, headline
 
 PLAN_LINES = 16
 """A longer plan is shown in part; `/plan` shows it whole."""
@@ -150,14 +150,8 @@ class Narrator:
     def _program_written(self, event: ProgramWritten) -> Iterator[RenderableType]:
         self._programs.add(event.turn)
         language = self._words.language
-        by = say(language, f"written_by_{event.by}")
-        head = say(language, "program_shown", name=event.program, by=by, version=event.version)
-        yield indented(Text(head, "bold"))
-        marks = marks_of(event.marks)
-        if event.diff:
-            yield from (indented(Text(line)) for line in event.diff.splitlines()[2:])
-        shown = numbered if event.is_new and not event.diff else marked_only
-        yield from (Text(line) for line in shown(event.source, marks, language))
+        yield indented(Text(headline(event, language), "bold"))
+        yield from (Text(line) for line in body(event, language))
 
     def _program_rehearsed(self, event: ProgramRehearsed) -> Iterator[RenderableType]:
         values = {"speed": f"{event.top_speed_mps:.2f}", "rate": f"{event.top_rate_radps:.2f}"}
