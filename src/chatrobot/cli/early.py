@@ -61,7 +61,8 @@ class Early:
         """The robot can be told what to do: the line goes."""
         if self._is_shown:
             self._is_shown = False
-            self._write("\n" if os.environ.get("TERM", "dumb") == "dumb" else _CLEAR_LINE)
+            is_plain = os.environ.get("TERM", "dumb") == "dumb" or "NO_COLOR" in os.environ
+            self._write("\n" if is_plain else _CLEAR_LINE)
 
     def close(self) -> None:
         """End what no session has taken."""
