@@ -40,6 +40,9 @@ class FakeSession:
     def release(self):
         self._note("release")
 
+    def limit(self, **limits):
+        self._note("limit", limits)
+
     def approve(self, turn, yes):
         self._note("approve", turn, yes)
 

@@ -39,6 +39,23 @@ def test_leaving_waits_for_what_was_told(talk, log):
     assert told(log) == [("leave", 0)]
 
 
+GOODBYE = Result(1, "answered", "Goodbye.", reason=Reason("parting"))
+
+
+def test_a_goodbye_leaves_as_quit_does(talk, log):
+    talk.hear(GOODBYE)
+    assert told(log) == [("leave", 0)]
+
+
+def test_a_goodbye_while_it_moves_waits_for_what_was_told(talk, log):
+    talk.session.is_idle = False
+    talk.hear(GOODBYE)
+    assert told(log) == []
+    talk.session.is_idle = True
+    talk.hear(Result(2, "completed", "done"))
+    assert told(log) == [("leave", 0)]
+
+
 def test_leaving_twice_does_not_wait(talk, log):
     talk.session.is_idle = False
     talk.leave()

@@ -30,6 +30,7 @@ DEFAULTS: dict[str, Any] = {
     "on": "auto", "robot": DEFAULT_ROBOT, "interpreter": "auto", "model": "", "fast": False, "json": False,
     "trace": False, "sim": "", "world": "", "approve": False, "yes": False, "config_dir": None,
     "rounds": 6, "budget_tokens": 20_000, "budget_s": 600.0, "parameters": [],
+    "max_distance": None, "max_time": None, "keep_going": False,
 }  # fmt: skip
 
 _NODES = ("node", "sim")
@@ -182,6 +183,11 @@ def _do(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "texts", nargs="+", metavar="TEXT", help="what to do; several are turns of one dialogue"
     )
+    parser.add_argument(
+        "--keep-going",
+        action="store_true",
+        help="do the rest, too, after a turn that was refused, stopped, failed or not understood",
+    )
 
 
 def _plan(parser: argparse.ArgumentParser) -> None:
@@ -191,6 +197,8 @@ def _plan(parser: argparse.ArgumentParser) -> None:
 
 def _eval(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("files", nargs="+", metavar="FILE", help="a corpus in YAML")
+    parser.add_argument("--only", choices=("odd", "even"), help="only the items whose running number is so")
+    parser.add_argument("--misses", action="store_true", help="list what was wrong and what was asked back")
 
 
 def _sim(parser: argparse.ArgumentParser) -> None:

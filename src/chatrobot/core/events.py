@@ -8,11 +8,12 @@ are in `odom` as the robot itself measures them (`TruePose` alone is the simulat
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, Literal
 
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
+from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
 
 Outcome = Literal["completed", "stopped", "refused", "unclear", "answered", "failed"]
@@ -58,7 +59,11 @@ class FindingSeen(Event):
 
 @dataclass(frozen=True)
 class Rehearsed(Event):
-    """What the plan would do: `path` is (x_m, y_m, yaw_rad) along the predicted way, thinned for drawing."""
+    """What the plan would do: `path` is (x_m, y_m, yaw_rad) along the predicted way, thinned for drawing.
+
+    `open_ended`: nobody knows before how far it drives (a program without an end, a way up to an obstacle that is not
+    known); `length_m` and `duration_s` are what was rehearsed.
+    """
 
     name: ClassVar[str] = "rehearsed"
     ok: bool
@@ -68,6 +73,7 @@ class Rehearsed(Event):
     findings: tuple[FindingSeen, ...] = ()
     path: tuple[tuple[float, float, float], ...] = ()
     needs_approval: bool = False
+    open_ended: bool = False
 
 
 @dataclass(frozen=True)
@@ -129,12 +135,15 @@ class Started(Event):
 
 @dataclass(frozen=True)
 class Progress(Event):
-    """How far a running turn is: step `step` of `of`, `fraction` of the whole predicted duration (0..1)."""
+    """How far a running turn is: step `step` of `of`, `fraction` of the whole predicted duration (0..1).
+
+    `fraction` is None where the whole is not known: a program without an end, a plan that is still coming in.
+    """
 
     name: ClassVar[str] = "progress"
     step: int
     of: int
-    fraction: float
+    fraction: float | None
     pose: Pose
     twist: Twist
 
@@ -247,7 +256,13 @@ class Finished(Event):
     Odometry counts wheels, and a gyro sees only turns: wheels that spin straight on are counted as way
     (docs/simulation.md, "Wheels that spin").
 
-    `planned_m` and `planned_turn_rad` are what the plan wanted up to its end, for "1.00 m of 1.00 m".
+    `planned_m` is the way of the whole plan, for "0.60 m of 1.00 m", and `planned_turn_rad` what it wanted to turn up
+    to its end. `open_ended`: the whole is not known, and `planned_m` is what was rehearsed of it.
+    `possible` is plan text: what can be done of a plan that was refused.
+
+    `executed` and `remaining` are plan text: the part of the plan that was driven, as odometry measured it, and the
+    part that was not. Driving one after the other is driving the whole plan. Both are empty for a program and where
+    nothing measures; `remaining` also where the plan was completed or refused.
     """
 
     name: ClassVar[str] = "finished"
@@ -264,11 +279,18 @@ class Finished(Event):
     steps_done: int = 0
     steps: int = 0
     measured: bool = True
+    possible: str = ""
+    executed: str = ""
+    remaining: str = ""
+    open_ended: bool = False
 
 
 @dataclass(frozen=True)
 class Result(Event):
-    """The last event of every turn; pose and distances are what odometry measured, as in `Finished`."""
+    """The last event of every turn; pose and distances are what odometry measured, as in `Finished`.
+
+    `proposal` is a plan that the reply asks about.
+    """
 
     name: ClassVar[str] = "result"
     outcome: Outcome
@@ -279,6 +301,12 @@ class Result(Event):
     duration_s: float = 0.0
     paused_s: float = 0.0
     reason: Reason | None = field(default=None)
+    proposal: Proposal | None = None
+
+    @property
+    def is_question(self) -> bool:
+        """The next text may answer it."""
+        return self.outcome == "unclear" or self.proposal is not None
 
 
 def _plain(value: Any) -> Any:
@@ -287,7 +315,7 @@ def _plain(value: Any) -> Any:
         return {key: round(number, 6) for key, number in zip(value._fields, value)}
     if isinstance(value, float):
         return round(value, 6)
-    if isinstance(value, (Reason, Event)):
+    if isinstance(value, (Reason, Event, Proposal)):
         return value.to_json()
     if isinstance(value, (tuple, list)):
         return [_plain(item) for item in value]
@@ -315,15 +343,16 @@ def _as_is(value: Any) -> Any:
     return value
 
 
-def _reason(value: Any) -> Reason | None:
-    return None if value is None else Reason.from_json(value)
+def _optional(read: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    return lambda value: None if value is None else read(value)
 
 
 _READERS: Mapping[str, Any] = {
     "Pose": lambda value: Pose(**value),
     "Twist": lambda value: Twist(**value),
-    "Reason": _reason,
-    "Reason | None": _reason,
+    "Reason": Reason.from_json,
+    "Reason | None": _optional(Reason.from_json),
+    "Proposal | None": _optional(Proposal.from_json),
     "tuple[int, ...]": tuple,
     "tuple[float | None, ...]": tuple,
     "tuple[str, ...]": tuple,

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
+from chatrobot.core.proposal import Proposal
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Plan, Step
@@ -19,8 +20,9 @@ class Interpretation:
     """What an utterance means.
 
     `unaccounted` is the part that nothing explains, `code` the reason in a word (see `phrases.toml`).
-    `append`: it goes on where the running motion ends. The last four are for the dialogue's memory and hold
-    from the moment the session accepts the turn; `remember_place` is where the robot stands now.
+    `append`: it goes on where the running motion ends. `proposal`: the reply asks about that plan. The last four
+    are for the dialogue's memory and hold from the moment the session accepts the turn; `remember_place` is where
+    the robot stands now.
     """
 
     outcome: Outcome
@@ -30,6 +32,7 @@ class Interpretation:
     append: bool = False
     unaccounted: str = ""
     code: str = ""
+    proposal: Proposal | None = None
     define: Mapping[str, Plan] = field(default_factory=dict)
     remember_place: str = ""
     default_speed_mps: float | None = None

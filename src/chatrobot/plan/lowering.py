@@ -108,7 +108,7 @@ class CoreWalk(Iterator[CoreItem]):
         for number, (index, step) in enumerate(_expanded(plan.steps, ()), start=1):
             motions = lower(step, replace(self._context, pose=self.pose))
             if isinstance(motions, Impossible):
-                yield Impossible(motions.reason, index)
+                yield replace(motions, index=index, number=number)
                 return
             yield from self._motions(index, number, step, motions)
 

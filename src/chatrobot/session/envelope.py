@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any, Literal
 
+from chatrobot.core.motion_budget import read_limit
 from chatrobot.programs.ros_args import MOST_ARGS, MOST_CHARS
 
 Word = Literal[
@@ -22,6 +23,7 @@ Word = Literal[
     "stop",  # {"why": …}; makes void what belongs to this turn and those before
     "emergency_stop",
     "release",
+    "limit",  # {"max_distance_m", "max_time_s": number or "none"}; changes the motion budget, empty: asks for it
     "goodbye",  # an orderly end: what is queued is still done, then the lease ends
 ]
 MODES = ("queue", "replace", "append", "extend")
@@ -35,6 +37,13 @@ def _is_text(value: object) -> bool:
 
 def _is_flag(value: object) -> bool:
     return isinstance(value, bool)
+
+
+def _is_limit(value: object) -> bool:
+    try:
+        return read_limit(value) > 0.0
+    except ValueError:
+        return False
 
 
 def _is_term(value: object) -> bool:
@@ -107,6 +116,7 @@ PAYLOADS: Mapping[str, Mapping[str, Callable[[object], bool]]] = {
     "stop": {"why": _is_text},
     "emergency_stop": {"why": _is_text},
     "release": {},
+    "limit": {"max_distance_m": _is_limit, "max_time_s": _is_limit},
     "goodbye": {},
 }
 """All that an envelope may say, with a check for every field of its payload."""

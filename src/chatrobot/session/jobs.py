@@ -9,13 +9,15 @@ from chatrobot.core.events import Event, Notice, Outcome
 from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import Priority
 from chatrobot.session.approval import Approval
+from chatrobot.session.budgets import Budgets
 from chatrobot.session.driver import Driver
+from chatrobot.session.ends import Ends
 from chatrobot.session.envelope import Envelope
 from chatrobot.session.governed_robot import GovernedRobot
 from chatrobot.session.inbox import Inbox
 from chatrobot.session.intake import Intake
 from chatrobot.session.job import Job
-from chatrobot.session.planner import Planned, Planner
+from chatrobot.session.planner import Planned, Planner, refused
 from chatrobot.session.program_box import ProgramBox
 from chatrobot.session.program_job import ProgramJob, job_of, needs_approval
 from chatrobot.session.stops import Stops
@@ -35,12 +37,16 @@ class Jobs:
         driver: Driver,
         planner: Planner,
         programs: ProgramBox,
+        budgets: Budgets,
         stops: Stops,
         inbox: Inbox,
         clock: Clock,
+        ends: Ends,
         emit: Callable[[Event], None],
     ) -> None:
         self._robot = robot
+        self._ends = ends
+        self._budgets = budgets
         self._intake = intake
         self._driver = driver
         self._planner = planner
@@ -76,17 +82,23 @@ class Jobs:
         if mode == "extend":
             self._extend(envelope)
             return
-        job = job_of(envelope, epoch, self._clock.now_s())
+        account = self._budgets.account_of(envelope.source, envelope.lease, envelope.turn)
+        job = job_of(envelope, epoch, self._clock.now_s(), account)
         declined = self._give_way(job)
         if declined is None and mode == "replace":
             self._replace(Reason("replaced"))
-        declined = declined or self._intake.add(job, self._stops.count)
+        if declined is None and self._intake.is_void(job, self._stops.count):
+            self._finish(job, "stopped", self._stops.last_reason)
+            return
+        declined = declined or self._intake.add(job)
         if declined is not None:
-            self._finish(job, "stopped" if declined.code == "stopped" else "refused", declined)
+            self._finish(job, "refused", declined)
 
-    def void(self, envelope: Envelope, epoch: int, why: Reason) -> None:
-        """It was overtaken by a later word, most likely a stop: its turn ends here."""
-        self._finish(Job.of(envelope, epoch, self._clock.now_s()), "stopped", why)
+    def void(self, envelope: Envelope, epoch: int) -> None:
+        """A later word came before it, a stop or another: its turn ends here."""
+        job = Job.of(envelope, epoch, self._clock.now_s())
+        is_stopped = self._intake.is_void(job, self._stops.count)
+        self._finish(job, "stopped", self._stops.last_reason if is_stopped else Reason("overtaken"))
 
     def refuse(self, envelope: Envelope, epoch: int, why: Reason) -> None:
         """Its source may not ask for anything."""
@@ -153,8 +165,11 @@ class Jobs:
             return  # stopped or replaced meanwhile; its end has been told
         refusal = job.take(planned)
         asks = needs_approval(job, planned)
+        notice = job.account.notice(planned.is_endless)
+        if refusal is None and notice is not None:
+            self._emit(Notice(job.turn, notice))
         for event in planned.events(asks):
-            self._emit(event)
+            self._emit(refused(event, refusal))
         if refusal is not None:
             self._drop_prepared("refused", refusal)
         elif job.rehearse_only:
@@ -196,8 +211,10 @@ class Jobs:
     def _take_part(self, job: Job, stream: Stream, planned: Planned) -> None:
         if not self._driver.drives(job):
             return
-        self._emit(planned.part_event(stream.steps))
-        if stream.accept(planned) is None:
+        part = planned.part_event(stream.steps)
+        refusal = stream.accept(planned)
+        self._emit(refused(part, refusal))
+        if refusal is None:
             self._driver.expect(stream.duration_s)
         self._rehearse_part(job)
 
@@ -217,6 +234,8 @@ class Jobs:
             self._drop_prepared("refused", lapse or Reason("not_approved"))
         else:
             job.approval = None
+            if not is_a_persons:
+                job.account.renew()  # a person has ordered it
             self._launch(job)
 
     def expire_approval(self, now_s: float) -> None:
@@ -267,4 +286,4 @@ class Jobs:
             self._finish(job, outcome, reason)
 
     def _finish(self, job: Job, outcome: Outcome, reason: Reason | None) -> None:
-        self._emit(job.unmoved(outcome, reason, self._robot.pose))
+        self._ends.tell(lambda: job.unmoved(outcome, reason, self._robot.pose))

@@ -26,6 +26,7 @@ from chatrobot.models.seam import Message, Model
 from chatrobot.plan.base import Step
 from chatrobot.plan.primitives.say import Say
 from chatrobot.plan.text import format_step
+from chatrobot.session.budgets import EXCEEDED
 from chatrobot.session.model_call import CallEnd
 from chatrobot.session.model_look import ModelLook
 from chatrobot.session.model_round import ModelRound
@@ -243,15 +244,16 @@ class ModelTurn:
         """The call has ended, and so has its run, if there was one."""
         current, run = self._round, self._round.run
         self._all_done = (*self._all_done, *current.steps_done())
-        if self._cancelled is not None:
-            why = run.reason if run is not None and run.outcome == "stopped" else None
-            self._conclude("stopped", why or self._cancelled)
-        elif run is not None and run.outcome in ("stopped", "failed"):
+        if run is not None and run.outcome in ("stopped", "failed"):
             self._conclude(run.outcome, run.reason)
+        elif self._cancelled is not None:
+            self._conclude("stopped", self._cancelled)
         elif run is not None and run.outcome == "refused":
-            refused = current.run_problem or Reason("not_approved")
+            refused = current.run_problem or Reason("cause_unknown")
             is_the_plans = current.is_plan_refused or refused.code in PLAN_REFUSED
-            self._retry("refused", refused) if is_the_plans else self._conclude("refused", refused)
+            # A shorter plan than the person asked for is no correction.
+            may_retry = is_the_plans and refused.code not in EXCEEDED
+            self._retry("refused", refused) if may_retry else self._conclude("refused", refused)
         elif self._only_talks:
             self._end_talk()
         elif (problem := current.problem) is not None:

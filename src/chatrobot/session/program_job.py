@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from chatrobot.session.budgets import Account
 from chatrobot.session.envelope import Envelope
 from chatrobot.session.job import Job
 from chatrobot.session.planner import Planned
@@ -25,9 +26,9 @@ class ProgramJob(Job):
     strict: bool = False
 
 
-def job_of(envelope: Envelope, epoch: int, now_s: float) -> Job:
+def job_of(envelope: Envelope, epoch: int, now_s: float, account: Account) -> Job:
     """The job that a `plan` or a `program` envelope asks for."""
-    job = Job.of(envelope, epoch, now_s)
+    job = Job.of(envelope, epoch, now_s, account)
     if envelope.word != "program":
         return job
     payload = envelope.payload
@@ -39,6 +40,7 @@ def job_of(envelope: Envelope, epoch: int, now_s: float) -> Job:
         rehearse_only=job.rehearse_only,
         epoch=epoch,
         received_s=now_s,
+        account=account,
         code=str(payload.get("code", "")),
         name=str(payload.get("name", "")) or "program",
         remap={str(name): str(to) for name, to in dict(payload.get("remap", {})).items()},

@@ -165,7 +165,7 @@ def _about_the_end(played: Played, horizon_s: float) -> Iterator[Finding]:
     elif end.how == "stuck":
         yield _found("warn", "program_waits_for_ever", end.t_s, horizon_s=horizon_s)
     elif end.exit_code != 0:
-        yield _found("warn", "program_exit_code", end.t_s, code=end.exit_code)
+        yield _found("warn", "program_exit_code", end.t_s, exit_code=end.exit_code)
     for attempt in played.attempts:
         yield Finding("warn" if attempt.code in _HARMLESS else "refuse", attempt, t_s=played.duration_s)
 

@@ -8,6 +8,7 @@ from collections import deque
 from dataclasses import dataclass
 from typing import Literal
 
+from chatrobot.core.reason import Reason
 from chatrobot.session.draft import Draft
 from chatrobot.session.envelope import QUEUE_LIMIT
 
@@ -42,6 +43,8 @@ class SaidTexts:
         self._texts: deque[Said] = deque()
         self._turns = 0
         self._void_turn = 0
+        self.stopped_by = Reason("cause_unknown")
+        """Why what was said is void."""
 
     def add(self, text: str, kind: Kind, about: Draft | str = "", *, is_moving: bool) -> int:
         """Take in a text; the number of its turn. Where too many wait for a moving robot it is one too many."""
@@ -52,8 +55,9 @@ class SaidTexts:
             self._texts.append(Said(self._turns, text, kind, time.monotonic(), about))
             return self._turns
 
-    def void(self) -> int:
-        """A stop: what was said up to now is void; the last turn of it. No lock: a stop waits for nothing."""
+    def void(self, why: str) -> int:
+        """A stop, and why: what was said up to now is void; the last turn of it. No lock: a stop waits for nothing."""
+        self.stopped_by = Reason("stopped_by", {"why": why})
         self._void_turn = self._turns
         return self._void_turn
 

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 from chatrobot.core.errors import JointError, PlanTextError
 from chatrobot.core.events import Event, Finished, Interpreted, Remembered, Result, Telemetry
@@ -19,7 +20,10 @@ from chatrobot.session.model_terms import Ended
 from chatrobot.session.observations import measured
 from chatrobot.session.options import Options
 from chatrobot.session.orders import Orders
+from chatrobot.session.parting import parting
 from chatrobot.session.program_turns import ProgramTurns
+from chatrobot.session.proposals import Proposals
+from chatrobot.session.replies import offered
 from chatrobot.session.said import Kind, Said, SaidTexts
 from chatrobot.session.thinking import Mind, Thinking
 from chatrobot.session.turn_book import TurnBook
@@ -49,17 +53,18 @@ class Session:
     ) -> None:
         self._joint = joint
         self.understanding = understanding
-        self._emit = on_event
+        self._on_event = on_event
         self._orders = Orders(joint, options)
         self._said = SaidTexts()
-        self._book = TurnBook(understanding, on_event)
+        self._proposals = Proposals(understanding, self._said.is_void_turn)
+        self._book = TurnBook(understanding, self._emit)
         self._thinking = Thinking(
-            mind, options.interpreter, joint, understanding, on_event, self._conclude_model_turn
+            mind, options.interpreter, joint, understanding, self._emit, self._conclude_model_turn
         )
         self.authoring = authoring
         self._programs = (
             ProgramTurns(
-                authoring, understanding, self._book, self._orders, on_event, self._said.is_void_turn
+                authoring, understanding, self._book, self._orders, self._emit, self._said.is_void_turn
             )
             if authoring is not None
             else None
@@ -120,23 +125,30 @@ class Session:
 
     def stop(self, why: str = "") -> None:
         """Stop the robot and drop what was said before this moment."""
-        self._joint.send("stop", self._said.void(), why=why)
+        self._joint.send("stop", self._said.void(why), why=why)
         self._cancel_asking()
 
     def emergency_stop(self, why: str = "") -> None:
         """Stop the robot and keep it stopped until `release`."""
-        self._joint.send("emergency_stop", self._said.void(), why=why)
+        self._joint.send("emergency_stop", self._said.void(why), why=why)
         self._cancel_asking()
 
     def _cancel_asking(self) -> None:
         """End what models are being asked."""
-        self._thinking.cancel()
+        self._thinking.cancel(self._said.stopped_by)
         if self.authoring is not None:
             self.authoring.cancel()
 
     def release(self) -> None:
         """Release an emergency stop. For the local console alone."""
         self._joint.send("release")
+
+    def limit(self, **limits: Any) -> None:
+        """Change the motion budget, or ask for it: `max_distance_m`, `max_time_s`, each a number or `none`.
+
+        For the local console alone.
+        """
+        self._joint.send("limit", **limits)
 
     def approve(self, turn: int, yes: bool) -> None:
         """Answer a rehearsed plan that waits for a yes."""
@@ -185,6 +197,10 @@ class Session:
         """Goodbye: what runs is still done."""
         self._joint.close()
 
+    def _emit(self, event: Event) -> None:
+        self._proposals.hear(event)
+        self._on_event(event)
+
     # --- what was said ---
 
     def _next_said(self) -> Said | None:
@@ -217,6 +233,10 @@ class Session:
     def _take(self, said: Said) -> None:
         if self._said.is_void(said):
             self._book.conclude(said.turn, "stopped", self.understanding.say("dropped_by_stop", said.text))
+            return
+        answer = self._proposals.answered(said)
+        if answer is not None:
+            self._act_on(said, answer)
         elif said.kind == "text":
             self._understand(said)
         elif said.kind in ("plan", "edited_plan"):
@@ -244,10 +264,13 @@ class Session:
         meant = self.understanding.interpret(said.text)
         if self.understanding.misses_robot(meant) and self._hears_robot_soon():
             meant = self.understanding.interpret(said.text)
-        if self._thinking.wants(said.text, meant):
+        if parting(meant) is None and self._thinking.wants(said.text, meant):
             self._ask_model(said, meant)
             return
-        meant = self._thinking.without_model(said.text, meant)
+        self._act_on(said, self._thinking.without_model(said.text, meant))
+
+    def _act_on(self, said: Said, meant: Interpretation) -> None:
+        """Do what was understood without a model."""
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         interpreted = Interpreted(said.turn, "offline", plan_text, meant.reply)
         if meant.outcome == "plan":
@@ -262,7 +285,7 @@ class Session:
         else:
             self.understanding.note_unmoved(said.text, meant)
             self._thinking.note(said.text, "", f"{meant.outcome}: {meant.reply}")
-            self._book.conclude(said.turn, meant.outcome, meant.reply)
+            self._book.conclude(said.turn, meant.outcome, meant.reply, None, parting(meant), meant.proposal)
 
     def _hears_robot_soon(self) -> bool:
         """A robot that is there says where it is within a moment of the start."""
@@ -288,7 +311,7 @@ class Session:
             rehearse_only=options.rehearse_only,
         )
         if self._said.is_void_turn(said.turn):
-            self._thinking.cancel()  # a stop came while it was being understood
+            self._thinking.cancel(self._said.stopped_by)  # a stop came while it was being understood
 
     def _conclude_model_turn(self, turn: int, text: str, ended: Ended) -> None:
         reply = self.understanding.note_model_turn(text, ended, self.options.rehearse_only)
@@ -338,4 +361,6 @@ class Session:
             reply = self._programs.ending(event.turn, reply)
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         self._thinking.note(text, plan_text, f"{event.outcome}: {measured(event)}")
-        self._book.conclude(event.turn, event.outcome, reply, event)
+        proposal = offered(event, meant.language) if not self.options.rehearse_only else None
+        reply = f"{reply} {proposal.say}" if proposal is not None else reply
+        self._book.conclude(event.turn, event.outcome, reply, event, proposal=proposal)

@@ -90,10 +90,10 @@ class Thinking:
 
     # --- from any thread ---
 
-    def cancel(self) -> None:
+    def cancel(self, why: Reason) -> None:
         """A stop: end what models are being asked. Returns at once."""
         for turn in tuple(self._turns.values()):
-            turn.doing.cancel(Reason("stopped"))
+            turn.doing.cancel(why)
 
     @property
     def is_moving(self) -> bool:
@@ -135,7 +135,7 @@ class Thinking:
 
     def without_model(self, text: str, meant: Interpretation) -> Interpretation:
         """What was not understood, with how to set up a model; the tutorial's first instruction is answered."""
-        if meant.outcome != "unclear" or self._mind is not None:
+        if meant.outcome != "unclear" or meant.proposal is not None or self._mind is not None:
             return meant
         if connects_to_the_robot(text):
             return replace(meant, outcome="answered", reply=say(meant.language, "tutorial_without_model"))

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from chatrobot.core.events import Event, Finished, Notice, Outcome, Result
+from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.session.understanding import Understanding
@@ -46,15 +47,16 @@ class TurnBook:
         reply: str,
         finished: Finished | None = None,
         reason: Reason | None = None,
+        proposal: Proposal | None = None,
     ) -> None:
-        """End that turn: `finished` is what was measured, None where nothing moved."""
+        """End that turn: `finished` is what was measured, None where nothing moved; the reply asks about `proposal`."""
         self.take(turn)
         understanding = self._understanding
         pose = understanding.pose
         unkept = understanding.places.take_unkept()
         if unkept:
             self._emit(Notice(turn, Reason("places_not_kept", {"why": unkept})))
-        result = Result(turn, outcome, reply, pose, reason=reason)
+        result = Result(turn, outcome, reply, pose, reason=reason, proposal=proposal)
         if finished is not None:
             result = Result(
                 turn,
@@ -66,6 +68,7 @@ class TurnBook:
                 finished.duration_s,
                 finished.paused_s,
                 reason or finished.reason,
+                proposal,
             )
         self.results[turn] = result
         self._emit(result)

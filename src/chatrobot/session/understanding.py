@@ -148,7 +148,7 @@ class Understanding:
         self._dialogue = replace(self._dialogue, pending="")
         if rehearse_only and outcome == "completed":
             return say(meant.language, "only_rehearsed")
-        return describe_end(finished, meant.language)
+        return describe_end(finished, meant.language, meant.plan.steps if meant.plan is not None else ())
 
     def describe(self, steps: Sequence[Step]) -> str:
         """Steps in a few words."""

@@ -27,7 +27,9 @@ from chatrobot.core.events import (
     Streamed,
 )
 from chatrobot.core.geometry import Twist
+from chatrobot.core.shown import fixed
 from chatrobot.language.phrases import render_reason, say
+from chatrobot.plan.shown import shown_plan
 from chatrobot.session.program_text import body, headline
 
 PLAN_LINES = 16
@@ -92,7 +94,7 @@ class Narrator:
             )
             head.append(f"  {facts}", "dim")
         yield head
-        lines = plan_text.splitlines()
+        lines = shown_plan(plan_text).splitlines()
         shown = lines if limit is None or len(lines) <= limit else lines[: limit - 1]
         for number, line in enumerate(shown, 1):
             yield Text("  ").append(f"{number:>3}  ", "dim").append_text(_plan_line(line))
@@ -141,7 +143,7 @@ class Narrator:
         """A step of a plan that is still coming in."""
         if event.turn not in self._streamed:
             yield Text("  ").append(self._words.say("plan"), "bold")
-        for line in event.plan_text.splitlines():
+        for line in shown_plan(event.plan_text).splitlines():
             number = self._streamed[event.turn] = self._streamed.get(event.turn, 0) + 1
             yield Text("  ").append(f"{number:>3}  ", "dim").append_text(_plan_line(line))
 
@@ -174,7 +176,8 @@ class Narrator:
         self._plans.pop(event.turn, None)
         self._streamed.pop(event.turn, None)
         mark, style = _MARKS[event.outcome]
-        yield marked(mark, style, event.reply)
+        asks = f" {say(self._words.language, 'yes_or_no')}" if event.proposal is not None else ""
+        yield marked(mark, style, f"{event.reply}{asks}")
         if event.path_m > _LEAST_M or abs(event.turned_rad) > _LEAST_RAD:
             measured = self._words.say(
                 "measured", pose=self._words.pose(event.pose), duration=f"{event.duration_s:.1f}"
@@ -183,10 +186,11 @@ class Narrator:
 
     def _twist(self, twist: Twist) -> str:
         parts = []
-        if twist.speed_mps > 0.0:
+        if twist.speed_mps >= _LEAST_M:
             parts.append(self._words.say("speed", speed=f"{twist.speed_mps:.2f}"))
-        if twist.wz_radps != 0.0:
-            parts.append(self._words.say("rate", rate=f"{math.degrees(twist.wz_radps):.0f}"))
+        rate = fixed(math.degrees(twist.wz_radps), 0)
+        if float(rate):
+            parts.append(self._words.say("rate", rate=rate))
         return " · ".join(parts) or self._words.say("speed", speed="0")
 
 
