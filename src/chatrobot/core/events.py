@@ -150,7 +150,10 @@ class Progress(Event):
 
 @dataclass(frozen=True)
 class Telemetry(Event):
-    """Where the robot is and how it moves, as it measures itself; `path_m` since odometry began."""
+    """Where the robot is and how it moves, as it measures itself; `path_m` since odometry began.
+
+    `odometry_epoch` counts the times odometry began anew: a pose of an older epoch means nothing any more.
+    """
 
     name: ClassVar[str] = "telemetry"
     pose: Pose
@@ -159,6 +162,7 @@ class Telemetry(Event):
     battery_percent: float | None = None
     nearest_obstacle_m: float | None = None
     moving: bool = False
+    odometry_epoch: int = 0
 
 
 @dataclass(frozen=True)

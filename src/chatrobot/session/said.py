@@ -80,6 +80,11 @@ class SaidTexts:
             self._texts.remove(said)
         return said
 
+    def put_back(self, said: Said) -> None:
+        """It waits again, before all others."""
+        with self._lock:
+            self._texts.appendleft(said)
+
     def take_too_many(self) -> list[Said]:
         """Those that may not even wait."""
         return [self.take(said) for said in self.waiting if said.kind == "too_many"]

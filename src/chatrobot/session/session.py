@@ -56,6 +56,7 @@ class Session:
         self._on_event = on_event
         self._orders = Orders(joint, options)
         self._said = SaidTexts()
+        self._waits_for_end = 0
         self._proposals = Proposals(understanding, self._said.is_void_turn)
         self._book = TurnBook(understanding, self._emit)
         self._thinking = Thinking(
@@ -207,7 +208,8 @@ class Session:
         """The one to take now: the first, unless it has to wait for what runs or is thought about."""
         for said in self._said.waiting:
             waits = said.is_instruction and not self._said.is_void(said)
-            if not waits or self.options.while_moving == "replace":
+            replaces = self.options.while_moving == "replace" and said.turn != self._waits_for_end
+            if not waits or replaces:
                 return said
             if self._book.is_any_with_motion:
                 return None
@@ -219,9 +221,10 @@ class Session:
         """It needs no model, and the one that is being asked says nothing."""
         if not self._thinking.may_be_overtaken(said.at_s):
             return False
-        return said.kind in ("plan", "edited_plan") or not self._thinking.wants(
-            said.text, self.understanding.interpret(said.text)
-        )
+        if said.kind in ("plan", "edited_plan"):
+            return True
+        meant = self.understanding.interpret(said.text)
+        return not (meant.is_about_turn_before or self._thinking.wants(said.text, meant))
 
     def _take_texts(self) -> None:
         for said in self._said.take_too_many():
@@ -261,13 +264,24 @@ class Session:
     def _understand(self, said: Said) -> None:
         if self._programs is not None and self._programs.begin(said.turn, said.text):
             return
-        meant = self.understanding.interpret(said.text)
+        meant = self.understanding.interpret(said.text, self._book.under_way)
+        is_any_under_way = self._book.is_any_with_motion or self._thinking.is_busy
+        if is_any_under_way and meant.is_about_turn_before:
+            self._end_turn_before(said)
+            return
         if self.understanding.misses_robot(meant) and self._hears_robot_soon():
             meant = self.understanding.interpret(said.text)
         if parting(meant) is None and self._thinking.wants(said.text, meant):
             self._ask_model(said, meant)
             return
         self._act_on(said, self._thinking.without_model(said.text, meant))
+
+    def _end_turn_before(self, said: Said) -> None:
+        """Stop what is under way, because `said` is about it; read `said` again once that has ended."""
+        self._said.put_back(said)
+        self._waits_for_end = said.turn
+        self._thinking.replace()
+        self._joint.send("stop", said.turn - 1, why=said.text[:80])
 
     def _act_on(self, said: Said, meant: Interpretation) -> None:
         """Do what was understood without a model."""
@@ -340,7 +354,8 @@ class Session:
 
     def _hear(self, event: Event) -> None:
         if isinstance(event, Telemetry):
-            self.understanding.note_telemetry(event)
+            is_ours = self._book.is_any_with_motion or self._thinking.is_busy
+            self.understanding.note_telemetry(event, is_ours=is_ours)
         elif isinstance(event, Remembered):
             self.understanding.note_place(event)
         self._emit(event)
@@ -355,7 +370,7 @@ class Session:
         instruction = self._book.take(event.turn)
         if instruction is None:
             return
-        text, meant = instruction
+        text, meant, _ = instruction
         reply = self.understanding.note_finished(text, meant, event, self.options.rehearse_only)
         if self._programs is not None:
             reply = self._programs.ending(event.turn, reply)
