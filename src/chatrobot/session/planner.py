@@ -17,6 +17,7 @@ from chatrobot.plan.route import GridRoutePlanner
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.session.budgets import Extent
+from chatrobot.session.seen_world import SeenPoints
 from chatrobot.sim.world import World
 
 DRAWN_POINTS = 400
@@ -167,11 +168,19 @@ class Planner:
         """Corners, in `odom`, of where the world lets a robot be; None where it says nothing."""
         return self._world.allowed_area.points if self._world.allowed_area is not None else None
 
-    def plan(self, turn: int, plan_text: str, start: Pose, plan_start: Pose | None = None) -> Planned:
+    def plan(
+        self,
+        turn: int,
+        plan_text: str,
+        start: Pose,
+        plan_start: Pose | None = None,
+        seen_points: Floats | None = None,
+    ) -> Planned:
         """Read and rehearse `plan_text` from `start` (odom frame). Never raises for what a person or model wrote.
 
         Args:
             plan_start: where the whole began that this is a part of, if it did not begin here.
+            seen_points: [n, 2] in odom, what the governor knows of by its lidar.
         """
         try:
             plan = parse_plan(plan_text)
@@ -185,5 +194,8 @@ class Planner:
             self._kernel,
             plan_start=plan_start,
             route_planner=self._routes,
+            seen=SeenPoints(self._profile, seen_points)
+            if seen_points is not None and len(seen_points)
+            else None,
         )
         return Planned(turn, rehearsal)
