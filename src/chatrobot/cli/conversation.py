@@ -13,7 +13,7 @@ from chatrobot.cli.printer import Printer
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.errors import JointError
-from chatrobot.core.events import EXIT_CODES, Event, Outcome
+from chatrobot.core.events import EXIT_CODES, Event, Result
 from chatrobot.language.interpretation import LanguageCode
 
 PUMP_S = 0.1
@@ -105,18 +105,18 @@ class Conversation:
 
     # --- the main thread ---
 
-    def do(self, text: str) -> Outcome:
-        """One turn, seen through to its result: how it ended."""
-        outcome = self.see_through(self.session.say(text))
+    def do(self, text: str) -> Result:
+        """One turn, seen through: its result."""
+        result = self.see_through(self.session.say(text))
         while (edited := self._approver.take_edited()) is not None:
-            outcome = self.see_through(self.session.say_plan(edited))
-        return outcome
+            result = self.see_through(self.session.say_plan(edited))
+        return result
 
-    def see_through(self, turn: int) -> Outcome:
-        """Let things happen until that turn has its result: how it ended."""
+    def see_through(self, turn: int) -> Result:
+        """Let things happen until that turn has its result."""
         while turn not in self.session.results:
             self.step()
-        return self.session.results[turn].outcome
+        return self.session.results[turn]
 
     def finish(self) -> None:
         """See everything through that was heard."""
