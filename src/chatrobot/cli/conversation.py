@@ -13,7 +13,7 @@ from chatrobot.cli.printer import Printer
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.errors import JointError
-from chatrobot.core.events import EXIT_CODES, Event, Outcome
+from chatrobot.core.events import EXIT_CODES, Event, Result
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.session.parting import is_parting
 
@@ -108,22 +108,22 @@ class Conversation:
 
     # --- the main thread ---
 
-    def do(self, text: str) -> Outcome:
-        """One turn, seen through to its result: how it ended."""
+    def do(self, text: str) -> Result:
+        """One turn, seen through: its result."""
         return self.see_through_edits(self.session.say(text))
 
-    def see_through_edits(self, turn: int) -> Outcome:
+    def see_through_edits(self, turn: int) -> Result:
         """That turn, and those of what a person made of the plan or program that it asked about."""
-        outcome = self.see_through(turn)
+        result = self.see_through(turn)
         while (say_edited := self._approver.take_edited()) is not None and not self.is_leaving:
-            outcome = self.see_through(say_edited(self.session))
-        return outcome
+            result = self.see_through(say_edited(self.session))
+        return result
 
-    def see_through(self, turn: int) -> Outcome:
-        """Let things happen until that turn has its result: how it ended."""
+    def see_through(self, turn: int) -> Result:
+        """Let things happen until that turn has its result."""
         while turn not in self.session.results:
             self.step()
-        return self.session.results[turn].outcome
+        return self.session.results[turn]
 
     def finish(self) -> None:
         """See everything through that was heard."""
