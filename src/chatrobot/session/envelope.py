@@ -15,7 +15,8 @@ Word = Literal[
     "look",  # asks for a `looked` event of this turn
     "program",  # {"code", "name", "remap": {from: to}, "mode", "approve", "ask_findings", "strict", "rehearse_only"}
     "approve",  # {"yes": bool} answers a Rehearsed event that needs approval
-    "stop",  # {"why": …}; makes void what belongs to this turn and those before
+    "stop",  # {"why": …, "keep": bool}; makes void what belongs to this turn and those before. keep: a pause
+    "resume",  # {}: go on with the plan of this turn, which was paused
     "emergency_stop",
     "release",
     "goodbye",  # an orderly end: what is queued is still done, then the lease ends
@@ -89,7 +90,8 @@ PAYLOADS: Mapping[str, Mapping[str, Callable[[object], bool]]] = {
         "term_s": _is_term,
     },
     "approve": {"yes": _is_flag},
-    "stop": {"why": _is_text},
+    "stop": {"why": _is_text, "keep": _is_flag},
+    "resume": {},
     "emergency_stop": {"why": _is_text},
     "release": {},
     "goodbye": {},

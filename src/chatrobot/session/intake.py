@@ -17,14 +17,22 @@ class Intake:
         self.jobs: deque[Job] = deque()
         self._sequences: dict[tuple[str, bool], int] = {}
         self._void_turns: dict[str, int] = {}
+        self._resumed_turns: dict[str, int] = {}
 
     def void_turn(self, lease: str, turn: int) -> None:
         """A stop said after that turn: plans of it and of earlier ones may still be on their way."""
         self._void_turns[lease] = max(turn, self._void_turns.get(lease, turn))
+        self._resumed_turns.pop(lease, None)
+
+    def resume(self, job: Job) -> None:
+        """Put the rest of a plan that was paused before all others; further plans of its turn count again."""
+        self._resumed_turns[job.lease] = job.turn
+        self.jobs.appendleft(job)
 
     def forget(self, lease: str) -> None:
         """Nothing is to be known of that lease any more."""
         self._void_turns.pop(lease, None)
+        self._resumed_turns.pop(lease, None)
         for is_beat in (True, False):
             self._sequences.pop((lease, is_beat), None)
 
@@ -38,7 +46,8 @@ class Intake:
 
     def add(self, job: Job, epoch: int) -> Reason | None:
         """Queue `job`, or say why not: a stop has overtaken it (`stopped`), or too many wait (`queue_full`)."""
-        if job.epoch != epoch or job.turn <= self._void_turns.get(job.lease, -1):
+        is_void = job.turn <= self._void_turns.get(job.lease, -1)
+        if job.epoch != epoch or (is_void and job.turn != self._resumed_turns.get(job.lease)):
             return Reason("stopped")
         if len(self.jobs) >= QUEUE_LIMIT:
             return Reason("queue_full", {"limit": QUEUE_LIMIT})

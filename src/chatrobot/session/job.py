@@ -15,6 +15,7 @@ from chatrobot.session.approval import Approval
 from chatrobot.session.envelope import Envelope, seconds
 from chatrobot.session.planner import Planned
 from chatrobot.session.stream import Stream
+from chatrobot.session.summed import gone_on
 
 
 @dataclass
@@ -22,7 +23,8 @@ class Job:
     """`epoch` is the stop epoch it was received in: a later stop makes it void. `start` is where it begins.
 
     `longest_s` is what the source may take: a plan that rehearsal expects to last longer is refused. `stream` holds
-    what comes after `plan_text` where the plan comes in parts.
+    what comes after `plan_text` where the plan comes in parts. Where the job is the rest of a plan that was paused,
+    `plan_start` is where the whole began and `so_far` what was measured of it.
     """
 
     turn: int
@@ -37,6 +39,8 @@ class Job:
     planned: Planned | None = None
     approval: Approval | None = None
     stream: Stream | None = None
+    plan_start: Pose | None = None
+    so_far: Finished | None = None
 
     @classmethod
     def of(cls, envelope: Envelope, epoch: int, now_s: float) -> Job:
@@ -92,7 +96,13 @@ class Job:
     def unmoved(self, outcome: Outcome, reason: Reason | None, pose: Pose) -> Finished:
         """Its end where nothing moved."""
         remaining = self.unread if outcome == "stopped" and not self.rehearse_only else ""
-        return Finished(self.turn, outcome, reason, pose, pose, 0.0, 0.0, 0.0, 0.0, remaining=remaining)
+        return self.whole(
+            Finished(self.turn, outcome, reason, pose, pose, 0.0, 0.0, 0.0, 0.0, remaining=remaining)
+        )
+
+    def whole(self, finished: Finished) -> Finished:
+        """Its end, together with what was done before it was paused."""
+        return gone_on(self.so_far, finished) if self.so_far is not None else finished
 
     @property
     def unread(self) -> str:

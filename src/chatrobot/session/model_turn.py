@@ -29,12 +29,13 @@ from chatrobot.plan.text import format_step
 from chatrobot.session.model_call import CallEnd
 from chatrobot.session.model_look import ModelLook
 from chatrobot.session.model_round import ModelRound
-from chatrobot.session.model_terms import Ended, ModelOptions, Surroundings, summed, told
+from chatrobot.session.model_terms import Ended, ModelOptions, Surroundings, told
 from chatrobot.session.observations import without_pictures
 from chatrobot.session.plan_feed import PlanFeed
 from chatrobot.session.prompt import correction
 from chatrobot.session.quoting import one_line
 from chatrobot.session.spending import Spending
+from chatrobot.session.summed import summed
 from chatrobot.session.tutorial_mode import is_short_form
 
 if TYPE_CHECKING:

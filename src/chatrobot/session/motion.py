@@ -27,12 +27,13 @@ from chatrobot.session.guard_link import GuardLink
 from chatrobot.session.inbox import Inbox
 from chatrobot.session.intake import Intake
 from chatrobot.session.jobs import Jobs
+from chatrobot.session.paused import Pausing
 from chatrobot.session.planner import Planner
 from chatrobot.session.program_box import NoBox, ProgramBox
 from chatrobot.session.relay import Relay
 from chatrobot.session.sectors import sectors_m
 from chatrobot.session.sources import Sources
-from chatrobot.session.stops import Stops
+from chatrobot.session.stops import PAUSED, Stops
 from chatrobot.session.telling import Telling
 from chatrobot.session.zeroing import Zeroing
 from chatrobot.transports.transport import WireTransport
@@ -85,10 +86,18 @@ class Motion:
         )
         self._inbox = Inbox(background)
         self._driver = Driver(robot, self.clearance, self._stops, self._programs, self._inbox, clock, emit)
+        self._pausing = Pausing(robot, self._intake, self.clearance, self._stops, clock, emit)
         self._jobs = Jobs(
-            robot, self._intake, self._driver, planner, self._programs, self._stops, self._inbox, clock, emit
+            robot, self._intake, self._driver, planner, self._programs, self._stops, self._inbox, clock, emit,
+            self._pausing,
+        )  # fmt: skip
+        self._relay = Relay(
+            clock,
+            robot,
+            self.see_it_stand,
+            self._notice,
+            takes_over=lambda: self._pausing.drop(Reason("other_drove", {"source": RELAY_TOPIC})),
         )
-        self._relay = Relay(clock, robot, self.see_it_stand, self._notice)
         self._joystick = Relay(
             clock,
             robot,
@@ -123,7 +132,10 @@ class Motion:
         if envelope.word in ("stop", "emergency_stop"):
             why = str(envelope.payload.get("why", ""))
             self._intake.void_turn(envelope.lease, envelope.turn)
-            self.halt(Reason("stopped_by", {"source": envelope.source, "why": why}))
+            code = (
+                PAUSED if envelope.word == "stop" and envelope.payload.get("keep") is True else "stopped_by"
+            )
+            self.halt(Reason(code, {"source": envelope.source, "why": why}))
         # What was said before a stop must not run after it, however late it is handled.
         epoch = self._stops.count if said_in is None else said_in
         emergency = self._emergency
@@ -202,6 +214,7 @@ class Motion:
         self._jobs.expire_approval(now_s)
         if not self._driver.is_driving:
             self.zeroing.tick(now_s)
+        self._pausing.watch(now_s, is_standing=not self.zeroing.is_active)
         self._relay.tick(now_s, self._is_free)
         self._begin_next(now_s)
         self._guard.beat()  # after the velocity: it wakes the guard, which may take this processor
@@ -211,7 +224,10 @@ class Motion:
         """A stop has gone out, from whatever thread: end what ran and what waited, then see the robot stand."""
         why = self._stops.book()
         if why is not None:
-            self._jobs.end_stopped(why)
+            if why.code == PAUSED:
+                self._jobs.pause(why, self._clock.now_s())
+            else:
+                self._jobs.end_stopped(why)
             self._relay.stop()
             self._joystick.stop()
 
@@ -223,7 +239,7 @@ class Motion:
 
     def _is_free(self) -> bool:
         """Nothing of ours drives, waits or stops the robot, and nothing keeps it from moving."""
-        return self._jobs.are_done and not self._joystick.is_driving and self._is_clear()
+        return self._jobs.let_others_drive and not self._joystick.is_driving and self._is_clear()
 
     def _is_clear(self) -> bool:
         """Nothing stops the robot, and nothing keeps it from moving."""
@@ -252,6 +268,9 @@ class Motion:
             self._begin_next(now_s)
         elif envelope.word == "look":
             self._emit(Looked(envelope.turn, sectors_m(self._profile, self.sensors.scan)))
+        elif envelope.word == "resume":
+            self._pausing.resume(envelope)
+            self._begin_next(now_s)
         elif envelope.word == "approve":
             if priority_of(envelope.source) >= Priority.PLAN:  # a person's word, not an agent's
                 self._jobs.approve(envelope)
@@ -259,6 +278,7 @@ class Motion:
             self._release(envelope, emergency)
         elif envelope.word == "goodbye":
             self._sources.leave(envelope.lease)
+            self._pausing.drop(Reason("source_left", {"source": envelope.source}), envelope.lease)
 
     def _accept(self, envelope: Envelope, epoch: int) -> None:
         if self._sources.has_left(envelope.lease):
