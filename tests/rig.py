@@ -100,6 +100,7 @@ class Rig:
             pose = self.sensors.pose_now()
             verdict = self.governor.govern(asked, "rig", self.clock.now_s(), pose, self.sensed())
             self._transport.send(verdict.sent)
+            self.sensors.note_sent(verdict.sent.twist)
             executor.note(verdict.rule, verdict.reason, verdict.sent.twist, self.clock.now_s())
             self.sent.append(verdict.sent.twist)
             self.live(TICK_S)

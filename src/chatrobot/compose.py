@@ -178,10 +178,6 @@ def _connect_simulated(
     clock = VirtualClock()
     hub = MemoryHub()
     robot = SimRobot(profile, world, SimLies.parse(setup.sim), wire=hub.connect(), clock=clock)
-    robot.step(SETTLE_S)
-    clock.advance(SETTLE_S)
-    if setup.trace:
-        hub.connect().subscribe(TRUTH_TOPIC, Odometry, _tracer(on_event))
     wire = hub.connect()
     guard = SimulatedGuard(clock)
     programs = ProgramHost(profile, is_in_step=True)
@@ -191,7 +187,9 @@ def _connect_simulated(
         return Motion(profile, wire, clock, planner, guard, emit, lambda job: job(), programs=programs)
 
     joint = SimulatedJoint(build, wire, clock, robot.step, guard, hub.connect(), profile.wiring.cmd_vel_topic)
-    joint.next_event(SETTLE_S)
+    joint.live(SETTLE_S)
+    if setup.trace:
+        hub.connect().subscribe(TRUTH_TOPIC, Odometry, _tracer(on_event))
     authoring = _authoring(setup, profile, world, understanding)
     session = Session(joint, understanding, on_event, setup.options, authoring, mind_of(setup, profile))
 

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from chatrobot.cli.eval.corpus import load_corpus
 from chatrobot.core.errors import CorpusError
+from chatrobot.plan.text import format_plan
 
 GOOD = """
 - id: en-1
@@ -22,6 +23,13 @@ GOOD = """
   category: dialogue
   turns: ["forward 1 m", {say: "where are you?", expect: {answer: info, motion: none}}, "again"]
   expect: {x: 2}
+"""
+
+
+PLANS = """
+- {id: en-1, category: metric, say: hi, plan: "drive 1 m\\n\\ngoto 1 2\\n", ask_ok: true}
+- {id: en-2, category: still, say: hi, still: true}
+- {id: en-3, category: shape, say: hi, plan: [drive 1 m, drive 2 m], mirror_ok: true, closed_ok: true}
 """
 
 
@@ -44,6 +52,27 @@ def test_a_corpus_is_read_as_it_is_written(tmp_path: Path) -> None:
     assert second.turns[1].expect.answer == "info"
 
 
+def test_plans_are_read_as_they_are_written(tmp_path: Path) -> None:
+    file = tmp_path / "corpus.yaml"
+    file.write_text(PLANS, encoding="utf-8")
+    order, still, shape = load_corpus(file)
+    assert order.meant is not None
+    assert shape.meant is not None
+    assert [format_plan(plan) for plan in order.meant.plans] == ["drive 1 m\ngo to 1 2"]
+    assert order.ask_ok
+    assert not order.must_stand
+    assert still.must_stand
+    assert len(shape.meant.plans) == 2
+    assert shape.meant.mirror_ok
+    assert shape.meant.closed_ok
+    assert [item.number for item in (order, still, shape)] == [1, 2, 3]
+
+
+def test_the_everyday_sets_are_valid() -> None:
+    files = sorted((Path(__file__).parent.parent / "corpus" / "everyday").glob("*.yaml"))
+    assert sum(len(load_corpus(file)) for file in files) >= 600
+
+
 @pytest.mark.parametrize(
     ("item", "said"),
     [
@@ -61,6 +90,12 @@ def test_a_corpus_is_read_as_it_is_written(tmp_path: Path) -> None:
         ("{id: a, category: info, say: hi, expect: {answer: yes}}", "answer is True (clarify, refuse, info)"),
         ("{id: a, category: metric, say: hi, expect: {closed: 1}}", "closed is 1 (true or false)"),
         ("{id: a, category: metric, says: hi, expect: {x: 1}}", "unknown field 'says'"),
+        ("{id: a, category: metric, say: hi, plan: drive 1 parsec}", "plan cannot be read"),
+        ("{id: a, category: metric, say: hi, plan: []}", "plan is empty"),
+        ("{id: a, category: metric, say: hi, plan: [1]}", "plan is 1"),
+        ("{id: a, category: metric, say: hi, plan: drive 1 m, still: true}", "either a plan or still"),
+        ("{id: a, category: metric, say: hi, plan: drive 1 m, expect: {x: 1}}", "either expect or a plan"),
+        ("{id: a, category: metric, say: hi, still: yes please}", "still is 'yes please'"),
     ],
 )
 def test_a_mistake_is_named_with_its_item_and_what_is_allowed(item: str, said: str, tmp_path: Path) -> None:

@@ -6,9 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from chatrobot.cli.eval.corpus import Expect, Item, Turn
+from chatrobot.cli.eval.corpus import Expect, Item, Meant, Turn
 from chatrobot.cli.eval.run import run_items
 from chatrobot.compose import Setup
+from chatrobot.plan.text import parse_plan
 from tests.cli.running import Command, chatrobot
 
 __all__ = ["chatrobot"]
@@ -42,13 +43,14 @@ def test_the_table_counts_by_category_and_in_total(chatrobot: Command, corpus: s
     done = chatrobot("eval", corpus)
     assert done.code == 0
     rows = {line.split()[0]: line.split()[1:] for line in done.out.splitlines() if line.strip()}
-    assert rows["metric"] == ["3", "1", "1", "1", "33.3"]
-    assert rows["clarify"] == ["1", "1", "0", "0", "100.0"]
-    assert rows["total"] == ["5", "3", "1", "1", "60.0"]
+    assert rows["metric"] == ["3", "1", "1", "1", "33.3", "0"]
+    assert rows["clarify"] == ["1", "1", "0", "0", "100.0", "0"]
+    assert rows["total"] == ["5", "3", "1", "1", "60.0", "0"]
 
 
 def test_what_went_wrong_is_listed_with_what_happened(chatrobot: Command, corpus: str) -> None:
-    out = chatrobot("eval", corpus).out
+    assert "a-2 forward 1 m" not in chatrobot("eval", corpus).out
+    out = chatrobot("eval", corpus, "--misses").out
     assert "a-2 forward 1 m" in out
     assert "did: drive 1 m" in out
     assert "x is 1.00" in out
@@ -84,6 +86,35 @@ def test_nothing_is_remembered_from_one_item_to_the_next() -> None:
     judged = list(run_items([first, second], Setup(world="empty")))
     assert judged[0].verdict.kind == "correct"
     assert judged[1].records[0].outcome in ("unclear", "refused")
+
+
+def test_half_of_a_corpus_can_be_chosen(chatrobot: Command, corpus: str) -> None:
+    odd = chatrobot("eval", corpus, "--only", "odd", "--json").named("item")
+    even = chatrobot("eval", corpus, "--only", "even", "--json").named("item")
+    assert [item["id"] for item in odd] == ["a-1", "a-3", "a-5"]
+    assert [item["id"] for item in even] == ["a-2", "a-4"]
+
+
+def test_of_what_must_stand_it_is_told_how_much_moved(chatrobot: Command, tmp_path: Path) -> None:
+    file = tmp_path / "still.yaml"
+    file.write_text(
+        '- {id: a-1, category: still, say: "forward 1 m", still: true}\n'
+        '- {id: a-2, category: still, say: "where are you?", still: true}\n'
+        '- {id: a-3, category: metric, say: "forward 1 m", plan: "drive 1 m"}\n',
+        encoding="utf-8",
+    )
+    assert "2 items must stand still: 1 moved" in chatrobot("eval", str(file)).out
+    totals = chatrobot("eval", str(file), "--json").events[-1]
+    assert totals["still"] == {"items": 2, "moved": 1, "proposals": 0}
+
+
+def test_what_was_asked_back_is_driven_as_a_yes_would(monkeypatch: pytest.MonkeyPatch) -> None:
+    item = Item("a-1", "metric", (Turn("florble the wug"),), meant=Meant((parse_plan("drive 1 m"),)))
+    for proposal, is_right in (("drive 1 m", True), ("drive 2 m", False)):
+        monkeypatch.setattr("chatrobot.cli.eval.run.proposed_plan", lambda _, text=proposal: text)
+        (judged,) = run_items([item], Setup(world="empty"))
+        assert judged.verdict.kind == "abstained"
+        assert judged.was_proposed is is_right
 
 
 def test_the_shipped_corpora_are_valid_and_run_quickly(chatrobot: Command) -> None:

@@ -174,6 +174,8 @@ def _plan(parser: argparse.ArgumentParser) -> None:
 
 def _eval(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("files", nargs="+", metavar="FILE", help="a corpus in YAML")
+    parser.add_argument("--only", choices=("odd", "even"), help="only the items whose running number is so")
+    parser.add_argument("--misses", action="store_true", help="list what was wrong and what was asked back")
 
 
 def _sim(parser: argparse.ArgumentParser) -> None:

@@ -13,7 +13,13 @@ from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.execution.course import TICK_S, Course
 from chatrobot.execution.estimator import Estimate
-from chatrobot.execution.health import STANDS_LATE_S, is_seen_moving, sensor_fault, tracking_fault
+from chatrobot.execution.health import (
+    STANDS_LATE_S,
+    is_seen_moving,
+    is_seen_standing,
+    sensor_fault,
+    tracking_fault,
+)
 from chatrobot.execution.lookahead import must_brake
 from chatrobot.execution.mending import AT_THE_END, BETWEEN_STEPS, MEND_TRIES, Tolerance, mend
 from chatrobot.execution.sensors import Sensors
@@ -25,6 +31,9 @@ from chatrobot.plan.lowering import NotYet, Walk
 from chatrobot.plan.split import Reached
 from chatrobot.plan.trajectory import Segment
 from chatrobot.robots.profile import RobotProfile
+
+UNSEEN_S = 0.1
+"""A robot that nobody sees is sent zeros for so long at the end of a plan: one may get lost."""
 
 SETTLE_S = 0.8
 """The longest wait, at the end of a plan, for the robot to be seen standing, where it is not seen moving."""
@@ -207,12 +216,16 @@ class Executor:
         estimate = self._sensors.estimate
         if estimate is None or not self._sensors.has_odometry:
             return twist
-        reference = self._course.at(estimate.stamp_s)
+        reference = self._reference_at(estimate)
         fault = self._tracking_fault(segment, reference, estimate)
         if fault is not None:
             return self._end("failed", fault)
         more = feedback(self._profile, segment, reference.relative_to(estimate.pose))
         return Twist(twist.vx_mps + more.vx_mps, twist.vy_mps + more.vy_mps, twist.wz_radps + more.wz_radps)
+
+    def _reference_at(self, estimate: Estimate) -> Pose:
+        """Where the robot should be when it is seen as in `estimate`, as late as it does what it is told."""
+        return self._course.at(estimate.stamp_s - self._sensors.response.lag_s)
 
     def _tracking_fault(self, segment: Segment, reference: Pose, estimate: Estimate) -> Reason | None:
         begin, wheel_yaw_rad = self._begin
@@ -274,10 +287,9 @@ class Executor:
         """The plan is done: see the robot stand, and drive the rest that feedback left, if it is worth it."""
         assert self._settle_since_s is not None
         waited_s = now_s - self._settle_since_s
-        estimate = self._sensors.estimate
-        if not self._sensors.has_odometry or estimate is None:
-            return self._end("completed", None)
-        seen = estimate.is_standing and estimate.stamp_s > self._settle_since_s
+        if not self._sensors.has_odometry or self._sensors.estimate is None:
+            return ZERO_TWIST if waited_s < UNSEEN_S else self._end("completed", None)
+        seen = is_seen_standing(self._sensors)
         if not seen and waited_s < (STANDS_LATE_S if is_seen_moving(self._sensors) else SETTLE_S):
             return ZERO_TWIST
         if seen and self._course.has_moved and self._mend(AT_THE_END, now_s):
@@ -290,7 +302,7 @@ class Executor:
         estimate = self._sensors.estimate
         if estimate is None or not self._sensors.has_odometry or self._mends_left == 0:
             return False
-        rest = self._course.at(estimate.stamp_s).relative_to(estimate.pose)
+        rest = self._reference_at(estimate).relative_to(estimate.pose)
         motion = mend(self._profile, rest, tolerance)
         if motion is None:
             return False

@@ -13,6 +13,8 @@ from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, RawTwist, Remember,
 from chatrobot.plan.text import format_step
 
 _TABLES = ("phrases", "outcomes")
+_OURS = ("", "console", "base", "user_input", "service")
+"""The sources of a stop that the person who is answered speaks through."""
 _SHOWN = 6
 """Steps of a plan that are spelt out in a reply; the rest is counted."""
 
@@ -50,7 +52,26 @@ def _shown(value: Value) -> str:
 
 def render_reason(reason: Reason, language: str) -> str:
     """A reason in words."""
-    return say(language, reason.code, **dict(reason.values))
+    values: dict[str, Value] = dict(reason.values)
+    if reason.code in ("stopped_by", "paused_by"):
+        return _stop_cause(str(values.get("source", "")), str(values.get("why", "")), language)
+    names = load_table(language, "causes")["sources"]
+    for key in ("source", "to"):
+        if key in values:
+            values[key] = names.get(values[key], values[key])
+    return say(language, reason.code, **values)
+
+
+def _stop_cause(source: str, why: str, language: str) -> str:
+    """Who stopped the robot: `why` is what a person said, or one of the causes in the table."""
+    causes = load_table(language, "causes")
+    name, is_ours = causes["sources"].get(source, source), source in _OURS
+    if why in causes["stops"]:
+        cause = str(causes["stops"][why])
+        return cause if is_ours else say(language, "stopped_at", source=name, cause=cause)
+    if not why:
+        return say(language, "stopped_by" if source else "stopped", source=name)
+    return say(language, "stopped_said" if is_ours else "stopped_said_by", source=name, why=why)
 
 
 def describe_plan(plan: Plan, language: str) -> str:

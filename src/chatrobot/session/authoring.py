@@ -220,7 +220,8 @@ class Authoring:
             if self._cancels == before:
                 pieces.extend(reply)
         except ModelError as error:
-            if extract("".join(pieces)) is None:
+            found = extract("".join(pieces))
+            if found is None or not found.is_closed:  # half a program is not run, nor blamed on its writer
                 raise NotWrittenError("failed", render_reason(error.reason, language)) from error
         finally:
             self._cancel_reply = None

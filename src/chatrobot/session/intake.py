@@ -44,11 +44,13 @@ class Intake:
         self._sequences[kind] = envelope.sequence
         return False
 
-    def add(self, job: Job, epoch: int) -> Reason | None:
-        """Queue `job`, or say why not: a stop has overtaken it (`stopped`), or too many wait (`queue_full`)."""
-        is_void = job.turn <= self._void_turns.get(job.lease, -1)
-        if job.epoch != epoch or (is_void and job.turn != self._resumed_turns.get(job.lease)):
-            return Reason("stopped")
+    def is_void(self, job: Job, epoch: int) -> bool:
+        """A stop has overtaken it."""
+        was_said_before = job.turn <= self._void_turns.get(job.lease, -1)
+        return job.epoch != epoch or (was_said_before and job.turn != self._resumed_turns.get(job.lease))
+
+    def add(self, job: Job) -> Reason | None:
+        """Queue `job`, or say why not: too many wait."""
         if len(self.jobs) >= QUEUE_LIMIT:
             return Reason("queue_full", {"limit": QUEUE_LIMIT})
         self.jobs.append(job)

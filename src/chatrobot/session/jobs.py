@@ -10,6 +10,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import Priority
 from chatrobot.session.approval import Approval
 from chatrobot.session.driver import Driver
+from chatrobot.session.ends import Ends
 from chatrobot.session.envelope import Envelope
 from chatrobot.session.governed_robot import GovernedRobot
 from chatrobot.session.inbox import Inbox
@@ -39,10 +40,12 @@ class Jobs:
         stops: Stops,
         inbox: Inbox,
         clock: Clock,
-        emit: Callable[[Event], None],
         pausing: Pausing,
+        ends: Ends,
+        emit: Callable[[Event], None],
     ) -> None:
         self._robot = robot
+        self._ends = ends
         self._intake = intake
         self._driver = driver
         self._planner = planner
@@ -87,17 +90,22 @@ class Jobs:
             self._extend(envelope)
             return
         job = job_of(envelope, epoch, self._clock.now_s())
+        if self._intake.is_void(job, self._stops.count):
+            self._finish(job, "stopped", self._stops.last_reason)
+            return
         self._drop_paused_for(job, mode)
         declined = self._give_way(job)
         if declined is None and mode == "replace":
             self._replace(Reason("replaced"))
-        declined = declined or self._intake.add(job, self._stops.count)
+        declined = declined or self._intake.add(job)
         if declined is not None:
-            self._finish(job, "stopped" if declined.code == "stopped" else "refused", declined)
+            self._finish(job, "refused", declined)
 
-    def void(self, envelope: Envelope, epoch: int, why: Reason) -> None:
-        """It was overtaken by a later word, most likely a stop: its turn ends here."""
-        self._finish(Job.of(envelope, epoch, self._clock.now_s()), "stopped", why)
+    def void(self, envelope: Envelope, epoch: int) -> None:
+        """A later word came before it, a stop or another: its turn ends here."""
+        job = Job.of(envelope, epoch, self._clock.now_s())
+        is_stopped = self._intake.is_void(job, self._stops.count)
+        self._finish(job, "stopped", self._stops.last_reason if is_stopped else Reason("overtaken"))
 
     def refuse(self, envelope: Envelope, epoch: int, why: Reason) -> None:
         """Its source may not ask for anything."""
@@ -140,8 +148,10 @@ class Jobs:
     def begin_next(self, now_s: float) -> None:
         """Prepare the next in the queue, if nothing is prepared or driven."""
         jobs = self._intake.jobs
-        if self.current is not None or not jobs or self._pausing.job is not None:
+        if self.current is not None or not jobs:
             return
+        if self._pausing.job is not None and not jobs[0].rehearse_only:
+            return  # it waits behind what is paused
         if self._is_waiting_for_odometry(jobs[0], now_s):
             return
         self._preparing = job = jobs.popleft()
@@ -243,9 +253,11 @@ class Jobs:
     def _drop_paused_for(self, job: Job, mode: object) -> None:
         """Another instruction takes its place, but for one of the same source that is to come after it."""
         paused = self._pausing.job
-        if paused is not None and job.lease != paused.lease:
+        if paused is None or job.rehearse_only:
+            return
+        if job.lease != paused.lease:
             self._pausing.drop(self._handed_over(paused, job))
-        elif paused is not None and mode == "replace":
+        elif mode == "replace":
             self._pausing.drop(Reason("replaced"))
 
     # --- approved ---
@@ -317,4 +329,4 @@ class Jobs:
             self._finish(job, outcome, reason)
 
     def _finish(self, job: Job, outcome: Outcome, reason: Reason | None) -> None:
-        self._emit(job.unmoved(outcome, reason, self._robot.pose))
+        self._ends.tell(lambda: job.unmoved(outcome, reason, self._robot.pose))

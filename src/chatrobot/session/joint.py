@@ -131,6 +131,12 @@ class SimulatedJoint:
         self._clock.advance(TICK_S)
         self._advance(TICK_S)
 
+    def live(self, duration_s: float) -> None:
+        """Let time pass; what is told meanwhile, nobody hears."""
+        until_s = self._clock.now_s() + duration_s
+        while (left_s := until_s - self._clock.now_s()) > TICK_S / 2.0:
+            self.next_event(left_s)
+
     def abandon(self) -> None:
         self.beats = False
         self._closed = True

@@ -244,13 +244,12 @@ class ModelTurn:
         """The call has ended, and so has its run, if there was one."""
         current, run = self._round, self._round.run
         self._all_done = (*self._all_done, *current.steps_done())
-        if self._cancelled is not None:
-            why = run.reason if run is not None and run.outcome == "stopped" else None
-            self._conclude("stopped", why or self._cancelled)
-        elif run is not None and run.outcome in ("stopped", "failed"):
+        if run is not None and run.outcome in ("stopped", "failed"):
             self._conclude(run.outcome, run.reason)
+        elif self._cancelled is not None:
+            self._conclude("stopped", self._cancelled)
         elif run is not None and run.outcome == "refused":
-            refused = current.run_problem or Reason("not_approved")
+            refused = current.run_problem or Reason("cause_unknown")
             is_the_plans = current.is_plan_refused or refused.code in PLAN_REFUSED
             self._retry("refused", refused) if is_the_plans else self._conclude("refused", refused)
         elif self._only_talks:

@@ -20,6 +20,7 @@ from chatrobot.governor.priority import RELEASERS, Priority, priority_of
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.clearance import Clearance
 from chatrobot.session.driver import Driver
+from chatrobot.session.ends import Ends
 from chatrobot.session.envelope import Envelope
 from chatrobot.session.freeze import FreezeWatch
 from chatrobot.session.governed_robot import GovernedRobot
@@ -71,7 +72,7 @@ class Motion:
         self._clock = clock
         self._guard = guard
         self._emit = emit
-        self._programs = programs or NoBox()
+        self._programs = programs = programs or NoBox()
         epoch = StopEpoch()
         transport = WireTransport(wire, profile.wiring, epoch)
         self._governor = Governor(profile, epoch, planner.allowed_area, releasers)
@@ -85,18 +86,19 @@ class Motion:
             self._governor.leases, lambda lease: self._jobs.is_engaged(lease), self._intake.forget
         )
         self._inbox = Inbox(background)
-        self._driver = Driver(robot, self.clearance, self._stops, self._programs, self._inbox, clock, emit)
-        self._pausing = Pausing(robot, self._intake, self.clearance, self._stops, clock, emit)
+        self._ends = ends = Ends(emit)
+        stops, inbox = self._stops, self._inbox
+        self._driver = Driver(robot, self.clearance, stops, programs, inbox, clock, ends, emit)
+        self._pausing = pausing = Pausing(robot, self._intake, self.clearance, stops, clock, ends, emit)
         self._jobs = Jobs(
-            robot, self._intake, self._driver, planner, self._programs, self._stops, self._inbox, clock, emit,
-            self._pausing,
-        )  # fmt: skip
+            robot, self._intake, self._driver, planner, programs, stops, inbox, clock, pausing, ends, emit
+        )
         self._relay = Relay(
             clock,
             robot,
             self.see_it_stand,
             self._notice,
-            takes_over=lambda: self._pausing.drop(Reason("other_drove", {"source": RELAY_TOPIC})),
+            takes_over=lambda: pausing.drop(Reason("other_drove", {"source": RELAY_TOPIC})),
         )
         self._joystick = Relay(
             clock,
@@ -160,7 +162,8 @@ class Motion:
     def is_busy(self) -> bool:
         """True while anything is moving, queued, being rehearsed, awaited or zeroed."""
         is_zeroed = self.zeroing.is_active and self.zeroing.disobeyed is None
-        return not self._jobs.are_done or bool(self._inbox) or self._stops.is_unbooked or is_zeroed
+        is_ending = is_zeroed or not self._ends.are_told
+        return not self._jobs.are_done or bool(self._inbox) or self._stops.is_unbooked or is_ending
 
     @property
     def has_work(self) -> bool:
@@ -214,7 +217,9 @@ class Motion:
         self._jobs.expire_approval(now_s)
         if not self._driver.is_driving:
             self.zeroing.tick(now_s)
-        self._pausing.watch(now_s, is_standing=not self.zeroing.is_active)
+        if not self.zeroing.is_watched:
+            self._ends.tell_all()
+        self._pausing.watch(now_s, is_standing=not self.zeroing.is_watched)
         self._relay.tick(now_s, self._is_free)
         self._begin_next(now_s)
         self._guard.beat()  # after the velocity: it wakes the guard, which may take this processor
@@ -260,7 +265,7 @@ class Motion:
         self._sources.note(envelope.lease, now_s)
         if self._intake.is_old(envelope):
             if envelope.word in ("plan", "program"):
-                self._jobs.void(envelope, epoch, self._stops.last_reason)
+                self._jobs.void(envelope, epoch)
             return
         self._sources.hear(envelope, now_s)
         if envelope.word in ("plan", "program"):

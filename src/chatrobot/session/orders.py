@@ -14,6 +14,16 @@ class Orders:
     def __init__(self, joint: Joint, options: Options) -> None:
         self._joint = joint
         self.options = options
+        self.is_paused = False
+
+    @property
+    def mode(self) -> Literal["queue", "replace"]:
+        """What a new instruction does to one that is under way; what is paused, it replaces."""
+        return "replace" if self.is_paused else self.options.while_moving
+
+    def resume(self, turn: int) -> None:
+        """Have Motion go on with what is paused."""
+        self._joint.send("resume", turn)
 
     def plan(self, turn: int, plan_text: str, mode: Literal["queue", "replace", "append"]) -> None:
         """Have Motion rehearse and drive a plan."""
@@ -44,7 +54,7 @@ class Orders:
         self._joint.send(
             "program",
             turn,
-            mode=options.while_moving,
+            mode=self.mode,
             approve=options.approve or asks,
             ask_findings=options.ask_findings,
             rehearse_only=options.rehearse_only,

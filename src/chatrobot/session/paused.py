@@ -15,6 +15,7 @@ from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.session.approval import LAPSES_AFTER_M, LAPSES_AFTER_RAD
 from chatrobot.session.clearance import Clearance
+from chatrobot.session.ends import Ends
 from chatrobot.session.envelope import Envelope
 from chatrobot.session.governed_robot import GovernedRobot
 from chatrobot.session.intake import Intake
@@ -99,6 +100,7 @@ class Pausing:
         clearance: Clearance,
         stops: Stops,
         clock: Clock,
+        ends: Ends,
         emit: Callable[[Event], None],
     ) -> None:
         self._robot = robot
@@ -106,6 +108,7 @@ class Pausing:
         self._clearance = clearance
         self._stops = stops
         self._clock = clock
+        self._ends = ends
         self._emit = emit
         self._paused: PausedJob | None = None
 
@@ -132,7 +135,7 @@ class Pausing:
             if event.plan_text:
                 self._emit(event)
             else:
-                self.drop(event.reason or Reason("stopped"))
+                self.drop(event.reason or Reason("cause_unknown"))
 
     def resume(self, envelope: Envelope) -> None:
         """Its own source wants to go on: the rest comes before all that waits, as a plan of the same turn."""
@@ -149,10 +152,16 @@ class Pausing:
             return
         self.end(why)
         for job in self._intake.take_all():
-            self._emit(job.unmoved("stopped", why, self._robot.pose))
+            self._tell_unmoved(job, why)
+
+    def _tell_unmoved(self, job: Job, why: Reason) -> None:
+        self._ends.tell(lambda: job.unmoved("stopped", why, self._robot.pose))
 
     def end(self, why: Reason) -> None:
         """It is not gone on with: tell its end."""
         paused, self._paused = self._paused, None
-        if paused is not None:
-            self._emit(paused.ended(why, self._clock.now_s()))
+        if paused is None:
+            return
+        now_s = self._clock.now_s()
+        tell = self._ends.tell if paused.has_settled else self._ends.tell_later
+        tell(lambda: paused.ended(why, now_s))

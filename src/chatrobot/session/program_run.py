@@ -12,7 +12,7 @@ from typing import Protocol
 from chatrobot.core.events import Event, Finished, Outcome, ProgramLog, Progress
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.reason import Reason
-from chatrobot.execution.health import STANDS_LATE_S, is_seen_moving
+from chatrobot.execution.health import STANDS_LATE_S, is_seen_moving, is_seen_standing
 from chatrobot.governor.governor import Verdict
 from chatrobot.governor.lease import TERM_S
 from chatrobot.programs.events import Died, Ended, Log, Output, ProgramEvent, Raised, TwistAsked
@@ -87,8 +87,7 @@ class ProgramRun:
         self._sent = verdict.sent.twist
         self._tell(verdict)
         if self._ended_s is not None and verdict.sent.twist.is_zero:
-            estimate = self._sensors.estimate
-            standing = estimate is None or estimate.is_standing
+            standing = self._sensors.estimate is None or is_seen_standing(self._sensors)
             patience_s = STANDS_LATE_S if is_seen_moving(self._sensors) else SETTLE_S
             self.is_done = standing or now_s - self._ended_s > patience_s
 

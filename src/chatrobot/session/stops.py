@@ -26,7 +26,8 @@ class Stops:
         self._booked = epoch.value
         self._asked = self._booked_ask = object()
         self._cleared = self._booked_clear = object()
-        self.last_reason = self._clear_reason = Reason("stopped")
+        self.last_reason = self._clear_reason = Reason("cause_unknown")
+        """Of the last stop, be it asked for or the end of a motion that failed."""
 
     def halt(self, why: Reason) -> None:
         """Stop now: the zero is out before this returns. It takes no lock and waits for nothing."""
@@ -59,7 +60,7 @@ class Stops:
         self._zeroing.begin(self._clock.now_s())
         return self._clear_reason if cleared else self.last_reason
 
-    def halt_and_book(self) -> None:
+    def halt_and_book(self, why: Reason) -> None:
         """The stop at the end of a motion that failed or was broken off: what waits is not touched by it.
 
         One that came from elsewhere in the same moment is left to be booked, and does clear what waits.
@@ -69,5 +70,5 @@ class Stops:
             self._epoch.value
         )  # two at the same instant may share one value: the count alone does not tell
         if self._asked is self._booked_ask:
-            self._booked = count
+            self._booked, self.last_reason = count, why
         self._zeroing.begin(self._clock.now_s())

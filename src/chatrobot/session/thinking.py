@@ -90,10 +90,25 @@ class Thinking:
 
     # --- from any thread ---
 
-    def cancel(self) -> None:
+    def cancel(self, why: Reason) -> None:
         """A stop: end what models are being asked. Returns at once."""
         for turn in tuple(self._turns.values()):
-            turn.doing.cancel(Reason("stopped"))
+            turn.doing.cancel(why)
+
+    def cancel_unmoved(self, why: Reason) -> None:
+        """A pause: end what has no plan with Motion, which would begin after it. Returns at once."""
+        for turn in tuple(self._turns.values()):
+            if not turn.doing.is_moving:
+                turn.doing.cancel(why)
+
+    @property
+    def has_mind(self) -> bool:
+        """A model may be asked."""
+        return self._mind is not None
+
+    def has(self, turn: int) -> bool:
+        """A model plans that turn."""
+        return turn in self._turns
 
     @property
     def is_moving(self) -> bool:

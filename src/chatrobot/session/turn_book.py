@@ -32,6 +32,15 @@ class TurnBook:
     def is_any_with_motion(self) -> bool:
         return bool(self._with_motion)
 
+    @property
+    def meant(self) -> list[Interpretation]:
+        """What is with Motion."""
+        return [instruction.meant for instruction in self._with_motion.values()]
+
+    def has(self, turn: int) -> bool:
+        """That turn is with Motion."""
+        return turn in self._with_motion
+
     def track(self, turn: int, text: str, meant: Interpretation) -> None:
         """That turn is now Motion's; its `finished` ends it."""
         self._with_motion[turn] = Instruction(text, meant)

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import argparse
+import sys
 import time
 from pathlib import Path
 
 from chatrobot.cli.choices import setup_from
-from chatrobot.cli.eval.corpus import load_corpus
-from chatrobot.cli.eval.report import item_json, table, totals_json
+from chatrobot.cli.eval.corpus import Item, load_corpus
+from chatrobot.cli.eval.report import item_json, misses, table, totals_json
 from chatrobot.cli.eval.run import run_items
 from chatrobot.cli.json_lines import json_line
 from chatrobot.session.options import Options
+
+_REPORTED_EVERY_S = 0.2
 
 
 def run(args: argparse.Namespace) -> int:
@@ -21,16 +24,47 @@ def run(args: argparse.Namespace) -> int:
         CorpusError: a file is not.
     """
     setup = setup_from(args, options=Options(), world="empty", named_model=True)
-    items = [item for file in args.files for item in load_corpus(Path(file))]
+    items = [item for file in args.files for item in load_corpus(Path(file)) if _is_chosen(item, args.only)]
     began_s = time.monotonic()
+    progress = _Progress(len(items), began_s)
     judged = []
     for one in run_items(items, setup):
         judged.append(one)
+        progress.show(len(judged))
         if args.json:
             print(json_line(item_json(one)), end="", flush=True)
+    progress.clear()
     if args.json:
         print(json_line(totals_json(judged)), end="")
-    else:
-        print(table(judged), end="")
-        print(f"\n{len(items)} items in {time.monotonic() - began_s:.1f} s")
+        return 0
+    print(table(judged), end="")
+    if args.misses:
+        print(misses(judged), end="")
+    print(f"\n{len(items)} items in {time.monotonic() - began_s:.1f} s")
     return 0
+
+
+def _is_chosen(item: Item, only: str | None) -> bool:
+    return only is None or item.number % 2 == (only == "odd")
+
+
+class _Progress:
+    """How many items are done, on one line of a terminal; nothing where errors go elsewhere."""
+
+    def __init__(self, total: int, began_s: float) -> None:
+        self._total = total
+        self._began_s = self._shown_s = began_s
+        self._is_shown = sys.stderr.isatty()
+
+    def show(self, done: int) -> None:
+        now_s = time.monotonic()
+        if self._is_shown and now_s - self._shown_s >= _REPORTED_EVERY_S:
+            self._shown_s = now_s
+            left_s = (now_s - self._began_s) / done * (self._total - done)
+            print(
+                f"\r{done} of {self._total}, {left_s:.0f} s to go \033[K", end="", file=sys.stderr, flush=True
+            )
+
+    def clear(self) -> None:
+        if self._is_shown:
+            print("\r\033[K", end="", file=sys.stderr, flush=True)

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
-from chatrobot.core.errors import CorpusError
+from chatrobot.core.errors import CorpusError, PlanTextError
+from chatrobot.plan.steps import Plan
+from chatrobot.plan.text import parse_plan
 
 CATEGORIES = (
     "primitive", "metric", "speed", "time", "sequence", "repeat", "shape", "arc", "dialogue", "stop", "clarify",
-    "refuse", "info", "twist", "complex",
+    "refuse", "info", "twist", "complex", "still",
 )  # fmt: skip
 Answer = Literal["clarify", "refuse", "info"]
 ANSWERS = ("clarify", "refuse", "info")
@@ -22,7 +25,9 @@ _NUMBERS = (
     "stays_within_m",
 )  # fmt: skip
 _EXPECT_KEYS = (*_NUMBERS, "sign", "closed", "motion", "answer")
-_ITEM_KEYS = ("id", "category", "say", "turns", "expect", "note")
+_MEANT_FLAGS = ("still", "mirror_ok", "closed_ok", "ask_ok")
+_ITEM_KEYS = ("id", "category", "say", "turns", "expect", "note", "plan", *_MEANT_FLAGS)
+_GOTO = re.compile(r"^\s*goto\b", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -37,6 +42,20 @@ class Expect:
 
 
 @dataclass(frozen=True)
+class Meant:
+    """What must happen as plans: any of `plans` is right; with `still` there is none, and nothing may move."""
+
+    plans: tuple[Plan, ...] = ()
+    mirror_ok: bool = False
+    closed_ok: bool = False
+
+    @property
+    def still(self) -> bool:
+        """Nothing may move, in no turn."""
+        return not self.plans
+
+
+@dataclass(frozen=True)
 class Turn:
     """One utterance; `expect` where it is judged by itself."""
 
@@ -46,12 +65,28 @@ class Turn:
 
 @dataclass(frozen=True)
 class Item:
-    """One entry of a corpus. `expect` is judged after the last turn; None where only the turns' own count."""
+    """One entry of a corpus. `expect` is judged after the last turn; None where only the turns' own count.
+
+    `meant` is the other form, judged over all turns. `ask_ok`: to ask back is as good.
+    """
 
     id: str
     category: str
     turns: tuple[Turn, ...]
-    expect: Expect | None
+    expect: Expect | None = None
+    meant: Meant | None = None
+    ask_ok: bool = False
+
+    @property
+    def number(self) -> int:
+        """The running number at the end of the id; 0 where there is none."""
+        digits = re.search(r"(\d+)$", self.id)
+        return int(digits.group()) if digits else 0
+
+    @property
+    def must_stand(self) -> bool:
+        """Nothing may move in any of its turns."""
+        return self.meant is not None and self.meant.still
 
 
 def load_corpus(path: Path) -> list[Item]:
@@ -98,9 +133,36 @@ class _Reader:
             raise self._error(f"category is {fields.get('category')!r}", ", ".join(CATEGORIES))
         turns = self._turns(fields)
         expect = self._expect(fields["expect"]) if "expect" in fields else None
-        if expect is None and turns[-1].expect is None:
-            raise self._error("expect is missing", "what must hold after the last turn")
-        return Item(name, fields["category"], turns, expect)
+        meant = self._meant(fields)
+        if expect is None and meant is None and turns[-1].expect is None:
+            raise self._error(
+                "expect is missing", "what must hold after the last turn: expect, plan or still"
+            )
+        if expect is not None and meant is not None:
+            raise self._error("needs either expect or a plan", "expect; plan; still: true")
+        return Item(name, fields["category"], turns, expect, meant, ask_ok=bool(fields.get("ask_ok")))
+
+    def _meant(self, fields: Mapping[str, Any]) -> Meant | None:
+        for flag in _MEANT_FLAGS:
+            if not isinstance(fields.get(flag, True), bool):
+                raise self._error(f"{flag} is {fields[flag]!r}", "true or false")
+        if "plan" not in fields:
+            return Meant() if fields.get("still") else None
+        if fields.get("still"):
+            raise self._error("needs either a plan or still", "plan: drive 1 m; still: true")
+        texts = fields["plan"] if isinstance(fields["plan"], list) else [fields["plan"]]
+        if not texts:
+            raise self._error("plan is empty", "plan text, or a list of plan texts")
+        mirrored, closed = fields.get("mirror_ok", False), fields.get("closed_ok", False)
+        return Meant(tuple(self._plan(text) for text in texts), mirrored, closed)
+
+    def _plan(self, text: Any) -> Plan:
+        if not isinstance(text, str):
+            raise self._error(f"plan is {text!r}", "plan text, or a list of plan texts")
+        try:
+            return parse_plan(_GOTO.sub("go to", text))
+        except PlanTextError as error:
+            raise self._error(f"plan cannot be read: {error}", "plan text (docs/plan-language.md)") from error
 
     def _turns(self, fields: Mapping[str, Any]) -> tuple[Turn, ...]:
         if ("say" in fields) == ("turns" in fields):

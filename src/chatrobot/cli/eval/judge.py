@@ -16,9 +16,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from chatrobot.cli.eval.corpus import Expect, Item
+from chatrobot.cli.eval.corpus import Expect, Item, Meant
+from chatrobot.cli.eval.judge_plan import fits_in_part, misfit
 from chatrobot.cli.eval.measure import Measured, Sample, has_moved, measure
 from chatrobot.core.events import Outcome
+from chatrobot.robots.profile import RobotProfile
 
 Kind = Literal["correct", "wrong", "abstained"]
 
@@ -53,8 +55,33 @@ class Verdict:
     reasons: tuple[str, ...] = ()
 
 
-def judge(item: Item, records: Sequence[Record]) -> Verdict:
-    """The verdict on one item; `records` has one entry a turn."""
+def judge(item: Item, records: Sequence[Record], profile: RobotProfile | None = None) -> Verdict:
+    """The verdict on one item; `records` has one entry a turn. A plan is what it is on the robot of `profile`."""
+    verdict = _meant_verdict(item.meant, records, profile) if item.meant else _expected_verdict(item, records)
+    # To ask back is as good only of one who has not done something else before.
+    return Verdict("correct") if item.ask_ok and verdict.kind == "abstained" else verdict
+
+
+def _meant_verdict(meant: Meant, records: Sequence[Record], profile: RobotProfile | None) -> Verdict:
+    trace = [sample for record in records for sample in record.trace]
+    failed = tuple(f"failed: {record.reply}" for record in records if record.outcome == "failed")
+    if meant.still:
+        return Verdict("wrong", ("it moved, and must not",)) if has_moved(trace) else Verdict("correct")
+    if profile is None:
+        raise ValueError("plans are judged on a robot")
+    driven = measure(trace)
+    problems = (*misfit(meant, driven, profile), *failed)
+    if not problems:
+        return Verdict("correct")
+    asked = [record for record in records if record.outcome in _DECLINED and not has_moved(record.trace)]
+    if asked and not failed and fits_in_part(meant, driven, len(asked), profile):
+        return Verdict("abstained", tuple(f"{record.outcome}: {record.reply}" for record in asked))
+    if not driven.has_moved:
+        problems += (f"it did not move; {records[-1].outcome}: {records[-1].reply}",)
+    return Verdict("wrong", problems)
+
+
+def _expected_verdict(item: Item, records: Sequence[Record]) -> Verdict:
     trace: list[Sample] = []
     verdicts: list[Verdict] = []
     for number, (turn, record) in enumerate(zip(item.turns, records), 1):

@@ -40,11 +40,15 @@ class Sample(NamedTuple):
 
 @dataclass(frozen=True)
 class Measured:
-    """A whole trace in numbers, named as the format names them: metres, degrees, seconds, m/s, rad/s."""
+    """A whole trace in numbers, named as the format names them: metres, degrees, seconds, m/s, rad/s.
+
+    `rotation_deg` counts turns to either side as positive.
+    """
 
     x: float = 0.0
     y: float = 0.0
     turned_deg: float = 0.0
+    rotation_deg: float = 0.0
     path_m: float = 0.0
     duration_s: float = 0.0
     pause_s: float = 0.0
@@ -75,6 +79,7 @@ def measure(trace: Sequence[Sample]) -> Measured:
         x=end.x_m,
         y=end.y_m,
         turned_deg=math.degrees(end.yaw_rad),
+        rotation_deg=math.degrees(sum(abs(b.yaw_rad - a.yaw_rad) for a, b in itertools.pairwise(trace))),
         path_m=sum(math.hypot(b.x_m - a.x_m, b.y_m - a.y_m) for a, b in itertools.pairwise(trace)),
         duration_s=duration_s,
         pause_s=pause_s,

@@ -1,4 +1,4 @@
-"""The table of an evaluation, and its JSON lines."""
+"""The table of an evaluation, its misses, and its JSON lines."""
 
 from __future__ import annotations
 
@@ -24,6 +24,9 @@ def item_json(judged: Judged) -> dict[str, Any]:
         "outcomes": [record.outcome for record in judged.records],
         "replies": [record.reply for record in judged.records],
         "plan_texts": list(judged.plans),
+        "proposals": list(judged.proposals),
+        "after_yes": judged.after_yes.kind if judged.after_yes else None,
+        "must_stand": judged.item.must_stand,
         "measured": {"yaw_deg": round(measured.yaw_deg, 3)}
         | {
             name: value if isinstance(value, bool) else round(value, 4)
@@ -37,20 +40,34 @@ def totals_json(all_judged: Sequence[Judged]) -> dict[str, Any]:
     return {
         "event": "total",
         **_counts_json(_count(all_judged)),
+        "still": _still_counts(all_judged),
         "categories": {category: _counts_json(_count(group)) for category, group in _by_category(all_judged)},
     }
 
 
 def table(all_judged: Sequence[Judged]) -> str:
-    """Counts per category and in total, for people; then what went wrong."""
+    """Counts per category and in total, for people; then how many moved that had to stand."""
     rows = [(category, _count(group)) for category, group in _by_category(all_judged)]
-    lines = [f"{'category':<12}{'items':>6}{'correct':>9}{'wrong':>7}{'abstained':>11}{'correct %':>11}"]
+    lines = [
+        f"{'category':<12}{'items':>6}{'correct':>9}{'wrong':>7}{'abstained':>11}{'correct %':>11}{'proposed':>10}"
+    ]
     for name, counts in [*rows, ("total", _count(all_judged))]:
-        share = 100.0 * counts["correct"] / counts.total()
+        share = 100.0 * counts["correct"] / max(_items(counts), 1)
         lines.append(
-            f"{name:<12}{counts.total():>6}{counts['correct']:>9}{counts['wrong']:>7}{counts['abstained']:>11}{share:>11.1f}"
+            f"{name:<12}{_items(counts):>6}{counts['correct']:>9}{counts['wrong']:>7}{counts['abstained']:>11}"
+            f"{share:>11.1f}{counts['proposed']:>10}"
         )
-    return "\n".join([*lines, *_listing(all_judged, "wrong"), *_listing(all_judged, "abstained")]) + "\n"
+    still = _still_counts(all_judged)
+    if still["items"]:
+        lines.append(
+            f"\n{still['items']} items must stand still: {still['moved']} moved, {still['proposals']} got a proposal"
+        )
+    return "\n".join(lines) + "\n"
+
+
+def misses(all_judged: Sequence[Judged]) -> str:
+    """Each item that went wrong, then each that was abstained: what was done, and what did not hold."""
+    return "\n".join([*_listing(all_judged, "wrong"), *_listing(all_judged, "abstained")]) + "\n"
 
 
 def _listing(all_judged: Sequence[Judged], kind: str) -> list[str]:
@@ -61,6 +78,9 @@ def _listing(all_judged: Sequence[Judged], kind: str) -> list[str]:
             plan = " / ".join(text.replace("\n", "; ") or "–" for text in judged.plans)
             lines += [f"  {judged.item.id} {said}", f"      did: {plan}"]
             lines += [f"      {reason}" for reason in judged.verdict.reasons]
+            if judged.after_yes is not None:
+                proposed = " / ".join(text.replace("\n", "; ") or "–" for text in judged.proposals)
+                lines.append(f"      proposed, and a yes is {judged.after_yes.kind}: {proposed}")
     return [f"\n{kind}:", *lines] if lines else []
 
 
@@ -70,11 +90,28 @@ def _by_category(all_judged: Sequence[Judged]) -> list[tuple[str, list[Judged]]]
 
 
 def _count(all_judged: Sequence[Judged]) -> Counter[str]:
-    return Counter(judged.verdict.kind for judged in all_judged)
+    counts: Counter[str] = Counter(judged.verdict.kind for judged in all_judged)
+    counts["proposed"] = sum(judged.was_proposed for judged in all_judged)
+    counts["misproposed"] = sum(
+        judged.after_yes is not None and not judged.was_proposed for judged in all_judged
+    )
+    return counts
+
+
+def _items(counts: Counter[str]) -> int:
+    return counts["correct"] + counts["wrong"] + counts["abstained"]
+
+
+def _still_counts(all_judged: Sequence[Judged]) -> dict[str, int]:
+    still = [judged for judged in all_judged if judged.item.must_stand]
+    return {
+        "items": len(still),
+        "moved": sum(judged.has_moved for judged in still),
+        "proposals": sum(any(judged.proposals) for judged in still),
+    }
 
 
 def _counts_json(counts: Counter[str]) -> dict[str, int]:
-    return {
-        "items": sum(counts.values()),
-        **{kind: counts[kind] for kind in ("correct", "wrong", "abstained")},
-    }
+    """`proposed` and `misproposed` are among the abstained: what a yes would have made of them."""
+    kinds = ("correct", "wrong", "abstained", "proposed", "misproposed")
+    return {"items": _items(counts), **{kind: counts[kind] for kind in kinds}}

@@ -1,0 +1,158 @@
+"""What the interpreter makes of every text there is: a line a text, kept in `ledger.txt`, compared by test_ledger.py.
+
+    python -m tests.language.ledger            what has changed since the file was written
+    python -m tests.language.ledger --write    write it anew
+
+Texts are the corpora, the sayings, and the strings of the tests of this folder. Each is said to an ideal robot. Items
+of `everyday/` with an even number are held out: of these only digests are kept and counts shown.
+"""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from chatrobot.cli.eval.corpus import Item, load_corpus
+from chatrobot.cli.eval.ideal import ideal
+from chatrobot.cli.eval.judge_plan import misfit
+from chatrobot.cli.eval.measure import Measured
+from chatrobot.plan.base import Step
+from chatrobot.plan.steps import Plan
+from chatrobot.plan.text import format_plan
+from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
+from tests.language.dialogue_runner import Conversation
+
+HERE = Path(__file__).parent
+LEDGER = HERE / "ledger.txt"
+PROFILE = load_profile(DEFAULT_PROFILE)
+RANK = {"wrong": 0, "abstained": 1, "correct": 2, "-": 1}
+
+
+@dataclass(frozen=True)
+class Text:
+    """One text, or the turns of a dialogue; `item` says what must happen, where that is known."""
+
+    turns: tuple[str, ...]
+    item: Item | None = None
+
+    @property
+    def is_held_out(self) -> bool:
+        return self.item is not None and self.item.number % 2 == 0
+
+    @property
+    def key(self) -> str:
+        return hashlib.sha256("\0".join(self.turns).encode()).hexdigest()[:12]
+
+
+@dataclass(frozen=True)
+class Line:
+    """What was made of a text: its verdict where there is one, else `-`, and the outcome or the plan of each turn."""
+
+    key: str
+    verdict: str
+    done: str
+
+    def __str__(self) -> str:
+        return f"{self.key} {self.verdict} {self.done}"
+
+
+def texts() -> list[Text]:
+    """All of them, each once."""
+    found: dict[str, Text] = {}
+    for text in (*_of_corpora(), *_of_sayings(), *_of_tests()):
+        found.setdefault(text.key, text)
+    return list(found.values())
+
+
+def _of_corpora() -> Iterator[Text]:
+    corpora = HERE.parent / "corpus"
+    for file in sorted(corpora.glob("everyday/*.yaml")):
+        yield from (Text(tuple(turn.say for turn in item.turns), item) for item in load_corpus(file))
+    for file in sorted(corpora.glob("*.yaml")):
+        yield from (Text(tuple(turn.say for turn in item.turns)) for item in load_corpus(file))
+
+
+def _of_sayings() -> Iterator[Text]:
+    for line in (HERE / "sayings_zh.txt").read_text(encoding="utf-8").splitlines():
+        if line and not line.startswith("#"):
+            yield Text(tuple(line.split(" | ")[1].strip().split(" || ")))
+
+
+def _of_tests() -> Iterator[Text]:
+    for file in sorted(HERE.glob("test_*.py")):
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str) and _is_said(node.value):
+                yield Text((node.value,))
+
+
+def _is_said(text: str) -> bool:
+    return 2 <= len(text) <= 200 and (" " in text or not text.isascii())
+
+
+def line_of(text: Text) -> Line:
+    """What is made of it now."""
+    talk, done, steps, declined = Conversation(), [], list[Step](), False
+    for turn in text.turns:
+        meant = talk.say(turn)
+        if meant.plan is not None:
+            steps += meant.plan.steps
+            done.append(format_plan(Plan(tuple(meant.plan.steps))).replace("\n", "; "))
+        else:
+            done.append(meant.outcome)
+            declined |= meant.outcome in ("unclear", "refused")
+    said = " / ".join(done)
+    if text.is_held_out:
+        said = hashlib.sha256(said.encode()).hexdigest()[:12]
+    return Line(text.key, _verdict(text, steps, declined=declined), said)
+
+
+def _verdict(text: Text, steps: list[Step], *, declined: bool) -> str:
+    meant = text.item.meant if text.item is not None else None
+    if meant is None:
+        return "-"
+    if meant.still:
+        return "wrong" if steps else "correct"
+    numbers = ideal(steps, PROFILE)
+    if numbers is not None and not misfit(meant, _measured(numbers), PROFILE):
+        return "correct"
+    return "abstained" if declined else "wrong"
+
+
+def _measured(numbers: object) -> Measured:
+    """An ideal drive, as if it had been measured."""
+    fields = {name: getattr(numbers, name) or 0.0 for name in (
+        "x", "y", "turned_deg", "rotation_deg", "path_m", "pause_s", "max_speed", "max_turn_rate"
+    )}  # fmt: skip
+    return Measured(**fields)
+
+
+def kept() -> dict[str, Line]:
+    """The lines of the file, by key."""
+    lines = (line.split(" ", 2) for line in LEDGER.read_text(encoding="utf-8").splitlines())
+    return {key: Line(key, verdict, done) for key, verdict, done in lines}
+
+
+def changes() -> tuple[list[str], list[str]]:
+    """(what is worse or nobody can judge, what is better), in words; held-out items without their text."""
+    before = kept()
+    worse, better = [], []
+    for text in texts():
+        now, was = line_of(text), before.get(text.key)
+        if was is None or was == now:
+            continue
+        shown = "a held-out item" if text.is_held_out else f"{' / '.join(text.turns)!r}"
+        told = f"{shown}: {was.verdict} {was.done} → {now.verdict} {now.done}"
+        (better if RANK[now.verdict] > RANK[was.verdict] else worse).append(told)
+    return worse, better
+
+
+if __name__ == "__main__":
+    if "--write" in sys.argv:
+        LEDGER.write_text("".join(f"{line_of(text)}\n" for text in texts()), encoding="utf-8")
+    else:
+        worse, better = changes()
+        print("\n".join(["better:", *better, "", "worse, or not judged:", *worse]))
