@@ -47,6 +47,7 @@ GOOD: dict[str, dict[str, Any]] = {
     "stop": {"why": "x"},
     "emergency_stop": {"why": "x"},
     "release": {},
+    "limit": {"max_distance_m": 1, "max_time_s": "none"},
     "goodbye": {},
 }
 FIELDS = sorted({field for fields in PAYLOADS.values() for field in fields})
@@ -69,6 +70,8 @@ ALLOWED: dict[str, list[Any]] = {
     "rehearse_only": [True, False],
     "yes": [True, False],
     "more": [True, False],
+    "max_distance_m": [1, 0.5],
+    "max_time_s": [1, 0.5],
 }
 STOPS = ("stop", "emergency_stop")
 

@@ -13,8 +13,9 @@ from chatrobot.cli.printer import Printer
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.errors import JointError
-from chatrobot.core.events import EXIT_CODES, Event
+from chatrobot.core.events import EXIT_CODES, Event, Outcome
 from chatrobot.language.interpretation import LanguageCode
+from chatrobot.session.parting import is_parting
 
 PUMP_S = 0.1
 
@@ -33,6 +34,8 @@ class Conversation:
         self._posted: queue.SimpleQueue[Callable[[], object]] = queue.SimpleQueue()
         self._watch = SignalWatch(self.stop)
         self._is_cut_off = False
+        self.has_parted = False
+        """The person said goodbye: nothing more is heard, and what runs is still done."""
         self._connection: Connection | None = None
 
     def __enter__(self) -> Conversation:
@@ -105,20 +108,26 @@ class Conversation:
 
     # --- the main thread ---
 
-    def do(self, text: str) -> None:
-        """One turn, seen through to its result."""
-        self.see_through(self.session.say(text))
-        while (edited := self._approver.take_edited()) is not None:
-            self.see_through(self.session.say_plan(edited))
+    def do(self, text: str) -> Outcome:
+        """One turn, seen through to its result: how it ended."""
+        return self.see_through_edits(self.session.say(text))
 
-    def see_through(self, turn: int) -> None:
-        """Let things happen until that turn has its result."""
+    def see_through_edits(self, turn: int) -> Outcome:
+        """That turn, and those of what a person made of the plan or program that it asked about."""
+        outcome = self.see_through(turn)
+        while (say_edited := self._approver.take_edited()) is not None and not self.is_leaving:
+            outcome = self.see_through(say_edited(self.session))
+        return outcome
+
+    def see_through(self, turn: int) -> Outcome:
+        """Let things happen until that turn has its result: how it ended."""
         while turn not in self.session.results:
             self.step()
+        return self.session.results[turn].outcome
 
     def finish(self) -> None:
         """See everything through that was heard."""
-        while not (self.session.is_idle and self._posted.empty()):
+        while not self.has_parted and not (self.session.is_idle and self._posted.empty()):
             self.step()
 
     def step(self) -> None:
@@ -161,4 +170,6 @@ class Conversation:
 
     def _on_event(self, event: Event) -> None:
         self._approver.hear(event)
-        self.show(event)
+        self.has_parted = self.has_parted or is_parting(event)
+        if not self._approver.is_withdrawn(event):
+            self.show(event)

@@ -24,6 +24,7 @@ from chatrobot.plan.context import (
 )
 from chatrobot.plan.core_motion import Pause, RampedTwist
 from chatrobot.plan.findings import Finding, Severity
+from chatrobot.plan.free_part import free_part, nearest_part
 from chatrobot.plan.governed_path import TICK_S, GovernorCheck, pose_of
 from chatrobot.plan.known_world import Floats, GovernorKernel, KnownWorld
 from chatrobot.plan.lowering import CoreWalk, PlannedMotion, iterate_core
@@ -55,6 +56,7 @@ class Rehearsal:
 
     `plan` is the one to run (corners may have been rounded for a base that steers). `path` is [n, 4] of t_s, x_m,
     y_m, yaw_rad in the odom frame, at most 50 ms apart, up to the end or to the first step that cannot be done.
+    `possible` is what can be done of a plan that is refused, where that is worth a question.
     """
 
     plan: Plan
@@ -63,6 +65,7 @@ class Rehearsal:
     length_m: float
     findings: tuple[Finding, ...]
     steps: tuple[StepEnd, ...]
+    possible: Plan | None = None
 
     @property
     def ok(self) -> bool:
@@ -146,12 +149,15 @@ class _Run:
         self.legs: list[_Leg] = []
         self.steps: list[StepEnd] = []
         self.t_s = 0.0
+        self.possible: Plan | None = None
+        self._blocked_row = math.inf
 
     def drive(self) -> None:
         walk = iterate_core(self.plan, self.context)
         for item in walk:
             if isinstance(item, Impossible):
                 self._find("refuse", item.reason, item.index, walk.pose)
+                self.possible = nearest_part(self.plan, self.context, item)
                 break
             if not self._is_within_bounds(item):
                 break
@@ -169,7 +175,7 @@ class _Run:
         path = np.concatenate(rows)
         length_m = float(np.hypot(*np.diff(path[:, 1:3], axis=0).T).sum())
         findings = tuple(sorted(self.findings, key=lambda finding: finding.t_s))
-        return Rehearsal(self.plan, self.context, path, length_m, findings, tuple(self.steps))
+        return Rehearsal(self.plan, self.context, path, length_m, findings, tuple(self.steps), self.possible)
 
     def _find(
         self,
@@ -263,6 +269,14 @@ class _Run:
             "distance_m": float(driven[first_row:].sum()),
             "total_m": float(driven.sum()),
         }
+        if contact.row < self._blocked_row:
+            self._blocked_row = contact.row
+            of_step = [found.item for found in self.legs if found.item.number == item.number]
+            way = rows[first_row : contact.row + 1]
+            self.possible, free = free_part(
+                self.plan, self.context, item, of_step.index(item), of_step[0].start, way
+            )
+            values.update(free)
         name = self.world.obstacle_name_at(contact.x_m, contact.y_m) if self.world is not None else ""
         if solid and name:
             values["obstacle"] = name

@@ -12,6 +12,7 @@ from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Finished, Outcome, Progress, Started
 from chatrobot.core.reason import Reason
 from chatrobot.execution.health import is_seen_moving
+from chatrobot.session.budgets import REACHED
 from chatrobot.session.clearance import Clearance
 from chatrobot.session.ends import Ends
 from chatrobot.session.governed_robot import GovernedRobot
@@ -170,7 +171,8 @@ class Driver:
         self._let_go(run)
         stream = run.job.stream
         if outcome == "completed" and stream is not None and stream.refusal is not None:
-            outcome, reason = "refused", stream.refusal  # what came before it has been done
+            reason = stream.refusal  # what came before it has been done
+            outcome = "stopped" if reason.code in REACHED else "refused"
         self._ends.tell_later(lambda: run.job.whole(run.finished(outcome, reason)))
 
     def _let_go(self, run: Run | ProgramRun) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.plan.steps import Remember, Step
-from chatrobot.session.authoring import Authoring
+from chatrobot.session.authoring import Authoring, NotWrittenError
 from chatrobot.session.said import Said
 from chatrobot.session.thinking import Thinking
 from chatrobot.session.turn_book import TurnBook
@@ -30,7 +30,7 @@ class EarlyAnswers:
 
     def find(self, waiting: Sequence[Said]) -> Said | None:
         """The first of them that nobody understands, and that those before it do not teach us to."""
-        if self._thinking.has_mind or any(map(_teaches, self._book.meant)):
+        if self._thinking.has_mind or any(_teaches(one.meant) for one in self._book.under_way):
             return None
         for said in waiting:
             meant = self._look_at(said)
@@ -49,9 +49,13 @@ class EarlyAnswers:
 
     def _is_about_a_program(self, text: str) -> bool:
         authoring = self._authoring
-        return authoring is not None and (
-            authoring.kept(text) is not None or authoring.request(text, is_asked_for=False) is not None
-        )
+        if authoring is None:
+            return False
+        try:
+            kept = authoring.kept(text, "")
+        except NotWrittenError:
+            return True
+        return kept is not None or authoring.request(text, is_asked_for=False) is not None
 
 
 def _teaches(meant: Interpretation) -> bool:

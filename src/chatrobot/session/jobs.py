@@ -9,6 +9,7 @@ from chatrobot.core.events import Event, Finished, Notice, Outcome
 from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import Priority
 from chatrobot.session.approval import Approval
+from chatrobot.session.budgets import Budgets
 from chatrobot.session.driver import Driver
 from chatrobot.session.ends import Ends
 from chatrobot.session.envelope import Envelope
@@ -17,7 +18,7 @@ from chatrobot.session.inbox import Inbox
 from chatrobot.session.intake import Intake
 from chatrobot.session.job import Job
 from chatrobot.session.paused import PausedJob, Pausing
-from chatrobot.session.planner import Planned, Planner
+from chatrobot.session.planner import Planned, Planner, refused
 from chatrobot.session.program_box import ProgramBox
 from chatrobot.session.program_job import ProgramJob, job_of, needs_approval
 from chatrobot.session.stops import Stops
@@ -37,6 +38,7 @@ class Jobs:
         driver: Driver,
         planner: Planner,
         programs: ProgramBox,
+        budgets: Budgets,
         stops: Stops,
         inbox: Inbox,
         clock: Clock,
@@ -46,6 +48,7 @@ class Jobs:
     ) -> None:
         self._robot = robot
         self._ends = ends
+        self._budgets = budgets
         self._intake = intake
         self._driver = driver
         self._planner = planner
@@ -89,7 +92,8 @@ class Jobs:
         if mode == "extend":
             self._extend(envelope)
             return
-        job = job_of(envelope, epoch, self._clock.now_s())
+        account = self._budgets.account_of(envelope.source, envelope.lease, envelope.turn)
+        job = job_of(envelope, epoch, self._clock.now_s(), account)
         if self._intake.is_void(job, self._stops.count):
             self._finish(job, "stopped", self._stops.last_reason)
             return
@@ -179,8 +183,11 @@ class Jobs:
             return  # stopped or replaced meanwhile; its end has been told
         refusal = job.take(planned)
         asks = needs_approval(job, planned)
+        notice = job.account.notice(planned.is_endless)
+        if refusal is None and notice is not None:
+            self._emit(Notice(job.turn, notice))
         for event in planned.events(asks):
-            self._emit(event)
+            self._emit(refused(event, refusal))
         if refusal is not None:
             self._drop_prepared("refused", refusal)
         elif job.rehearse_only:
@@ -221,8 +228,10 @@ class Jobs:
     def _take_part(self, job: Job, stream: Stream, planned: Planned) -> None:
         if not self._driver.drives(job):
             return
-        self._emit(planned.part_event(stream.steps))
-        if stream.accept(planned) is None:
+        part = planned.part_event(stream.steps)
+        refusal = stream.accept(planned)
+        self._emit(refused(part, refusal))
+        if refusal is None:
             self._driver.expect(stream.duration_s)
         self._rehearse_part(job)
 
@@ -276,6 +285,8 @@ class Jobs:
             self._drop_prepared("refused", lapse or Reason("not_approved"))
         else:
             job.approval = None
+            if not is_a_persons:
+                job.account.renew()  # a person has ordered it
             self._launch(job)
 
     def expire_approval(self, now_s: float) -> None:

@@ -18,6 +18,7 @@ from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
 from chatrobot.governor.priority import RELEASERS, Priority, priority_of
 from chatrobot.robots.profile import RobotProfile
+from chatrobot.session.budgets import Budgets
 from chatrobot.session.clearance import Clearance
 from chatrobot.session.driver import Driver
 from chatrobot.session.ends import Ends
@@ -90,8 +91,20 @@ class Motion:
         stops, inbox = self._stops, self._inbox
         self._driver = Driver(robot, self.clearance, stops, programs, inbox, clock, ends, emit)
         self._pausing = pausing = Pausing(robot, self._intake, self.clearance, stops, clock, ends, emit)
+        self._budgets = Budgets(profile.safety.budget)
         self._jobs = Jobs(
-            robot, self._intake, self._driver, planner, programs, stops, inbox, clock, pausing, ends, emit
+            robot,
+            self._intake,
+            self._driver,
+            planner,
+            programs,
+            self._budgets,
+            stops,
+            inbox,
+            clock,
+            pausing,
+            ends,
+            emit,
         )
         self._relay = Relay(
             clock,
@@ -132,16 +145,20 @@ class Motion:
             self._emergency = envelope
             self._governor.latch(envelope.source, str(envelope.payload.get("why", "")))
         if envelope.word in ("stop", "emergency_stop"):
-            why = str(envelope.payload.get("why", ""))
-            self._intake.void_turn(envelope.lease, envelope.turn)
-            code = (
-                PAUSED if envelope.word == "stop" and envelope.payload.get("keep") is True else "stopped_by"
-            )
-            self.halt(Reason(code, {"source": envelope.source, "why": why}))
+            self._heed_stop(envelope)
         # What was said before a stop must not run after it, however late it is handled.
         epoch = self._stops.count if said_in is None else said_in
         emergency = self._emergency
         self.post(lambda: self._handle(envelope, epoch, emergency))
+
+    def _heed_stop(self, envelope: Envelope) -> None:
+        keeps = envelope.word == "stop" and envelope.payload.get("keep") is True
+        if keeps:
+            self._intake.pause(envelope.lease)
+        else:
+            self._intake.void_turn(envelope.lease, envelope.turn)
+        about = {"source": envelope.source, "why": str(envelope.payload.get("why", ""))}
+        self.halt(Reason(PAUSED if keeps else "stopped_by", about))
 
     def lose(self, lease: str) -> None:
         """The source behind `lease` is gone without a goodbye: a loss, and it stops."""
@@ -281,6 +298,9 @@ class Motion:
                 self._jobs.approve(envelope)
         elif envelope.word == "release":
             self._release(envelope, emergency)
+        elif envelope.word == "limit":
+            for reason in self._budgets.change(envelope.source, envelope.payload):
+                self._emit(Notice(envelope.turn, reason))
         elif envelope.word == "goodbye":
             self._sources.leave(envelope.lease)
             self._pausing.drop(Reason("source_left", {"source": envelope.source}), envelope.lease)

@@ -19,11 +19,12 @@ from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Notice
 from chatrobot.core.memory_pressure import MOTION, prefer
+from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.core.reason import Reason
 from chatrobot.core.scheduling import wake_promptly
 from chatrobot.core.wiring import Wiring
-from chatrobot.governor.governor import TICK_S
 from chatrobot.governor.priority import RELEASERS
+from chatrobot.governor.tick import TICK_S
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import load_profile
@@ -61,6 +62,7 @@ class MotionRunner:
         accept_others: drive though another Motion is on the same robot.
         on_robot: no network lies between this machine and the base, whatever the address looks like.
         releasers: the sources that may release an emergency stop.
+        budget: the motion budget as the command line chose it; what it leaves open the profile chooses.
         connect: how our end of the wire is made; the guard has one of its own, at `address`.
 
     Raises:
@@ -79,12 +81,13 @@ class MotionRunner:
         accept_others: bool = False,
         on_robot: bool = False,
         releasers: Collection[str] = RELEASERS,
+        budget: MotionBudget = NOT_CHOSEN,
         connect: Connect = connect_wire,
     ) -> None:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         prefer(MOTION)
         wake_promptly()
-        given, known_world = load_profile(profile), load_world(world)
+        given, known_world = load_profile(profile).with_budget(budget), load_world(world)
         self.wire, self.profile, said = _meet(connect, address, given, node, on_robot=on_robot)
         self._emit = emit
         self._wake = threading.Event()

@@ -30,8 +30,12 @@ class NextText:
         self._resuming = resuming
         self._early = early
 
-    def find(self, options: Options) -> Said | None:
-        """The one to take now: the first, unless it has to wait."""
+    def find(self, options: Options, waits_for_end: int | None) -> Said | None:
+        """The one to take now: the first, unless it has to wait.
+
+        Args:
+            waits_for_end: the turn that is read again once what is under way has ended.
+        """
         waiting = self._said.waiting
         for number, said in enumerate(waiting):
             if not said.is_instruction or self._said.is_void(said):
@@ -41,7 +45,8 @@ class NextText:
                 continue
             if self._is_being_paused:
                 return None
-            if self._resuming.paused is not None or options.while_moving == "replace":
+            replaces = self._resuming.paused is not None or options.while_moving == "replace"
+            if replaces and said.turn != waits_for_end:
                 return said
             if self._book.is_any_with_motion:
                 return self._early.find(waiting[number:])
@@ -59,5 +64,7 @@ class NextText:
         """It needs no model, and the one that is being asked says nothing."""
         if not self._thinking.may_be_overtaken(said.at_s):
             return False
-        meant = self._understanding.interpret(said.text) if said.kind != "plan" else None
-        return meant is None or not self._thinking.wants(said.text, meant)
+        if said.kind in ("plan", "edited_plan"):
+            return True
+        meant = self._understanding.interpret(said.text)
+        return not (meant.is_about_turn_before or self._thinking.wants(said.text, meant))

@@ -95,7 +95,7 @@ def rehearse_program(
     name: str = "program",
     horizon_s: float = HORIZON_S,
     remaps: Mapping[str, str] | None = None,
-    params: Mapping[str, Any] | None = None,
+    args: tuple[str, ...] = (),
     wall_limit_s: float = WALL_LIMIT_S,
 ) -> ProgramRehearsal:
     """Rehearse `source` from `start` (odom frame), at most to `horizon_s` of its own time. Raises BoxError."""
@@ -104,7 +104,7 @@ def rehearse_program(
         name=name,
         topics=robot_topics(profile.wiring),
         remaps=remaps or {},
-        params=params or {},
+        args=args,
         horizon_s=horizon_s,
     )
     area = world.allowed_area.points if world.allowed_area is not None else None
@@ -158,7 +158,7 @@ def _about_the_end(played: Played, horizon_s: float) -> Iterator[Finding]:
     elif end.how == "stuck":
         yield _found("warn", "program_waits_for_ever", end.t_s, horizon_s=horizon_s)
     elif end.exit_code != 0:
-        yield _found("warn", "program_exit_code", end.t_s, code=end.exit_code)
+        yield _found("warn", "program_exit_code", end.t_s, exit_code=end.exit_code)
     for attempt in played.attempts:
         yield Finding("warn" if attempt.code in _HARMLESS else "refuse", attempt, t_s=played.duration_s)
 

@@ -8,17 +8,22 @@ from collections import deque
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
+from chatrobot.core.reason import Reason
 from chatrobot.session.draft import Draft
 from chatrobot.session.envelope import QUEUE_LIMIT
 
-Kind = Literal["text", "plan", "program", "draft", "stop", "emergency_stop", "pause", "resume", "too_many"]
-INSTRUCTIONS: tuple[Kind, ...] = ("text", "plan", "program", "draft")
+Kind = Literal[
+    "text", "plan", "edited_plan", "program", "draft", "source", "stop", "emergency_stop", "pause", "resume",
+    "too_many",
+]  # fmt: skip
+INSTRUCTIONS: tuple[Kind, ...] = ("text", "plan", "edited_plan", "program", "draft", "source")
 """What may have to wait, and what a stop clears; the others are answered at once."""
 
 
 @dataclass(frozen=True)
 class Said:
-    """One text. `at_s` is when it was said (monotonic), `about` a program that is there, or the name of one to be."""
+    """One text. `at_s` is when it was said (monotonic), `about` a program that is there, the name of one to be, or
+    what a person made of the source of the one that `text` names."""
 
     turn: int
     text: str
@@ -45,8 +50,10 @@ class SaidTexts:
         self._lock = threading.Lock()
         self._texts: deque[Said] = deque()
         self._turns = 0
-        self._void_turn = self._dropped_turn = self._taken_turn = 0
+        self._void_turn = self._dropped_turn = 0
         self._hold = self._released = _Hold(0, 0)
+        self.stopped_by = Reason("cause_unknown")
+        """Why what was said is void."""
 
     def add(self, text: str, kind: Kind, about: Draft | str = "", *, is_moving: bool) -> int:
         """Take in a text; the number of its turn. Where too many wait for a moving robot it is one too many."""
@@ -57,15 +64,20 @@ class SaidTexts:
             self._texts.append(Said(self._turns, text, kind, time.monotonic(), about))
             return self._turns
 
-    def void(self) -> int:
-        """A stop: what was said up to now is void; the last turn of it. No lock: a stop waits for nothing."""
+    def void(self, why: str) -> int:
+        """A stop, and why: what was said up to now is void; the last turn of it. No lock: a stop waits for nothing."""
+        self.stopped_by = Reason("stopped_by", {"why": why})
         self._void_turn = self._turns
         return self._void_turn
 
-    def hold(self) -> int:
-        """A pause: what was said up to now and waits goes on waiting. The last turn that does not wait. No lock."""
+    def hold(self) -> None:
+        """A pause: what was said up to now and waits goes on waiting. No lock: it waits for nothing."""
         self._hold = _Hold(self._hold.number + 1, self._turns)
-        return self._taken_turn
+
+    @property
+    def pauses(self) -> int:
+        """How many pauses there were."""
+        return self._hold.number
 
     @property
     def is_holding(self) -> bool:
@@ -100,14 +112,16 @@ class SaidTexts:
 
     def take(self, said: Said) -> Said | None:
         """It waits no longer; None where a pause came in the same moment, so that it does."""
-        self._taken_turn = max(
-            self._taken_turn, said.turn
-        )  # first of all: a pause reads it after it has held
         if self.is_held(said) and not self.is_void(said):
             return None
         with self._lock:
             self._texts.remove(said)
         return said
+
+    def put_back(self, said: Said) -> None:
+        """It waits again, before all others."""
+        with self._lock:
+            self._texts.appendleft(said)
 
     def take_too_many(self) -> list[Said]:
         """Those that may not even wait."""

@@ -21,6 +21,7 @@ def summed(total: Finished, run: Finished) -> Finished:
         steps_done=total.steps_done + run.steps_done,
         steps=total.steps + run.steps,
         measured=total.measured and run.measured,
+        open_ended=total.open_ended or run.open_ended,
         executed="\n".join(filter(None, (total.executed, run.executed))),
     )
 

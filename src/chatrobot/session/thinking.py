@@ -66,6 +66,7 @@ class Thinking:
     Args:
         mind: None where no model is set up.
         conclude: hears how each turn ended.
+        pauses: how many there were by now.
     """
 
     def __init__(
@@ -76,7 +77,9 @@ class Thinking:
         understanding: Understanding,
         emit: Callable[[Event], None],
         conclude: Callable[[int, str, Ended], None],
+        pauses: Callable[[], int],
     ) -> None:
+        self._pauses = pauses
         self._mind = mind if interpreter != "offline" else None
         self._interpreter = interpreter
         self._joint = joint
@@ -190,6 +193,7 @@ class Thinking:
             self._shown,
             self._emit,
             mode,
+            pauses=self._pauses,
             approve=approve != "",
             frees_form=approve == "models" and self._is_tutorial,
             rehearse_only=rehearse_only,
