@@ -8,8 +8,7 @@ from __future__ import annotations
 from chatrobot.core.events import Event, Finished, Paused
 from chatrobot.core.proposal import Proposal
 from chatrobot.language.interpretation import Interpretation
-from chatrobot.language.phrases import say
-from chatrobot.plan.text import parse_plan
+from chatrobot.language.phrases import describe_text, say
 from chatrobot.session.understanding import Understanding
 
 
@@ -40,7 +39,7 @@ class Resuming:
         if not self._rest:
             return None
         language = self._understanding.language
-        rest = self._understanding.describe(parse_plan(self._rest).steps)
+        rest = describe_text(self._rest, language)
         ask = say(language, "ask_rest", plan=rest)
         reply = f"{say(language, 'was_stopped')} {ask}"
         return Interpretation("unclear", reply, language, code="ask_rest", proposal=Proposal(self._rest, ask))
@@ -50,4 +49,4 @@ class Resuming:
         language = self._understanding.language
         if paused is None:
             return say(language, "stopped_now")
-        return say(language, code, plan=self._understanding.describe(parse_plan(paused.plan_text).steps))
+        return say(language, code, plan=describe_text(paused.plan_text, language))
