@@ -34,6 +34,7 @@ class Conversation:
         self._posted: queue.SimpleQueue[Callable[[], object]] = queue.SimpleQueue()
         self._watch = SignalWatch(self.stop)
         self._is_cut_off = False
+        self._last_turn = 0
         self.has_parted = False
         """The person said goodbye: nothing more is heard, and what runs is still done."""
         self._connection: Connection | None = None
@@ -68,7 +69,7 @@ class Conversation:
         if self.is_leaving:
             return STOPPED
         results = self.session.results
-        return EXIT_CODES[results[max(results)].outcome] if results else 0
+        return EXIT_CODES[results[self._last_turn or max(results)].outcome] if results else 0
 
     @property
     def language(self) -> LanguageCode:
@@ -88,6 +89,11 @@ class Conversation:
         else:
             with contextlib.suppress(JointError):  # Motion is gone: the main thread tells
                 self.session.say(text)
+
+    @property
+    def is_paused(self) -> bool:
+        """A plan is paused."""
+        return self._connection is not None and self.session.is_paused
 
     def stop(self, why: str) -> None:
         """Stop the robot and drop what is queued."""
@@ -121,6 +127,7 @@ class Conversation:
 
     def see_through(self, turn: int) -> Result:
         """Let things happen until that turn has its result."""
+        self._last_turn = turn
         while turn not in self.session.results:
             self.step()
         return self.session.results[turn]
@@ -128,6 +135,8 @@ class Conversation:
     def finish(self) -> None:
         """See everything through that was heard."""
         while not self.has_parted and not (self.session.is_idle and self._posted.empty()):
+            if self.session.waits_for_a_word and self._posted.empty():
+                self.session.stop("end of input")  # nobody is left to go on with what is paused
             self.step()
 
     def step(self) -> None:
@@ -141,7 +150,8 @@ class Conversation:
             self._is_cut_off = True
             self.session.stop("nobody reads")
         self._approver.answer(self.session)
-        if self._setup.fast and self._approver.is_waiting and self._wait_for_posted():
+        waits = self._approver.is_waiting or self.session.waits_for_a_word
+        if self._setup.fast and waits and self._wait_for_posted():
             return  # a virtual half minute is over before a person has read the question: time stands
         self.session.pump(PUMP_S)
 
