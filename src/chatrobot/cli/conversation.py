@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import queue
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from types import TracebackType
 
 from chatrobot.cli.approver import Approver
@@ -13,7 +13,8 @@ from chatrobot.cli.printer import Printer
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.errors import JointError
-from chatrobot.core.events import EXIT_CODES, Event, Result
+from chatrobot.core.events import EXIT_CODES, Event, Notice, Result
+from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.session.parting import is_parting
 
@@ -40,9 +41,9 @@ class Conversation:
         self._connection: Connection | None = None
 
     def __enter__(self) -> Conversation:
-        self._connection = connect(self._setup, self._on_event)
-        self.session = self._connection.session
-        self._approver.attach(self._connection.world)
+        connection = connect(self._setup, self._on_event)
+        self.session, self._connection = connection.session, connection
+        self._approver.attach(connection.world)
         self._watch.__enter__()
         return self
 
@@ -96,7 +97,9 @@ class Conversation:
         return self._connection is not None and self.session.is_paused
 
     def stop(self, why: str) -> None:
-        """Stop the robot and drop what is queued."""
+        """Stop the robot and drop what is queued. Before there is a robot nothing moves, nor will."""
+        if self._connection is None:
+            return
         if self._setup.fast:
             self.post(lambda: self.session.stop(why))
         else:
@@ -117,6 +120,11 @@ class Conversation:
     def do(self, text: str) -> Result:
         """One turn, seen through: its result."""
         return self.see_through_edits(self.session.say(text))
+
+    def drop_if_stopped(self, texts: Sequence[str]) -> None:
+        """Where a stop came while the robot was started: say what is not begun."""
+        for text in texts if self.is_leaving else ():
+            self.show(Notice(0, Reason("dropped_by_stop", {"text": text})))
 
     def see_through_edits(self, turn: int) -> Result:
         """That turn, and those of what a person made of the plan or program that it asked about."""

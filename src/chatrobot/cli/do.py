@@ -19,8 +19,10 @@ def run(args: argparse.Namespace) -> int:
     """The exit code of the last turn that was taken."""
     printer = printer_for(args)
     approver = Approver(can_ask=has_keyboard())
-    with Conversation(setup_from(args, programs=True), printer, approver) as conversation:
-        Keyboard(conversation, approver).start()
+    conversation = Conversation(setup_from(args, programs=True), printer, approver)
+    Keyboard(conversation, approver).start()  # a stop may be typed while the robot starts
+    with conversation:
+        conversation.drop_if_stopped(args.texts)
         results: list[Result] = []
         for number, text in enumerate(args.texts):
             if conversation.is_leaving or conversation.has_parted:

@@ -16,8 +16,8 @@ from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.motion_budget import MotionBudget, read_limit
 from chatrobot.core.reason import Reason
 from chatrobot.execution.sensors import Sensors
-from chatrobot.governor.governor import TICK_S
 from chatrobot.governor.priority import RELEASERS, Priority, priority_of
+from chatrobot.governor.tick import TICK_S
 from chatrobot.robots.profile import Limits
 
 EXCEEDED = frozenset({"over_max_distance", "over_max_time"})
