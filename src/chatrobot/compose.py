@@ -36,6 +36,7 @@ from chatrobot.session.understanding import Understanding
 from chatrobot.sim.lies import SimLies
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import TRUTH_TOPIC, SimRobot
+from chatrobot.sim.start import check_start
 from chatrobot.sim.world import World
 from chatrobot.wire.connect import connect_wire, is_on_this_machine, wire_address
 from chatrobot.wire.messages import Odometry
@@ -106,6 +107,8 @@ def connect(setup: Setup, on_event: OnEvent) -> Connection:
     setup = replace(setup, world=setup.world or default_world(setup.on))
     world = load_world(setup.world)
     SimLies.parse(setup.sim)
+    if not on_wire:
+        check_start(world, profile, f"--world {setup.world}")
     understanding = Understanding(profile, world, setup.folder)
     if not setup.fast and setup.options.interpreter != "offline":
         warm_up(setup.model)
@@ -193,6 +196,7 @@ def _connect_simulated(
     joint.live(SETTLE_S)
     if setup.trace:
         hub.connect().subscribe(TRUTH_TOPIC, Odometry, _tracer(on_event))
+        joint.step()  # the trace begins before anything moves
     authoring = _authoring(setup, profile, world, understanding)
     session = Session(joint, understanding, on_event, setup.options, authoring, mind_of(setup, profile))
 

@@ -28,6 +28,9 @@ class FakeSession:
     def say_plan(self, plan_text):
         return self._note("say_plan", plan_text)
 
+    def say_edited_plan(self, plan_text):
+        return self._note("say_edited_plan", plan_text)
+
     def stop(self, why=""):
         self._note("stop", why)
 

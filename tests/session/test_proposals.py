@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import pytest
 from rich.console import Console
@@ -127,3 +128,46 @@ def shown(result: Result) -> str:
     with console.capture() as capture:
         console.print(*Narrator(Words("en")).tell(result))
     return capture.get().strip()
+
+
+def test_a_way_that_is_blocked_is_offered_as_far_as_it_is_free() -> None:
+    talk = Talk(world="home")
+    blocked = talk.session.do("forward 10 m")
+    assert (blocked.outcome, blocked.path_m) == ("refused", 0.0)
+    assert blocked.proposal == Proposal("drive 2.65 m", "Shall I drive forward 2.65 m?")
+    assert blocked.reply.endswith("so I am not moving. 2.65 m are free. Shall I drive forward 2.65 m?")
+    done = talk.session.do("yes")
+    assert done.outcome == "completed"
+    assert done.path_m == pytest.approx(2.65, abs=0.01)
+    assert talk.session.do("forward 1 m").proposal is None, "nothing useful is free"
+
+
+def test_what_is_only_rehearsed_says_what_is_free_and_asks_nothing() -> None:
+    talk = Talk(world="home", options=Options(rehearse_only=True))
+    blocked = talk.session.do("前进十米")
+    assert blocked.proposal is None
+    assert blocked.reply.endswith("前面 2.65 米是空的。")
+
+
+TABLE = """
+name: shop
+obstacles:
+  - {name: table, rectangle: {x_m: 2.0, y_m: 0.0, length_m: 0.6, width_m: 0.6}}
+places:
+  - {name: table, aliases: [桌子], x_m: 2.0, y_m: 0.0}
+"""
+
+
+def test_a_place_inside_an_obstacle_is_not_called_reached(tmp_path: Path) -> None:
+    file = tmp_path / "shop.yaml"
+    file.write_text(TABLE)
+    talk = Talk(world=str(file))
+    blocked = talk.session.do("forward 20 cm, then go to the table")
+    assert (blocked.outcome, blocked.path_m) == ("refused", 0.0)
+    assert blocked.reply.startswith("The table is in the way there:")
+    assert "I can get as near as 0.55 m." in blocked.reply
+    assert blocked.proposal is not None
+    assert blocked.proposal.plan_text == "drive 0.2 m\ngo to 1.45 0"
+    done = talk.session.do("go ahead")
+    assert (done.outcome, done.pose.x_m) == ("completed", pytest.approx(1.45, abs=0.02))
+    assert talk.session.do("去桌子").reply.startswith("那里被“table”挡住")

@@ -15,6 +15,7 @@ from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.errors import JointError
 from chatrobot.core.events import EXIT_CODES, Event, Result
 from chatrobot.language.interpretation import LanguageCode
+from chatrobot.session.parting import is_parting
 
 PUMP_S = 0.1
 
@@ -33,6 +34,8 @@ class Conversation:
         self._posted: queue.SimpleQueue[Callable[[], object]] = queue.SimpleQueue()
         self._watch = SignalWatch(self.stop)
         self._is_cut_off = False
+        self.has_parted = False
+        """The person said goodbye: nothing more is heard, and what runs is still done."""
         self._connection: Connection | None = None
 
     def __enter__(self) -> Conversation:
@@ -107,9 +110,13 @@ class Conversation:
 
     def do(self, text: str) -> Result:
         """One turn, seen through: its result."""
-        result = self.see_through(self.session.say(text))
-        while (edited := self._approver.take_edited()) is not None:
-            result = self.see_through(self.session.say_plan(edited))
+        return self.see_through_edits(self.session.say(text))
+
+    def see_through_edits(self, turn: int) -> Result:
+        """That turn, and those of what a person made of the plan or program that it asked about."""
+        result = self.see_through(turn)
+        while (say_edited := self._approver.take_edited()) is not None and not self.is_leaving:
+            result = self.see_through(say_edited(self.session))
         return result
 
     def see_through(self, turn: int) -> Result:
@@ -120,7 +127,7 @@ class Conversation:
 
     def finish(self) -> None:
         """See everything through that was heard."""
-        while not (self.session.is_idle and self._posted.empty()):
+        while not self.has_parted and not (self.session.is_idle and self._posted.empty()):
             self.step()
 
     def step(self) -> None:
@@ -163,4 +170,6 @@ class Conversation:
 
     def _on_event(self, event: Event) -> None:
         self._approver.hear(event)
-        self.show(event)
+        self.has_parted = self.has_parted or is_parting(event)
+        if not self._approver.is_withdrawn(event):
+            self.show(event)

@@ -23,7 +23,7 @@ def run(args: argparse.Namespace) -> int:
         Keyboard(conversation, approver).start()
         results: list[Result] = []
         for number, text in enumerate(args.texts):
-            if conversation.is_leaving:
+            if conversation.is_leaving or conversation.has_parted:
                 break
             if not (args.keep_going or may_follow(text, results)):
                 rest = args.texts[number:]

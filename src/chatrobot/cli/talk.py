@@ -28,7 +28,7 @@ def run(args: argparse.Namespace) -> int:
     with Conversation(setup, printer, approver) as conversation:
         reader = LineReader(JsonInput(conversation, approver).hear if args.json else conversation.hear)
         reader.start()
-        while not conversation.is_leaving and not reader.has_ended:
+        while not (conversation.is_leaving or conversation.has_parted or reader.has_ended):
             conversation.wait() if conversation.session.is_idle else conversation.step()
         conversation.finish()
     return conversation.exit_code

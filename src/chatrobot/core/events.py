@@ -81,7 +81,7 @@ class ProgramWritten(Event):
     """A program was written, or found under its name. `marks` have the line they are about in `step`.
 
     `by` is who wrote this version, `version` counts from 1, `diff` is what changed since the one before; `is_new`
-    where it was written in this turn.
+    where it was written in this turn. `place` is the file that holds its source, "" where none does.
     """
 
     name: ClassVar[str] = "program_written"
@@ -93,6 +93,7 @@ class ProgramWritten(Event):
     diff: str = ""
     is_new: bool = False
     marks: tuple[FindingSeen, ...] = ()
+    place: str = ""
 
 
 @dataclass(frozen=True)
@@ -149,7 +150,10 @@ class Progress(Event):
 
 @dataclass(frozen=True)
 class Telemetry(Event):
-    """Where the robot is and how it moves, as it measures itself; `path_m` since odometry began."""
+    """Where the robot is and how it moves, as it measures itself; `path_m` since odometry began.
+
+    `odometry_epoch` counts the times odometry began anew: a pose of an older epoch means nothing any more.
+    """
 
     name: ClassVar[str] = "telemetry"
     pose: Pose
@@ -158,6 +162,7 @@ class Telemetry(Event):
     battery_percent: float | None = None
     nearest_obstacle_m: float | None = None
     moving: bool = False
+    odometry_epoch: int = 0
 
 
 @dataclass(frozen=True)
@@ -257,6 +262,7 @@ class Finished(Event):
 
     `planned_m` is the way of the whole plan, for "0.60 m of 1.00 m", and `planned_turn_rad` what it wanted to turn up
     to its end. `open_ended`: the whole is not known, and `planned_m` is what was rehearsed of it.
+    `possible` is plan text: what can be done of a plan that was refused.
 
     `executed` and `remaining` are plan text: the part of the plan that was driven, as odometry measured it, and the
     part that was not. Driving one after the other is driving the whole plan. Both are empty for a program and where
@@ -277,6 +283,7 @@ class Finished(Event):
     steps_done: int = 0
     steps: int = 0
     measured: bool = True
+    possible: str = ""
     executed: str = ""
     remaining: str = ""
     open_ended: bool = False

@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 
 SAMPLES = 17
 SHRINKS_BY_M = 0.001
-"""A point that is within the margin already counts only if the motion brings it nearer: away is always allowed."""
+"""A point that is within the margin already counts only if the motion brings it nearer by this much."""
 
 
 class Footprint:
@@ -45,15 +45,27 @@ class Footprint:
             np.maximum(clearance, normal_x * x_m + normal_y * y_m - away, out=clearance)
         return clearance
 
+    def nearest_m(self, points: Floats, within_m: float) -> float:
+        """The clearance of the nearest of points [n, 2] in the robot's frame; infinite where it is not `within_m`."""
+        reach_m = self.radius_m + within_m
+        close = points[np.einsum("ij,ij->i", points, points) <= reach_m * reach_m]
+        return float(self.clearance_m(close[:, 0], close[:, 1]).min(initial=math.inf))
+
 
 def seconds_to_contact(
-    footprint: Footprint, points: Floats, twist: Twist, horizon_s: float, margin_m: float
+    footprint: Footprint,
+    points: Floats,
+    twist: Twist,
+    horizon_s: float,
+    margin_m: float,
+    shrinks_by_m: float = SHRINKS_BY_M,
 ) -> float:
     """How long `twist` may be followed before a point comes within `margin_m` of the footprint.
 
     Args:
         points: [n, 2], metres, in the robot's frame.
         horizon_s: how far to look, in seconds of the twist.
+        shrinks_by_m: what is within the margin already may come nearer by this much.
 
     Returns:
         Seconds, 0 where contact is imminent; infinite where there is none within the horizon.
@@ -71,7 +83,7 @@ def seconds_to_contact(
     if len(near) == 0:
         return math.inf
     clearance = footprint.clearance_m(*_seen_from(near, angle, moved_x, moved_y))
-    worrying = (clearance <= margin_m) & (clearance < clearance[0] - SHRINKS_BY_M)
+    worrying = (clearance <= margin_m) & (clearance < clearance[0] - shrinks_by_m)
     hits = np.flatnonzero(worrying.any(axis=1))
     if len(hits) == 0:
         return math.inf

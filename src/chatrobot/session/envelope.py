@@ -9,13 +9,16 @@ from dataclasses import asdict, dataclass, field, replace
 from typing import Any, Literal
 
 from chatrobot.core.motion_budget import read_limit
+from chatrobot.programs.ros_args import MOST_ARGS, MOST_CHARS
 
 Word = Literal[
     "hello",  # opens the lease: {"term_s": …}
     "beat",  # keeps it; any word that names its term opens it for a Motion that came after the hello
     "plan",  # {"plan_text", "mode", "more": bool, "approve": bool, "rehearse_only": bool, "longest_s": …}
     "look",  # asks for a `looked` event of this turn
-    "program",  # {"code", "name", "remap": {from: to}, "mode", "approve", "ask_findings", "strict", "rehearse_only"}
+    # {"code", "name", "remap": {from: to}, "args": [text], "mode", "approve", "ask_findings", "strict",
+    # "rehearse_only"}
+    "program",
     "approve",  # {"yes": bool} answers a Rehearsed event that needs approval
     "stop",  # {"why": …}; makes void what belongs to this turn and those before
     "emergency_stop",
@@ -74,6 +77,16 @@ def _is_remap(value: object) -> bool:
     )
 
 
+def _is_args(value: object) -> bool:
+    """A program's command line, short enough that source and arguments fit into one packet."""
+    return (
+        isinstance(value, list)
+        and len(value) <= MOST_ARGS
+        and all(isinstance(argument, str) for argument in value)
+        and sum(map(len, value)) <= MOST_CHARS
+    )
+
+
 PAYLOADS: Mapping[str, Mapping[str, Callable[[object], bool]]] = {
     "hello": {"term_s": _is_term},
     "beat": {"term_s": _is_term},
@@ -91,6 +104,7 @@ PAYLOADS: Mapping[str, Mapping[str, Callable[[object], bool]]] = {
         "code": _is_code,
         "name": _is_name,
         "remap": _is_remap,
+        "args": _is_args,
         "mode": lambda value: value in MODES and value != "extend",
         "approve": _is_flag,
         "ask_findings": _is_flag,

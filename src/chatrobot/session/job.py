@@ -116,7 +116,11 @@ class Job:
     def unmoved(self, outcome: Outcome, reason: Reason | None, pose: Pose) -> Finished:
         """Its end where nothing moved."""
         remaining = self.unread if outcome == "stopped" and not self.rehearse_only else ""
-        return Finished(self.turn, outcome, reason, pose, pose, 0.0, 0.0, 0.0, 0.0, remaining=remaining)
+        is_blocked = outcome == "refused" and self.planned is not None and reason == self.planned.refusal
+        possible = self.planned.possible if is_blocked and self.planned is not None else ""
+        return Finished(
+            self.turn, outcome, reason, pose, pose, 0.0, 0.0, 0.0, 0.0, possible=possible, remaining=remaining
+        )
 
     @property
     def unread(self) -> str:

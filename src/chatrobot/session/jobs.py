@@ -143,10 +143,12 @@ class Jobs:
         self._preparing = job = jobs.popleft()
         job.start = self._robot.pose
 
+        seen_points = self._robot.governor.seen_points
+
         def rehearse() -> Planned:
             if isinstance(job, ProgramJob):
                 return self._programs.rehearse(job, self._planner)
-            return self._planner.plan(job.turn, job.plan_text, job.start)
+            return self._planner.plan(job.turn, job.plan_text, job.start, seen_points=seen_points)
 
         self._inbox.fetch(rehearse, lambda planned: self._take_rehearsed(job, planned))
 
@@ -202,9 +204,9 @@ class Jobs:
             return
         plan_text, start = stream.take(), stream.walk.end
         if plan_text is not None:
-            text = plan_text
+            text, seen_points = plan_text, self._robot.governor.seen_points
             self._inbox.fetch(
-                lambda: self._planner.plan(job.turn, text, start, job.start),
+                lambda: self._planner.plan(job.turn, text, start, job.start, seen_points),
                 lambda planned: self._take_part(job, stream, planned),
             )
 

@@ -23,8 +23,8 @@ from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.core.reason import Reason
 from chatrobot.core.scheduling import wake_promptly
 from chatrobot.core.wiring import Wiring
-from chatrobot.governor.governor import TICK_S
 from chatrobot.governor.priority import RELEASERS
+from chatrobot.governor.tick import TICK_S
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
 from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import load_profile

@@ -15,20 +15,29 @@ class Orders:
         self._joint = joint
         self.options = options
 
-    def plan(self, turn: int, plan_text: str, mode: Literal["queue", "replace", "append"]) -> None:
-        """Have Motion rehearse and drive a plan."""
+    def plan(
+        self, turn: int, plan_text: str, mode: Literal["queue", "replace", "append"], *, asks: bool = False
+    ) -> None:
+        """Have Motion rehearse and drive a plan. `asks`: it waits for a yes whatever the options."""
         options = self.options
         self._joint.send(
             "plan",
             turn,
             plan_text=plan_text,
             mode=mode,
-            approve=options.approve,
+            approve=options.approve or asks,
             rehearse_only=options.rehearse_only,
         )
 
     def program(
-        self, turn: int, payload: dict[str, Any], *, is_new: bool, by_model: bool, is_led_elsewhere: bool
+        self,
+        turn: int,
+        payload: dict[str, Any],
+        *,
+        is_new: bool,
+        by_model: bool,
+        is_led_elsewhere: bool,
+        asks: bool,
     ) -> None:
         """Have Motion rehearse and run a program, asking where the options say so.
 
@@ -37,10 +46,11 @@ class Orders:
             is_new: it was written just now.
             by_model: a model wrote it.
             is_led_elsewhere: its topics are led to the robot's, and it has not run like that before.
+            asks: it waits for a yes whatever the options.
         """
         options = self.options
         asks_new = is_new and (options.ask_new or (by_model and options.approve_models))
-        asks = asks_new or (is_led_elsewhere and options.ask_findings)
+        asks = asks or asks_new or (is_led_elsewhere and options.ask_findings)
         self._joint.send(
             "program",
             turn,

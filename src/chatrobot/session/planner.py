@@ -16,9 +16,10 @@ from chatrobot.plan.known_world import Floats
 from chatrobot.plan.lowering import CoreWalk
 from chatrobot.plan.rehearsal import Rehearsal, rehearse
 from chatrobot.plan.route import GridRoutePlanner
-from chatrobot.plan.text import parse_plan
+from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.session.budgets import Extent
+from chatrobot.session.seen_world import SeenPoints
 from chatrobot.sim.world import World
 
 DRAWN_POINTS = 400
@@ -43,6 +44,12 @@ class Planned:
         if self.rehearsal is None:
             return self.unreadable
         return self.rehearsal.refusal.reason if self.rehearsal.refusal is not None else None
+
+    @property
+    def possible(self) -> str:
+        """Plan text of what can be done of it if it is refused; empty where nothing is worth a question."""
+        possible = self.rehearsal.possible if self.rehearsal is not None else None
+        return format_plan(possible) if possible is not None else ""
 
     @property
     def duration_s(self) -> float:
@@ -174,11 +181,19 @@ class Planner:
         """Corners, in `odom`, of where the world lets a robot be; None where it says nothing."""
         return self._world.allowed_area.points if self._world.allowed_area is not None else None
 
-    def plan(self, turn: int, plan_text: str, start: Pose, plan_start: Pose | None = None) -> Planned:
+    def plan(
+        self,
+        turn: int,
+        plan_text: str,
+        start: Pose,
+        plan_start: Pose | None = None,
+        seen_points: Floats | None = None,
+    ) -> Planned:
         """Read and rehearse `plan_text` from `start` (odom frame). Never raises for what a person or model wrote.
 
         Args:
             plan_start: where the whole began that this is a part of, if it did not begin here.
+            seen_points: [n, 2] in odom, what the governor knows of by its lidar.
         """
         try:
             plan = parse_plan(plan_text)
@@ -192,5 +207,8 @@ class Planner:
             self._kernel,
             plan_start=plan_start,
             route_planner=self._routes,
+            seen=SeenPoints(self._profile, seen_points)
+            if seen_points is not None and len(seen_points)
+            else None,
         )
         return Planned(turn, rehearsal)

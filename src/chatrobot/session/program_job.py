@@ -21,6 +21,7 @@ class ProgramJob(Job):
     code: str = ""
     name: str = "program"
     remap: Mapping[str, str] = field(default_factory=dict)
+    args: tuple[str, ...] = ()
     ask_findings: bool = False
     strict: bool = False
 
@@ -43,6 +44,7 @@ def job_of(envelope: Envelope, epoch: int, now_s: float, account: Account) -> Jo
         code=str(payload.get("code", "")),
         name=str(payload.get("name", "")) or "program",
         remap={str(name): str(to) for name, to in dict(payload.get("remap", {})).items()},
+        args=tuple(payload.get("args", ())),
         ask_findings=bool(payload.get("ask_findings")),
         strict=bool(payload.get("strict")),
     )

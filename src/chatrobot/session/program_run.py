@@ -145,7 +145,7 @@ class ProgramRun:
                 self._log(now_s, event.stream, line)
         elif isinstance(event, Ended):
             code = event.exit_code
-            reason = Reason("program_exit_code", {"code": code}) if code else None
+            reason = Reason("program_exit_code", {"exit_code": code}) if code else None
             self._end("failed" if code else "completed", reason)
         elif isinstance(event, Raised):
             self._log(now_s, "traceback", event.traceback)

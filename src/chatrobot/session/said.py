@@ -8,17 +8,21 @@ from collections import deque
 from dataclasses import dataclass
 from typing import Literal
 
+from chatrobot.core.reason import Reason
 from chatrobot.session.draft import Draft
 from chatrobot.session.envelope import QUEUE_LIMIT
 
-Kind = Literal["text", "plan", "program", "draft", "stop", "emergency_stop", "too_many"]
-INSTRUCTIONS: tuple[Kind, ...] = ("text", "plan", "program", "draft")
+Kind = Literal[
+    "text", "plan", "edited_plan", "program", "draft", "source", "stop", "emergency_stop", "too_many"
+]  # fmt: skip
+INSTRUCTIONS: tuple[Kind, ...] = ("text", "plan", "edited_plan", "program", "draft", "source")
 """What may have to wait, and what a stop clears; the others are answered at once."""
 
 
 @dataclass(frozen=True)
 class Said:
-    """One text. `at_s` is when it was said (monotonic), `about` a program that is there, or the name of one to be."""
+    """One text. `at_s` is when it was said (monotonic), `about` a program that is there, the name of one to be, or
+    what a person made of the source of the one that `text` names."""
 
     turn: int
     text: str
@@ -39,6 +43,8 @@ class SaidTexts:
         self._texts: deque[Said] = deque()
         self._turns = 0
         self._void_turn = 0
+        self.stopped_by = Reason("cause_unknown")
+        """Why what was said is void."""
 
     def add(self, text: str, kind: Kind, about: Draft | str = "", *, is_moving: bool) -> int:
         """Take in a text; the number of its turn. Where too many wait for a moving robot it is one too many."""
@@ -49,8 +55,9 @@ class SaidTexts:
             self._texts.append(Said(self._turns, text, kind, time.monotonic(), about))
             return self._turns
 
-    def void(self) -> int:
-        """A stop: what was said up to now is void; the last turn of it. No lock: a stop waits for nothing."""
+    def void(self, why: str) -> int:
+        """A stop, and why: what was said up to now is void; the last turn of it. No lock: a stop waits for nothing."""
+        self.stopped_by = Reason("stopped_by", {"why": why})
         self._void_turn = self._turns
         return self._void_turn
 
@@ -72,6 +79,11 @@ class SaidTexts:
         with self._lock:
             self._texts.remove(said)
         return said
+
+    def put_back(self, said: Said) -> None:
+        """It waits again, before all others."""
+        with self._lock:
+            self._texts.appendleft(said)
 
     def take_too_many(self) -> list[Said]:
         """Those that may not even wait."""

@@ -10,7 +10,6 @@ from typing import Any
 
 from chatrobot.core.errors import JointError, PlanTextError
 from chatrobot.core.events import Event, Finished, Interpreted, Remembered, Result, Telemetry
-from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
@@ -21,8 +20,10 @@ from chatrobot.session.model_terms import Ended
 from chatrobot.session.observations import measured
 from chatrobot.session.options import Options
 from chatrobot.session.orders import Orders
+from chatrobot.session.parting import parting
 from chatrobot.session.program_turns import ProgramTurns
 from chatrobot.session.proposals import Proposals
+from chatrobot.session.replies import offered
 from chatrobot.session.said import Kind, Said, SaidTexts
 from chatrobot.session.thinking import Mind, Thinking
 from chatrobot.session.turn_book import TurnBook
@@ -55,8 +56,8 @@ class Session:
         self._on_event = on_event
         self._orders = Orders(joint, options)
         self._said = SaidTexts()
+        self._waits_for_end = 0
         self._proposals = Proposals(understanding, self._said.is_void_turn)
-        self._stopped_by = Reason("cause_unknown")
         self._book = TurnBook(understanding, self._emit)
         self._thinking = Thinking(
             mind, options.interpreter, joint, understanding, self._emit, self._conclude_model_turn
@@ -102,6 +103,10 @@ class Session:
         """Take in a plan that a person or a program wrote itself; the number of its turn."""
         return self._take_in(plan_text, "plan")
 
+    def say_edited_plan(self, plan_text: str) -> int:
+        """Take in what a person made of a plan that waited for a yes: it is asked about anew, whatever the options."""
+        return self._take_in(plan_text, "edited_plan")
+
     def say_program(self, text: str, name: str = "") -> int:
         """Take in what a program is to do, asked for as one; the number of its turn."""
         return self._take_in(text, "program", name)
@@ -111,9 +116,8 @@ class Session:
         return self._take_in(draft.program.name, "draft", draft)
 
     def say_source(self, name: str, source: str) -> int:
-        """Take in what a person made of the program of that name; where that one is kept, it is kept so."""
-        assert self.authoring is not None
-        return self.say_draft(self.authoring.edited(name, source))
+        """Take in what a person made of the program of that name: it is asked about before it runs."""
+        return self._take_in(name, "source", source)
 
     def _take_in(self, text: str, kind: Kind, about: Draft | str = "") -> int:
         turn = self._said.add(text, kind, about, is_moving=self.is_moving)
@@ -122,18 +126,17 @@ class Session:
 
     def stop(self, why: str = "") -> None:
         """Stop the robot and drop what was said before this moment."""
-        self._joint.send("stop", self._said.void(), why=why)
-        self._cancel_asking(why)
+        self._joint.send("stop", self._said.void(why), why=why)
+        self._cancel_asking()
 
     def emergency_stop(self, why: str = "") -> None:
         """Stop the robot and keep it stopped until `release`."""
-        self._joint.send("emergency_stop", self._said.void(), why=why)
-        self._cancel_asking(why)
+        self._joint.send("emergency_stop", self._said.void(why), why=why)
+        self._cancel_asking()
 
-    def _cancel_asking(self, why: str) -> None:
+    def _cancel_asking(self) -> None:
         """End what models are being asked."""
-        self._stopped_by = Reason("stopped_by", {"why": why})
-        self._thinking.cancel(self._stopped_by)
+        self._thinking.cancel(self._said.stopped_by)
         if self.authoring is not None:
             self.authoring.cancel()
 
@@ -205,7 +208,8 @@ class Session:
         """The one to take now: the first, unless it has to wait for what runs or is thought about."""
         for said in self._said.waiting:
             waits = said.is_instruction and not self._said.is_void(said)
-            if not waits or self.options.while_moving == "replace":
+            replaces = self.options.while_moving == "replace" and said.turn != self._waits_for_end
+            if not waits or replaces:
                 return said
             if self._book.is_any_with_motion:
                 return None
@@ -217,9 +221,10 @@ class Session:
         """It needs no model, and the one that is being asked says nothing."""
         if not self._thinking.may_be_overtaken(said.at_s):
             return False
-        return said.kind == "plan" or not self._thinking.wants(
-            said.text, self.understanding.interpret(said.text)
-        )
+        if said.kind in ("plan", "edited_plan"):
+            return True
+        meant = self.understanding.interpret(said.text)
+        return not (meant.is_about_turn_before or self._thinking.wants(said.text, meant))
 
     def _take_texts(self) -> None:
         for said in self._said.take_too_many():
@@ -237,9 +242,9 @@ class Session:
             self._act_on(said, answer)
         elif said.kind == "text":
             self._understand(said)
-        elif said.kind == "plan":
+        elif said.kind in ("plan", "edited_plan"):
             self._read_plan(said)
-        elif said.kind in ("program", "draft"):
+        elif said.kind in ("program", "draft", "source"):
             self._begin_program(said)
         else:
             code = "stopped_now" if said.kind == "stop" else "emergency_stopped"
@@ -251,19 +256,32 @@ class Session:
             self._book.conclude(said.turn, "refused", self.understanding.say("no_programs_here", said.text))
         elif isinstance(said.about, Draft):
             self._programs.run(said.turn, said.text, said.about)
+        elif said.kind == "source":
+            self._programs.run_edited(said.turn, said.text, said.about)
         else:
             self._programs.begin(said.turn, said.text, is_asked_for=True, name=said.about)
 
     def _understand(self, said: Said) -> None:
         if self._programs is not None and self._programs.begin(said.turn, said.text):
             return
-        meant = self.understanding.interpret(said.text)
+        meant = self.understanding.interpret(said.text, self._book.under_way)
+        is_any_under_way = self._book.is_any_with_motion or self._thinking.is_busy
+        if is_any_under_way and meant.is_about_turn_before:
+            self._end_turn_before(said)
+            return
         if self.understanding.misses_robot(meant) and self._hears_robot_soon():
             meant = self.understanding.interpret(said.text)
-        if self._thinking.wants(said.text, meant):
+        if parting(meant) is None and self._thinking.wants(said.text, meant):
             self._ask_model(said, meant)
             return
         self._act_on(said, self._thinking.without_model(said.text, meant))
+
+    def _end_turn_before(self, said: Said) -> None:
+        """Stop what is under way, because `said` is about it; read `said` again once that has ended."""
+        self._said.put_back(said)
+        self._waits_for_end = said.turn
+        self._thinking.replace()
+        self._joint.send("stop", said.turn - 1, why=said.text[:80])
 
     def _act_on(self, said: Said, meant: Interpretation) -> None:
         """Do what was understood without a model."""
@@ -281,7 +299,7 @@ class Session:
         else:
             self.understanding.note_unmoved(said.text, meant)
             self._thinking.note(said.text, "", f"{meant.outcome}: {meant.reply}")
-            self._book.conclude(said.turn, meant.outcome, meant.reply, proposal=meant.proposal)
+            self._book.conclude(said.turn, meant.outcome, meant.reply, None, parting(meant), meant.proposal)
 
     def _hears_robot_soon(self) -> bool:
         """A robot that is there says where it is within a moment of the start."""
@@ -307,7 +325,7 @@ class Session:
             rehearse_only=options.rehearse_only,
         )
         if self._said.is_void_turn(said.turn):
-            self._thinking.cancel(self._stopped_by)  # a stop came while it was being understood
+            self._thinking.cancel(self._said.stopped_by)  # a stop came while it was being understood
 
     def _conclude_model_turn(self, turn: int, text: str, ended: Ended) -> None:
         reply = self.understanding.note_model_turn(text, ended, self.options.rehearse_only)
@@ -332,11 +350,12 @@ class Session:
         if mode == "replace":
             self._thinking.replace()
         self._book.track(said.turn, said.text, meant)
-        self._orders.plan(said.turn, plan_text, mode)
+        self._orders.plan(said.turn, plan_text, mode, asks=said.kind == "edited_plan")
 
     def _hear(self, event: Event) -> None:
         if isinstance(event, Telemetry):
-            self.understanding.note_telemetry(event)
+            is_ours = self._book.is_any_with_motion or self._thinking.is_busy
+            self.understanding.note_telemetry(event, is_ours=is_ours)
         elif isinstance(event, Remembered):
             self.understanding.note_place(event)
         self._emit(event)
@@ -351,10 +370,12 @@ class Session:
         instruction = self._book.take(event.turn)
         if instruction is None:
             return
-        text, meant = instruction
+        text, meant, _ = instruction
         reply = self.understanding.note_finished(text, meant, event, self.options.rehearse_only)
         if self._programs is not None:
             reply = self._programs.ending(event.turn, reply)
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         self._thinking.note(text, plan_text, f"{event.outcome}: {measured(event)}")
-        self._book.conclude(event.turn, event.outcome, reply, event)
+        proposal = offered(event, meant.language) if not self.options.rehearse_only else None
+        reply = f"{reply} {proposal.say}" if proposal is not None else reply
+        self._book.conclude(event.turn, event.outcome, reply, event, proposal=proposal)

@@ -75,7 +75,7 @@ class Ride:
         """A plan that comes in step by step."""
         goes_on = event.turn == self._streamed
         self.plan_text = f"{self.plan_text}\n{event.plan_text}" if goes_on else event.plan_text
-        self._streamed = event.turn
+        self._streamed, self.program = event.turn, None
 
     def _follow(self, pose: Pose) -> None:
         here = (pose.x_m, pose.y_m)

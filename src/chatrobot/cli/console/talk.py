@@ -38,6 +38,7 @@ from chatrobot.core.events import Event, Interpreted, Notice, Result, Started, T
 from chatrobot.language.consent import read_consent, wants_to_edit
 from chatrobot.programs.check import MAX_SOURCE_CHARS
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
+from chatrobot.session.parting import is_parting
 from chatrobot.session.question import Question
 
 TWICE_S = 1.5
@@ -143,16 +144,17 @@ class Talk:
         if len(edited) > (LONGEST_CHARS if program is None else MAX_SOURCE_CHARS):
             self.tell("line_too_long", limit=LONGEST_CHARS)
         elif text and program is None:
-            self._say_plan(text, self.words.say("edited"))
+            self._say_plan(text, self.words.say("edited"), is_edited=True)
         elif text and program is not None:
             with self._order:
                 self.attempt(lambda: self.session.say_source(program.program, f"{text}\n"))
                 self._echo(self.words.say("edited"))
 
-    def _say_plan(self, plan_text: str, shown: str) -> None:
+    def _say_plan(self, plan_text: str, shown: str, *, is_edited: bool = False) -> None:
+        say = self.session.say_edited_plan if is_edited else self.session.say_plan
         with self._order:
             undone = self._pasted.drop()
-            self.attempt(lambda: self.session.say_plan(plan_text))
+            self.attempt(lambda: say(plan_text))
             self._echo(shown)
         self._tell_undone(undone)
 
@@ -276,6 +278,8 @@ class Talk:
                 self.face.print(*lines)
         if isinstance(event, Result):
             self._go_on_after(event)
+            if is_parting(event):
+                self.leave()
             if self._leaving and self._has_nothing_to_do:
                 self.face.leave(0)
         if isinstance(event, (Telemetry, Started, Result)) and (

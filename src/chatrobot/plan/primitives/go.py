@@ -7,7 +7,7 @@ from typing import Literal
 
 from chatrobot.core.geometry import Pose, wrap_angle
 from chatrobot.plan.base import Frame, Step, require, require_finite, require_positive, rounded_angle
-from chatrobot.plan.context import Lowered, LoweringContext
+from chatrobot.plan.context import Impossible, Lowered, LoweringContext
 from chatrobot.plan.legs import go_to
 from chatrobot.plan.primitive import Primitive, StepParts
 from chatrobot.plan.reader import LineReader, quote
@@ -94,9 +94,14 @@ class GoPrimitive(Primitive[Go]):
         frame = context.frame_pose(step.frame)
         target = frame.compose(Pose(step.x_m, step.y_m, step.yaw_rad or 0.0))
         heading = None if step.yaw_rad is None else target.yaw_rad
-        return go_to(
+        lowered = go_to(
             context, (target.x_m, target.y_m), heading, speed_mps=step.speed_mps, named_place=bool(step.place)
         )
+        if isinstance(lowered, Impossible) and "nearest_x_m" in lowered.reason.values:
+            at = lowered.reason.values
+            nearest = Go(float(at["nearest_x_m"]), float(at["nearest_y_m"]), speed_mps=step.speed_mps)
+            return replace(lowered, instead=nearest)
+        return lowered
 
     def divide(self, step: Go, share: float, context: LoweringContext) -> StepParts:  # noqa: ARG002
         return Go.to_pose(context.pose), step
