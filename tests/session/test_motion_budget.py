@@ -75,6 +75,12 @@ def test_a_higher_budget_or_none_lets_it_drive(distance_m: float, time_s: float 
     assert talk(distance_m, time_s).session.do("forward 2.5 m").outcome == "completed"
 
 
+def test_waiting_is_not_driving() -> None:
+    result = talk(time_s=5.0).session.do("forward 50 cm, wait 20 s, back 50 cm")
+    assert result.outcome == "completed"
+    assert talk(time_s=5.0).session.do("forward 1 m, wait 2 s, back 1 m").outcome == "refused"
+
+
 def test_each_text_has_the_budget_anew() -> None:
     session = talk(2.0).session
     assert [session.do(text).outcome for text in ("forward 1.5 m", "back 1.5 m", "again")] == [

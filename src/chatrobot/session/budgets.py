@@ -44,13 +44,13 @@ TOLERANCE_SHARE, TOLERANCE_M, TOLERANCE_S = 0.02, 0.1, 5.0
 
 @dataclass(frozen=True)
 class Extent:
-    """How far and how long something drives, as far as that is certain."""
+    """How far and how long something drives, as far as that is certain; while it waits it does not drive."""
 
     length_m: float = 0.0
-    duration_s: float = 0.0
+    driving_s: float = 0.0
 
     def plus(self, other: Extent) -> Extent:
-        return Extent(self.length_m + other.length_m, self.duration_s + other.duration_s)
+        return Extent(self.length_m + other.length_m, self.driving_s + other.driving_s)
 
 
 class Account:
@@ -78,8 +78,8 @@ class Account:
         total, budget = self.driven.plus(extent), self.budget
         if total.length_m > budget.distance_m + ROUNDING_M:
             return Reason("over_max_distance", {"distance_m": total.length_m, "max_m": budget.distance_m})
-        if total.duration_s > budget.time_s + ROUNDING_S:
-            return Reason("over_max_time", {"duration_s": total.duration_s, "max_s": budget.time_s})
+        if total.driving_s > budget.time_s + ROUNDING_S:
+            return Reason("over_max_time", {"driving_s": total.driving_s, "max_s": budget.time_s})
         return None
 
     def notice(self, is_endless: bool) -> Reason | None:
@@ -130,6 +130,7 @@ class Meter:
         self._latency_s = limits.latency_s + BRAKING_TICKS * TICK_S
         self._is_endless = is_endless
         self._began_s = self._now_s = now_s
+        self._driving_s = 0.0
         self._start_path_m = self._path_m
         self._sent = ZERO_TWIST
         self._sent_m = 0.0
@@ -143,11 +144,13 @@ class Meter:
     def extent(self) -> Extent:
         """How far and how long this run has driven: as measured, or as sent where nothing is measured."""
         driven_m = self._path_m - self._start_path_m if self._sensors.has_odometry else self._sent_m
-        return Extent(driven_m, self._now_s - self._began_s)
+        return Extent(driven_m, self._driving_s)
 
     def note(self, sent: Twist, now_s: float) -> None:
         """Take in what was sent now."""
-        self._sent_m += self._sent.speed_mps * max(0.0, now_s - self._now_s)
+        elapsed_s = max(0.0, now_s - self._now_s)
+        self._sent_m += self._sent.speed_mps * elapsed_s
+        self._driving_s += 0.0 if self._sent.is_zero else elapsed_s
         self._sent, self._now_s = sent, now_s
 
     def over(self) -> Reason | None:
@@ -166,12 +169,12 @@ class Meter:
         unseen_s = min(self._sensors.odometry_age_s(), OLDEST_NEWS_S) if self._sensors.has_odometry else 0.0
         braking_m = speed_mps * (unseen_s + self._latency_s + braking_s / 2.0)
         most_m = _with_tolerance(budget.distance_m + ROUNDING_M, known.length_m, TOLERANCE_M)
-        most_s = _with_tolerance(budget.time_s + ROUNDING_S, known.duration_s, TOLERANCE_S)
+        most_s = _with_tolerance(budget.time_s + ROUNDING_S, known.driving_s, TOLERANCE_S)
         if driven.length_m + braking_m > most_m:
             return account.distance_reached()
-        if self._is_endless and driven.duration_s + braking_s > budget.endless_program_s:
+        if self._is_endless and self._now_s - self._began_s + braking_s > budget.endless_program_s:
             return Reason("endless_program_stopped", {"max_s": budget.endless_program_s})
-        if driven.duration_s + braking_s > most_s:
+        if driven.driving_s + braking_s > most_s:
             return account.time_reached()
         return None
 

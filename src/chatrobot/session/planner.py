@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Event, FindingSeen, Rehearsed
 from chatrobot.core.geometry import Pose
@@ -73,7 +75,12 @@ class Planned:
         if self.is_endless:
             return Extent()
         length_m = max(0.0, self.length_m - sum(self._unknown_lengths_m))
-        return Extent(length_m, 0.0 if self.is_open_ended else self.duration_s)
+        return Extent(length_m, 0.0 if self.is_open_ended else self._driving_s)
+
+    @property
+    def _driving_s(self) -> float:
+        """How long it drives, without its waits."""
+        return driving_s(self.rehearsal.path) if self.rehearsal is not None else 0.0
 
     @property
     def _unknown_lengths_m(self) -> list[float]:
@@ -130,6 +137,12 @@ def refused(event: Event, reason: Reason | None) -> Event:
         return event
     found = FindingSeen(event.turn, "refuse", reason)
     return replace(event, ok=False, findings=(*event.findings, found), needs_approval=False)
+
+
+def driving_s(path: Floats) -> float:
+    """How long the robot moves on a path whose rows ([n, 4]) begin with a time."""
+    steps = np.diff(path, axis=0)
+    return float(steps[np.any(np.abs(steps[:, 1:]) > 1e-9, axis=1), 0].sum())
 
 
 def drawn(path: Floats) -> tuple[tuple[float, float, float], ...]:
