@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.errors import JointError, UsageError
 from chatrobot.core.events import Event, TruePose
+from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.models.seam import Model
 from chatrobot.plan.context import RoutePlanner
 from chatrobot.programs.library import Library
@@ -57,7 +58,8 @@ class Setup:
     `on` is auto, sim, or a robot's wire (`wire_address`). `world`: "" is what fits, the furnished home for the
     simulated robot and nothing known for any other. `sim` holds the lies of the simulated robot (`slip=0.03,…`).
     `yes`: plans of a real robot need no approval. `programs`: who asks for a program gets one written, rehearsed and
-    run; else its motion is driven as a plan. `folder` is where places, programs and history live; None keeps
+    run; else its motion is driven as a plan. `budget` is the motion budget, as far as it is not the profile's.
+    `folder` is where places, programs and history live; None keeps
     nothing. `model` is the language model to ask, None for none, `model_options` how it is used, and `camera` takes
     pictures for it, as JPEG or PNG, in place of the robot's own camera.
     """
@@ -70,6 +72,7 @@ class Setup:
     trace: bool = False
     yes: bool = False
     programs: bool = False
+    budget: MotionBudget = NOT_CHOSEN
     folder: Path | None = None
     options: Options = field(default_factory=Options)
     model: Model | None = None
@@ -96,7 +99,7 @@ def connect(setup: Setup, on_event: OnEvent) -> Connection:
         JointError: Motion or the simulated robot does not start.
     """
     on_wire = setup.on not in SIMULATED
-    profile = load_profile(setup.robot, profile_dirs(setup.folder))
+    profile = load_profile(setup.robot, profile_dirs(setup.folder)).with_budget(setup.budget)
     if not on_wire:
         profile = replace(profile, approval="stream")
     elif drives_on_alone(profile) and not is_on_this_machine(wire_address(setup.on)):
@@ -193,6 +196,7 @@ def _connect_simulated(
     joint.live(SETTLE_S)
     if setup.trace:
         hub.connect().subscribe(TRUTH_TOPIC, Odometry, _tracer(on_event))
+        joint.step()  # the trace begins before anything moves
     authoring = _authoring(setup, profile, world, understanding)
     session = Session(joint, understanding, on_event, setup.options, authoring, mind_of(setup, profile))
 
@@ -218,7 +222,7 @@ def _connect_real_time(
     robot = spawn_simulated_robot(setup, argument, wire_path)
     joint: SocketJoint | None = None
     try:
-        joint = SocketJoint(str(wire_path), argument, setup.world)
+        joint = SocketJoint(str(wire_path), argument, setup.world, budget=setup.budget)
         understanding.warm()
         joint.wait_until_ready()
     except JointError:
@@ -262,7 +266,8 @@ def _connect_wire(
         connect_wire(
             address, profile.wiring, "chatrobot"
         ).close()  # Motion would wait, and could not say for what
-    joint = SocketJoint(address, profile_argument(setup.robot, profile_dirs(setup.folder)), setup.world)
+    argument = profile_argument(setup.robot, profile_dirs(setup.folder))
+    joint = SocketJoint(address, argument, setup.world, budget=setup.budget)
     joint.wait_until_ready()
     authoring = _authoring(setup, profile, world, understanding)
     options = replace(setup.options, approve=approve)

@@ -28,6 +28,9 @@ class FakeSession:
     def say_plan(self, plan_text):
         return self._note("say_plan", plan_text)
 
+    def say_edited_plan(self, plan_text):
+        return self._note("say_edited_plan", plan_text)
+
     def stop(self, why=""):
         self._note("stop", why)
 
@@ -36,6 +39,9 @@ class FakeSession:
 
     def release(self):
         self._note("release")
+
+    def limit(self, **limits):
+        self._note("limit", limits)
 
     def approve(self, turn, yes):
         self._note("approve", turn, yes)

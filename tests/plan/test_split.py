@@ -156,6 +156,7 @@ def parts_at(steps_text: str, reached: Reached, pose: Pose = START) -> tuple[str
         ("drive 4 s back", Reached(0, True, 0, 0.25), "drive 1 s back", "drive 3 s back"),
         ("twist 0.2 0 0.5 for 3 s", Reached(0, True, 0, 0.5), *["twist 0.2 0 0.5 for 1.5 s"] * 2),
         ("wait 10 s", Reached(0, True, 0, 0.4), "wait 4 s", "wait 6 s"),
+        ('say "hello"', Reached(0, True, 0, 0.5), "", 'say "hello"'),
         (
             "repeat 4\n  drive 1 m\n  turn left 90 deg\nend",
             Reached(5, True, 0, 0.5),

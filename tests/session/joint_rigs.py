@@ -9,6 +9,7 @@ from typing import Any, Protocol
 
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.events import Event, Finished, Telemetry
+from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
@@ -67,12 +68,12 @@ class SimulatedRig:
 class ProcessRig:
     """The simulated robot, Motion and its guard in processes of their own."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, budget: MotionBudget = NOT_CHOSEN) -> None:
         from chatrobot.compose import Setup, spawn_simulated_robot
 
         path = folder / "robot.wire"
         self._robot = spawn_simulated_robot(Setup(world="empty"), PROFILE, path)
-        joint = SocketJoint(str(path), PROFILE, "empty")
+        joint = SocketJoint(str(path), PROFILE, "empty", budget=budget)
         joint.wait_until_ready()
         self.joint: Joint = joint
         self.velocities: list[TwistMessage] = []

@@ -10,6 +10,7 @@ from chatrobot.cli.folders import config_folder
 from chatrobot.cli.parameters import parameters_in, read_parameters
 from chatrobot.compose import Setup
 from chatrobot.core.errors import UsageError
+from chatrobot.core.motion_budget import MotionBudget
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.models.seam import Model, ModelError
 from chatrobot.session.model_choice import chosen_model
@@ -46,6 +47,7 @@ def setup_from(
         trace=args.trace,
         yes=args.yes,
         programs=programs,
+        budget=MotionBudget(args.max_distance, args.max_time),
         folder=config_folder(args),
         options=replace(options, interpreter=args.interpreter),
         model=model_from(args, named=named_model),

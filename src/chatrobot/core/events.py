@@ -59,7 +59,11 @@ class FindingSeen(Event):
 
 @dataclass(frozen=True)
 class Rehearsed(Event):
-    """What the plan would do: `path` is (x_m, y_m, yaw_rad) along the predicted way, thinned for drawing."""
+    """What the plan would do: `path` is (x_m, y_m, yaw_rad) along the predicted way, thinned for drawing.
+
+    `open_ended`: nobody knows before how far it drives (a program without an end, a way up to an obstacle that is not
+    known); `length_m` and `duration_s` are what was rehearsed.
+    """
 
     name: ClassVar[str] = "rehearsed"
     ok: bool
@@ -69,6 +73,7 @@ class Rehearsed(Event):
     findings: tuple[FindingSeen, ...] = ()
     path: tuple[tuple[float, float, float], ...] = ()
     needs_approval: bool = False
+    open_ended: bool = False
 
 
 @dataclass(frozen=True)
@@ -76,7 +81,7 @@ class ProgramWritten(Event):
     """A program was written, or found under its name. `marks` have the line they are about in `step`.
 
     `by` is who wrote this version, `version` counts from 1, `diff` is what changed since the one before; `is_new`
-    where it was written in this turn.
+    where it was written in this turn. `place` is the file that holds its source, "" where none does.
     """
 
     name: ClassVar[str] = "program_written"
@@ -88,6 +93,7 @@ class ProgramWritten(Event):
     diff: str = ""
     is_new: bool = False
     marks: tuple[FindingSeen, ...] = ()
+    place: str = ""
 
 
 @dataclass(frozen=True)
@@ -128,20 +134,40 @@ class Started(Event):
 
 
 @dataclass(frozen=True)
+class Paused(Event):
+    """The plan of this turn was stopped by a word that keeps it: the turn stays open, and `plan_text` is what is left.
+
+    It is gone on with, from where the robot stands then, when its own source asks for that: `rehearsed` and `started`
+    follow. Else `finished` ends it.
+    """
+
+    name: ClassVar[str] = "paused"
+    pose: Pose
+    plan_text: str
+    reason: Reason | None = None
+
+
+@dataclass(frozen=True)
 class Progress(Event):
-    """How far a running turn is: step `step` of `of`, `fraction` of the whole predicted duration (0..1)."""
+    """How far a running turn is: step `step` of `of`, `fraction` of the whole predicted duration (0..1).
+
+    `fraction` is None where the whole is not known: a program without an end, a plan that is still coming in.
+    """
 
     name: ClassVar[str] = "progress"
     step: int
     of: int
-    fraction: float
+    fraction: float | None
     pose: Pose
     twist: Twist
 
 
 @dataclass(frozen=True)
 class Telemetry(Event):
-    """Where the robot is and how it moves, as it measures itself; `path_m` since odometry began."""
+    """Where the robot is and how it moves, as it measures itself; `path_m` since odometry began.
+
+    `odometry_epoch` counts the times odometry began anew: a pose of an older epoch means nothing any more.
+    """
 
     name: ClassVar[str] = "telemetry"
     pose: Pose
@@ -150,6 +176,7 @@ class Telemetry(Event):
     battery_percent: float | None = None
     nearest_obstacle_m: float | None = None
     moving: bool = False
+    odometry_epoch: int = 0
 
 
 @dataclass(frozen=True)
@@ -247,8 +274,9 @@ class Finished(Event):
     Odometry counts wheels, and a gyro sees only turns: wheels that spin straight on are counted as way
     (docs/simulation.md, "Wheels that spin").
 
-    `planned_m` and `planned_turn_rad` are what the plan wanted up to its end, for "1.00 m of 1.00 m". `possible` is
-    plan text: what can be done of a plan that was refused.
+    `planned_m` is the way of the whole plan, for "0.60 m of 1.00 m", and `planned_turn_rad` what it wanted to turn up
+    to its end. `open_ended`: the whole is not known, and `planned_m` is what was rehearsed of it.
+    `possible` is plan text: what can be done of a plan that was refused.
 
     `executed` and `remaining` are plan text: the part of the plan that was driven, as odometry measured it, and the
     part that was not. Driving one after the other is driving the whole plan. Both are empty for a program and where
@@ -272,6 +300,7 @@ class Finished(Event):
     possible: str = ""
     executed: str = ""
     remaining: str = ""
+    open_ended: bool = False
 
 
 @dataclass(frozen=True)
@@ -352,7 +381,7 @@ _READERS: Mapping[str, Any] = {
 EVENT_TYPES: Mapping[str, type[Event]] = {
     kind.name: kind
     for kind in (
-        Interpreted, FindingSeen, Rehearsed, Started, Progress, Telemetry, TruePose, Limited, Said, Remembered,
+        Interpreted, FindingSeen, Rehearsed, Started, Paused, Progress, Telemetry, TruePose, Limited, Said, Remembered,
         Streamed, Looked, ModelCalled, Notice, Finished, Result, ProgramWritten, ProgramRehearsed, ProgramLog,
     )
 }  # fmt: skip

@@ -24,6 +24,8 @@ FIRST_SAMPLES = 3
 STILL_RADPS = 0.01
 """A gyro whose samples spread more than this (standard deviation) is on a robot that is being shaken: ten times the
 noise of a cheap gyro."""
+ROLLED_RAD = 2e-4
+"""Wheels that turned by this much in a piece of rest were not at rest, however slowly they went."""
 SUDDEN_RADPS = 0.01
 """No bias changes so much between two motions. A rate this far off is a turn by hand, unless it lasts."""
 LASTING_S = 3.0
@@ -114,28 +116,32 @@ class Heading:
         lasted_s = sum(sample.duration_s for sample in self._rest)
         if lasted_s < WINDOW_S or len(self._rest) < WINDOW_SAMPLES:
             return
-        rates_radps = [sample.rate_radps for sample in self._rest]
-        if statistics.pstdev(rates_radps) > STILL_RADPS:
+        if not self._is_quiet():
             self._turn_meanwhile()
             return
-        if self.has_gyro and abs(statistics.fmean(rates_radps) - self.bias_radps) > SUDDEN_RADPS:
+        rate_radps = statistics.fmean(sample.rate_radps for sample in self._rest)
+        if self.has_gyro and abs(rate_radps - self.bias_radps) > SUDDEN_RADPS:
             if lasted_s < LASTING_S:
                 return
             self._bias_samples = 0
-        self._average(rates_radps)
+        self._average()
         self._rest.clear()
 
-    def _average(self, rates_radps: list[float]) -> None:
-        for rate_radps in rates_radps:
+    def _is_quiet(self) -> bool:
+        """Neither the gyro's samples nor the wheels show that anything moved meanwhile."""
+        rolled_rad = abs(sum(sample.wheel_turn_rad for sample in self._rest))
+        spread_radps = statistics.pstdev(sample.rate_radps for sample in self._rest)
+        return rolled_rad <= ROLLED_RAD and spread_radps <= STILL_RADPS
+
+    def _average(self) -> None:
+        for sample in self._rest:
             self._bias_samples = min(self._bias_samples + 1, BIAS_SAMPLES)
-            self.bias_radps += (rate_radps - self.bias_radps) / self._bias_samples
+            self.bias_radps += (sample.rate_radps - self.bias_radps) / self._bias_samples
 
     def _turn_meanwhile(self) -> None:
         """What looked like rest, and was too short or too lively for it, is part of the turn."""
-        rates_radps = [sample.rate_radps for sample in self._rest]
-        is_enough = not self.has_gyro and len(rates_radps) >= FIRST_SAMPLES
-        if is_enough and statistics.pstdev(rates_radps) <= STILL_RADPS:
-            self._average(rates_radps)
+        if not self.has_gyro and len(self._rest) >= FIRST_SAMPLES and self._is_quiet():
+            self._average()
         for sample in self._rest:
             self._integrate(sample)
         self._rest.clear()

@@ -1,4 +1,4 @@
-"""How late the robot does what it is told, measured whenever it sets out and then holds its speed.
+"""How late the robot does what it is told, measured whenever it sets out.
 
 A base that follows late makes good at the end of a motion what it owed at the start. Where feedback takes that debt
 for an error and drives it, the robot goes too far by just as much; so feedback has to know it.
@@ -13,6 +13,8 @@ from chatrobot.core.geometry import ZERO_TWIST, Twist
 STEADY_SHARE = 0.1
 STEADY_S = 0.15
 """A base has caught up with a velocity that has been held for so long, give or take that share of it."""
+GAINING_S = 0.15
+"""While it still gains speed, so long after its start, there is a first guess; none before."""
 LONGEST_S = 1.5
 """Later after its start it may owe for other reasons."""
 LEAST_MPS, LEAST_RADPS = 0.1, 0.2
@@ -30,12 +32,12 @@ class _Debt:
         self._speed = 0.0
         self._began_at = 0.0
         self._began_s = self._steady_since_s = -math.inf
-        self._is_measured = True
+        self.is_measured = True
 
     def begin(self, done: float, now_s: float) -> None:
         self._told, self._began_at = 0.0, done
         self._began_s = self._steady_since_s = now_s
-        self._is_measured = False
+        self.is_measured = False
 
     def tell(self, speed: float, now_s: float, held_s: float) -> None:
         """From now on it is to do `speed`; what it was told before has been held for `held_s`."""
@@ -44,13 +46,21 @@ class _Debt:
             self._steady_since_s = now_s
         self._speed = speed
 
-    def late_s(self, done: float, stamp_s: float, told_s: float) -> float | None:
-        """How late it is, once that shows; `told_s`: since when it is told what it is told now."""
-        if self._is_measured or abs(self._speed) < self._least:
+    def late_s(self, done: float, stamp_s: float, told_s: float, *, guesses: bool) -> float | None:
+        """How late it is, once that shows.
+
+        Args:
+            told_s: since when it is told what it is told now.
+            guesses: a first guess will do.
+        """
+        if self.is_measured or abs(self._speed) < self._least:
             return None
-        if stamp_s - self._steady_since_s < STEADY_S or stamp_s - self._began_s > LONGEST_S:
+        is_steady = stamp_s - self._steady_since_s >= STEADY_S
+        if stamp_s - self._began_s > LONGEST_S or (not is_steady and not guesses):
             return None
-        self._is_measured = True
+        if stamp_s - self._began_s < GAINING_S:
+            return None
+        self.is_measured = is_steady
         owed = self._told + self._speed * (stamp_s - told_s) - (done - self._began_at)
         return owed / self._speed
 
@@ -60,6 +70,7 @@ class Response:
 
     def __init__(self) -> None:
         self.lag_s = 0.0
+        self._is_guess = True
         self._way, self._turn = _Debt(LEAST_MPS), _Debt(LEAST_RADPS)
         self._twist = ZERO_TWIST
         self._told_s = 0.0
@@ -77,8 +88,8 @@ class Response:
 
     def see(self, stamp_s: float, path_m: float, turned_rad: float) -> None:
         """How far its wheels had rolled and turned by `stamp_s`."""
-        late_s = self._way.late_s(path_m, stamp_s, self._told_s)
-        if late_s is None:
-            late_s = self._turn.late_s(turned_rad, stamp_s, self._told_s)
-        if late_s is not None:
-            self.lag_s = max(0.0, min(LATEST_S, late_s))
+        for debt, done in ((self._way, path_m), (self._turn, turned_rad)):
+            late_s = debt.late_s(done, stamp_s, self._told_s, guesses=self._is_guess)
+            if late_s is not None:
+                self.lag_s = max(0.0, min(LATEST_S, late_s))
+                self._is_guess = self._is_guess and not debt.is_measured

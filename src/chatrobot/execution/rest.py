@@ -1,14 +1,12 @@
 """Since when the robot has been at rest: told to stand, and seen not to roll.
 
-A gyro's bias may only be learned then. A base that creeps so slowly that its speed looks like noise does move, and
-what moves shows in the pose sooner or later; what the robot was told shows at once.
+A gyro's bias may only be learned then. That the wheels look slow is not enough: a robot that is told to creep does.
 """
 
 from __future__ import annotations
 
 import math
 
-from chatrobot.core.geometry import Pose, wrap_angle
 from chatrobot.wire.messages import Odometry
 
 STANDING_SPEED_MPS = 0.005
@@ -17,8 +15,6 @@ SETTLED_S = 0.15
 """A robot that was told to stand has braked and rocks no more after so long."""
 UNROLLED_S = 0.06
 """Wheels stand when several messages in a row have said so."""
-ROLLED_M, ROLLED_RAD = 0.0005, 0.001
-"""More than this is no flicker of an encoder."""
 
 
 class Rest:
@@ -26,8 +22,7 @@ class Rest:
 
     def __init__(self) -> None:
         self._told_since_s = -math.inf
-        self._rolled_s = math.inf
-        self._rest_pose = Pose()
+        self._still_since_s = math.inf
 
     def note_command(self, *, is_zero: bool, now_s: float) -> None:
         """The robot has just been told to stand, or to move."""
@@ -39,9 +34,9 @@ class Rest:
     def see(self, message: Odometry) -> None:
         """What its wheels do."""
         if not is_still(message):
-            self._rolled_s = math.inf
-        elif self._rolled_s == math.inf or self._has_rolled(message):
-            self._rolled_s, self._rest_pose = message.stamp_s, Pose(*message[1:4])
+            self._still_since_s = math.inf
+        elif self._still_since_s == math.inf:
+            self._still_since_s = message.stamp_s
 
     @property
     def told_since_s(self) -> float:
@@ -51,11 +46,7 @@ class Rest:
     @property
     def since_s(self) -> float:
         """Since when it has been at rest, once the body was still, too; infinite where it moves."""
-        return max(self._told_since_s + SETTLED_S, self._rolled_s + UNROLLED_S)
-
-    def _has_rolled(self, message: Odometry) -> bool:
-        moved_m = math.hypot(message.x_m - self._rest_pose.x_m, message.y_m - self._rest_pose.y_m)
-        return moved_m > ROLLED_M or abs(wrap_angle(message.yaw_rad - self._rest_pose.yaw_rad)) > ROLLED_RAD
+        return max(self._told_since_s + SETTLED_S, self._still_since_s + UNROLLED_S)
 
 
 def is_still(message: Odometry) -> bool:

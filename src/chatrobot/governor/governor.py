@@ -19,12 +19,10 @@ from chatrobot.governor.priority import RELEASERS
 from chatrobot.governor.rule import NOTHING_SENSED, Sensed, Situation
 from chatrobot.governor.rules import Composed, Setting, compose, make_rules
 from chatrobot.governor.seen import NO_POINTS, Seen
+from chatrobot.governor.tick import TICK_S as TICK_S
 from chatrobot.governor.wheel import Taken, Wheel
 from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.wire.messages import LaserScan
-
-TICK_S = 0.02
-"""The control period: 50 Hz."""
 
 LONGEST_STEP_S = 2.0 * TICK_S
 """A late tick may not buy a bigger jump in velocity than this much time."""

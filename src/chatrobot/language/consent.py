@@ -3,33 +3,40 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 
-_YES = frozenset(
-    {"y", "yes", "yeah", "yep", "yes please", "please", "please do", "ok", "okay", "sure", "go", "go ahead"}
-    | {"do it", "do that", "yes do it", "yes go ahead", "ok do it", "ok go ahead"}
-    | {"好", "好的", "好吧", "是", "是的", "对", "可以", "行", "执行", "做", "做吧", "没问题"}
-)
-_NO = frozenset(
-    {"n", "no", "nope", "no thanks", "no thank you", "don't", "do not", "cancel", "never mind"}
-    | {"不", "不要", "不用", "不用了", "否", "不行", "取消", "算了", "别做"}
-)
-_COMMA = re.compile(r"[,，、]")
-_EDIT = frozenset({"e", "edit", "修改", "改", "编辑"})
+from chatrobot.language.data_files import LANGUAGES, load_table
+
+_APOSTROPHE = str.maketrans("’", "'")
 
 
 def read_consent(text: str) -> bool | None:
-    """True for a yes, False for a no, None for anything else. What stands between commas has to say the same."""
-    parts = [_word(part) for part in _COMMA.split(text)]
-    for words, meant in ((_YES, True), (_NO, False)):
-        if words.issuperset(parts) or " ".join(parts) in words:
-            return meant
-    return None
+    """True for a yes, False for a no, None for anything else; each has to be the whole utterance."""
+    if _consists_of("yes", text):
+        return True
+    return False if _consists_of("no", text) else None
 
 
 def wants_to_edit(text: str) -> bool:
     """Neither: it is to be changed first."""
-    return _word(text) in _EDIT
+    return _consists_of("edit", text)
 
 
-def _word(text: str) -> str:
-    return text.strip().casefold().rstrip(".!。！ ")
+def _consists_of(answer: str, text: str) -> bool:
+    return _pattern(answer).fullmatch(text.strip().casefold().translate(_APOSTROPHE)) is not None
+
+
+@cache
+def _pattern(answer: str) -> re.Pattern[str]:
+    """One of that answer's phrases or more, with courtesy and punctuation around them."""
+    phrase, courtesy = _any_of(answer), _any_of("courtesy")
+    gap = r"[\s,.!，。！、]*"
+    beside = f"(?:{courtesy}{gap})*"
+    return re.compile(f"{gap}{beside}(?:{phrase}{gap}{beside})+")
+
+
+def _any_of(name: str) -> str:
+    """Longest first; a Latin word ends where its letters end, Chinese is written without spaces."""
+    phrases = [phrase for language in LANGUAGES for phrase in load_table(language, "consent")[name]]
+    found = "|".join(re.escape(phrase) for phrase in sorted(phrases, key=len, reverse=True))
+    return rf"(?:(?:{found})(?:(?<![a-z])|(?<=[a-z])(?![a-z0-9'])))"

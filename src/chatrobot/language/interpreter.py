@@ -72,7 +72,7 @@ class OfflineInterpreter:
             return Interpretation("stop", say(language, "stop_among_lines"), language)
         courtesy = questions.courtesy_of(plain, language)
         if courtesy:
-            return Interpretation("answered", say(language, f"answer_{courtesy}"), language)
+            return Interpretation("answered", say(language, f"answer_{courtesy}"), language, code=courtesy)
         return _in_words(plain, Reading(language, context, self._profile, facing_rad))
 
 

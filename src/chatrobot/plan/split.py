@@ -166,10 +166,12 @@ class _Split:
         motions = lower(step, replace(self._context, pose=self._reached.step_start))
         if isinstance(motions, Impossible):
             return (), (step,)
-        count = self._reached.motions_done
-        under_way = _as_step(motions[count]) if count < len(motions) else None
-        done, rest = self._divided(under_way, share) if under_way is not None else ((), ())
-        return (*_as_steps(motions[:count]), *done), (*rest, *_as_steps(motions[count + 1 :]))
+        done, under_way = motions[: self._reached.motions_done], motions[self._reached.motions_done :]
+        first: Divided = ((), ())
+        if under_way and not isinstance(under_way[0], Emit):  # what is told is told at once
+            found = _as_steps(under_way[:1])
+            first, under_way = self._divided(found[0], share), under_way[1:]
+        return (*_as_steps(done), *first[0]), (*first[1], *_as_steps(under_way))
 
 
 def _joined(block: Block, rounds: Sequence[tuple[Step, ...]]) -> tuple[Step, ...]:

@@ -6,16 +6,18 @@ import itertools
 import uuid
 from collections import deque
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.events import Event
-from chatrobot.governor.governor import TICK_S
+from chatrobot.governor.tick import TICK_S
 from chatrobot.session.envelope import Envelope, Word
 from chatrobot.session.guard_link import SimulatedGuard
-from chatrobot.session.motion import Motion
 from chatrobot.transports.transport import ZERO
 from chatrobot.wire.wire import Wire
+
+if TYPE_CHECKING:
+    from chatrobot.session.motion import Motion
 
 
 class Joint(Protocol):

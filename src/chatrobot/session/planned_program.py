@@ -35,6 +35,11 @@ class PlannedProgram(Planned):
         return found.reason if found is not None else None
 
     @property
+    def is_endless(self) -> bool:
+        end = self._shown.end
+        return isinstance(end, Ended) and end.how in ("horizon", "stuck")
+
+    @property
     def has_findings(self) -> bool:
         return any(finding.severity == "warn" for finding in self._shown.findings)
 
@@ -76,6 +81,7 @@ class PlannedProgram(Planned):
             findings,
             drawn(shown.path),
             needs_approval,
+            self.is_open_ended,
         )
 
     @property

@@ -16,6 +16,7 @@ from chatrobot.plan.rehearsal import Rehearsal, rehearse
 from chatrobot.plan.route import GridRoutePlanner
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.robots.profile import Point, RobotProfile
+from chatrobot.session.budgets import Extent
 from chatrobot.session.seen_world import SeenPoints
 from chatrobot.sim.world import World
 
@@ -57,6 +58,31 @@ class Planned:
         return self.rehearsal.length_m if self.rehearsal is not None else 0.0
 
     @property
+    def is_endless(self) -> bool:
+        """It does not end by itself."""
+        return False
+
+    @property
+    def is_open_ended(self) -> bool:
+        """Nobody knows before how far and how long it drives: its length and duration are those of its rehearsal."""
+        return self.is_endless or bool(self._unknown_lengths_m)
+
+    @property
+    def certain(self) -> Extent:
+        """What it drives at least."""
+        if self.is_endless:
+            return Extent()
+        length_m = max(0.0, self.length_m - sum(self._unknown_lengths_m))
+        return Extent(length_m, 0.0 if self.is_open_ended else self.duration_s)
+
+    @property
+    def _unknown_lengths_m(self) -> list[float]:
+        """The longest ways up to obstacles that nobody knows of."""
+        findings = self.rehearsal.findings if self.rehearsal is not None else ()
+        reasons = (finding.reason for finding in findings if finding.reason.code == "no_obstacle_known")
+        return [float(reason.values["distance_m"]) for reason in reasons]
+
+    @property
     def has_findings(self) -> bool:
         """Something that a person should look at before it runs."""
         return False
@@ -94,7 +120,16 @@ class Planned:
             findings,
             drawn(rehearsal.path),
             needs_approval,
+            self.is_open_ended,
         )
+
+
+def refused(event: Event, reason: Reason | None) -> Event:
+    """The event; where it shows a plan that may not run for `reason`, it says so."""
+    if reason is None or not isinstance(event, Rehearsed) or not event.ok:
+        return event
+    found = FindingSeen(event.turn, "refuse", reason)
+    return replace(event, ok=False, findings=(*event.findings, found), needs_approval=False)
 
 
 def drawn(path: Floats) -> tuple[tuple[float, float, float], ...]:

@@ -36,6 +36,9 @@ class Run:
         if self._executor.is_done:
             return
         verdict = self._motion.send(asked, now_s)
+        over = self._motion.over_budget()
+        if over is not None:
+            self.ramp_down(over)
         self._executor.note(verdict.rule, verdict.reason, verdict.sent.twist, now_s)
         self._tell(verdict)
 
@@ -61,22 +64,27 @@ class Run:
 
     def close(self) -> None:
         """Nothing is left behind."""
+        self._motion.close()
 
     def progress(self, now_s: float) -> Progress:
-        return self._executor.progress(self.job.turn, now_s)
+        progress = self._executor.progress(self.job.turn, now_s)
+        return replace(progress, fraction=None) if self.job.is_open_ended else progress
 
     def finished(self, outcome: Outcome, reason: Reason | None) -> Finished:
         """The end, as odometry measured it."""
         executed, remaining = self._parts()
+        is_whole = outcome == "completed"  # conditions that came true may have made it shorter than rehearsed
+        planned_m = self._executor.planned_m
         return self._motion.finished(
             outcome,
             reason,
-            planned_m=self._executor.planned_m,
+            planned_m=planned_m if is_whole else max(planned_m, self.job.length_m),
             planned_turn_rad=self._executor.planned_turn_rad,
             steps_done=self._executor.steps_done,
             steps=self._executor.steps,
             executed=executed,
             remaining=remaining if outcome != "completed" else "",
+            open_ended=not is_whole and self.job.is_open_ended,
         )
 
     def _parts(self) -> tuple[str, str]:

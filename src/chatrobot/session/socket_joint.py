@@ -12,6 +12,7 @@ from typing import Any
 
 from chatrobot.core.errors import JointError
 from chatrobot.core.events import event_from_json
+from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget, limit_text
 from chatrobot.governor.lease import LOCAL_BEAT_HZ, LOCAL_TERM_S
 from chatrobot.session.child import spawn_with_line
 from chatrobot.session.envelope import READY, Word
@@ -29,11 +30,21 @@ class SocketJoint(EventQueue):
     A thread beats the lease; a thread reads events. If this process freezes or dies, the beats end and Motion
     stops the robot.
 
+    Args:
+        budget: the motion budget as the command line chose it.
+
     Raises:
         JointError: Motion does not start.
     """
 
-    def __init__(self, wire_path: str, profile: str, world: str, source: str = "console") -> None:
+    def __init__(
+        self,
+        wire_path: str,
+        profile: str,
+        world: str,
+        source: str = "console",
+        budget: MotionBudget = NOT_CHOSEN,
+    ) -> None:
         super().__init__()
         self._sender = Sender(source)
         self._closed = threading.Event()
@@ -43,6 +54,8 @@ class SocketJoint(EventQueue):
         self.process, self._line = spawn_with_line(
             "chatrobot.session.motion_process",
             *("--profile", profile, "--world", world, "--wire", wire_path),
+            *("--max-distance", limit_text(budget.max_distance_m)),
+            *("--max-time", limit_text(budget.max_time_s)),
             kind=socket.SOCK_SEQPACKET,
         )
 

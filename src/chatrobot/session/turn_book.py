@@ -3,20 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
 
 from chatrobot.core.events import Event, Finished, Notice, Outcome, Result
 from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation
-from chatrobot.session.understanding import Understanding
-
-
-class Instruction(NamedTuple):
-    """What was said, and what it means."""
-
-    text: str
-    meant: Interpretation
+from chatrobot.session.understanding import Instruction, Understanding
 
 
 class TurnBook:
@@ -32,9 +24,18 @@ class TurnBook:
     def is_any_with_motion(self) -> bool:
         return bool(self._with_motion)
 
+    @property
+    def under_way(self) -> tuple[Instruction, ...]:
+        """What Motion has, in the order it was said."""
+        return tuple(self._with_motion.values())
+
+    def has(self, turn: int) -> bool:
+        """That turn is with Motion."""
+        return turn in self._with_motion
+
     def track(self, turn: int, text: str, meant: Interpretation) -> None:
         """That turn is now Motion's; its `finished` ends it."""
-        self._with_motion[turn] = Instruction(text, meant)
+        self._with_motion[turn] = Instruction(text, meant, self._understanding.pose)
 
     def take(self, turn: int) -> Instruction | None:
         """Motion is done with that turn: what it was about, None where Motion never had it."""
