@@ -87,6 +87,14 @@ def test_a_plan_that_fits_exactly_may_be_paused_and_gone_on_with() -> None:
     assert (result.outcome, round(result.path_m, 1)) == ("completed", 2.0)
 
 
+def test_what_odometry_counts_more_of_the_first_part_does_not_end_the_rest() -> None:
+    account = Account(lambda: MotionBudget(2.0, 10.0))
+    account.book(Extent(1.02, 5.9))
+    assert account.refusal(Extent(1.0, 5.0)) is None
+    assert account.refusal(Extent(1.1, 5.0)) is not None
+    assert account.refusal(Extent(1.0, 5.5)) is not None
+
+
 def test_waiting_is_not_driving() -> None:
     result = talk(time_s=5.0).session.do("forward 50 cm, wait 20 s, back 50 cm")
     assert result.outcome == "completed"
