@@ -1,7 +1,7 @@
 """Undo turns that were stopped, and measure how far from its start each one ends: 20 plans, each stopped at 20 moments.
 
-    .venv/bin/python scripts/undos.py
-    .venv/bin/python scripts/undos.py --robot turtlebot3_burger --moments 5 --sim noise=on,seed=1
+    make undos
+    make undos UNDOS='--robot turtlebot3_burger --moments 5 --sim noise=on,seed=1'
 
 Every plan is stopped in its course on simulated time, in the empty world; then `undo` is said. Printed are the
 distances between the true pose before the turn and the true pose after the undo, and the same for the pose that the

@@ -19,7 +19,9 @@ from chatrobot.plan.core_motion import RampedTwist
 from chatrobot.plan.lowering import PlannedMotion, iterate_core
 from chatrobot.plan.split import Parts, Reached, split
 from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, RawTwist, Repeat, Say, Step, Turn, Wait
+from chatrobot.plan.text import format_plan
 from chatrobot.robots.load import load_profile
+from tests.language.dialogue_runner import conversation
 from tests.language.profiles import MECANUM
 
 
@@ -195,3 +197,36 @@ def test_an_undo_of_what_has_been_forgotten_is_forgotten_too() -> None:
     ledger = Ledger([turn(AHEAD, Pose(), Drive(1.0, direction_rad=math.pi), walk=Walk("undo"))])
     assert ledger.done == []
     assert ledger.redoes() is None
+
+
+@pytest.mark.parametrize(
+    ("said", "plan"),
+    [
+        ("undo at 0.1 m/s", "turn right 90 deg\ndrive 1 m back at 0.1 m/s"),
+        ("undo slowly", "turn right 90 deg at 0.3 rad/s\ndrive 1 m back at 0.15 m/s"),
+        ("undo half of that", ""),
+        ("undo 30 cm", ""),
+    ],
+)
+def test_how_fast_to_undo_is_heeded_and_how_much_is_asked_about(said: str, plan: str) -> None:
+    meant = conversation("forward 1 m, then turn left 90 degrees").say(said)
+    assert (format_plan(meant.plan) if meant.plan else "") == plan
+
+
+@pytest.mark.parametrize("said", ["undo everything", "全部撤销", "撤销所有动作"])
+def test_everything_is_one_undo_and_one_redo(said: str) -> None:
+    talk = conversation("forward 1 m", "turn left 90 degrees", "undo", "forward 1 m", said)
+    assert talk.track.pose.x_m == pytest.approx(0.0, abs=1e-6)
+    talk.say("redo")
+    assert talk.track.pose.x_m == pytest.approx(2.0)
+
+
+def test_a_way_back_is_a_turn_of_its_own() -> None:
+    talk = conversation("forward 1 m", "go back the same way", "undo")
+    assert talk.track.pose.x_m == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("said", ["redo that twice", "undo the undo", "恢复"])
+def test_what_only_an_undo_explains_is_asked_about_without_one(said: str) -> None:
+    before = ("forward 1 m", "undo") if said == "redo that twice" else ("forward 1 m",)
+    assert conversation(*before).say(said).outcome == "unclear"

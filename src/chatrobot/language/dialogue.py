@@ -14,7 +14,7 @@ from chatrobot.language.meant import is_correction
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.totals import to_total
 from chatrobot.language.unclear import Unclear
-from chatrobot.language.undo import Walked, all_taken_back, last_two, redone, undone
+from chatrobot.language.undo import PACES, Walked, all_taken_back, last_two, redone, undone
 from chatrobot.plan.steps import Face, Go, Step
 from chatrobot.robots.profile import RobotProfile
 
@@ -63,7 +63,7 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     return None
 
 
-def walked(frames: Sequence[Frame], context: Context, profile: RobotProfile) -> Walked | None:
+def walked(frames: Sequence[Frame], context: Context, pace: Pace) -> Walked | None:
     """What an utterance does that undoes earlier turns, or does again what was undone; None where it does neither.
 
     Raises:
@@ -74,15 +74,18 @@ def walked(frames: Sequence[Frame], context: Context, profile: RobotProfile) -> 
     if len(frames) == 2 and frames[0].verb == "undo" and frames[1].verb == "return" and not frames[1].q:
         frames = frames[:1]
     whole = _whole(frames)
-    if whole is None:
-        return None
+    found = _walked(whole, frames, context, pace.profile) if whole is not None else None
+    return found.at_pace(whole, pace) if whole is not None and found is not None else None
+
+
+def _walked(whole: Frame, frames: Sequence[Frame], context: Context, profile: RobotProfile) -> Walked | None:
     if whole.verb == "undo" and "same_way" in whole.flags:
         return all_taken_back(context, profile)
     if whole.verb == "undo":
         return undone(whole, context, profile, turning=any(frame.verb == "turn" for frame in frames[1:]))
     if {"redo", "restore"} & whole.flags:
         again = redone(context, profile)
-        if again and (whole.q or whole.moves):
+        if again and (whole.moves or set(whole.q) - PACES):
             raise Unclear("unclear_motion", whole.text)  # `redo that twice`: what was undone, or the undo?
         if again is None and "restore" in whole.flags:
             raise Unclear("nothing_undone")

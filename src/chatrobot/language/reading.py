@@ -93,11 +93,11 @@ class Reading:
         Raises:
             Unclear: where there is nothing to undo, or nobody knows the way any more.
         """
-        return None if _goes_on_after_undo(frames) else walked(frames, self.context, self.profile)
+        return None if _goes_on_after_undo(frames) else walked(frames, self.context, self.pace)
 
     def _steps(self, frames: list[Frame]) -> list[Step]:
         if _goes_on_after_undo(frames):  # `undo that and go back 1 m`
-            undone = walked(frames[:1], self.context, self.profile)
+            undone = walked(frames[:1], self.context, self.pace)
             return [*(undone.steps if undone else ()), *self.steps_of_their_own(frames[1:])]
         return refer(frames, self.context, self.pace) or self.steps_of_their_own(frames)
 

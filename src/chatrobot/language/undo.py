@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from chatrobot.core.geometry import Pose, wrap_angle
 from chatrobot.language.context import Context
 from chatrobot.language.frames import Frame
 from chatrobot.language.inverse import inverse
 from chatrobot.language.ledger import Walk, Way
+from chatrobot.language.manner import Pace
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.lowering import ideal_end
-from chatrobot.plan.steps import Go, Plan, Step, Turn
+from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, Repeat, Step, Turn
 from chatrobot.robots.profile import RobotProfile
+
+PACES = frozenset({"speed", "percent", "fold", "faster"})
+"""Quantities that say how fast."""
 
 NEAR_M, NEAR_RAD = 0.01, math.radians(0.6)
 """Steps that end within this of the pose they are to lead to lead there."""
@@ -29,6 +33,26 @@ class Walked:
     steps: tuple[Step, ...]
     walk: Walk | None
 
+    def at_pace(self, whole: Frame, pace: Pace) -> Walked:
+        """The same, as fast as `whole` says.
+
+        Raises:
+            Unclear: for a drive that lasted so long: is it to last as long, or to go as far?
+        """
+        if not (whole.pace or PACES & set(whole.q)):
+            return self
+        return replace(self, steps=tuple(_at_pace(step, whole, pace) for step in self.steps))
+
+
+def _at_pace(step: Step, whole: Frame, pace: Pace) -> Step:
+    if isinstance(step, Repeat):
+        return replace(step, steps=tuple(_at_pace(inner, whole, pace) for inner in step.steps))
+    if isinstance(step, (Drive, Turn)) and step.duration_s is not None:
+        raise Unclear("unclear_motion", whole.text)
+    if isinstance(step, (Drive, Arc, Go)):
+        return replace(step, speed_mps=pace.speed(whole))
+    return replace(step, rate_radps=pace.rate(whole)) if isinstance(step, (Turn, Face)) else step
+
 
 def undone(whole: Frame, context: Context, profile: RobotProfile, *, turning: bool) -> Walked:
     """`undo that`; `undo both`, `undo the last three`: so many turns that moved, the last one first.
@@ -41,7 +65,7 @@ def undone(whole: Frame, context: Context, profile: RobotProfile, *, turning: bo
     counts = [whole.q[name] for name in ("number", "count", "times") if name in whole.q]
     both = any(text.split()[-1] in ("both", "two") for text in whole.texts)
     count = counts[0].number if counts else 2.0 if both else 1.0
-    if count != int(count) or count < 1 or set(whole.q) - {"number", "count", "times", "speed"}:
+    if count != int(count) or count < 1 or set(whole.q) - {"number", "count", "times"} - PACES:
         raise Unclear("unclear_motion", whole.text)
     turns: int | list[Step] = int(count)
     if counts and counts[0].role == "step" and is_chinese(counts[0].text):
