@@ -11,10 +11,11 @@ from hypothesis import strategies as st
 from tests.governor.situations import MECANUM, at
 
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
-from chatrobot.governor.contact import Footprint
+from chatrobot.governor.contact import Footprint, comes_nearer
 from chatrobot.governor.obstacles import AWAY_MPS, MARGIN_M, NEARER_M, RELEASE_M, ObstacleRule
 from chatrobot.governor.rule import FREE, NOTHING_SENSED, Situation
 from chatrobot.governor.seen import Seen
+from chatrobot.robots.load import load_profile
 
 FRONT_M, SIDE_M = 0.135, 0.111
 BODY = Footprint(MECANUM.footprint)
@@ -54,6 +55,9 @@ def test_away_from_a_wall_and_along_it_is_slow(asked: Twist) -> None:
     assert ruling.reason is not None
     assert ruling.reason.code == "in_contact"
     assert ruling.reason.values == {"distance_m": 0.02, "speed_mps": AWAY_MPS}
+    nearer = rule((FRONT_M + 0.0134, 0.0)).judge(Twist(-0.5), at())
+    assert nearer.reason is not None
+    assert nearer.reason.values["distance_m"] == 0.01
 
 
 @pytest.mark.parametrize("asked", [Twist(0.3), Twist(0.02), Twist(0.2, 0.5, 0.0), Twist(0.0, 0.0, 0.5)])
@@ -75,6 +79,10 @@ def test_contact_ends_at_the_margin() -> None:
     back = Twist(-0.5)
     assert rule((FRONT_M + MARGIN_M - 0.001, 0.0)).judge(back, at()).factor < 1.0
     assert rule((FRONT_M + MARGIN_M + 0.001, 0.0)).judge(back, at()) is FREE
+
+
+def test_a_twist_too_small_to_measure_is_no_trouble() -> None:
+    assert rule(*WALL_AHEAD).judge(Twist(0.0, 0.0, 5e-324), at()).factor in (0.0, 1.0)
 
 
 def test_a_turn_is_slow_at_the_corners() -> None:
@@ -106,6 +114,7 @@ def test_a_slow_way_along_a_wall_may_not_lean_towards_it() -> None:
     assert along.judge(Twist(0.05), at()).factor == 1.0
     assert along.judge(Twist(0.05, -0.01, 0.0), at()).factor > 0.0
     assert along.judge(Twist(0.05, 0.002, 0.0), at()).factor == 0.0
+    assert along.judge(Twist(0.05, 0.0003, 0.0), at()).factor > 0.0, "feedback sways a little"
 
 
 def test_a_new_motion_is_not_barred_by_the_way_of_the_one_before() -> None:
@@ -145,6 +154,37 @@ def test_the_nearest_point_is_found_among_those_that_are_near() -> None:
     assert BODY.nearest_m(at_the_corner, MARGIN_M) < math.inf
 
 
+def nearer(point: tuple[float, float], twist: Twist, nearest_m: float = 0.0, by_m: float = 0.001) -> bool:
+    return comes_nearer(BODY, np.array([point, (0.5, 0.5)]), twist, 0.2, nearest_m, by_m)
+
+
+def test_nearer_means_nearer_than_it_is_and_than_the_nearest_is() -> None:
+    ahead = (FRONT_M + 0.02, 0.0)
+    assert nearer(ahead, Twist(0.05), 0.02)
+    assert not nearer(ahead, Twist(0.05), 0.02, by_m=0.011)
+    assert not nearer(ahead, Twist(0.05), 0.009)
+    assert nearer(ahead, Twist(0.05), 0.012)
+    assert nearer(ahead, Twist(0.05), 0.03), "one that is nearer than that already comes no nearer than it is"
+    assert not nearer(ahead, Twist(-0.05), 0.03)
+    assert not comes_nearer(BODY, np.empty((0, 2)), Twist(0.05), 1.0, 0.02, 0.001)
+
+
+def test_what_lies_beyond_the_circle_counts_beside_a_corner() -> None:
+    """The half planes say 0.017 m, the corner is farther away, and the turn brings it nearer all the same."""
+    corners = load_profile("wheeltec_mini_diff").footprint
+    diff, corner = Footprint(corners), max(corners)
+    outside = [
+        (corner[0] + 0.017, corner[1] + math.copysign(beyond_m, corner[1]))
+        for beyond_m in np.linspace(0.0, 0.0169, 20).tolist()
+    ]
+    outside = [point for point in outside if math.hypot(*point) > diff.radius_m + 0.017]
+    assert any(
+        comes_nearer(diff, np.array([point]), Twist(0.0, 0.0, wz), 0.4, 0.017, NEARER_M)
+        for point in outside
+        for wz in (0.2, -0.2)
+    )
+
+
 near = st.tuples(st.floats(0.0, math.tau), st.floats(-0.01, 0.05)).map(
     lambda at: (
         (math.cos(at[0]) * (FRONT_M + at[1])),
@@ -165,15 +205,21 @@ def test_nothing_in_contact_is_approached_and_no_corner_is_fast(
     asked, pose, judged = Twist(vx, vy, wz), ORIGIN, rule(*points)
     for _ in range(50):
         before = clearances(points, pose)
+        nearest_m = BODY.nearest_m(seen_from(points, pose), MARGIN_M)
         sent = asked.scaled(judged.judge(asked, at(pose)).factor)
         pose = pose.moved(sent, TICK_S)
-        if before.min() <= MARGIN_M:
+        if nearest_m <= MARGIN_M:
             assert fastest_mps(sent) <= AWAY_MPS + 1e-9
-            assert clearances(points, pose).min() >= before.min() - NEARER_M
+            assert (clearances(points, pose) >= np.minimum(before, nearest_m) - NEARER_M).all()
         else:
-            assert clearances(points, pose).min() > MARGIN_M - 0.001
+            assert BODY.nearest_m(seen_from(points, pose), MARGIN_M) > MARGIN_M - 0.005
+
+
+def seen_from(
+    points: list[tuple[float, float]], pose: Pose
+) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
+    return np.array([Pose(x, y).relative_to(pose)[:2] for x, y in points])
 
 
 def clearances(points: list[tuple[float, float]], pose: Pose) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-    seen = [Pose(x, y).relative_to(pose) for x, y in points]
-    return BODY.clearance_m(np.array([p.x_m for p in seen]), np.array([p.y_m for p in seen]))
+    return BODY.clearance_m(*seen_from(points, pose).T)

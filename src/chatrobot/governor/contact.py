@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 
 SAMPLES = 17
 SHRINKS_BY_M = 0.001
-"""A point that is within the margin already counts only if the motion brings it nearer by this much."""
+"""A point that is within the margin already counts only if the motion brings it nearer: away is always allowed."""
 
 
 class Footprint:
@@ -53,19 +53,13 @@ class Footprint:
 
 
 def seconds_to_contact(
-    footprint: Footprint,
-    points: Floats,
-    twist: Twist,
-    horizon_s: float,
-    margin_m: float,
-    shrinks_by_m: float = SHRINKS_BY_M,
+    footprint: Footprint, points: Floats, twist: Twist, horizon_s: float, margin_m: float
 ) -> float:
     """How long `twist` may be followed before a point comes within `margin_m` of the footprint.
 
     Args:
         points: [n, 2], metres, in the robot's frame.
         horizon_s: how far to look, in seconds of the twist.
-        shrinks_by_m: what is within the margin already may come nearer by this much.
 
     Returns:
         Seconds, 0 where contact is imminent; infinite where there is none within the horizon.
@@ -83,7 +77,7 @@ def seconds_to_contact(
     if len(near) == 0:
         return math.inf
     clearance = footprint.clearance_m(*_seen_from(near, angle, moved_x, moved_y))
-    worrying = (clearance <= margin_m) & (clearance < clearance[0] - shrinks_by_m)
+    worrying = (clearance <= margin_m) & (clearance < clearance[0] - SHRINKS_BY_M)
     hits = np.flatnonzero(worrying.any(axis=1))
     if len(hits) == 0:
         return math.inf
@@ -94,6 +88,23 @@ def seconds_to_contact(
         return float(times[row - 1])
     share = np.min((before[worst] - margin_m) / (before[worst] - after[worst]))
     return float(times[row - 1] + share * (times[row] - times[row - 1]))
+
+
+def comes_nearer(
+    footprint: Footprint, points: Floats, twist: Twist, horizon_s: float, nearest_m: float, by_m: float
+) -> bool:
+    """Whether `twist` brings a point nearer, by more than `by_m`, than it is and than the nearest one is.
+
+    Args:
+        points: [n, 2], metres, in the robot's frame.
+        horizon_s: how far to look, in seconds of the twist.
+        nearest_m: the clearance of the nearest.
+    """
+    reach_m = 2.0 * footprint.radius_m  # beside a sharp corner the half planes reach far
+    near = points[np.einsum("ij,ij->i", points, points) <= reach_m * reach_m]
+    moved = _moved(twist, np.linspace(0.0, horizon_s, SAMPLES))
+    clearance = footprint.clearance_m(*_seen_from(near, *moved))
+    return bool((clearance < np.minimum(clearance[0], nearest_m) - by_m).any())
 
 
 def _moved(twist: Twist, times: Floats) -> tuple[Floats, Floats, Floats]:

@@ -9,7 +9,7 @@ import numpy as np
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
 from chatrobot.governor.braking import Braking
-from chatrobot.governor.contact import Floats, Footprint, seconds_to_contact
+from chatrobot.governor.contact import Floats, Footprint, comes_nearer, seconds_to_contact
 from chatrobot.governor.rule import FREE, Ruling, Situation
 from chatrobot.governor.seen import Seen
 from chatrobot.robots.profile import RobotProfile
@@ -66,11 +66,10 @@ class ObstacleRule:
         A wall is many points: along it those ahead come nearer, but no nearer than those beside the robot are.
         """
         fastest_mps = asked.speed_mps + abs(asked.wz_radps) * self._footprint.radius_m
-        share = min(1.0, AWAY_MPS / fastest_mps)
+        share = AWAY_MPS / fastest_mps if fastest_mps > AWAY_MPS else 1.0
         slow = asked.scaled(share)
         horizon_s = Braking(self._limits, slow).horizon_s
-        free_s = seconds_to_contact(self._footprint, local, slow, horizon_s, nearest_m - NEARER_M, 0.0)
-        self._barred = free_s < math.inf
+        self._barred = comes_nearer(self._footprint, local, slow, horizon_s, nearest_m, NEARER_M)
         if self._barred:
             return Ruling(0.0, Reason("obstacle_ahead", {"distance_m": 0.0}))
         if share == 1.0:

@@ -32,6 +32,9 @@ KEPT_ACCOUNTS = 64
 BRAKING_TICKS = 3
 """From the tick that asks for braking to the one that shows it."""
 
+MEASURED_M, MEASURED_S = 0.01, 1.0
+"""By how much more, besides that share, what was driven already may exceed what was planned for it."""
+
 OLDEST_NEWS_S = 0.5
 """Odometry that is older ends the run."""
 
@@ -48,6 +51,14 @@ class Extent:
 
     length_m: float = 0.0
     driving_s: float = 0.0
+
+    @property
+    def planned(self) -> Extent:
+        """What a plan for it was at least: odometry counts every correction, and each pause costs two ramps."""
+        share = 1.0 - TOLERANCE_SHARE
+        return Extent(
+            max(0.0, share * self.length_m - MEASURED_M), max(0.0, share * self.driving_s - MEASURED_S)
+        )
 
     def plus(self, other: Extent) -> Extent:
         return Extent(self.length_m + other.length_m, self.driving_s + other.driving_s)
@@ -75,7 +86,7 @@ class Account:
 
     def refusal(self, extent: Extent) -> Reason | None:
         """Why `extent` may not be driven on top of what has been driven."""
-        total, budget = self.driven.plus(extent), self.budget
+        total, budget = self.driven.planned.plus(extent), self.budget
         if total.length_m > budget.distance_m + ROUNDING_M:
             return Reason("over_max_distance", {"distance_m": total.length_m, "max_m": budget.distance_m})
         if total.driving_s > budget.time_s + ROUNDING_S:
@@ -96,7 +107,7 @@ class Account:
         return self.distance_reached() if self._is_too_far(extent) else self.time_reached()
 
     def _is_too_far(self, extent: Extent) -> bool:
-        return self.driven.plus(extent).length_m > self.budget.distance_m + ROUNDING_M
+        return self.driven.planned.plus(extent).length_m > self.budget.distance_m + ROUNDING_M
 
     def distance_reached(self) -> Reason:
         return Reason("max_distance_reached", {"max_m": self.budget.distance_m})
@@ -161,7 +172,7 @@ class Meter:
 
     def _over(self) -> Reason | None:
         account, budget = self._account, self._account.budget
-        driven, known = account.driven.plus(self.extent), account.driven.plus(self._known())
+        driven, known = account.driven.plus(self.extent), account.driven.planned.plus(self._known())
         estimate = self._sensors.estimate
         seen_mps = estimate.twist.speed_mps if estimate is not None else 0.0
         speed_mps = max(seen_mps, self._sent.speed_mps)

@@ -34,4 +34,5 @@ def gone_on(so_far: Finished, rest: Finished) -> Finished:
         planned_m=so_far.path_m + rest.planned_m,
         planned_turn_rad=so_far.turned_rad + rest.planned_turn_rad,
         steps=so_far.steps,
+        open_ended=rest.open_ended,
     )
