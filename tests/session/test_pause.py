@@ -281,6 +281,15 @@ def test_after_a_stop_continue_offers_the_rest_and_wants_a_yes() -> None:
     assert driven.pose.x_m == pytest.approx(2.0, abs=0.02)
 
 
+def test_after_a_stop_with_nothing_left_continue_moves_nothing() -> None:
+    talk = Talk()
+    resuming = talk.session._resuming
+    resuming.hear(Finished(1, "stopped", None, Pose(), Pose(), 0.0, 0.0, 0.0, 0.0))
+    said = talk.session.do("continue")
+    assert said.outcome == "answered"
+    assert said.path_m == 0.0
+
+
 def test_after_a_plan_that_was_done_there_is_no_rest() -> None:
     talk = Talk()
     talk.session.do("forward 1 m")

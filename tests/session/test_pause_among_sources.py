@@ -98,8 +98,17 @@ def test_a_lost_source_drops_it(crowd: Crowd) -> None:
 def test_a_silent_source_drops_it(crowd: Crowd) -> None:
     del crowd._senders["console"]
     crowd.rig.joint.beats = False
-    crowd.live(1.0)
+    crowd.live(3.0)
     assert ended_by(crowd) == "lease_lapsed"
+
+
+def test_a_source_that_misses_some_beats_keeps_it(crowd: Crowd) -> None:
+    sender = crowd._senders.pop("console")
+    crowd.live(1.0)
+    crowd._senders["console"] = sender
+    crowd.say("console", "resume", 1)
+    crowd.live(10.0)
+    assert crowd.end_of(1).outcome == "completed"
 
 
 def test_a_goodbye_drops_it(crowd: Crowd) -> None:

@@ -23,6 +23,8 @@ from chatrobot.session.job import Job
 from chatrobot.session.stops import Stops
 
 KEPT_S = 600.0
+SILENT_S = 2.0
+"""A source may miss some beats while the robot stands; one that is silent for longer is gone."""
 
 
 class PausedJob:
@@ -111,6 +113,7 @@ class Pausing:
         self._ends = ends
         self._emit = emit
         self._paused: PausedJob | None = None
+        self._heard_s = 0.0
 
     @property
     def job(self) -> Job | None:
@@ -119,6 +122,7 @@ class Pausing:
 
     def begin(self, paused: PausedJob) -> None:
         """Keep it; what is queued waits behind it."""
+        self._heard_s = self._clock.now_s()
         self._paused = paused
 
     def watch(self, now_s: float, *, is_standing: bool) -> None:
@@ -126,8 +130,11 @@ class Pausing:
         paused = self._paused
         if paused is None:
             return
-        barrier = self._clearance.barrier_for(paused.job.lease, now_s)
-        why = barrier or paused.lapsed(now_s, self._robot.pose)
+        if self._robot.governor.leases.is_valid(paused.job.lease, now_s):
+            self._heard_s = now_s
+        is_gone = now_s - self._heard_s > SILENT_S
+        lease_barrier = self._clearance.barrier_for(paused.job.lease, now_s) if is_gone else None
+        why = self._clearance.barrier() or lease_barrier or paused.lapsed(now_s, self._robot.pose)
         if why is not None:
             self.drop(why)
         elif is_standing and not paused.has_settled:

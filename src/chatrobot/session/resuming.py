@@ -18,6 +18,7 @@ class Resuming:
     def __init__(self, understanding: Understanding) -> None:
         self._understanding = understanding
         self._rest = ""
+        self._was_stopped = False
         self.paused: Paused | None = None
         """The plan that is paused, until it is gone on with or has ended."""
 
@@ -27,7 +28,13 @@ class Resuming:
         elif isinstance(event, Finished):
             if self.paused is not None and self.paused.turn == event.turn:
                 self.paused = None
+            self._was_stopped = event.outcome == "stopped"
             self._rest = event.remaining if event.outcome == "stopped" else ""
+
+    @property
+    def is_about_this(self) -> bool:
+        """To go on would be to go on with what was paused or stopped, be anything left of it or not."""
+        return self.paused is not None or self._was_stopped
 
     def take_paused(self) -> Paused | None:
         """The plan that is paused: from now on it is Motion's again."""

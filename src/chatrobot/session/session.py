@@ -285,8 +285,8 @@ class Session:
             self._book.conclude(said.turn, "stopped", reply)
 
     def _goes_on(self, text: str) -> bool:
-        """Whether it asks to go on, and there is something to go on with."""
-        return wants_to_resume(text) and (self.is_paused or self._resuming.offer() is not None)
+        """Whether it asks to go on with what was paused or stopped."""
+        return wants_to_resume(text) and self._resuming.is_about_this
 
     def _go_on(self, said: Said) -> None:
         """Go on with what is paused; what is left of a plan that was stopped is offered."""
