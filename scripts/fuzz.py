@@ -3,7 +3,8 @@
 A plain seeded generator of sequences of 50 commands, over all profiles: NaN, infinities, denormals, huge numbers,
 clocks that go back, interleaved sources, sources that die, leases that end, stops, latches, scans, velocities held
 back and sent late. After each command it is checked that what a transport would send is finite and within the
-profile's speed and (zero exempt) acceleration, and that nothing moves after a stop, a latch or the end of a lease.
+profile's speed and (zero exempt) acceleration, that nothing moves after a stop, a latch or the end of a lease, and
+that a robot in contact with something goes slowly, and nearer to nothing.
 """
 
 from __future__ import annotations
@@ -15,6 +16,8 @@ import random
 import sys
 import time
 from dataclasses import dataclass, replace
+
+from scripts.fuzz_contact import broken_in_contact
 
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.governed import GovernedTwist, StopEpoch
@@ -205,7 +208,12 @@ class Sequence:
         )
 
     def _range(self) -> float:
-        return self.chance.choice(NASTY) if self.chance.random() < 0.3 else self.chance.random() * 3.0
+        dice = self.chance.random()
+        if dice < 0.3:
+            return self.chance.choice(NASTY)
+        if dice < 0.5:  # where the robot touches it, or nearly
+            return self.profile.footprint_radius_m + self.chance.uniform(-0.06, 0.06)
+        return self.chance.random() * 3.0
 
     def narrow(self) -> None:
         speed = self.chance.random() * 1.5
@@ -241,8 +249,15 @@ class Sequence:
 
     def ask(self, source: Source, asked: Twist) -> None:
         """A source asks for a velocity, and what a transport would make of the answer is checked."""
-        verdict = self.governor.govern(asked, source.lease_id, self.now_s, self._pose(), self._sensed())
+        pose = self._pose()
+        verdict = self.governor.govern(asked, source.lease_id, self.now_s, pose, self._sensed())
         governed = verdict.sent
+        if pose is not None and not verdict.allowed.is_zero:
+            broken = broken_in_contact(
+                self.profile, self.governor.seen_points.tolist(), verdict.allowed, pose
+            )
+            if broken:
+                raise BrokenPromiseError(broken)
         if governed.epoch != self.epoch.value:
             if verdict.rule != "outranked":
                 raise BrokenPromiseError(f"{verdict.rule} made a velocity that is void from the start")

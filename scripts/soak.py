@@ -33,7 +33,7 @@ BOUND_M, BOUND_SHARE, BOUND_DEG = 0.02, 0.005, 1.0
 STANDS_S = 0.3
 """The truth is read so long after the end of a turn was told."""
 PATIENCE_S = 120.0
-UNDO = False
+UNDO = True
 """Whether sessions take turns back where nobody says."""
 
 

@@ -5,9 +5,7 @@ Console, web, MCP and the Python API all begin here; nothing below knows how it 
 
 from __future__ import annotations
 
-import subprocess
 import threading
-import uuid
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -25,11 +23,11 @@ from chatrobot.robots.load import DEFAULT_PROFILE, load_profile, profile_argumen
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.authoring import Authoring
 from chatrobot.session.camera import Camera, PassedCamera, wire_camera
-from chatrobot.session.child import spawn
 from chatrobot.session.joint import SimulatedJoint
 from chatrobot.session.model_choice import warm_up
 from chatrobot.session.model_terms import ModelOptions
 from chatrobot.session.options import Options
+from chatrobot.session.processes import SIMULATED, MotionProcess, Processes
 from chatrobot.session.session import Session
 from chatrobot.session.thinking import Mind
 from chatrobot.session.understanding import Understanding
@@ -42,11 +40,9 @@ from chatrobot.wire.connect import connect_wire, is_on_this_machine, wire_addres
 from chatrobot.wire.messages import Odometry
 
 if TYPE_CHECKING:
-    from chatrobot.session.socket_joint import SocketJoint
+    pass
 
 OnEvent = Callable[[Event], None]
-SIMULATED = ("auto", "sim")
-"""`--on auto` never picks a real robot unasked."""
 SETTLE_S = 0.5
 """A robot that has just been switched on stands still this long: its gyro's bias is measured meanwhile."""
 
@@ -61,7 +57,8 @@ class Setup:
     run; else its motion is driven as a plan. `budget` is the motion budget, as far as it is not the profile's.
     `folder` is where places, programs and history live; None keeps
     nothing. `model` is the language model to ask, None for none, `model_options` how it is used, and `camera` takes
-    pictures for it, as JPEG or PNG, in place of the robot's own camera.
+    pictures for it, as JPEG or PNG, in place of the robot's own camera. `processes` are those of a simulated robot in
+    real time that have been started ahead; `on_ready` is called once the robot is.
     """
 
     on: str = "sim"
@@ -78,6 +75,8 @@ class Setup:
     model: Model | None = None
     model_options: ModelOptions = field(default_factory=ModelOptions)
     camera: Callable[[], bytes | None] | None = None
+    processes: Processes | None = None
+    on_ready: Callable[[], None] = lambda: None
 
 
 @dataclass
@@ -215,26 +214,26 @@ def _connect_real_time(
 ) -> Connection:
     from chatrobot.session.socket_joint import SocketJoint
     from chatrobot.wire.local import LocalWire
-    from chatrobot.wire.runtime_dir import runtime_dir
 
-    wire_path = runtime_dir() / f"sim-{uuid.uuid4().hex[:12]}.wire"
-    argument = profile_argument(setup.robot, profile_dirs(setup.folder))
-    robot = spawn_simulated_robot(setup, argument, wire_path)
-    joint: SocketJoint | None = None
+    processes = setup.processes or Processes.start(
+        profile_argument(setup.robot, profile_dirs(setup.folder)), setup.world, setup.sim, setup.budget
+    )
+    processes.is_taken = True
+    joint = SocketJoint(processes.motion)
     try:
-        joint = SocketJoint(str(wire_path), argument, setup.world, budget=setup.budget)
         understanding.warm()
         joint.wait_until_ready()
     except JointError:
-        robot.terminate()
+        processes.robot.terminate()
         raise
+    setup.on_ready()
     lock = threading.Lock()
 
     def one_at_a_time(event: Event) -> None:
         with lock:
             on_event(event)
 
-    trace = LocalWire(wire_path) if setup.trace else None
+    trace = LocalWire(processes.wire_path) if setup.trace else None
     if trace is not None:
         trace.subscribe(TRUTH_TOPIC, Odometry, _tracer(one_at_a_time))
     authoring = _authoring(setup, profile, world, understanding)
@@ -266,22 +265,14 @@ def _connect_wire(
         connect_wire(
             address, profile.wiring, "chatrobot"
         ).close()  # Motion would wait, and could not say for what
-    argument = profile_argument(setup.robot, profile_dirs(setup.folder))
-    joint = SocketJoint(address, argument, setup.world, budget=setup.budget)
+    profile_file = profile_argument(setup.robot, profile_dirs(setup.folder))
+    joint = SocketJoint(MotionProcess.start(address, profile_file, setup.world, setup.budget))
     joint.wait_until_ready()
+    setup.on_ready()
     authoring = _authoring(setup, profile, world, understanding)
     options = replace(setup.options, approve=approve)
     session = Session(joint, understanding, on_event, options, authoring, mind_of(setup, profile))
     return Connection(session, profile, world, session.close)
-
-
-def spawn_simulated_robot(setup: Setup, profile: str, wire_path: Path) -> subprocess.Popen[bytes]:
-    """In a session of its own: Ctrl-C at the console must not kill the robot before it stands."""
-    return spawn(
-        "chatrobot.sim",
-        *("--socket", str(wire_path), "--profile", profile),
-        *("--world", setup.world, "--sim", setup.sim),
-    )
 
 
 def _tracer(on_event: OnEvent) -> Callable[[Odometry], None]:

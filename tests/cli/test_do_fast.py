@@ -221,8 +221,7 @@ def test_a_plan_is_approved_over_json(chatrobot: Command) -> None:
 
 
 def test_ctrl_c_ends_a_long_simulation(chatrobot: Command) -> None:
-    long = ("do", "wait 3000 seconds", "forward 1 m", "--max-time", "none")
-    with chatrobot.start(*long, "--json", *FAST) as robot:
+    with chatrobot.start("do", "wait 3000 seconds", "forward 1 m", "--json", *FAST) as robot:
         robot.event("started")
         robot.process.send_signal(signal.SIGINT)
         assert robot.event("result")["outcome"] == "stopped"

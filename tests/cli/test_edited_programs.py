@@ -78,13 +78,16 @@ def test_a_program_that_was_emptied_is_not_done(tmp_path: Path) -> None:
 
 
 def test_an_edited_file_is_kept_under_its_name_and_stays_as_it_is(tmp_path: Path) -> None:
+    """It is asked about again though nothing is found in it any more."""
     file = tmp_path / "rude.py"
     file.write_text(program("self.drive(0.2, 0.0, 0.5)\nreturn"), encoding="utf-8")
     run = ("program", "run", str(file), "--fast", "--world", "empty")
-    with command(tmp_path, "sed -i s/0.5)/0.8)/", *run) as terminal:
+    with command(tmp_path, "sed -i 's/0.5)/0.8)/;s/return$/pass/'", *run) as terminal:
         terminal.wait_for(QUESTION)
         terminal.enter("e")
         terminal.wait_for(QUESTION, times=2)
+        assert "without stopping" not in terminal.text.split("version 2")[1]
+        assert "drove" not in terminal.text
         terminal.enter("y")
         assert terminal.wait_for_end() == 0
     assert "0.5)" in file.read_text(encoding="utf-8")

@@ -20,7 +20,7 @@ def test_a_stop_that_is_typed_stops_the_robot_and_what_was_still_to_come(tmp_pat
         terminal.wait_for(r"0\.\d\d / 2.00 m")
         terminal.enter("stop!")
         assert terminal.wait_for_end() == 5
-        assert "Stopped (stop" in terminal.text
+        assert "Stopped (you said “stop!”)" in terminal.text
         assert "turn left" not in terminal.text
 
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import itertools
-
 import pytest
 
-from chatrobot.cli.do import goes_on_after
+from chatrobot.cli.do import may_follow
+from chatrobot.core.events import Outcome, Result
+from chatrobot.core.proposal import Proposal
 from tests.cli.running import Command, Done
 
 FAST = ("--fast", "--world", "empty")
@@ -79,13 +79,25 @@ def test_lines_of_a_pipe_and_of_json_go_on(chatrobot: Command) -> None:
         assert done.code == 0
 
 
-@pytest.mark.parametrize(
-    ("outcome", "before"),
-    list(itertools.product(("completed", "answered", "unclear", "refused", "stopped", "failed"), repeat=2)),
-)
-def test_only_what_was_done_or_asked_once_is_gone_on_after(outcome: str, before: str) -> None:
-    expected = outcome in ("completed", "answered") or (outcome == "unclear" and before != "unclear")
-    assert goes_on_after(outcome, before) is expected  # type: ignore[arg-type]
+def result(outcome: Outcome, *, offers: bool = False) -> Result:
+    return Result(1, outcome, "", proposal=Proposal("drive 2.3 m", "Drive 2.3 m?") if offers else None)
+
+
+@pytest.mark.parametrize("outcome", ["completed", "answered", "unclear", "refused", "stopped", "failed"])
+def test_only_what_was_done_or_asked_once_is_gone_on_after(outcome: Outcome) -> None:
+    is_done = outcome in ("completed", "answered")
+    assert may_follow("turn left", [result(outcome)]) is (is_done or outcome == "unclear")
+    assert may_follow("turn left", [result("completed"), result(outcome)]) is (
+        is_done or outcome == "unclear"
+    )
+    assert may_follow("turn left", [result("unclear"), result(outcome)]) is is_done
+
+
+@pytest.mark.parametrize(("text", "follows"), [("yes", True), ("不要", True), ("turn left", False)])
+def test_a_refusal_that_offers_a_plan_is_followed_by_its_answer_alone(text: str, follows: bool) -> None:
+    offer = result("refused", offers=True)
+    assert may_follow(text, [offer]) is follows
+    assert not may_follow(text, [offer, result("refused", offers=True)])
 
 
 # --- the motion budget on the command line ---

@@ -237,6 +237,20 @@ def test_what_a_node_knows(server: WarmServer, statement: str, printed: str) -> 
     assert "".join(entry.text for entry in rehearsal.log).strip() == printed
 
 
+@pytest.mark.parametrize(
+    ("statement", "message"),
+    [
+        ("made.create_subscription(Twist, 'a', print)", "Node.create_subscription() missing 1 required"),
+        ("made.declare_parameter()", "Node.declare_parameter() missing 1 required"),
+        ("made.declare_parameter(5, 1)", "First element 5 at index 0 in parameters list is not a str."),
+    ],
+)
+def test_a_complaint_names_what_rclpy_names(server: WarmServer, statement: str, message: str) -> None:
+    end = run(server, f"made = Made()\n{statement}\n").end
+    assert isinstance(end, Raised)
+    assert (end.type_name, message in end.message) == ("TypeError", True)
+
+
 def test_a_callback_that_takes_no_message_is_refused_when_it_is_given(server: WarmServer) -> None:
     end = run(server, "Made().create_subscription(Twist, 'c', lambda: None, 10)\n").end
     assert isinstance(end, Raised)

@@ -19,11 +19,14 @@ from tests.session.scripted_model import ModelTalk
 import chatrobot
 from chatrobot.cli.signals import _WATCHED
 from chatrobot.compose import Setup, connect
+from chatrobot.core.clock import VirtualClock
 from chatrobot.core.events import Event, Finished, Result
 from chatrobot.core.reason import Reason
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.phrases import render_reason
 from chatrobot.models.fake.openai_chat import OpenAIChat
+from chatrobot.session.freeze import FreezeWatch
+from chatrobot.session.guard_link import SimulatedGuard
 from chatrobot.session.joint import SimulatedJoint
 
 ASKED = "please do the thing that the frobnicator did yesterday"
@@ -229,3 +232,17 @@ def test_a_plan_said_while_a_motion_failed_is_told_of_that_failure(tmp_path: Pat
     plan = joint._sender.envelope("plan", 2, plan_text="drive 0.1 m")
     joint._motion.receive(plan, said_before)
     assert finished(rig, 2).reason == Reason("does_not_move")
+
+
+@pytest.mark.parametrize(("late_s", "code"), [(0.0, "beats_missed"), (0.5, "motion_froze")])
+def test_a_guard_that_tripped_is_not_told_as_a_freeze_of_ours(late_s: float, code: str) -> None:
+    class Tripped(SimulatedGuard):
+        def was_tripped(self) -> bool:
+            return True
+
+    clock, halted = VirtualClock(), []
+    watch = FreezeWatch(clock, Tripped(clock), halted.append)
+    watch.tick(clock.now_s(), is_driven=False, is_engaged=False)
+    clock.advance(0.02 + late_s)
+    watch.tick(clock.now_s(), is_driven=True, is_engaged=True)
+    assert [why.code for why in halted] == [code]

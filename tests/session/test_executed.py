@@ -11,7 +11,7 @@ from tests.session.joint_rigs import SimulatedRig, events_until, finished, movin
 from chatrobot.core.events import Finished, Rehearsed, event_from_json
 from chatrobot.plan.steps import Drive
 from chatrobot.plan.text import parse_plan
-from chatrobot.session.model_terms import summed
+from chatrobot.session.summed import summed
 
 THREE = "drive 2 m\nturn left 90 deg\ndrive 1 m"
 

@@ -75,6 +75,32 @@ def test_a_higher_budget_or_none_lets_it_drive(distance_m: float, time_s: float 
     assert talk(distance_m, time_s).session.do("forward 2.5 m").outcome == "completed"
 
 
+def test_a_plan_that_fits_exactly_may_be_paused_and_gone_on_with() -> None:
+    paused = talk(2.0, 8.0)
+    paused.session.say("forward 2 m")
+    for x_m in (0.1, 1.0):
+        paused.pump_until(lambda x_m=x_m: paused.session.understanding.pose.x_m > x_m)  # type: ignore[misc]
+        paused.session.do("pause")
+        paused.session.do("continue")
+    paused.pump_until(lambda: 1 in paused.results())
+    result = paused.results()[1]
+    assert (result.outcome, round(result.path_m, 1)) == ("completed", 2.0)
+
+
+def test_what_odometry_counts_more_of_the_first_part_does_not_end_the_rest() -> None:
+    account = Account(lambda: MotionBudget(2.0, 10.0))
+    account.book(Extent(1.02, 5.9))
+    assert account.refusal(Extent(1.0, 5.0)) is None
+    assert account.refusal(Extent(1.1, 5.0)) is not None
+    assert account.refusal(Extent(1.0, 5.5)) is not None
+
+
+def test_waiting_is_not_driving() -> None:
+    result = talk(time_s=5.0).session.do("forward 50 cm, wait 20 s, back 50 cm")
+    assert result.outcome == "completed"
+    assert talk(time_s=5.0).session.do("forward 1 m, wait 2 s, back 1 m").outcome == "refused"
+
+
 def test_each_text_has_the_budget_anew() -> None:
     session = talk(2.0).session
     assert [session.do(text).outcome for text in ("forward 1.5 m", "back 1.5 m", "again")] == [

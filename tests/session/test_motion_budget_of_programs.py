@@ -80,7 +80,7 @@ def test_it_is_brought_to_stand_by_braking(runner: Runner) -> None:
     speeds = [event.vx_mps for event in runner.events if isinstance(event, TruePose)]
     limits = runner.connection.profile.limits
     slowest_ramp = max(before - after for before, after in itertools.pairwise(speeds))
-    assert slowest_ramp <= limits.deceleration_mps2 * 0.02 + 1e-6
+    assert slowest_ramp <= limits.acceleration_mps2 * 0.02 + 1e-6
 
 
 def test_a_program_with_an_end_has_the_budget_of_a_text(runner: Runner) -> None:

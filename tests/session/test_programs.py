@@ -454,3 +454,27 @@ def test_arguments_that_cannot_be_given_refuse_it(house: House, arguments: str) 
     assert result.outcome == "refused"
     assert "arguments" in result.reply
     assert "参数" in house.do(f"运行 slow dash -- {arguments}").reply
+
+
+SHUT_DOWN_TWICE = f"{ARGUED.replace('velocity', 'cmd_vel')}rclpy.shutdown()\nrclpy.shutdown()\n"
+
+
+def test_a_program_that_shuts_down_twice_is_asked_about_and_drives_for_a_yes(house: House) -> None:
+    def answer(event: Event) -> None:
+        if isinstance(event, Rehearsed) and event.needs_approval:
+            house.session.approve(event.turn, True)
+
+    house.on_event = answer
+    house.session.options = Options(ask_findings=True)
+    result = house.run(SHUT_DOWN_TWICE)
+    assert house.findings == ["program_raised_at_end"]
+    assert house.all(Rehearsed)[0].needs_approval
+    assert result.path_m == pytest.approx(0.1, abs=0.02)
+    assert (result.outcome, result.reason and result.reason.code) == ("failed", "program_raised")
+    assert house.all(TruePose)[-1].vx_mps == 0.0
+
+
+def test_a_model_mends_its_program_that_fails_after_its_last_zero(house: House) -> None:
+    house.model(fenced(SHUT_DOWN_TWICE), fenced(DANCE))
+    assert house.do(ASKED).outcome == "completed"
+    assert [written.version for written in house.all(ProgramWritten)] == [1, 2]

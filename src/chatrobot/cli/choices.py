@@ -6,6 +6,7 @@ import argparse
 import sys
 from dataclasses import replace
 
+from chatrobot.cli.early import Early
 from chatrobot.cli.folders import config_folder
 from chatrobot.cli.parameters import parameters_in, read_parameters
 from chatrobot.compose import Setup
@@ -37,6 +38,7 @@ def setup_from(
     Raises:
         UsageError: what was chosen does not exist.
     """
+    early: Early | None = getattr(args, "early", None)
     options = options or Options(approve=args.approve and not args.yes, ask_findings=not args.yes)
     return Setup(
         on=args.on,
@@ -54,6 +56,8 @@ def setup_from(
         model_options=ModelOptions(
             rounds=args.rounds, budget_tokens=args.budget_tokens, budget_s=args.budget_s
         ),
+        processes=early.processes if early is not None else None,
+        on_ready=early.ready if early is not None else lambda: None,
     )
 
 

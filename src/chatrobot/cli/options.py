@@ -108,7 +108,7 @@ def options_of(shown: Sequence[str] | None = None) -> Parser:
         "--max-time",
         type=limit,
         metavar="S|none",
-        help="seconds that one text or program may take (default: 600; 60 for a program without an end)",
+        help="seconds that one text or program may drive (default: 600; a program without an end runs 60)",
     )
     add("--approve", action="store_true", help="ask before each plan")
     add("--yes", action="store_true", help="do each plan without asking")

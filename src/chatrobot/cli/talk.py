@@ -29,7 +29,8 @@ def run(args: argparse.Namespace) -> int:
         reader = LineReader(JsonInput(conversation, approver).hear if args.json else conversation.hear)
         reader.start()
         while not (conversation.is_leaving or conversation.has_parted or reader.has_ended):
-            conversation.wait() if conversation.session.is_idle else conversation.step()
+            session = conversation.session
+            conversation.wait() if session.is_idle or session.waits_for_a_word else conversation.step()
         conversation.finish()
     return conversation.exit_code
 

@@ -134,6 +134,20 @@ class Started(Event):
 
 
 @dataclass(frozen=True)
+class Paused(Event):
+    """The plan of this turn was stopped by a word that keeps it: the turn stays open, and `plan_text` is what is left.
+
+    It is gone on with, from where the robot stands then, when its own source asks for that: `rehearsed` and `started`
+    follow. Else `finished` ends it.
+    """
+
+    name: ClassVar[str] = "paused"
+    pose: Pose
+    plan_text: str
+    reason: Reason | None = None
+
+
+@dataclass(frozen=True)
 class Progress(Event):
     """How far a running turn is: step `step` of `of`, `fraction` of the whole predicted duration (0..1).
 
@@ -367,7 +381,7 @@ _READERS: Mapping[str, Any] = {
 EVENT_TYPES: Mapping[str, type[Event]] = {
     kind.name: kind
     for kind in (
-        Interpreted, FindingSeen, Rehearsed, Started, Progress, Telemetry, TruePose, Limited, Said, Remembered,
+        Interpreted, FindingSeen, Rehearsed, Started, Paused, Progress, Telemetry, TruePose, Limited, Said, Remembered,
         Streamed, Looked, ModelCalled, Notice, Finished, Result, ProgramWritten, ProgramRehearsed, ProgramLog,
     )
 }  # fmt: skip

@@ -31,7 +31,7 @@ class MotionBudget:
 
     @property
     def time_s(self) -> float:
-        """How long one text or program may take, its waits included."""
+        """How long one text or program may drive; while it waits it does not."""
         return self.max_time_s if self.max_time_s is not None else MAX_TIME_S
 
     @property

@@ -12,7 +12,7 @@ from chatrobot.core.shown import ANGLE_PLACES, LENGTH_PLACES, number
 from chatrobot.language.data_files import load_table
 from chatrobot.plan.shown import shown_plan
 from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, RawTwist, Remember, Repeat, Say, Step, Turn, Wait
-from chatrobot.plan.text import format_step
+from chatrobot.plan.text import format_step, parse_plan
 
 _TABLES = ("phrases", "outcomes")
 _OURS = ("", "console", "base", "user_input", "service")
@@ -74,7 +74,7 @@ def _shown(value: Value) -> str:
 def render_reason(reason: Reason, language: str) -> str:
     """A reason in words; one that knows the name of what is in the way may have words of its own for it."""
     values: dict[str, Value] = dict(reason.values)
-    if reason.code == "stopped_by":
+    if reason.code in ("stopped_by", "paused_by"):
         return _stop_cause(str(values.get("source", "")), str(values.get("why", "")), language)
     names = load_table(language, "causes")["sources"]
     for key in ("source", "to"):
@@ -99,6 +99,11 @@ def _stop_cause(source: str, why: str, language: str) -> str:
 def describe_plan(plan: Plan, language: str) -> str:
     """One short line: what is going to happen."""
     return describe_steps(plan.steps, language)
+
+
+def describe_text(plan_text: str, language: str) -> str:
+    """Plan text in a few words."""
+    return describe_steps(parse_plan(plan_text).steps, language)
 
 
 def describe_steps(steps: Iterable[Step], language: str) -> str:

@@ -75,7 +75,7 @@ CONTROL = (
     Parameter(
         "max_time_s",
         0.0,
-        "How long one text or program may take; 0: as the profile says, -1: no limit.",
+        "How long one text or program may drive; 0: as the profile says, -1: no limit.",
         (-1.0, 1e6),
     ),
 )

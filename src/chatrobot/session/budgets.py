@@ -16,8 +16,8 @@ from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.motion_budget import MotionBudget, read_limit
 from chatrobot.core.reason import Reason
 from chatrobot.execution.sensors import Sensors
-from chatrobot.governor.governor import TICK_S
 from chatrobot.governor.priority import RELEASERS, Priority, priority_of
+from chatrobot.governor.tick import TICK_S
 from chatrobot.robots.profile import Limits
 
 EXCEEDED = frozenset({"over_max_distance", "over_max_time"})
@@ -32,6 +32,9 @@ KEPT_ACCOUNTS = 64
 BRAKING_TICKS = 3
 """From the tick that asks for braking to the one that shows it."""
 
+MEASURED_M, MEASURED_S = 0.01, 1.0
+"""By how much more, besides that share, what was driven already may exceed what was planned for it."""
+
 OLDEST_NEWS_S = 0.5
 """Odometry that is older ends the run."""
 
@@ -44,13 +47,21 @@ TOLERANCE_SHARE, TOLERANCE_M, TOLERANCE_S = 0.02, 0.1, 5.0
 
 @dataclass(frozen=True)
 class Extent:
-    """How far and how long something drives, as far as that is certain."""
+    """How far and how long something drives, as far as that is certain; while it waits it does not drive."""
 
     length_m: float = 0.0
-    duration_s: float = 0.0
+    driving_s: float = 0.0
+
+    @property
+    def planned(self) -> Extent:
+        """What a plan for it was at least: odometry counts every correction, and each pause costs two ramps."""
+        share = 1.0 - TOLERANCE_SHARE
+        return Extent(
+            max(0.0, share * self.length_m - MEASURED_M), max(0.0, share * self.driving_s - MEASURED_S)
+        )
 
     def plus(self, other: Extent) -> Extent:
-        return Extent(self.length_m + other.length_m, self.duration_s + other.duration_s)
+        return Extent(self.length_m + other.length_m, self.driving_s + other.driving_s)
 
 
 class Account:
@@ -75,11 +86,11 @@ class Account:
 
     def refusal(self, extent: Extent) -> Reason | None:
         """Why `extent` may not be driven on top of what has been driven."""
-        total, budget = self.driven.plus(extent), self.budget
+        total, budget = self.driven.planned.plus(extent), self.budget
         if total.length_m > budget.distance_m + ROUNDING_M:
             return Reason("over_max_distance", {"distance_m": total.length_m, "max_m": budget.distance_m})
-        if total.duration_s > budget.time_s + ROUNDING_S:
-            return Reason("over_max_time", {"duration_s": total.duration_s, "max_s": budget.time_s})
+        if total.driving_s > budget.time_s + ROUNDING_S:
+            return Reason("over_max_time", {"driving_s": total.driving_s, "max_s": budget.time_s})
         return None
 
     def notice(self, is_endless: bool) -> Reason | None:
@@ -96,7 +107,7 @@ class Account:
         return self.distance_reached() if self._is_too_far(extent) else self.time_reached()
 
     def _is_too_far(self, extent: Extent) -> bool:
-        return self.driven.plus(extent).length_m > self.budget.distance_m + ROUNDING_M
+        return self.driven.planned.plus(extent).length_m > self.budget.distance_m + ROUNDING_M
 
     def distance_reached(self) -> Reason:
         return Reason("max_distance_reached", {"max_m": self.budget.distance_m})
@@ -130,6 +141,7 @@ class Meter:
         self._latency_s = limits.latency_s + BRAKING_TICKS * TICK_S
         self._is_endless = is_endless
         self._began_s = self._now_s = now_s
+        self._driving_s = 0.0
         self._start_path_m = self._path_m
         self._sent = ZERO_TWIST
         self._sent_m = 0.0
@@ -143,11 +155,13 @@ class Meter:
     def extent(self) -> Extent:
         """How far and how long this run has driven: as measured, or as sent where nothing is measured."""
         driven_m = self._path_m - self._start_path_m if self._sensors.has_odometry else self._sent_m
-        return Extent(driven_m, self._now_s - self._began_s)
+        return Extent(driven_m, self._driving_s)
 
     def note(self, sent: Twist, now_s: float) -> None:
         """Take in what was sent now."""
-        self._sent_m += self._sent.speed_mps * max(0.0, now_s - self._now_s)
+        elapsed_s = max(0.0, now_s - self._now_s)
+        self._sent_m += self._sent.speed_mps * elapsed_s
+        self._driving_s += 0.0 if self._sent.is_zero else elapsed_s
         self._sent, self._now_s = sent, now_s
 
     def over(self) -> Reason | None:
@@ -158,7 +172,7 @@ class Meter:
 
     def _over(self) -> Reason | None:
         account, budget = self._account, self._account.budget
-        driven, known = account.driven.plus(self.extent), account.driven.plus(self._known())
+        driven, known = account.driven.plus(self.extent), account.driven.planned.plus(self._known())
         estimate = self._sensors.estimate
         seen_mps = estimate.twist.speed_mps if estimate is not None else 0.0
         speed_mps = max(seen_mps, self._sent.speed_mps)
@@ -166,12 +180,12 @@ class Meter:
         unseen_s = min(self._sensors.odometry_age_s(), OLDEST_NEWS_S) if self._sensors.has_odometry else 0.0
         braking_m = speed_mps * (unseen_s + self._latency_s + braking_s / 2.0)
         most_m = _with_tolerance(budget.distance_m + ROUNDING_M, known.length_m, TOLERANCE_M)
-        most_s = _with_tolerance(budget.time_s + ROUNDING_S, known.duration_s, TOLERANCE_S)
+        most_s = _with_tolerance(budget.time_s + ROUNDING_S, known.driving_s, TOLERANCE_S)
         if driven.length_m + braking_m > most_m:
             return account.distance_reached()
-        if self._is_endless and driven.duration_s + braking_s > budget.endless_program_s:
+        if self._is_endless and self._now_s - self._began_s + braking_s > budget.endless_program_s:
             return Reason("endless_program_stopped", {"max_s": budget.endless_program_s})
-        if driven.duration_s + braking_s > most_s:
+        if driven.driving_s + braking_s > most_s:
             return account.time_reached()
         return None
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from chatrobot.core.clock import Clock
-from chatrobot.core.events import Event, Outcome, Progress, Started
+from chatrobot.core.events import Event, Finished, Outcome, Progress, Started
 from chatrobot.core.reason import Reason
 from chatrobot.execution.health import is_seen_moving
 from chatrobot.session.budgets import REACHED
@@ -24,7 +24,7 @@ from chatrobot.session.program_run import LiveProgram, ProgramRun
 from chatrobot.session.run import Run
 from chatrobot.session.stops import Stops
 
-FAILURES = frozenset({"guard_lost", "bumped", "motion_froze", "wire_gone"})
+FAILURES = frozenset({"guard_lost", "bumped", "motion_froze", "beats_missed", "wire_gone"})
 """A stop for one of these is no wish of anybody's: what ran has failed."""
 
 
@@ -148,6 +148,17 @@ class Driver:
         elif self.job is not None:
             self._give_up("stopped", why)
 
+    def break_off(self, why: Reason) -> Callable[[], Finished] | None:
+        """The robot has been paused: what tells how much was done of the plan under way, and is left of it.
+
+        None, and nothing is done, where it cannot be gone on with.
+        """
+        run = self._run
+        if not isinstance(run, Run) or not run.finished("stopped", why).remaining:
+            return None
+        self._let_go(run)
+        return lambda: run.job.whole(run.finished("stopped", why))
+
     def fail(self, why: Reason) -> None:
         """The way to the robot is gone for good: what was under way has failed."""
         if self._run is not None:
@@ -157,14 +168,17 @@ class Driver:
         self._ends.tell_all()
 
     def _end(self, run: Run | ProgramRun, outcome: Outcome, reason: Reason | None) -> None:
-        self.job = self._run = None
-        run.close()
-        self._robot.governor.end(run.job.lease)
+        self._let_go(run)
         stream = run.job.stream
         if outcome == "completed" and stream is not None and stream.refusal is not None:
             reason = stream.refusal  # what came before it has been done
             outcome = "stopped" if reason.code in REACHED else "refused"
-        self._ends.tell_later(lambda: run.finished(outcome, reason))
+        self._ends.tell_later(lambda: run.job.whole(run.finished(outcome, reason)))
+
+    def _let_go(self, run: Run | ProgramRun) -> None:
+        self.job = self._run = None
+        run.close()
+        self._robot.governor.end(run.job.lease)
 
     def _give_up(self, outcome: Outcome, reason: Reason) -> None:
         """End what has not begun to move. It may have the wheel already: a program that is being launched."""

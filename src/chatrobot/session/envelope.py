@@ -20,7 +20,8 @@ Word = Literal[
     # "rehearse_only"}
     "program",
     "approve",  # {"yes": bool} answers a Rehearsed event that needs approval
-    "stop",  # {"why": …}; makes void what belongs to this turn and those before
+    "stop",  # {"why": …, "keep": bool}; makes void what belongs to this turn and those before. keep: a pause
+    "resume",  # {}: go on with the plan of this turn, which was paused
     "emergency_stop",
     "release",
     "limit",  # {"max_distance_m", "max_time_s": number or "none"}; changes the motion budget, empty: asks for it
@@ -28,7 +29,8 @@ Word = Literal[
 ]
 MODES = ("queue", "replace", "append", "extend")
 """What becomes of what runs already. `extend`: the next part of a plan of this very turn that was sent with `more`; the
-part without `more` is the last and may be empty. What is to be approved, or only rehearsed, comes whole."""
+part without `more` is the last and may be empty. What is to be approved, or only rehearsed, comes whole. `pauses`:
+how many pauses its source had said before it; where Motion has heard more of them, one has overtaken it."""
 
 
 def _is_text(value: object) -> bool:
@@ -44,6 +46,10 @@ def _is_limit(value: object) -> bool:
         return read_limit(value) > 0.0
     except ValueError:
         return False
+
+
+def _is_count(value: object) -> bool:
+    return type(value) is int and value >= 0
 
 
 def _is_term(value: object) -> bool:
@@ -98,6 +104,7 @@ PAYLOADS: Mapping[str, Mapping[str, Callable[[object], bool]]] = {
         "more": _is_flag,
         "term_s": _is_term,
         "longest_s": _is_term,
+        "pauses": _is_count,
     },
     "look": {},
     "program": {
@@ -110,10 +117,12 @@ PAYLOADS: Mapping[str, Mapping[str, Callable[[object], bool]]] = {
         "ask_findings": _is_flag,
         "strict": _is_flag,
         "rehearse_only": _is_flag,
+        "pauses": _is_count,
         "term_s": _is_term,
     },
     "approve": {"yes": _is_flag},
-    "stop": {"why": _is_text},
+    "stop": {"why": _is_text, "keep": _is_flag},
+    "resume": {},
     "emergency_stop": {"why": _is_text},
     "release": {},
     "limit": {"max_distance_m": _is_limit, "max_time_s": _is_limit},

@@ -16,6 +16,7 @@ from chatrobot.session.budgets import Account, Extent
 from chatrobot.session.envelope import Envelope, seconds
 from chatrobot.session.planner import Planned
 from chatrobot.session.stream import Stream
+from chatrobot.session.summed import gone_on
 
 
 @dataclass
@@ -24,6 +25,8 @@ class Job:
 
     `longest_s` is what the source may take: a plan that rehearsal expects to last longer is refused. `stream` holds
     what comes after `plan_text` where the plan comes in parts. `account` is what its text may drive, and has driven.
+    Where the job is the rest of a plan that was paused, `plan_start` is where the whole began and `so_far` what was
+    measured of it.
     """
 
     turn: int
@@ -38,7 +41,10 @@ class Job:
     planned: Planned | None = None
     approval: Approval | None = None
     stream: Stream | None = None
+    pauses: int | None = None
     account: Account = field(default_factory=Account)
+    plan_start: Pose | None = None
+    so_far: Finished | None = None
 
     @classmethod
     def of(cls, envelope: Envelope, epoch: int, now_s: float, account: Account | None = None) -> Job:
@@ -56,6 +62,7 @@ class Job:
             received_s=now_s,
             longest_s=longest_s,
             stream=None if comes_whole else Stream(longest_s, account),
+            pauses=payload.get("pauses"),
             account=account,
         )
 
@@ -118,9 +125,25 @@ class Job:
         remaining = self.unread if outcome == "stopped" and not self.rehearse_only else ""
         is_blocked = outcome == "refused" and self.planned is not None and reason == self.planned.refusal
         possible = self.planned.possible if is_blocked and self.planned is not None else ""
-        return Finished(
-            self.turn, outcome, reason, pose, pose, 0.0, 0.0, 0.0, 0.0, possible=possible, remaining=remaining
+        return self.whole(
+            Finished(
+                self.turn,
+                outcome,
+                reason,
+                pose,
+                pose,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+                possible=possible,
+                remaining=remaining,
+            )
         )
+
+    def whole(self, finished: Finished) -> Finished:
+        """Its end, together with what was done before it was paused."""
+        return gone_on(self.so_far, finished) if self.so_far is not None else finished
 
     @property
     def unread(self) -> str:

@@ -30,12 +30,13 @@ from chatrobot.session.budgets import EXCEEDED
 from chatrobot.session.model_call import CallEnd
 from chatrobot.session.model_look import ModelLook
 from chatrobot.session.model_round import ModelRound
-from chatrobot.session.model_terms import Ended, ModelOptions, Surroundings, summed, told
+from chatrobot.session.model_terms import Ended, ModelOptions, Surroundings, told
 from chatrobot.session.observations import without_pictures
 from chatrobot.session.plan_feed import PlanFeed
 from chatrobot.session.prompt import correction
 from chatrobot.session.quoting import one_line
 from chatrobot.session.spending import Spending
+from chatrobot.session.summed import summed
 from chatrobot.session.tutorial_mode import is_short_form
 
 if TYPE_CHECKING:
@@ -74,6 +75,7 @@ class ModelTurn:
         emit: Callable[[Event], None],
         mode: Literal["queue", "replace", "append"],
         *,
+        pauses: Callable[[], int],
         approve: bool = False,
         frees_form: bool = False,
         rehearse_only: bool = False,
@@ -92,7 +94,9 @@ class ModelTurn:
         self._rehearse_only = rehearse_only
         self._only_talks = only_talks
         self._spending = Spending(options)
-        self._feed = PlanFeed(turn, joint, emit, mode, approve=approve, rehearse_only=rehearse_only)
+        self._feed = PlanFeed(
+            turn, joint, emit, mode, approve=approve, rehearse_only=rehearse_only, pauses=pauses
+        )
         self._cancelled: Reason | None = None
         self._look: ModelLook | None = None
         self._total: Finished | None = None

@@ -25,7 +25,7 @@ from chatrobot.core.scheduling import wake_promptly
 from chatrobot.core.wiring import Wiring
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.governor.tick import TICK_S
-from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
+from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
@@ -38,6 +38,7 @@ from chatrobot.session.planner import Planner
 from chatrobot.session.program_host import ProgramHost
 from chatrobot.session.rivals import BEAT_S, Rivals
 from chatrobot.session.stop_socket import remove_stop_socket, serve_stop
+from chatrobot.session.stops import PAUSED
 from chatrobot.session.topics import STOP, USER_INPUT
 from chatrobot.sim.load import load_world
 from chatrobot.wire.connect import Connect, Knowing, clock_of, connect_wire, is_on_this_machine, resolved
@@ -169,9 +170,9 @@ class MotionRunner:
         self.motion.lose(lease)
         self._wake.set()
 
-    def halt(self, source: str, why: str) -> None:
-        """Stop; the zero is out before this returns."""
-        self.motion.halt(Reason("stopped_by", {"source": source, "why": why}))
+    def halt(self, source: str, why: str, *, keep: bool = False) -> None:
+        """Stop; the zero is out before this returns. `keep`: it is a pause."""
+        self.motion.halt(Reason(PAUSED if keep else "stopped_by", {"source": source, "why": why}))
         self._wake.set()
 
     def notice(self, reason: Reason) -> None:
@@ -198,7 +199,7 @@ class MotionRunner:
                 Envelope("emergency_stop", USER_INPUT, USER_INPUT, time.monotonic_ns(), 0, {"why": text})
             )
         elif leads_with_stop(text) if self.motion.is_busy else is_stop(text):
-            self.halt(USER_INPUT, text[:80])
+            self.halt(USER_INPUT, text[:80], keep=is_pause(text))
 
     def _hear_stop(self, message: Flag) -> None:
         if message.data:

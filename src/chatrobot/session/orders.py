@@ -14,6 +14,18 @@ class Orders:
     def __init__(self, joint: Joint, options: Options) -> None:
         self._joint = joint
         self.options = options
+        self.is_paused = False
+        self.pauses = 0
+        """How many there were before what is sent now was taken up."""
+
+    @property
+    def mode(self) -> Literal["queue", "replace"]:
+        """What a new instruction does to one that is under way; what is paused, it replaces."""
+        return "replace" if self.is_paused else self.options.while_moving
+
+    def resume(self, turn: int) -> None:
+        """Have Motion go on with what is paused."""
+        self._joint.send("resume", turn)
 
     def plan(
         self, turn: int, plan_text: str, mode: Literal["queue", "replace", "append"], *, asks: bool = False
@@ -27,6 +39,7 @@ class Orders:
             mode=mode,
             approve=options.approve or asks,
             rehearse_only=options.rehearse_only,
+            pauses=self.pauses,
         )
 
     def program(
@@ -54,9 +67,10 @@ class Orders:
         self._joint.send(
             "program",
             turn,
-            mode=options.while_moving,
+            mode=self.mode,
             approve=options.approve or asks,
             ask_findings=options.ask_findings,
             rehearse_only=options.rehearse_only,
+            pauses=self.pauses,
             **payload,
         )

@@ -9,7 +9,7 @@ from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.plan.findings import Finding
 from chatrobot.programs.events import Died, Ended, Log, Raised
-from chatrobot.session.planner import Planned, drawn
+from chatrobot.session.planner import Planned, drawn, driving_s
 from chatrobot.session.program_rehearsal import ProgramRehearsal
 
 LOG_LINES = 50
@@ -33,6 +33,10 @@ class PlannedProgram(Planned):
     def refusal(self) -> Reason | None:
         found = self._shown.refusal or (self._to_mend if self.strict else None)
         return found.reason if found is not None else None
+
+    @property
+    def _driving_s(self) -> float:
+        return driving_s(self._shown.path)
 
     @property
     def is_endless(self) -> bool:

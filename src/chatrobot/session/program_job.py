@@ -40,6 +40,7 @@ def job_of(envelope: Envelope, epoch: int, now_s: float, account: Account) -> Jo
         rehearse_only=job.rehearse_only,
         epoch=epoch,
         received_s=now_s,
+        pauses=job.pauses,
         account=account,
         code=str(payload.get("code", "")),
         name=str(payload.get("name", "")) or "program",

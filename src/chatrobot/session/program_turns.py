@@ -29,7 +29,8 @@ from chatrobot.session.understanding import Understanding
 MENDABLE = frozenset(
     {
         "program_syntax", "program_unreadable", "program_too_long", "import_forbidden", "import_unknown",
-        "program_import", "program_forbidden", "program_raised", "program_exit_code",
+        "program_import", "program_forbidden", "program_raised", "program_raised_at_end",
+        "program_exit_code",
         "program_waits_for_ever", "program_never_stops", "program_moves_nothing", "program_not_finite",
         "program_other_topic", "program_topic_silent", "program_too_busy", "program_vanished", "limited",
         "would_collide", "leaves_area", "leaves_fence",

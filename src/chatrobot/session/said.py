@@ -6,14 +6,15 @@ import threading
 import time
 from collections import deque
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from chatrobot.core.reason import Reason
 from chatrobot.session.draft import Draft
 from chatrobot.session.envelope import QUEUE_LIMIT
 
 Kind = Literal[
-    "text", "plan", "edited_plan", "program", "draft", "source", "stop", "emergency_stop", "too_many"
+    "text", "plan", "edited_plan", "program", "draft", "source", "stop", "emergency_stop", "pause", "resume",
+    "too_many",
 ]  # fmt: skip
 INSTRUCTIONS: tuple[Kind, ...] = ("text", "plan", "edited_plan", "program", "draft", "source")
 """What may have to wait, and what a stop clears; the others are answered at once."""
@@ -35,14 +36,22 @@ class Said:
         return self.kind in INSTRUCTIONS
 
 
+class _Hold(NamedTuple):
+    """`turn` is the last that was said before that pause."""
+
+    number: int
+    turn: int
+
+
 class SaidTexts:
-    """`add` and `void` may be called from any thread; the rest belongs to the thread that pumps."""
+    """`add`, `void` and `hold` may be called from any thread; the rest belongs to the thread that pumps."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._texts: deque[Said] = deque()
         self._turns = 0
-        self._void_turn = 0
+        self._void_turn = self._dropped_turn = 0
+        self._hold = self._released = _Hold(0, 0)
         self.stopped_by = Reason("cause_unknown")
         """Why what was said is void."""
 
@@ -61,9 +70,36 @@ class SaidTexts:
         self._void_turn = self._turns
         return self._void_turn
 
+    def hold(self) -> None:
+        """A pause: what was said up to now and waits goes on waiting. No lock: it waits for nothing."""
+        self._hold = _Hold(self._hold.number + 1, self._turns)
+
+    @property
+    def pauses(self) -> int:
+        """How many pauses there were."""
+        return self._hold.number
+
+    @property
+    def is_holding(self) -> bool:
+        """There was a pause, and what was said before it has neither been released nor dropped."""
+        return self._hold is not self._released
+
+    def is_held(self, said: Said) -> bool:
+        """It waits behind what is paused."""
+        return said.is_instruction and self.is_holding and said.turn <= self._hold.turn
+
+    def release(self) -> None:
+        """What was paused is gone on with: what waits behind it waits its turn again."""
+        self._released = self._hold
+
+    def drop_held(self) -> None:
+        """What was paused is not gone on with: what waits behind it is not done."""
+        hold = self._hold
+        self._dropped_turn, self._released = hold.turn, hold
+
     def is_void_turn(self, turn: int) -> bool:
         """A stop came after that turn was said."""
-        return turn <= self._void_turn
+        return turn <= max(self._void_turn, self._dropped_turn)
 
     def is_void(self, said: Said) -> bool:
         """A stop came after it was said; what is no instruction is answered all the same."""
@@ -74,8 +110,10 @@ class SaidTexts:
         """Oldest first."""
         return tuple(self._texts)
 
-    def take(self, said: Said) -> Said:
-        """It waits no longer."""
+    def take(self, said: Said) -> Said | None:
+        """It waits no longer; None where a pause came in the same moment, so that it does."""
+        if self.is_held(said) and not self.is_void(said):
+            return None
         with self._lock:
             self._texts.remove(said)
         return said
@@ -87,7 +125,7 @@ class SaidTexts:
 
     def take_too_many(self) -> list[Said]:
         """Those that may not even wait."""
-        return [self.take(said) for said in self.waiting if said.kind == "too_many"]
+        return [said for said in self.waiting if said.kind == "too_many" and self.take(said)]
 
     def _count_waiting(self) -> int:
         return sum(said.is_instruction and not self.is_void(said) for said in self._texts)

@@ -10,13 +10,17 @@ from typing import Any
 
 from chatrobot.core.errors import JointError, PlanTextError
 from chatrobot.core.events import Event, Finished, Interpreted, Remembered, Result, Telemetry
+from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.resuming import wants_to_resume
 from chatrobot.plan.text import format_plan, parse_plan
-from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
+from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.session.authoring import Authoring
 from chatrobot.session.draft import Draft
+from chatrobot.session.early import EarlyAnswers
 from chatrobot.session.joint import Joint
 from chatrobot.session.model_terms import Ended
+from chatrobot.session.next_text import NextText
 from chatrobot.session.observations import measured
 from chatrobot.session.options import Options
 from chatrobot.session.orders import Orders
@@ -24,6 +28,7 @@ from chatrobot.session.parting import parting
 from chatrobot.session.program_turns import ProgramTurns
 from chatrobot.session.proposals import Proposals
 from chatrobot.session.replies import offered
+from chatrobot.session.resuming import Resuming
 from chatrobot.session.said import Kind, Said, SaidTexts
 from chatrobot.session.thinking import Mind, Thinking
 from chatrobot.session.turn_book import TurnBook
@@ -60,9 +65,24 @@ class Session:
         self._proposals = Proposals(understanding, self._said.is_void_turn)
         self._book = TurnBook(understanding, self._emit)
         self._thinking = Thinking(
-            mind, options.interpreter, joint, understanding, self._emit, self._conclude_model_turn
+            mind,
+            options.interpreter,
+            joint,
+            understanding,
+            self._emit,
+            self._conclude_model_turn,
+            lambda: self._said.pauses,
         )
         self.authoring = authoring
+        self._resuming = Resuming(understanding)
+        self._next = NextText(
+            self._said,
+            self._book,
+            self._thinking,
+            understanding,
+            self._resuming,
+            EarlyAnswers(understanding, self._thinking, self._book, authoring),
+        )
         self._programs = (
             ProgramTurns(
                 authoring, understanding, self._book, self._orders, self._emit, self._said.is_void_turn
@@ -93,8 +113,8 @@ class Session:
             self.emergency_stop(text.strip()[:80])
             kind: Kind = "emergency_stop"
         elif leads_with_stop(text) if self.is_moving else is_stop(text):
-            self.stop(text.strip()[:80])
-            kind = "stop"
+            kind = "pause" if is_pause(text) else "stop"
+            (self.pause if kind == "pause" else self.stop)(text.strip()[:80])
         else:
             kind = "text"
         return self._take_in(text, kind)
@@ -129,6 +149,18 @@ class Session:
         self._joint.send("stop", self._said.void(why), why=why)
         self._cancel_asking()
 
+    def pause(self, why: str = "") -> None:
+        """Stop the robot as `stop` does, and keep what it was told; what cannot be kept ends as with a stop."""
+        self._said.hold()
+        self._joint.send("stop", why=why, keep=True)
+        self._thinking.cancel_unmoved(Reason("paused_by", {"why": why}))
+        if self.authoring is not None:
+            self.authoring.cancel()
+
+    def resume(self) -> int:
+        """Go on with what is paused; the number of the turn that says so."""
+        return self._take_in("", "resume")
+
     def emergency_stop(self, why: str = "") -> None:
         """Stop the robot and keep it stopped until `release`."""
         self._joint.send("emergency_stop", self._said.void(why), why=why)
@@ -161,6 +193,16 @@ class Session:
         return self._book.is_any_with_motion or self._thinking.is_moving
 
     @property
+    def is_paused(self) -> bool:
+        """A plan of ours is paused."""
+        return self._resuming.paused is not None
+
+    @property
+    def waits_for_a_word(self) -> bool:
+        """A plan is paused, and nothing happens before somebody says something."""
+        return self.is_paused and not self._thinking.is_calling and self._find_next() is None
+
+    @property
     def is_idle(self) -> bool:
         return not self._book.is_any_with_motion and not self._said.waiting and not self._thinking.is_busy
 
@@ -185,7 +227,7 @@ class Session:
             self._thinking.wait(timeout_s)  # a model thinks in no time at all
             self._thinking.pump()
             timeout_s = 0.0
-        event = self._joint.next_event(0.0 if self._next_said() is not None else timeout_s)
+        event = self._joint.next_event(0.0 if self._find_next() is not None else timeout_s)
         while event is not None:
             self._hear(event)
             event = self._joint.next_event(0.0)
@@ -204,34 +246,20 @@ class Session:
 
     # --- what was said ---
 
-    def _next_said(self) -> Said | None:
-        """The one to take now: the first, unless it has to wait for what runs or is thought about."""
-        for said in self._said.waiting:
-            waits = said.is_instruction and not self._said.is_void(said)
-            replaces = self.options.while_moving == "replace" and said.turn != self._waits_for_end
-            if not waits or replaces:
-                return said
-            if self._book.is_any_with_motion:
-                return None
-            if not self._thinking.is_busy or self._overtakes(said):
-                return said
-        return None
-
-    def _overtakes(self, said: Said) -> bool:
-        """It needs no model, and the one that is being asked says nothing."""
-        if not self._thinking.may_be_overtaken(said.at_s):
-            return False
-        if said.kind in ("plan", "edited_plan"):
-            return True
-        meant = self.understanding.interpret(said.text)
-        return not (meant.is_about_turn_before or self._thinking.wants(said.text, meant))
+    def _find_next(self) -> Said | None:
+        """The text to take now, if any."""
+        return self._next.find(self.options, self._waits_for_end)
 
     def _take_texts(self) -> None:
         for said in self._said.take_too_many():
             # Who said one too many hears so now, not when the ten before it are done.
             self._book.conclude(said.turn, "refused", self.understanding.say("queue_full", said.text))
-        while (said_now := self._next_said()) is not None:
-            self._take(self._said.take(said_now))
+        if self._said.is_holding and not self.is_moving:
+            self._said.drop_held()  # nothing is paused that it could wait for
+        while (found := self._find_next()) is not None:
+            self._orders.pauses = self._said.pauses
+            if (taken := self._said.take(found)) is not None:
+                self._take(taken)
 
     def _take(self, said: Said) -> None:
         if self._said.is_void(said):
@@ -240,6 +268,8 @@ class Session:
         answer = self._proposals.answered(said)
         if answer is not None:
             self._act_on(said, answer)
+        elif said.kind == "resume" or (said.kind == "text" and self._goes_on(said.text)):
+            self._go_on(said)
         elif said.kind == "text":
             self._understand(said)
         elif said.kind in ("plan", "edited_plan"):
@@ -247,9 +277,33 @@ class Session:
         elif said.kind in ("program", "draft", "source"):
             self._begin_program(said)
         else:
-            code = "stopped_now" if said.kind == "stop" else "emergency_stopped"
+            code = "stopped_now" if said.kind != "emergency_stop" else "emergency_stopped"
+            reply = self.understanding.say(code, said.text)
+            if said.kind == "pause":
+                reply = self._resuming.told(self._resuming.paused, "paused_now")
             self._emit(Interpreted(said.turn, "reflex", "", ""))
-            self._book.conclude(said.turn, "stopped", self.understanding.say(code, said.text))
+            self._book.conclude(said.turn, "stopped", reply)
+
+    def _goes_on(self, text: str) -> bool:
+        """Whether it asks to go on with what was paused or stopped."""
+        return wants_to_resume(text) and self._resuming.is_about_this
+
+    def _go_on(self, said: Said) -> None:
+        """Go on with what is paused; what is left of a plan that was stopped is offered."""
+        self.understanding.hear_language(said.text)
+        paused = self._resuming.take_paused()
+        self._orders.is_paused = False
+        if paused is None:
+            meant = self._resuming.offer()
+            reply = self.understanding.say("nothing_paused", said.text)
+            self._act_on(said, meant or Interpretation("answered", reply, self.understanding.language))
+            return
+        self._orders.resume(paused.turn)
+        self._said.release()
+        reply = self._resuming.told(paused, "goes_on")
+        self._emit(Interpreted(paused.turn, "offline", paused.plan_text, ""))
+        self._emit(Interpreted(said.turn, "offline", "", reply))
+        self._book.conclude(said.turn, "answered", reply)
 
     def _begin_program(self, said: Said) -> None:
         if self._programs is None:
@@ -313,19 +367,21 @@ class Session:
         return False
 
     def _ask_model(self, said: Said, meant: Interpretation) -> None:
-        options = self.options
-        if options.while_moving == "replace":
+        options, mode = self.options, self._orders.mode
+        if mode == "replace":
             self._thinking.replace()
         self._thinking.begin(
             said.turn,
             said.text,
             meant,
-            options.while_moving,
+            mode,
             approve="all" if options.approve else "models" if options.approve_models else "",
             rehearse_only=options.rehearse_only,
         )
         if self._said.is_void_turn(said.turn):
             self._thinking.cancel(self._said.stopped_by)  # a stop came while it was being understood
+        if self._said.pauses != self._orders.pauses:
+            self._thinking.cancel_unmoved(Reason("paused_by"))
 
     def _conclude_model_turn(self, turn: int, text: str, ended: Ended) -> None:
         reply = self.understanding.note_model_turn(text, ended, self.options.rehearse_only)
@@ -346,7 +402,7 @@ class Session:
         self._send_plan(said, meant, plan_text)
 
     def _send_plan(self, said: Said, meant: Interpretation, plan_text: str) -> None:
-        mode = "append" if meant.append else self.options.while_moving
+        mode = "append" if meant.append else self._orders.mode
         if mode == "replace":
             self._thinking.replace()
         self._book.track(said.turn, said.text, meant)
@@ -359,6 +415,9 @@ class Session:
         elif isinstance(event, Remembered):
             self.understanding.note_place(event)
         self._emit(event)
+        if self._book.has(event.turn) or self._thinking.has(event.turn):
+            self._resuming.hear(event)
+            self._orders.is_paused = self.is_paused
         if self._programs is not None and self._programs.hear(event):
             return  # the next version of a program is on its way
         self._thinking.hear(event)

@@ -28,7 +28,7 @@ class Stream:
 
     def __init__(self, longest_s: float, account: Account) -> None:
         self.is_open = True
-        self.is_planning = False
+        self._planning: str | None = None
         self.refusal: Reason | None = None
         self.duration_s = self.length_m = 0.0
         self.certain = Extent()
@@ -65,12 +65,25 @@ class Stream:
         """The next part to rehearse; None while one is being rehearsed, or none waits."""
         if self.is_planning or not self._waiting:
             return None
-        self.is_planning = True
-        return self._waiting.popleft()
+        self._planning = self._waiting.popleft()
+        return self._planning
+
+    @property
+    def is_planning(self) -> bool:
+        """A part is being rehearsed."""
+        return self._planning is not None
+
+    def rewind(self) -> None:
+        """Begin anew with the rest of what was accepted: it comes first, and those that were not rehearsed follow."""
+        if self._planning is not None:
+            self._waiting.appendleft(self._planning)
+        self._planning, self.walk = None, None
+        self.duration_s = self.length_m = 0.0
+        self.certain, self.accepted = Extent(), ()
 
     def accept(self, planned: Planned) -> Reason | None:
         """The next part as it was rehearsed; why it is not accepted."""
-        self.is_planning = False
+        self._planning = None
         duration_s = self.duration_s + planned.duration_s
         refusal = planned.refusal
         if refusal is None and duration_s > self._longest_s:

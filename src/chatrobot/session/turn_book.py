@@ -29,6 +29,10 @@ class TurnBook:
         """What Motion has, in the order it was said."""
         return tuple(self._with_motion.values())
 
+    def has(self, turn: int) -> bool:
+        """That turn is with Motion."""
+        return turn in self._with_motion
+
     def track(self, turn: int, text: str, meant: Interpretation) -> None:
         """That turn is now Motion's; its `finished` ends it."""
         self._with_motion[turn] = Instruction(text, meant, self._understanding.pose)

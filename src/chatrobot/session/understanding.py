@@ -121,9 +121,13 @@ class Understanding:
 
     def say(self, code: str, text: str, **values: float | str) -> str:
         """A phrase in the language of `text`, what the person said."""
+        self.hear_language(text)
+        return say(self.language, code, text=text[:80], **values)
+
+    def hear_language(self, text: str) -> None:
+        """Answer in the language of `text`, where it has one."""
         if any(character.isalpha() for character in text):
             self.language = "zh" if has_chinese(text) else "en"
-        return say(self.language, code, text=text[:80], **values)
 
     def note_telemetry(self, event: Telemetry, *, is_ours: bool) -> None:
         """`is_ours`: a turn of ours moves the robot, or may."""

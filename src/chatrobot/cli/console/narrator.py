@@ -17,6 +17,7 @@ from chatrobot.core.events import (
     Limited,
     Notice,
     Outcome,
+    Paused,
     ProgramLog,
     ProgramRehearsed,
     ProgramWritten,
@@ -28,7 +29,7 @@ from chatrobot.core.events import (
 )
 from chatrobot.core.geometry import Twist
 from chatrobot.core.shown import fixed
-from chatrobot.language.phrases import render_reason, say
+from chatrobot.language.phrases import describe_text, render_reason, say
 from chatrobot.plan.shown import shown_plan
 from chatrobot.session.program_text import body, headline
 
@@ -77,6 +78,8 @@ class Narrator:
                 return self._said(event)
             case Remembered():
                 return self._remembered(event)
+            case Paused():
+                return self._paused(event)
             case Notice():
                 return self._notice(event)
             case Result():
@@ -168,6 +171,12 @@ class Narrator:
     def _remembered(self, event: Remembered) -> Iterator[RenderableType]:
         words = self._words.say("remembered", place=event.place, pose=self._words.pose(event.pose))
         yield marked("·", "cyan", words)
+
+    def _paused(self, event: Paused) -> Iterator[RenderableType]:
+        language = self._words.language
+        yield marked(
+            "‖", "yellow", say(language, "paused_now", plan=describe_text(event.plan_text, language))
+        )
 
     def _notice(self, event: Notice) -> Iterator[RenderableType]:
         yield marked("!", "yellow", event.text or render_reason(event.reason, self._words.language))

@@ -10,6 +10,7 @@ from chatrobot.core.events import (
     Event,
     Finished,
     Interpreted,
+    Paused,
     ProgramWritten,
     Progress,
     Rehearsed,
@@ -68,6 +69,10 @@ class Ride:
             self.turn, self.is_moving, self.step, self.of = event.turn, True, 0, 0
             self.fraction = None if self.rehearsed is not None and self.rehearsed.open_ended else 0.0
             self.pose, self.trail = event.pose, ((event.pose.x_m, event.pose.y_m),)
+        elif isinstance(event, Paused):
+            self.pose = event.pose
+            if event.turn == self.turn:
+                self.is_moving, self.twist = False, ZERO_TWIST
         elif isinstance(event, Finished):
             self._finish(event)
 

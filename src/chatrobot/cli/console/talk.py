@@ -175,6 +175,8 @@ class Talk:
             self.face.leave(0)
             return
         self._leaving = True
+        if self.session.is_paused:
+            self.stop("end of input")  # nobody is left to go on with it
         if self._question.turn is not None:
             self.attempt(lambda: self._question.answer(self.session, False))
             return
@@ -269,7 +271,7 @@ class Talk:
             if (
                 isinstance(event, Interpreted)
                 and event.by == "reflex"
-                and (self.ride.is_moving or self._said_stopped)
+                and (self.ride.is_moving or self._said_stopped or self.session.is_paused)
             ):
                 self._muted.add(event.turn)  # what was moving says how it ended
             if isinstance(event, Result):

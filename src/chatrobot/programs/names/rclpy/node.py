@@ -8,6 +8,7 @@ constructor breaks this one.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from types import FunctionType
 from typing import Any
 
 from chatrobot.programs.inside import graph, ros_names
@@ -26,6 +27,7 @@ from chatrobot.programs.names.rclpy.impl.rcutils_logger import RcutilsLogger
 from chatrobot.programs.names.rclpy.logging import get_logger
 from chatrobot.programs.names.rclpy.node_checks import destroy, raise_for
 from chatrobot.programs.names.rclpy.node_entities import NodeEntities
+from chatrobot.programs.names.rclpy.node_graph import NodeGraph
 from chatrobot.programs.names.rclpy.node_parameters import NodeParameters
 from chatrobot.programs.names.rclpy.qos import qos_profile_parameter_events
 from chatrobot.programs.names.rclpy.utilities import get_default_context
@@ -177,3 +179,9 @@ class Node(NodeEntities, NodeParameters):
         self.__node.destroy_when_not_in_use()
         if self in graph.nodes:
             graph.nodes.remove(self)
+
+
+for _part in (NodeEntities, NodeGraph, NodeParameters):
+    for _name, _value in vars(_part).items():
+        if isinstance(_value, FunctionType):
+            _value.__qualname__ = f"Node.{_name}"  # what a complaint about its arguments calls it

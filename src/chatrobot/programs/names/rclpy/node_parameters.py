@@ -52,8 +52,6 @@ class NodeParameters:
         return self.declare_parameters("", [(name, value, descriptor)], ignore_override)[0]
 
     def __declare(self, name: str, value: Any, descriptor: Any, ignore_override: bool) -> Parameter:
-        if not isinstance(name, str):
-            raise TypeError(f"First element {name} at index 0 in parameters list is not a str.")
         if not name or name.startswith(".") or name.endswith("."):
             raise InvalidParameterException(name)
         if name in self._parameters:
@@ -89,7 +87,9 @@ class NodeParameters:
             if not isinstance(entry, Sequence) or isinstance(entry, str):
                 raise TypeError(f"Each parameter must be a tuple, got {entry!r}")
         declared = []
-        for name, *rest in parameters:
+        for index, (name, *rest) in enumerate(parameters):
+            if not isinstance(name, str):
+                raise TypeError(f"First element {name} at index {index} in parameters list is not a str.")
             value, descriptor = [*rest, None, None][:2]
             declared.append(self.__declare(f"{prefix}{name}", value, descriptor, ignore_override))
         return declared
