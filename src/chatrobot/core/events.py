@@ -7,11 +7,12 @@ are in `odom` as the robot itself measures them (`TruePose` alone is the simulat
 
 from __future__ import annotations
 
-import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, Literal
+from typing import ClassVar, Literal
 
+from chatrobot.core.event import Event as Event
+from chatrobot.core.event import event_from_json as event_from_json
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
@@ -20,20 +21,6 @@ Outcome = Literal["completed", "stopped", "refused", "unclear", "answered", "fai
 EXIT_CODES: Mapping[str, int] = {
     "completed": 0, "answered": 0, "failed": 1, "unclear": 3, "refused": 4, "stopped": 5,
 }  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Event:
-    """Base of all events. `turn` counts the instructions of a session from 1; 0 belongs to none."""
-
-    turn: int
-    name: ClassVar[str] = ""
-
-    def to_json(self) -> dict[str, Any]:
-        return {
-            "event": self.name,
-            **{f.name: _plain(getattr(self, f.name)) for f in dataclasses.fields(self)},
-        }
 
 
 @dataclass(frozen=True)
@@ -325,63 +312,3 @@ class Result(Event):
     def is_question(self) -> bool:
         """The next text may answer it."""
         return self.outcome == "unclear" or self.proposal is not None
-
-
-def _plain(value: Any) -> Any:
-    """JSON's own types: a Pose and a Twist become objects with their units in the keys."""
-    if isinstance(value, (Pose, Twist)):
-        return {key: round(number, 6) for key, number in zip(value._fields, value)}
-    if isinstance(value, float):
-        return round(value, 6)
-    if isinstance(value, (Reason, Event, Proposal)):
-        return value.to_json()
-    if isinstance(value, (tuple, list)):
-        return [_plain(item) for item in value]
-    return value
-
-
-def event_from_json(data: Mapping[str, Any]) -> Event:
-    """The event that `to_json` made `data` of.
-
-    Raises:
-        ValueError: no event of ours has that name or those fields.
-    """
-    kind = EVENT_TYPES.get(str(data.get("event")))
-    if kind is None:
-        raise ValueError(f"no such event: {data.get('event')!r}")
-    values = {key: value for key, value in data.items() if key != "event"}
-    annotations = {f.name: str(f.type) for f in dataclasses.fields(kind)}
-    try:
-        return kind(**{key: _READERS.get(annotations[key], _as_is)(value) for key, value in values.items()})
-    except (KeyError, TypeError) as error:
-        raise ValueError(f"not a {kind.name} event: {error}") from error
-
-
-def _as_is(value: Any) -> Any:
-    return value
-
-
-def _optional(read: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    return lambda value: None if value is None else read(value)
-
-
-_READERS: Mapping[str, Any] = {
-    "Pose": lambda value: Pose(**value),
-    "Twist": lambda value: Twist(**value),
-    "Reason": Reason.from_json,
-    "Reason | None": _optional(Reason.from_json),
-    "Proposal | None": _optional(Proposal.from_json),
-    "tuple[int, ...]": tuple,
-    "tuple[float | None, ...]": tuple,
-    "tuple[str, ...]": tuple,
-    "tuple[FindingSeen, ...]": lambda value: tuple(event_from_json(item) for item in value),
-    "tuple[tuple[float, float, float], ...]": lambda value: tuple(tuple(item) for item in value),
-}
-
-EVENT_TYPES: Mapping[str, type[Event]] = {
-    kind.name: kind
-    for kind in (
-        Interpreted, FindingSeen, Rehearsed, Started, Paused, Progress, Telemetry, TruePose, Limited, Said, Remembered,
-        Streamed, Looked, ModelCalled, Notice, Finished, Result, ProgramWritten, ProgramRehearsed, ProgramLog,
-    )
-}  # fmt: skip

@@ -273,10 +273,8 @@ class ModelTurn:
     def _end_talk(self) -> None:
         """It was only to take note of something."""
         end = self._round.call_end
-        if end is not None and end.problem is not None:
-            self._conclude("failed", end.problem)
-        else:
-            self._conclude("answered", None)
+        problem = end.problem if end is not None else None
+        self._conclude("answered" if problem is None else "failed", problem)
 
     def _end_with(self, problem: Reason) -> None:
         """The reply could not be used, or only up to a line."""

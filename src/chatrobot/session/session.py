@@ -8,14 +8,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from chatrobot.core.errors import JointError, PlanTextError
-from chatrobot.core.events import Event, Finished, Interpreted, Remembered, Result, Telemetry
+from chatrobot.core.errors import JointError
+from chatrobot.core.events import Event, Finished, Remembered, Result, Telemetry
 from chatrobot.core.reason import Reason
-from chatrobot.language.interpretation import Interpretation
-from chatrobot.language.resuming import wants_to_resume
-from chatrobot.plan.text import format_plan, parse_plan
+from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.session.authoring import Authoring
+from chatrobot.session.dispatch import Dispatch
 from chatrobot.session.draft import Draft
 from chatrobot.session.early import EarlyAnswers
 from chatrobot.session.joint import Joint
@@ -24,7 +23,6 @@ from chatrobot.session.next_text import NextText
 from chatrobot.session.observations import measured
 from chatrobot.session.options import Options
 from chatrobot.session.orders import Orders
-from chatrobot.session.parting import parting
 from chatrobot.session.program_turns import ProgramTurns
 from chatrobot.session.proposals import Proposals
 from chatrobot.session.replies import offered
@@ -61,7 +59,6 @@ class Session:
         self._on_event = on_event
         self._orders = Orders(joint, options)
         self._said = SaidTexts()
-        self._waits_for_end = 0
         self._proposals = Proposals(understanding, self._said.is_void_turn)
         self._book = TurnBook(understanding, self._emit)
         self._thinking = Thinking(
@@ -89,6 +86,20 @@ class Session:
             )
             if authoring is not None
             else None
+        )
+        self._dispatch = Dispatch(
+            joint,
+            self._orders,
+            self._said,
+            understanding,
+            self._book,
+            self._proposals,
+            self._resuming,
+            self._thinking,
+            self._programs,
+            self._emit,
+            self.stop,
+            self._hears_robot_soon,
         )
 
     @property
@@ -248,7 +259,7 @@ class Session:
 
     def _find_next(self) -> Said | None:
         """The text to take now, if any."""
-        return self._next.find(self.options, self._waits_for_end)
+        return self._next.find(self.options, self._dispatch.waits_for_end)
 
     def _take_texts(self) -> None:
         for said in self._said.take_too_many():
@@ -259,101 +270,9 @@ class Session:
         while (found := self._find_next()) is not None:
             self._orders.pauses = self._said.pauses
             if (taken := self._said.take(found)) is not None:
-                self._take(taken)
+                self._dispatch.take(taken)
 
-    def _take(self, said: Said) -> None:
-        if self._said.is_void(said):
-            self._book.conclude(said.turn, "stopped", self.understanding.say("dropped_by_stop", said.text))
-            return
-        answer = self._proposals.answered(said)
-        if answer is not None:
-            self._act_on(said, answer)
-        elif said.kind == "resume" or (said.kind == "text" and self._goes_on(said.text)):
-            self._go_on(said)
-        elif said.kind == "text":
-            self._understand(said)
-        elif said.kind in ("plan", "edited_plan"):
-            self._read_plan(said)
-        elif said.kind in ("program", "draft", "source"):
-            self._begin_program(said)
-        else:
-            code = "stopped_now" if said.kind != "emergency_stop" else "emergency_stopped"
-            reply = self.understanding.say(code, said.text)
-            if said.kind == "pause":
-                reply = self._resuming.told(self._resuming.paused, "paused_now")
-            self._emit(Interpreted(said.turn, "reflex", "", ""))
-            self._book.conclude(said.turn, "stopped", reply)
-
-    def _goes_on(self, text: str) -> bool:
-        """Whether it asks to go on with what was paused or stopped."""
-        return wants_to_resume(text) and self._resuming.is_about_this
-
-    def _go_on(self, said: Said) -> None:
-        """Go on with what is paused; what is left of a plan that was stopped is offered."""
-        self.understanding.hear_language(said.text)
-        paused = self._resuming.take_paused()
-        self._orders.is_paused = False
-        if paused is None:
-            meant = self._resuming.offer()
-            reply = self.understanding.say("nothing_paused", said.text)
-            self._act_on(said, meant or Interpretation("answered", reply, self.understanding.language))
-            return
-        self._orders.resume(paused.turn)
-        self._said.release()
-        reply = self._resuming.told(paused, "goes_on")
-        self._emit(Interpreted(paused.turn, "offline", paused.plan_text, ""))
-        self._emit(Interpreted(said.turn, "offline", "", reply))
-        self._book.conclude(said.turn, "answered", reply)
-
-    def _begin_program(self, said: Said) -> None:
-        if self._programs is None:
-            self._book.conclude(said.turn, "refused", self.understanding.say("no_programs_here", said.text))
-        elif isinstance(said.about, Draft):
-            self._programs.run(said.turn, said.text, said.about)
-        elif said.kind == "source":
-            self._programs.run_edited(said.turn, said.text, said.about)
-        else:
-            self._programs.begin(said.turn, said.text, is_asked_for=True, name=said.about)
-
-    def _understand(self, said: Said) -> None:
-        if self._programs is not None and self._programs.begin(said.turn, said.text):
-            return
-        meant = self.understanding.interpret(said.text, self._book.under_way)
-        is_any_under_way = self._book.is_any_with_motion or self._thinking.is_busy
-        if is_any_under_way and meant.is_about_turn_before:
-            self._end_turn_before(said)
-            return
-        if self.understanding.misses_robot(meant) and self._hears_robot_soon():
-            meant = self.understanding.interpret(said.text)
-        if parting(meant) is None and self._thinking.wants(said.text, meant):
-            self._ask_model(said, meant)
-            return
-        self._act_on(said, self._thinking.without_model(said.text, meant))
-
-    def _end_turn_before(self, said: Said) -> None:
-        """Stop what is under way, because `said` is about it; read `said` again once that has ended."""
-        self._said.put_back(said)
-        self._waits_for_end = said.turn
-        self._thinking.replace()
-        self._joint.send("stop", said.turn - 1, why=said.text[:80])
-
-    def _act_on(self, said: Said, meant: Interpretation) -> None:
-        """Do what was understood without a model."""
-        plan_text = format_plan(meant.plan) if meant.plan is not None else ""
-        interpreted = Interpreted(said.turn, "offline", plan_text, meant.reply)
-        if meant.outcome == "plan":
-            # Before it is told: telling takes longer than the way to Motion.
-            self._send_plan(said, meant, plan_text)
-            self._emit(interpreted)
-            return
-        self._emit(interpreted)
-        if meant.outcome == "stop":
-            self.stop(said.text[:80])
-            self._book.conclude(said.turn, "stopped", meant.reply)
-        else:
-            self.understanding.note_unmoved(said.text, meant)
-            self._thinking.note(said.text, "", f"{meant.outcome}: {meant.reply}")
-            self._book.conclude(said.turn, meant.outcome, meant.reply, None, parting(meant), meant.proposal)
+    # --- what Motion and the model tell ---
 
     def _hears_robot_soon(self) -> bool:
         """A robot that is there says where it is within a moment of the start."""
@@ -366,47 +285,9 @@ class Session:
                 return True
         return False
 
-    def _ask_model(self, said: Said, meant: Interpretation) -> None:
-        options, mode = self.options, self._orders.mode
-        if mode == "replace":
-            self._thinking.replace()
-        self._thinking.begin(
-            said.turn,
-            said.text,
-            meant,
-            mode,
-            approve="all" if options.approve else "models" if options.approve_models else "",
-            rehearse_only=options.rehearse_only,
-        )
-        if self._said.is_void_turn(said.turn):
-            self._thinking.cancel(self._said.stopped_by)  # a stop came while it was being understood
-        if self._said.pauses != self._orders.pauses:
-            self._thinking.cancel_unmoved(Reason("paused_by"))
-
     def _conclude_model_turn(self, turn: int, text: str, ended: Ended) -> None:
         reply = self.understanding.note_model_turn(text, ended, self.options.rehearse_only)
         self._book.conclude(turn, ended.outcome, reply, ended.finished, ended.reason)
-
-    def _read_plan(self, said: Said) -> None:
-        try:
-            plan = parse_plan(said.text)
-        except PlanTextError as error:
-            self._emit(Interpreted(said.turn, "offline", "", ""))
-            self._book.conclude(
-                said.turn, "unclear", self.understanding.say("plan_text", said.text, problem=str(error))
-            )
-            return
-        meant = self.understanding.accept(plan)
-        plan_text = format_plan(plan)
-        self._emit(Interpreted(said.turn, "offline", plan_text, ""))
-        self._send_plan(said, meant, plan_text)
-
-    def _send_plan(self, said: Said, meant: Interpretation, plan_text: str) -> None:
-        mode = "append" if meant.append else self._orders.mode
-        if mode == "replace":
-            self._thinking.replace()
-        self._book.track(said.turn, said.text, meant)
-        self._orders.plan(said.turn, plan_text, mode, asks=said.kind == "edited_plan")
 
     def _hear(self, event: Event) -> None:
         if isinstance(event, Telemetry):
