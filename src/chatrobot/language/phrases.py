@@ -153,9 +153,9 @@ def _step(step: Step, language: str) -> str:
             s=number(step.duration_s),
         )
     if isinstance(step, Go):
-        return spoken(
-            "step_go", place=step.place or spoken("the_start" if step.frame == "start" else "the_point")
-        )
+        code = "the_start" if step.frame == "start" else "the_point"
+        point = spoken(code, x=number(step.x_m, 2), y=number(step.y_m, 2))
+        return spoken("step_go", place=step.place or point)
     if isinstance(step, Face):
         return spoken("step_face")
     if isinstance(step, Wait):
