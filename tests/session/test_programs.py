@@ -18,6 +18,7 @@ from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.events import (
     Event,
     ModelCalled,
+    Paused,
     ProgramLog,
     ProgramRehearsed,
     ProgramWritten,
@@ -361,6 +362,27 @@ def test_a_stop_ends_a_program_that_never_would(house: House) -> None:
     assert "program_endless" in house.findings
     assert result.outcome == "stopped"
     assert result.path_m < 1.0
+
+
+@pytest.mark.parametrize("word", ["pause", "hold on", "暂停"])
+def test_a_pause_stops_a_program_and_says_so(house: House, word: str) -> None:
+    said: list[int] = []
+
+    def pause_soon(event: Event) -> None:
+        if isinstance(event, TruePose) and event.vx_mps > 0.15 and not said:
+            said.append(house.session.say(word))
+
+    house.on_event = pause_soon
+    result = house.run(program("while True:\n    self.drive(0.2, 0.0, 0.1)"))
+    assert result.outcome == "stopped"
+    assert result.reason is not None
+    assert result.reason.code == "program_not_paused"
+    assert result.reply.startswith("Stopped (a program cannot be paused, so it was stopped).")
+    assert result.path_m < 1.0
+    assert not house.session.is_paused
+    assert house.all(Paused) == []
+    stood = house.do("continue")
+    assert (stood.outcome, stood.proposal, stood.path_m) == ("answered", None, 0.0)
 
 
 def test_a_program_that_raises_in_rehearsal_never_moves(house: House) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from tests.session.scripted_model import ModelTalk, Options
 
-from chatrobot.core.events import Event, Finished, Rehearsed, Started
+from chatrobot.core.events import Event, Finished, Paused, Rehearsed, Started
 from chatrobot.core.geometry import ORIGIN
 from chatrobot.language.consent import read_consent, wants_to_edit
 from chatrobot.session.question import Question
@@ -48,7 +48,7 @@ def test_a_question_is_answered_once() -> None:
     assert session.all == [(3, True)]
 
 
-@pytest.mark.parametrize("end", [finished(3), Started(3)])
+@pytest.mark.parametrize("end", [finished(3), Started(3), Paused(3, ORIGIN, "drive 1 m")])
 def test_a_question_ends_with_its_plan_and_no_other(end: Event) -> None:
     question = Question()
     question.hear(rehearsed(3))

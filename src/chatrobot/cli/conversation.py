@@ -158,7 +158,8 @@ class Conversation:
             self._is_cut_off = True
             self.session.stop("nobody reads")
         self._approver.answer(self.session)
-        waits = self._approver.is_waiting or self.session.waits_for_a_word
+        is_asking = self._approver.is_waiting and not self.session.is_being_paused
+        waits = is_asking or self.session.waits_for_a_word
         if self._setup.fast and waits and self._wait_for_posted():
             return  # a virtual half minute is over before a person has read the question: time stands
         self.session.pump(PUMP_S)

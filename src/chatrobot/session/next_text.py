@@ -40,10 +40,10 @@ class NextText:
         for number, said in enumerate(waiting):
             if not said.is_instruction or self._said.is_void(said):
                 is_about_a_pause = said.kind in ("pause", "resume")
-                return None if is_about_a_pause and self._is_being_paused else said
+                return None if is_about_a_pause and self.is_being_paused else said
             if self._said.is_held(said):
                 continue
-            if self._is_being_paused:
+            if self.is_being_paused:
                 return None
             replaces = self._resuming.paused is not None or options.while_moving == "replace"
             if replaces and said.turn != waits_for_end:
@@ -55,7 +55,7 @@ class NextText:
         return None
 
     @property
-    def _is_being_paused(self) -> bool:
+    def is_being_paused(self) -> bool:
         """A pause was said, and Motion has not told yet what came of it."""
         is_moving = self._book.is_any_with_motion or self._thinking.is_moving
         return self._said.is_holding and self._resuming.paused is None and is_moving

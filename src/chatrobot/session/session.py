@@ -209,6 +209,11 @@ class Session:
         return self._resuming.paused is not None
 
     @property
+    def is_being_paused(self) -> bool:
+        """A pause was said, and Motion has not told yet what came of it."""
+        return self._next.is_being_paused
+
+    @property
     def waits_for_a_word(self) -> bool:
         """A plan is paused, and nothing happens before somebody says something."""
         return self.is_paused and not self._thinking.is_calling and self._find_next() is None
