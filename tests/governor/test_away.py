@@ -169,6 +169,13 @@ def test_nearer_means_nearer_than_it_is_and_than_the_nearest_is() -> None:
     assert not comes_nearer(BODY, np.empty((0, 2)), Twist(0.05), 1.0, 0.02, 0.001)
 
 
+def test_a_big_robot_sees_what_is_beside_it() -> None:
+    big = Footprint(tuple((16.0 * x, 16.0 * y) for x, y in MECANUM.footprint))
+    ahead = np.array([(16.0 * FRONT_M + 0.02, 0.0)])
+    assert comes_nearer(big, ahead, Twist(0.05), 0.4, 0.02, NEARER_M)
+    assert not comes_nearer(big, ahead, Twist(-0.05), 0.4, 0.02, NEARER_M)
+
+
 def test_what_passes_a_corner_comes_nearest_between_two_looks() -> None:
     """Half way it is half a millimetre nearer than at either end; what is told is no more than that."""
     beside, past = (
