@@ -169,6 +169,25 @@ def test_nearer_means_nearer_than_it_is_and_than_the_nearest_is() -> None:
     assert not comes_nearer(BODY, np.empty((0, 2)), Twist(0.05), 1.0, 0.02, 0.001)
 
 
+def test_a_big_robot_sees_what_is_beside_it() -> None:
+    big = Footprint(tuple((16.0 * x, 16.0 * y) for x, y in MECANUM.footprint))
+    ahead = np.array([(16.0 * FRONT_M + 0.02, 0.0)])
+    assert comes_nearer(big, ahead, Twist(0.05), 0.4, 0.02, NEARER_M)
+    assert not comes_nearer(big, ahead, Twist(-0.05), 0.4, 0.02, NEARER_M)
+
+
+def test_what_passes_a_corner_comes_nearest_between_two_looks() -> None:
+    """Half way it is half a millimetre nearer than at either end; what is told is no more than that."""
+    beside, past = (
+        np.array([[FRONT_M + 0.02, FRONT_M + 0.019]]).T,
+        np.array([[SIDE_M + 0.019, SIDE_M + 0.02]]).T,
+    )
+    assert BODY.clearance_m(beside, past).ravel() == pytest.approx([0.02, 0.02])
+    assert BODY.kept_m(beside, past).ravel() == pytest.approx([0.019])
+    outwards = np.array([[FRONT_M + 0.02, FRONT_M + 0.05, FRONT_M + 0.04]]).T
+    assert BODY.kept_m(outwards, 0.0 * outwards).ravel() == pytest.approx([0.02, 0.04])
+
+
 def test_what_lies_beyond_the_circle_counts_beside_a_corner() -> None:
     """The half planes say 0.017 m, the corner is farther away, and the turn brings it nearer all the same."""
     corners = load_profile("wheeltec_mini_diff").footprint
@@ -198,6 +217,7 @@ speeds = st.floats(-0.6, 0.6)
 @given(st.lists(near, min_size=1, max_size=6), speeds, speeds, st.floats(-1.5, 1.5))
 @example([(FRONT_M + 0.02, 0.0)], -0.5, 0.0, 0.0)
 @example([(FRONT_M + 0.02, 0.1), (-FRONT_M - 0.02, -0.1)], 0.0, 0.0, 1.0)
+@example([(0.1318589124545741, 0.10873664981170308)], 0.0, 0.0, 1.0)  # nearest between two looks ahead
 def test_nothing_in_contact_is_approached_and_no_corner_is_fast(
     points: list[tuple[float, float]], vx: float, vy: float, wz: float
 ) -> None:

@@ -11,14 +11,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from chatrobot.reflex import is_stop, leads_with_stop, words_en, words_zh
-from chatrobot.reflex.mistyped import is_one_edit
-from chatrobot.reflex.phrases import units_of
+from chatrobot.reflex.mistyped import MOST_UNITS, Mistyped, is_one_edit
+from chatrobot.reflex.phrases import phrases, units_of
 from chatrobot.reflex.real_words_en import WORDS
 
 MISTYPED = [
     "pleas stopp", "That'll do, knock it off", "stp", "stpp", "dtop", "hatl", "wiat", "freze", "hodl on", "holdon",
     "stopmoving", "st op", "sto pit", "plese stpo now", "nevr mind", "enogh", "kil the motors", "pleasee haltt thnaks",
     "sstop, go back", "Robot, plaese hlat!", "don't mvoe", "emergancy stop", "stay thhere", "qiut", "st0p",
+    "stpp, the cat is there", "stpp, turn left, then right",
     "停直", "赞停", "布动", "请站主", "别冻了", "等灯", "沾住别动",
 ]  # fmt: skip
 NOT_MISTYPED = [
@@ -88,6 +89,31 @@ def test_no_instruction_of_the_corpora_looks_like_a_mistyped_stop() -> None:
                     assert not leads_with_stop(text), text
 
 
+def made_anew(text: str) -> bool:
+    """Whether `text` is a mistyped stop to who knows a few phrases only."""
+    stops = phrases(("halt now", "quit", "off", "站住", "停", "龘住"))
+    fillers = phrases(("please", "谢谢"))
+    return Mistyped(stops, fillers, phrases(("hqlt",))).covers(units_of(text))
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["quit", "qiut", "qu it", "halt nwo", "ha lt now", "plese quit", "qiut plese", "plese qiut, plese halt nwo",
+     "沾住", "谢谢，沾住", "沾住 qiut", "停", "quit " * MOST_UNITS],
+)  # fmt: skip
+def test_phrases_are_learned_with_what_may_stand_beside_them(text: str) -> None:
+    assert made_anew(text) is True
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "please", "plese", "plese plese", "谢谢", "写写", "听", "齉住", "占住", "of", "offf it", "hqlt now",
+     "halo nwo", "quit the", "the quit", "qiut the", "qiutt", "q u it", "quit " * (MOST_UNITS + 1)],
+)  # fmt: skip
+def test_nothing_else_is_learned(text: str) -> None:
+    assert made_anew(text) is False
+
+
 _LONG = [
     phrase
     for phrase in (" ".join(units_of(phrase)) for phrase in words_en.STOP)
@@ -132,3 +158,4 @@ def test_every_listed_word_is_there_once() -> None:
     assert len(WORDS.split()) == len({*WORDS.split()})
     for table in (words_en.PAUSE, words_zh.PAUSE):
         assert len(table) == len({*table})
+    assert {*words_zh.OTHER_WORDS}.isdisjoint((*words_zh.STOP, *words_zh.EMERGENCY))

@@ -18,7 +18,7 @@ def test_every_pause_word_stops_as_well(phrase: str) -> None:
 @pytest.mark.parametrize(
     "text",
     ["Please pause now", "hold on a second", "wait, please", "PAUSE!!", "puase", "hodl on", "wait for a moment",
-     "请等一下", "等等等一下", "赞停"],
+     "请等一下", "等等等一下", "赞停", "pause " * 50],
 )  # fmt: skip
 def test_a_pause_may_be_polite_or_mistyped(text: str) -> None:
     assert is_pause(text)
@@ -28,7 +28,7 @@ def test_a_pause_may_be_polite_or_mistyped(text: str) -> None:
 @pytest.mark.parametrize(
     "text",
     ["stop", "wait, stop", "hold on, there's a cat", "no, wait", "halt", "enough", "wait, go back", "cancel", "停",
-     "等等，停下", "别动", "emergency stop", "", "go on", "want", "pause" * 80],
+     "等等，停下", "别动", "emergency stop", "", "go on", "want", "pause" * 80, "pause " * 51],
 )  # fmt: skip
 def test_what_may_mean_more_is_no_pause(text: str) -> None:
     assert not is_pause(text)
@@ -40,7 +40,15 @@ def test_a_longer_word_is_no_stop(text: str) -> None:
     assert not leads_with_stop(text)
 
 
-@pytest.mark.parametrize("text", ["stop for now", "stop for a second, then left", "stop it for god's sake"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "stop for now",
+        "stop for now and turn left later",
+        "stop for a second, then left",
+        "stop it for god's sake",
+    ],
+)
 def test_for_does_not_make_a_pause_of_every_stop(text: str) -> None:
     assert leads_with_stop(text)
     assert not leads_with_stop("stop for three seconds")

@@ -45,6 +45,17 @@ class Footprint:
             np.maximum(clearance, normal_x * x_m + normal_y * y_m - away, out=clearance)
         return clearance
 
+    def kept_m(self, x_m: Floats, y_m: Floats) -> Floats:
+        """Of points on a way, [times, n]: what is kept clear at least from one time to the next, [times - 1, n].
+
+        A point that passes a corner is nearest between two times. Its distance to each side goes nearly straight.
+        """
+        kept = np.full_like(x_m[1:], -math.inf)
+        for normal_x, normal_y, away in self._planes:
+            distance = normal_x * x_m + normal_y * y_m - away
+            np.maximum(kept, np.minimum(distance[:-1], distance[1:]), out=kept)
+        return kept
+
     def nearest_m(self, points: Floats, within_m: float) -> float:
         """The clearance of the nearest of points [n, 2] in the robot's frame; infinite where it is not `within_m`."""
         reach_m = self.radius_m + within_m
@@ -103,8 +114,8 @@ def comes_nearer(
     reach_m = 2.0 * footprint.radius_m  # beside a sharp corner the half planes reach far
     near = points[np.einsum("ij,ij->i", points, points) <= reach_m * reach_m]
     moved = _moved(twist, np.linspace(0.0, horizon_s, SAMPLES))
-    clearance = footprint.clearance_m(*_seen_from(near, *moved))
-    return bool((clearance < np.minimum(clearance[0], nearest_m) - by_m).any())
+    allowed_m = np.minimum(footprint.clearance_m(near[:, 0], near[:, 1]), nearest_m) - by_m
+    return bool((footprint.kept_m(*_seen_from(near, *moved)) < allowed_m).any())
 
 
 def _moved(twist: Twist, times: Floats) -> tuple[Floats, Floats, Floats]:

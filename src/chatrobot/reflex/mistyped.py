@@ -50,7 +50,7 @@ class Mistyped:
 
     def covers(self, units: Phrase) -> bool:
         """Whether stops (at least one) and what may stand beside them make up all of `units`."""
-        if not 0 < len(units) <= MOST_UNITS:
+        if len(units) > MOST_UNITS:
             return False
         reached = {0: False}
         for begin in range(len(units)):
@@ -70,7 +70,7 @@ class Mistyped:
             if not all(unit.isascii() for unit in window):
                 if self._sounds_like_a_stop(window):
                     yield end, True
-            elif not self._known.issuperset(window):
+            elif not self._known.issuperset(window):  # one of its words is none: a mistake
                 yield from ((end, is_stop) for is_stop in self._one_edit_from(window))
 
     def _one_edit_from(self, window: Phrase) -> Iterator[bool]:
@@ -78,12 +78,8 @@ class Mistyped:
         typed = " ".join(window)
         for length in (len(typed) - 1, len(typed), len(typed) + 1):
             for written, is_stop in self._by_length.get(length, ()):
-                if is_one_edit(typed, written) and self._has_mistake(window, written.split(" ")):
+                if is_one_edit(typed, written):
                     yield is_stop
-
-    def _has_mistake(self, window: Phrase, meant: list[str]) -> bool:
-        """Where it differs from what was meant stands a word that there is not."""
-        return any(word not in meant and word not in self._known for word in window)
 
     def _sounds_like_a_stop(self, window: Phrase) -> bool:
         return _sound(window) in self._sounds and "".join(window) not in self._chinese_words
@@ -95,7 +91,7 @@ def _sound(units: Phrase) -> Phrase:
 
 def is_one_edit(a: str, b: str) -> bool:
     """Whether a letter too many, too few or another, or two letters swapped, make one of the other."""
-    if abs(len(a) - len(b)) > 1 or a == b:
+    if a == b:
         return False
     i = 0
     while i < len(a) and i < len(b) and a[i] == b[i]:
