@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 from functools import lru_cache
 
 from chatrobot import reflex
 from chatrobot.language import forms, questions
+from chatrobot.language.acts import orders, without_requests, without_talk
 from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
 from chatrobot.language.consent import read_consent
@@ -15,7 +17,7 @@ from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import defined_unit, with_known_counts, with_measured_things
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
 from chatrobot.language.lexicon import lexicon
-from chatrobot.language.names import Misspelt, misspelt_place
+from chatrobot.language.names import Misspelt, misspelt_place, names_in
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.program_request import read_program_request
@@ -25,9 +27,9 @@ from chatrobot.language.rephrase import is_item, rephrased
 from chatrobot.language.sides import is_side, with_side
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import tokenise
-from chatrobot.language.told import check_not_told, tells
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
+from chatrobot.language.unfinished import check_consistent
 from chatrobot.robots.profile import RobotProfile
 
 
@@ -47,12 +49,38 @@ class OfflineInterpreter:
             reply = say(language, "too_long", characters=len(text))
             return Interpretation("unclear", reply, language, code="too_long")
         try:
-            return self._interpreted(text, language, context)
+            return self._ordered(text, language, context)
         except Unclear as problem:
             return _did_you_mean(problem, text, language, context) or asked_back(problem, language)
 
+    def _ordered(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
+        """What is ordered. A plan that no clause orders is not driven; talk beside an order is passed over.
+
+        Raises:
+            Unclear: where nothing is ordered, or what is ordered is not understood.
+        """
+        plain = normalise(text)
+        names = names_in(context)
+        rest = without_talk(plain, names)
+        if rest:
+            with contextlib.suppress(Unclear):
+                return self._interpreted(rest, language, context)
+        try:
+            meant = self._interpreted(text, language, context)
+        except Unclear as problem:
+            asked = "" if problem.refused else without_requests(rest or plain, names)
+            if not asked:
+                raise
+            with contextlib.suppress(Unclear):
+                return self._interpreted(asked, language, context)
+            raise
+        ordered = meant.outcome != "plan" or orders(plain, names) or read_twists(plain) or read_consent(plain)
+        if not ordered:
+            raise Unclear("nothing_to_do")
+        return meant
+
     def _interpreted(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
-        check_not_told(normalise(text), language)
+        check_consistent(normalise(text), language)
         plain = with_known_counts(without_compass(rephrased(normalise(text), language), language))
         rest, facing_rad = split_convention(plain, language)
         plain = rest or plain
@@ -145,11 +173,7 @@ def _agreed(plain: str, before: str, reading: Reading) -> Interpretation | None:
 def _pending(plain: str, reading: Reading) -> Interpretation | None:
     """A fragment answers what was asked back about the turn before."""
     pending = reading.context.dialogue.pending
-    if (
-        not pending
-        or len(pending) + len(plain) > MAX_CHARACTERS
-        or tells(normalise(pending), reading.language)
-    ):
+    if not pending or len(pending) + len(plain) > MAX_CHARACTERS or not orders(normalise(pending)):
         return None
     before = rephrased(normalise(pending), reading.language)
     agreed = _agreed(plain, before, reading)
