@@ -7,6 +7,7 @@ fitted by scripts/fit_acts.py and kept in `data/acts.bin`, one byte a slot; a fe
 
 from __future__ import annotations
 
+import itertools
 import math
 import zlib
 from collections.abc import Iterator, Sequence
@@ -14,7 +15,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from chatrobot.language.data_files import DATA
-from chatrobot.language.signs import Clause, Names, clauses_of, is_strong
+from chatrobot.language.signs import Clause, Names, Sign, clauses_of, is_strong
 
 SLOTS = 1 << 16
 ORDER = 0.0
@@ -23,6 +24,8 @@ TALK, TALK_OF_MOTION = -2.0, -3.0
 """A clause with lower odds than that may be passed over beside an order; with a word of motion in it, the second."""
 SURE_ORDER = 1.0
 """Of a clause with higher odds the request that opens it may be left out."""
+_MEASURES = frozenset({"UNIT", "COUNTER"})
+_AMOUNTS = _MEASURES | {"NUMBER", "SCALE", "FRACTION"}
 _LOOKS_BACK = 3
 SCALE = 24.0
 """A weight of one is this much in a byte."""
@@ -97,8 +100,9 @@ def features(clauses: Sequence[Clause], i: int) -> Iterator[str]:
     """The features of one clause among its neighbours."""
     clause = clauses[i]
     end = f"${_mark(clause)}"
-    labels = ["^", *(sign.label for sign in clause.signs), end]
-    texts = ["^", *(sign.text for sign in clause.signs), end]
+    told = list(_told(clause.signs))
+    labels = ["^", *(label for label, _ in told), end]
+    texts = ["^", *(text for _, text in told), end]
     yield "bias"
     for at in range(1, len(labels)):
         yield f"1{labels[at]}"
@@ -119,6 +123,17 @@ def features(clauses: Sequence[Clause], i: int) -> Iterator[str]:
 def _mark(clause: Clause) -> str:
     """The mark after a clause. How a sentence ends that is no question tells nothing."""
     return "." if clause.end != "?" and is_strong(clause.end) else clause.end
+
+
+def _told(signs: Sequence[Sign]) -> Iterator[tuple[str, str]]:
+    """(label, text) of each sign, an amount being one: which it is and how it is put together tells nothing."""
+    for is_amount, group in itertools.groupby(signs, lambda sign: sign.label in _AMOUNTS):
+        run = list(group)
+        if is_amount:
+            label = "AMOUNT" if any(sign.label in _MEASURES for sign in run) else "NUMBER"
+            yield label, label
+        else:
+            yield from ((sign.label, sign.text) for sign in run)
 
 
 def _around(clauses: Sequence[Clause], i: int) -> Iterator[str]:

@@ -21,6 +21,8 @@ _NO_CONTENT = frozenset(
 )  # fmt: skip
 _IDLE = frozenset({"VERB", "DIR", "PLACE", "COUNTER"})
 _OPENING = frozenset({"request", "please", "opening", "robot"})
+_JOINT = "joint"
+"""The label of words that begin a clause of their own."""
 _QUOTES = frozenset('"“”「」『』')
 _UNITS = "unit_"
 _EVIDENCE_KINDS = {"num": "NUMBER", "negation": "not", "condition": "condition", "correction": "correction"}
@@ -97,7 +99,7 @@ def clauses_of(text: str, names: Names = _NO_NAMES) -> list[Clause]:
         unit = match.group()
         if unit in _STRONG or unit in _WEAK:
             if units:
-                found.append(Clause(tuple(_signs(units, names)), unit, start, match.end()))
+                found += _parted(list(_signs(units, names)), unit, start, match.end())
                 units = []
             elif found and unit in _STRONG:
                 last = found[-1]
@@ -108,8 +110,18 @@ def clauses_of(text: str, names: Names = _NO_NAMES) -> list[Clause]:
                 start = match.start()
             units.append((unit, match.start()))
     if units:
-        found.append(Clause(tuple(_signs(units, names)), "", start, len(text)))
+        found += _parted(list(_signs(units, names)), "", start, len(text))
     return found
+
+
+def _parted(signs: list[Sign], end: str, start: int, stop: int) -> Iterator[Clause]:
+    """What stands between two marks, parted before words such as `because`."""
+    begins = [0, *(i for i, sign in enumerate(signs) if i and sign.label == _JOINT)]
+    for begin, after in zip(begins, [*begins[1:], len(signs)]):
+        is_last = after == len(signs)
+        until = stop if is_last else signs[after].start
+        yield Clause(tuple(signs[begin:after]), end if is_last else ",", start, until)
+        start = until
 
 
 def is_strong(mark: str) -> bool:
