@@ -2,7 +2,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: help setup run test lint bench pictures lock clean faults fuzz coverage mutants try-llamacpp
+.PHONY: help setup run test lint bench pictures lock clean faults fuzz soak undos coverage mutants try-llamacpp
 
 help:
 	@echo "make setup   .venv with everything in it        make run    talk to the simulated robot"
@@ -11,6 +11,8 @@ help:
 	@echo "make pictures   draw docs/images anew, from the real program"
 	@echo "make faults  kill and freeze each process 20 times; worst time to zero"
 	@echo "make fuzz    a million sequences of 50 nasty commands at the governor: FUZZ='--sequences 1000 --seed 2'"
+	@echo "make soak    100 sessions of 30 turns in two worlds: is the told pose the true one? SOAK='--real --busy 2 --seeds 10'"
+	@echo "make undos   stop 20 plans at 20 moments each, undo them: how far from where each turn began?"
 	@echo "make coverage   every branch of governor, reflex and the guard's rule, or it fails"
 	@echo "make mutants    change the safety code in every way a tool can think of; the tests must notice"
 	@echo "make try-llamacpp   build llama.cpp, make a tiny random model, let it drive the simulated robot"
@@ -48,6 +50,13 @@ faults: setup
 # A million sequences take about twenty minutes on two cores.
 fuzz: setup
 	$(BIN)/python -m scripts.fuzz $(FUZZ)
+
+# A few minutes in simulated time; in real time about four minutes a session.
+soak: setup
+	$(BIN)/python -m scripts.soak $(SOAK)
+
+undos: setup
+	$(BIN)/python -m scripts.undos $(UNDOS)
 
 coverage: setup
 	$(BIN)/coverage run -m pytest -q -m "not realtime and not slow" \

@@ -23,7 +23,7 @@ import threading
 import time
 from pathlib import Path
 
-from scripts.fuzz import with_everything
+from scripts.fuzz_robots import with_everything
 from tests.realtime import RunningRobot
 
 from bench.latency import percentile

@@ -3,7 +3,8 @@
 A plain seeded generator of sequences of 50 commands, over all profiles: NaN, infinities, denormals, huge numbers,
 clocks that go back, interleaved sources, sources that die, leases that end, stops, latches, scans, velocities held
 back and sent late. After each command it is checked that what a transport would send is finite and within the
-profile's speed and (zero exempt) acceleration, and that nothing moves after a stop, a latch or the end of a lease.
+profile's speed and (zero exempt) acceleration, that nothing moves after a stop, a latch or the end of a lease, and
+that a robot in contact with something goes slowly, and nearer to nothing.
 """
 
 from __future__ import annotations
@@ -14,21 +15,23 @@ import multiprocessing
 import random
 import sys
 import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+
+from scripts.fuzz_contact import broken_in_contact
+from scripts.fuzz_limits import BrokenPromiseError, Sent
+from scripts.fuzz_robots import profiles
 
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.governed import GovernedTwist, StopEpoch
-from chatrobot.governor.governor import LONGEST_STEP_S, TICK_S, Governor
+from chatrobot.governor.governor import TICK_S, Governor
 from chatrobot.governor.rule import Sensed
-from chatrobot.robots.load import list_profiles
-from chatrobot.robots.profile import Circle, RobotProfile, Safety
+from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.messages import LaserScan
 
 COMMANDS = 50
 CHUNK = 500
 """Sequences a worker does at a time; a chunk is named by its seed, so a finding can be done again alone."""
 
-EPSILON = 1e-9
 TERM_S = 0.3
 NASTY = (
     math.nan, math.inf, -math.inf, 5e-324, -5e-324, 2.2e-308, 1e308, -1e308, 1.7976931348623157e308, 0.0, -0.0,
@@ -36,10 +39,6 @@ NASTY = (
 )  # fmt: skip
 SOURCES = ("joystick", "console", "agent", "chatgpt_node", "nobody has heard of")
 LEASES = tuple(f"lease of {source}" for source in SOURCES)
-
-
-class BrokenPromiseError(AssertionError):
-    """A promise of the governor does not hold."""
 
 
 @dataclass
@@ -67,13 +66,9 @@ class Sequence:
         self.now_s = 100.0
         self.latched = False
         self.stops = 0
-        self.sent = Twist()
-        self.sent_at_s = -math.inf
-        self.gaining = (0.0, 0.0)
+        self.before = Sent(profile)
         self.held_back: list[tuple[GovernedTwist, int]] = []
         self.scans_left = 1
-        self.most_mps = math.inf
-        self.most_radps = math.inf
 
     def run(self) -> None:
         self.open(self.chance.choice(self.sources))
@@ -178,7 +173,7 @@ class Sequence:
         self.stops += 1
         for source in self.sources:
             source.may_move = False
-        self.sent = Twist()
+        self.before.stop()
 
     def release(self) -> None:
         """An agent tries and must fail; a person mostly may."""
@@ -205,12 +200,17 @@ class Sequence:
         )
 
     def _range(self) -> float:
-        return self.chance.choice(NASTY) if self.chance.random() < 0.3 else self.chance.random() * 3.0
+        dice = self.chance.random()
+        if dice < 0.3:
+            return self.chance.choice(NASTY)
+        if dice < 0.5:  # where the robot touches it, or nearly
+            return self.profile.footprint_radius_m + self.chance.uniform(-0.06, 0.06)
+        return self.chance.random() * 3.0
 
     def narrow(self) -> None:
         speed = self.chance.random() * 1.5
         self.governor.narrow(speed, 2.0 * speed)
-        self.most_mps, self.most_radps = min(self.most_mps, speed), min(self.most_radps, 2.0 * speed)
+        self.before.narrow(speed, 2.0 * speed)
 
     def _pose(self) -> Pose | None:
         dice = self.chance.random()
@@ -241,8 +241,15 @@ class Sequence:
 
     def ask(self, source: Source, asked: Twist) -> None:
         """A source asks for a velocity, and what a transport would make of the answer is checked."""
-        verdict = self.governor.govern(asked, source.lease_id, self.now_s, self._pose(), self._sensed())
+        pose = self._pose()
+        verdict = self.governor.govern(asked, source.lease_id, self.now_s, pose, self._sensed())
         governed = verdict.sent
+        if pose is not None and not verdict.allowed.is_zero:
+            broken = broken_in_contact(
+                self.profile, self.governor.seen_points.tolist(), verdict.allowed, pose
+            )
+            if broken:
+                raise BrokenPromiseError(broken)
         if governed.epoch != self.epoch.value:
             if verdict.rule != "outranked":
                 raise BrokenPromiseError(f"{verdict.rule} made a velocity that is void from the start")
@@ -250,17 +257,7 @@ class Sequence:
         if self.chance.random() < 0.05:
             self.held_back.append((governed, self.stops))
         self._check(governed.twist, source)
-        self._note(governed.twist)
-
-    def _note(self, sent: Twist) -> None:
-        """The acceleration that the next step goes on from: of the change, for what turns about slows first."""
-        step_s = TICK_S if self.sent.is_zero else min(self.now_s - self.sent_at_s, LONGEST_STEP_S)
-        if sent.is_zero:
-            self.gaining = (0.0, 0.0)
-        elif step_s > 0.0:
-            change = math.hypot(sent.vx_mps - self.sent.vx_mps, sent.vy_mps - self.sent.vy_mps)
-            self.gaining = (change / step_s, abs(sent.wz_radps - self.sent.wz_radps) / step_s)
-        self.sent, self.sent_at_s = sent, self.now_s
+        self.before.note(governed.twist, self.now_s)
 
     def _check(self, sent: Twist, source: Source) -> None:
         vx, vy, wz = sent
@@ -274,82 +271,13 @@ class Sequence:
             raise BrokenPromiseError("motion after the end of a lease")
         if not source.may_move:
             raise BrokenPromiseError("motion after a stop, or of a source that did not begin")
-        self._check_speed(sent)
-        elapsed_s = self.now_s - self.sent_at_s
-        if elapsed_s < 0.0:
-            raise BrokenPromiseError("motion though the clock went back")
-        step_s = LONGEST_STEP_S if self.sent.is_zero else min(elapsed_s, LONGEST_STEP_S)
-        limits = self.profile.limits
-        change = math.hypot(vx - self.sent.vx_mps, vy - self.sent.vy_mps)
-        if change > limits.acceleration_mps2 * step_s + EPSILON:
-            raise BrokenPromiseError(f"{change} m/s in {step_s} s")
-        if vx * self.sent.vx_mps + vy * self.sent.vy_mps < self.sent.speed_mps**2 - EPSILON:
-            brakes = min(limits.acceleration_mps2, limits.deceleration_mps2)
-            if change > brakes * step_s + EPSILON:
-                raise BrokenPromiseError(f"brakes by {change} m/s in {step_s} s")
-        if abs(wz - self.sent.wz_radps) > limits.angular_acceleration_radps2 * step_s + EPSILON:
-            raise BrokenPromiseError(f"{wz - self.sent.wz_radps} rad/s in {step_s} s")
-        self._check_jerk(sent, step_s)
-
-    def _check_jerk(self, sent: Twist, step_s: float) -> None:
-        """What only gains, gains no more than the last gain and a step's jerk on top. `gain` is in m/s and rad/s."""
-        before, limits = self.sent, self.profile.limits
-        gained = sent.speed_mps - before.speed_mps
-        turned = abs(sent.wz_radps) - abs(before.wz_radps)
-        if gained < 0.0 or turned < 0.0 or not step_s:
-            return
-        last_mps2, last_radps2 = self.gaining
-        if gained > (last_mps2 + limits.jerk_mps3 * step_s) * step_s + EPSILON:
-            raise BrokenPromiseError(f"from {last_mps2} to {gained / step_s} m/s² in {step_s} s")
-        if turned > (last_radps2 + limits.angular_jerk_radps3 * step_s) * step_s + EPSILON:
-            raise BrokenPromiseError(f"from {last_radps2} to {turned / step_s} rad/s² in {step_s} s")
-
-    def _check_speed(self, sent: Twist) -> None:
-        limits, profile = self.profile.limits, self.profile
-        speed, rate = math.hypot(sent.vx_mps, sent.vy_mps), abs(sent.wz_radps)
-        if speed > limits.max_speed_mps + EPSILON or abs(sent.vy_mps) > limits.max_sideways_mps + EPSILON:
-            raise BrokenPromiseError(f"{sent} is above the profile's speed")
-        if rate > limits.max_rate_radps + EPSILON:
-            raise BrokenPromiseError(f"{sent} is above the profile's rate")
-        if not profile.can_go_sideways and sent.vy_mps != 0.0:
-            raise BrokenPromiseError("sideways on a base that cannot")
-        if limits.wheel_speed_mps(*sent) > limits.max_wheel_speed_mps + EPSILON:
-            raise BrokenPromiseError("a wheel rolls faster than it may")
-        if rate * limits.min_turning_radius_m > abs(sent.vx_mps) + EPSILON:
-            raise BrokenPromiseError("a tighter curve than the base can do")
-        if speed > max(self.most_mps, self.sent.speed_mps) + EPSILON:
-            raise BrokenPromiseError("faster than the limit that was narrowed")
-        if rate > max(self.most_radps, abs(self.sent.wz_radps)) + EPSILON:
-            raise BrokenPromiseError("turns faster than the limit that was narrowed")
+        self.before.check(sent, self.now_s)
 
 
 def _good_scan(chance: random.Random) -> LaserScan:
     """All around, something here and there."""
     ranges = [0.3 + 4.0 * chance.random() if chance.random() < 0.3 else math.inf for _ in range(16)]
     return LaserScan(100.0, -math.pi, math.tau / 16, 0.1, 8.0, ranges)
-
-
-def profiles() -> list[RobotProfile]:
-    """All there are, and each with every rule that a profile can switch on."""
-    plain = [entry.load() for entry in list_profiles()]
-    return [*plain, *map(with_everything, plain)]
-
-
-def with_everything(profile: RobotProfile) -> RobotProfile:
-    """The same robot with every rule and every limit that a profile can switch on."""
-    limits = profile.limits
-    reach_m = limits.max_speed_mps / limits.max_rate_radps
-    return replace(
-        profile,
-        safety=Safety(Circle(0.0, 0.0, 3.0), ("odom", "imu"), 0.05, 60.0),
-        limits=replace(
-            limits,
-            max_wheel_speed_mps=1.1 * limits.max_speed_mps,
-            wheel_reach_m=reach_m,
-            jerk_mps3=4.0 * limits.acceleration_mps2,
-            angular_jerk_radps3=5.0 * limits.angular_acceleration_radps2,
-        ),
-    )
 
 
 def run_chunk(seed: int, sequences: int) -> str:

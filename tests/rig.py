@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 
 from chatrobot.core.clock import VirtualClock
@@ -66,18 +67,30 @@ class Rig:
             self.clock.advance(TICK_S)
             self.robot.step(TICK_S)
 
+    def halt(self) -> None:
+        """Stop, and see it stand."""
+        self._transport.halt()
+        self.live(1.0)
+
     def run(
-        self, plan: Plan, each_tick: Callable[[float], None] | None = None, limit_s: float = 600.0
+        self,
+        plan: Plan,
+        each_tick: Callable[[float], None] | None = None,
+        limit_s: float = 600.0,
+        halt_after_s: float = math.inf,
     ) -> Executor:
-        """Run `plan` to its end; `each_tick(seconds since its start)` may meddle."""
+        """Run `plan` to its end, or halt after so long; `each_tick(seconds since its start)` may meddle."""
         estimate = self.sensors.estimate
         start = estimate.pose if estimate is not None else ORIGIN
         context = LoweringContext(self.profile, start, start)
-        executor = Executor(self.profile, self.sensors, self.events.append)
+        self.executor = executor = Executor(self.profile, self.sensors, self.events.append)
         began_s = self.clock.now_s()
         assert self.governor.begin("rig", self.clock.now_s(), self.sensed()).refusal is None
         executor.start(1, iterate_core(plan, context), 10.0, began_s)
         while self.clock.now_s() - began_s < limit_s:
+            if self.clock.now_s() - began_s >= halt_after_s:
+                self.halt()
+                return executor
             if each_tick is not None:
                 each_tick(self.clock.now_s() - began_s)
             asked = executor.tick(self.clock.now_s())
@@ -87,6 +100,7 @@ class Rig:
             pose = self.sensors.pose_now()
             verdict = self.governor.govern(asked, "rig", self.clock.now_s(), pose, self.sensed())
             self._transport.send(verdict.sent)
+            self.sensors.note_sent(verdict.sent.twist)
             executor.note(verdict.rule, verdict.reason, verdict.sent.twist, self.clock.now_s())
             self.sent.append(verdict.sent.twist)
             self.live(TICK_S)

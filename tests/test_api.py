@@ -10,7 +10,7 @@ import pytest
 
 import chatrobot
 from chatrobot.core.errors import PlanTextError, ProfileError, UsageError
-from chatrobot.core.events import Event, Progress
+from chatrobot.core.events import Event, Paused, Progress
 from chatrobot.plan.steps import Drive, Plan
 from tests.session.scripted_model import ScriptedModel
 
@@ -81,6 +81,92 @@ def test_a_listener_may_stop_the_robot() -> None:
         result = robot.do("forward 2 m")
     assert result.outcome == "stopped"
     assert result.path_m < 1.0
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_a_pause_keeps_the_plan_and_resume_drives_the_rest(language: str) -> None:
+    text = {"en": "forward 2 m, then turn left 90 degrees", "zh": "前进两米，然后左转90度"}[language]
+    seen: list[Paused] = []
+    with fast() as robot:
+
+        def pause_half_way(event: Event) -> None:
+            if isinstance(event, Progress) and event.pose.x_m > 0.5 and not seen:
+                robot.pause()
+            elif isinstance(event, Paused):
+                seen.append(event)
+                robot.resume()
+
+        robot.on_event(pause_half_way)
+        result = robot.do(text)
+        assert robot.pose == result.pose
+    (left,) = seen
+    assert left.turn == result.turn
+    assert 0.5 < left.pose.x_m < 1.0
+    assert result.outcome == "completed"
+    assert result.path_m == pytest.approx(2.0, abs=0.02)
+    assert result.turned_rad == pytest.approx(math.pi / 2, abs=0.02)
+    assert result.paused_s > 0.0
+
+
+def test_a_run_is_paused_like_what_was_said() -> None:
+    starts: list[Event] = []
+    with fast() as robot:
+
+        def pause_at_first(event: Event) -> None:
+            if event.name == "started":
+                starts.append(event)
+                if len(starts) == 1:
+                    robot.pause()
+
+        robot.on_event(pause_at_first)
+        robot.on_event(lambda event: robot.resume() if isinstance(event, Paused) else None)
+        result = robot.run("drive 1 m\nturn left 90 deg")
+    assert len(starts) == 2
+    assert (result.outcome, result.turn) == ("completed", 1)
+    assert result.path_m == pytest.approx(1.0, abs=0.02)
+    assert result.turned_rad == pytest.approx(math.pi / 2, abs=0.02)
+
+
+def test_a_stop_drops_what_is_paused() -> None:
+    with fast() as robot:
+        robot.on_event(lambda event: robot.pause() if isinstance(event, Progress) else None)
+        robot.on_event(lambda event: robot.stop() if isinstance(event, Paused) else None)
+        result = robot.do("forward 2 m")
+        assert result.outcome == "stopped"
+        robot.resume()
+        assert robot.do("where are you?").outcome == "answered"
+        assert robot.pose.x_m == result.pose.x_m
+
+
+def test_without_anything_paused_resume_and_pause_move_nothing() -> None:
+    with fast() as robot:
+        robot.resume()
+        robot.pause()
+        robot.resume()
+        assert robot.do("where are you?").outcome == "answered"
+        assert robot.pose.x_m == 0.0
+        assert robot.do("forward 0.2 m").path_m == pytest.approx(0.2, abs=0.01)
+
+
+@pytest.mark.realtime
+@pytest.mark.usefixtures("runtime")
+def test_in_real_time_another_thread_pauses_and_resumes_what_do_waits_for() -> None:
+    moving, paused = threading.Event(), threading.Event()
+    with chatrobot.connect(world="empty") as robot:
+        robot.on_event(lambda event: moving.set() if isinstance(event, Progress) else None)
+        robot.on_event(lambda event: paused.set() if isinstance(event, Paused) else None)
+
+        def pause_and_resume() -> None:
+            assert moving.wait(30)
+            robot.pause()
+            assert paused.wait(30)
+            robot.resume()
+
+        threading.Thread(target=pause_and_resume).start()
+        result = robot.do("forward 1 m")
+    assert paused.is_set()
+    assert result.outcome == "completed"
+    assert result.path_m == pytest.approx(1.0, abs=0.03)
 
 
 def break_on_start(event: Event) -> None:

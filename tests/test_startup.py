@@ -51,6 +51,25 @@ def test_stop_and_help_load_nothing_heavy(arguments: list[str]) -> None:
     )
 
 
+def test_who_talks_needs_no_numpy() -> None:
+    """Motion computes, in a process of its own; here it would cost a tenth of a second before the first prompt."""
+    loaded = loaded_by("import chatrobot.cli.do, chatrobot.cli.console.app, chatrobot.cli.console.chat")
+    assert "chatrobot.session.session" in loaded
+    assert not among(loaded, ("numpy", "pydantic", "yaml", "PIL", "chatrobot.governor.governor"))
+
+
+def test_the_robots_processes_are_started_before_the_language_is_loaded() -> None:
+    loaded = loaded_by(
+        "import sys\nfrom chatrobot.session.processes import Processes\n"
+        "def started(*_):\n print(*sys.modules, sep='\\n', flush=True)\n raise SystemExit\n"
+        "Processes.start = started\n"
+        "from chatrobot.cli.entry import main\nimport contextlib\n"
+        "with contextlib.suppress(SystemExit):\n main(['do', 'forward 1 m'])"
+    )
+    assert "chatrobot.session.processes" in loaded
+    assert not among(loaded, ("chatrobot.language", "chatrobot.session.session", "chatrobot.models", "numpy"))
+
+
 def test_stop_does_not_even_load_the_parser_of_arguments() -> None:
     assert "argparse" not in loaded_by("from chatrobot.cli.entry import main\nmain(['stop'])")
 

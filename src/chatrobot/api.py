@@ -79,7 +79,8 @@ class Robot:
     """A connected robot. Close it, or use it in a `with`: what it was told is still done, orderly.
 
     In real time events are heard on a thread of their own, all the time; in simulated time while `do` or `run`
-    runs, on the caller's. `stop` may be called from any thread, everything else from one at a time.
+    runs, on the caller's. `stop`, `pause` and `resume` may be called from any thread, everything
+    else from one at a time.
     """
 
     def __init__(self, setup: Setup) -> None:
@@ -116,6 +117,14 @@ class Robot:
     def stop(self) -> None:
         """Stop now: waits for nothing that is going on. What runs ends as `stopped`."""
         self._session.stop("stop()")
+
+    def pause(self) -> None:
+        """Stop now, and keep the plan that runs: `do` goes on waiting for it. It goes on with `resume`."""
+        self._session.pause("pause()")
+
+    def resume(self) -> None:
+        """Go on with what is paused, from where the robot stands now; the `do` that waits for it sees its end."""
+        self._session.resume()
 
     @property
     def pose(self) -> Pose:

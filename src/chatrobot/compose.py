@@ -5,9 +5,7 @@ Console, web, MCP and the Python API all begin here; nothing below knows how it 
 
 from __future__ import annotations
 
-import subprocess
 import threading
-import uuid
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -16,6 +14,7 @@ from typing import TYPE_CHECKING
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.errors import JointError, UsageError
 from chatrobot.core.events import Event, TruePose
+from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.models.seam import Model
 from chatrobot.plan.context import RoutePlanner
 from chatrobot.programs.library import Library
@@ -24,27 +23,26 @@ from chatrobot.robots.load import DEFAULT_PROFILE, load_profile, profile_argumen
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.authoring import Authoring
 from chatrobot.session.camera import Camera, PassedCamera, wire_camera
-from chatrobot.session.child import spawn
 from chatrobot.session.joint import SimulatedJoint
 from chatrobot.session.model_choice import warm_up
 from chatrobot.session.model_terms import ModelOptions
 from chatrobot.session.options import Options
+from chatrobot.session.processes import SIMULATED, MotionProcess, Processes
 from chatrobot.session.session import Session
 from chatrobot.session.thinking import Mind
 from chatrobot.session.understanding import Understanding
 from chatrobot.sim.lies import SimLies
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import TRUTH_TOPIC, SimRobot
+from chatrobot.sim.start import check_start
 from chatrobot.sim.world import World
 from chatrobot.wire.connect import connect_wire, is_on_this_machine, wire_address
 from chatrobot.wire.messages import Odometry
 
 if TYPE_CHECKING:
-    from chatrobot.session.socket_joint import SocketJoint
+    pass
 
 OnEvent = Callable[[Event], None]
-SIMULATED = ("auto", "sim")
-"""`--on auto` never picks a real robot unasked."""
 SETTLE_S = 0.5
 """A robot that has just been switched on stands still this long: its gyro's bias is measured meanwhile."""
 
@@ -56,9 +54,11 @@ class Setup:
     `on` is auto, sim, or a robot's wire (`wire_address`). `world`: "" is what fits, the furnished home for the
     simulated robot and nothing known for any other. `sim` holds the lies of the simulated robot (`slip=0.03,…`).
     `yes`: plans of a real robot need no approval. `programs`: who asks for a program gets one written, rehearsed and
-    run; else its motion is driven as a plan. `folder` is where places, programs and history live; None keeps
+    run; else its motion is driven as a plan. `budget` is the motion budget, as far as it is not the profile's.
+    `folder` is where places, programs and history live; None keeps
     nothing. `model` is the language model to ask, None for none, `model_options` how it is used, and `camera` takes
-    pictures for it, as JPEG or PNG, in place of the robot's own camera.
+    pictures for it, as JPEG or PNG, in place of the robot's own camera. `processes` are those of a simulated robot in
+    real time that have been started ahead; `on_ready` is called once the robot is.
     """
 
     on: str = "sim"
@@ -69,11 +69,14 @@ class Setup:
     trace: bool = False
     yes: bool = False
     programs: bool = False
+    budget: MotionBudget = NOT_CHOSEN
     folder: Path | None = None
     options: Options = field(default_factory=Options)
     model: Model | None = None
     model_options: ModelOptions = field(default_factory=ModelOptions)
     camera: Callable[[], bytes | None] | None = None
+    processes: Processes | None = None
+    on_ready: Callable[[], None] = lambda: None
 
 
 @dataclass
@@ -95,7 +98,7 @@ def connect(setup: Setup, on_event: OnEvent) -> Connection:
         JointError: Motion or the simulated robot does not start.
     """
     on_wire = setup.on not in SIMULATED
-    profile = load_profile(setup.robot, profile_dirs(setup.folder))
+    profile = load_profile(setup.robot, profile_dirs(setup.folder)).with_budget(setup.budget)
     if not on_wire:
         profile = replace(profile, approval="stream")
     elif drives_on_alone(profile) and not is_on_this_machine(wire_address(setup.on)):
@@ -103,6 +106,8 @@ def connect(setup: Setup, on_event: OnEvent) -> Connection:
     setup = replace(setup, world=setup.world or default_world(setup.on))
     world = load_world(setup.world)
     SimLies.parse(setup.sim)
+    if not on_wire:
+        check_start(world, profile, f"--world {setup.world}")
     understanding = Understanding(profile, world, setup.folder)
     if not setup.fast and setup.options.interpreter != "offline":
         warm_up(setup.model)
@@ -178,10 +183,6 @@ def _connect_simulated(
     clock = VirtualClock()
     hub = MemoryHub()
     robot = SimRobot(profile, world, SimLies.parse(setup.sim), wire=hub.connect(), clock=clock)
-    robot.step(SETTLE_S)
-    clock.advance(SETTLE_S)
-    if setup.trace:
-        hub.connect().subscribe(TRUTH_TOPIC, Odometry, _tracer(on_event))
     wire = hub.connect()
     guard = SimulatedGuard(clock)
     programs = ProgramHost(profile, is_in_step=True)
@@ -191,7 +192,10 @@ def _connect_simulated(
         return Motion(profile, wire, clock, planner, guard, emit, lambda job: job(), programs=programs)
 
     joint = SimulatedJoint(build, wire, clock, robot.step, guard, hub.connect(), profile.wiring.cmd_vel_topic)
-    joint.next_event(SETTLE_S)
+    joint.live(SETTLE_S)
+    if setup.trace:
+        hub.connect().subscribe(TRUTH_TOPIC, Odometry, _tracer(on_event))
+        joint.step()  # the trace begins before anything moves
     authoring = _authoring(setup, profile, world, understanding)
     session = Session(joint, understanding, on_event, setup.options, authoring, mind_of(setup, profile))
 
@@ -210,26 +214,26 @@ def _connect_real_time(
 ) -> Connection:
     from chatrobot.session.socket_joint import SocketJoint
     from chatrobot.wire.local import LocalWire
-    from chatrobot.wire.runtime_dir import runtime_dir
 
-    wire_path = runtime_dir() / f"sim-{uuid.uuid4().hex[:12]}.wire"
-    argument = profile_argument(setup.robot, profile_dirs(setup.folder))
-    robot = spawn_simulated_robot(setup, argument, wire_path)
-    joint: SocketJoint | None = None
+    processes = setup.processes or Processes.start(
+        profile_argument(setup.robot, profile_dirs(setup.folder)), setup.world, setup.sim, setup.budget
+    )
+    processes.is_taken = True
+    joint = SocketJoint(processes.motion)
     try:
-        joint = SocketJoint(str(wire_path), argument, setup.world)
         understanding.warm()
         joint.wait_until_ready()
     except JointError:
-        robot.terminate()
+        processes.robot.terminate()
         raise
+    setup.on_ready()
     lock = threading.Lock()
 
     def one_at_a_time(event: Event) -> None:
         with lock:
             on_event(event)
 
-    trace = LocalWire(wire_path) if setup.trace else None
+    trace = LocalWire(processes.wire_path) if setup.trace else None
     if trace is not None:
         trace.subscribe(TRUTH_TOPIC, Odometry, _tracer(one_at_a_time))
     authoring = _authoring(setup, profile, world, understanding)
@@ -261,21 +265,14 @@ def _connect_wire(
         connect_wire(
             address, profile.wiring, "chatrobot"
         ).close()  # Motion would wait, and could not say for what
-    joint = SocketJoint(address, profile_argument(setup.robot, profile_dirs(setup.folder)), setup.world)
+    profile_file = profile_argument(setup.robot, profile_dirs(setup.folder))
+    joint = SocketJoint(MotionProcess.start(address, profile_file, setup.world, setup.budget))
     joint.wait_until_ready()
+    setup.on_ready()
     authoring = _authoring(setup, profile, world, understanding)
     options = replace(setup.options, approve=approve)
     session = Session(joint, understanding, on_event, options, authoring, mind_of(setup, profile))
     return Connection(session, profile, world, session.close)
-
-
-def spawn_simulated_robot(setup: Setup, profile: str, wire_path: Path) -> subprocess.Popen[bytes]:
-    """In a session of its own: Ctrl-C at the console must not kill the robot before it stands."""
-    return spawn(
-        "chatrobot.sim",
-        *("--socket", str(wire_path), "--profile", profile),
-        *("--world", setup.world, "--sim", setup.sim),
-    )
 
 
 def _tracer(on_event: OnEvent) -> Callable[[Odometry], None]:

@@ -230,6 +230,7 @@ def test_ctrl_c_ends_a_long_simulation(chatrobot: Command) -> None:
 
 def test_a_second_ctrl_c_quits_at_once_whatever_hangs(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "chatrobot", "do", "forward 500 m", "--json", "--trace", *FAST]
+    command += ["--max-distance", "none", "--max-time", "none"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, env=environment(tmp_path)) as process:
         assert process.stdout is not None
         wait_until_full(process.stdout.fileno())  # nobody reads: it hangs in the middle of a write
@@ -278,3 +279,28 @@ def test_a_folder_that_is_none_is_told_in_a_sentence(chatrobot: Command, tmp_pat
     done = chatrobot("do", "remember this place as home", "--config-dir", str(file), *FAST)
     assert done.code == 2
     assert "is no folder" in done.err
+
+
+def test_a_goodbye_ends_a_dialogue_and_a_session(chatrobot: Command) -> None:
+    done = chatrobot("do", "forward 0.2 m", "bye", "forward 1 m", "--fast", "--json", "--world", "empty")
+    assert [event["reply"] for event in done.named("result")] == ["Done: drove 0.20 m of 0.20 m.", "Goodbye."]
+    assert done.code == 0
+    lines = "forward 0.2 m\n再见\nforward 1 m\n"
+    done = chatrobot("--fast", "--json", "--world", "empty", stdin=lines)
+    assert [event["reply"] for event in done.named("result")] == ["Done: drove 0.20 m of 0.20 m.", "再见。"]
+    assert done.code == 0
+
+
+def test_what_a_person_sees_of_a_plan_is_tidy_and_what_runs_is_exact(chatrobot: Command) -> None:
+    said = (
+        "do",
+        "forward 0.1 m, then turn left 1/7 turn",
+        "--fast",
+        "--world",
+        "empty",
+    )
+    exact = chatrobot(*said, "--json").named("interpreted")[0]["plan_text"]
+    shown = chatrobot(*said).out
+    assert "51.42857142857143" in exact
+    assert "turn left 51.4 deg" in shown
+    assert "51.428" not in shown

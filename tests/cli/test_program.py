@@ -85,3 +85,68 @@ def test_wrong_usage_is_one_sentence(chatrobot: Command, arguments: tuple[str, .
     done = chatrobot(*arguments)
     assert done.code in (1, 2)
     assert done.err.count("\n") == 1
+
+
+ARGUED = """
+import sys, time
+import rclpy
+from geometry_msgs.msg import Twist
+
+rclpy.init()
+node = rclpy.create_node("driver")
+speed = node.declare_parameter("speed", 0.2).value
+publisher = node.create_publisher(Twist, "velocity", 10)
+twist = Twist()
+twist.linear.x = speed
+publisher.publish(twist)
+time.sleep(2.0)
+publisher.publish(Twist())
+node.get_logger().info(f"{node.get_name()} {sys.argv[1:2]}")
+rclpy.shutdown()
+"""
+ROS_ARGS = ("--ros-args", "-p", "speed:=0.35", "-r", "velocity:=/cmd_vel", "-r", "__node:=x")
+
+
+@pytest.mark.parametrize("is_kept", [True, False], ids=["kept", "file"])
+def test_a_program_gets_arguments_as_of_ros2_run(
+    chatrobot: Command, library: Library, tmp_path: Path, is_kept: bool
+) -> None:
+    library.keep(KeptProgram("dash", ARGUED))
+    file = tmp_path / "dash.py"
+    file.write_text(ARGUED, encoding="utf-8")
+    name = "dash" if is_kept else str(file)
+    done = chatrobot("program", "run", name, "--json", *FAST, "--", "first", *ROS_ARGS)
+    assert done.code == 0, done.err
+    assert done.named("result")[0]["path_m"] == pytest.approx(0.7, abs=0.02)
+    assert "[x] x ['first']" in done.named("program_log")[0]["text"]
+    assert not done.named("program_written")[0]["marks"]  # where it is led was said: nothing to agree to
+
+
+def test_a_parameter_file_is_read_for_the_program(chatrobot: Command, tmp_path: Path) -> None:
+    (tmp_path / "dash.py").write_text(ARGUED, encoding="utf-8")
+    parameters = tmp_path / "parameters.yaml"
+    parameters.write_text(
+        "driver:\n  ros__parameters:\n    speed: 0.1\n    a: {b: [x, y]}\n", encoding="utf-8"
+    )
+    done = chatrobot(
+        "program", "run", str(tmp_path / "dash.py"), "--json", *FAST,
+        "--", "--ros-args", "--params-file", str(parameters), "-r", "velocity:=/cmd_vel",
+    )  # fmt: skip
+    assert done.named("result")[0]["path_m"] == pytest.approx(0.2, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("run", "x.py", "--ros-args", "-p", "a:=1"),
+        ("run", "x.py", "--", "--ros-args", "-p", "a"),
+        ("run", "x.py", "--", "--ros-args", "--params-file", "/no/such.yaml"),
+        ("list", "--", "a"),
+    ],
+)
+def test_arguments_that_cannot_be_given_are_one_sentence(
+    chatrobot: Command, arguments: tuple[str, ...]
+) -> None:
+    done = chatrobot("program", *arguments)
+    assert done.code == 2
+    assert done.err.count("\n") == 1

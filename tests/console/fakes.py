@@ -14,6 +14,7 @@ class FakeSession:
         self.log = log
         self.is_idle = True
         self.is_moving = False
+        self.is_paused = False
         self.is_lost = False
 
     def _note(self, *what):
@@ -28,6 +29,9 @@ class FakeSession:
     def say_plan(self, plan_text):
         return self._note("say_plan", plan_text)
 
+    def say_edited_plan(self, plan_text):
+        return self._note("say_edited_plan", plan_text)
+
     def stop(self, why=""):
         self._note("stop", why)
 
@@ -36,6 +40,9 @@ class FakeSession:
 
     def release(self):
         self._note("release")
+
+    def limit(self, **limits):
+        self._note("limit", limits)
 
     def approve(self, turn, yes):
         self._note("approve", turn, yes)

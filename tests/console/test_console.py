@@ -308,3 +308,25 @@ def test_fast_is_refused_because_a_talk_is_in_real_time():
 
     with pytest.raises(UsageError, match="real time"):
         run_console(Setup(fast=True))
+
+
+@pytest.mark.parametrize("terminal", ["xterm-256color", "dumb"])
+def test_an_edited_program_is_shown_and_asked_about_again(tmp_path, terminal):
+    with console(tmp_path, "--approve", environment={"TERM": terminal}) as chat:
+        chat.wait_for("›|>")
+        chat.enter("Generate a ROS 2 Python program to drive forward 0.4 m")
+        chat.wait_for("Do it?")
+        source = next(tmp_path.glob("programs/*/program.py")).read_text(encoding="utf-8")
+        chat.enter("e")
+        if terminal == "dumb":
+            chat.wait_for("full stop")
+            for line in [*source.replace("0.4 /", "0.2 /").splitlines(), "."]:
+                chat.enter(line)
+        else:
+            chat.wait_for("Edit it")
+            chat.type("# edited\x1b\r")  # at its end
+        chat.wait_for("version 2")
+        chat.wait_for("Do it?", times=2)
+        assert "drove" not in chat.text
+        chat.enter("n")
+        chat.wait_for("✗")

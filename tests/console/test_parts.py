@@ -2,6 +2,7 @@
 
 import re
 import string
+from dataclasses import replace
 
 import pytest
 from hypothesis import given
@@ -215,6 +216,16 @@ def test_the_end_of_another_turn_does_not_end_the_ride():
 
 def strip_text(ride, width=100, world=HOME, latched=False, language="en"):
     return "".join(text for _, text in Strip(ride, Words(language), world).fragments(width, latched))
+
+
+def test_the_strip_shows_no_share_of_what_has_no_known_end():
+    ride = moving_ride()
+    ride.hear(Progress(1, 1, 1, None, Pose(0.6), Twist(0.3)))
+    assert "%" not in strip_text(ride).replace("battery 80 %", "")
+    assert "moving" in strip_text(ride)
+    ride.hear(replace(REHEARSED, open_ended=True))
+    ride.hear(Started(2, Pose()))
+    assert ride.fraction is None
 
 
 def test_the_strip_of_a_moving_robot_says_where_how_fast_and_how_far():

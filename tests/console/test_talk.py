@@ -39,6 +39,23 @@ def test_leaving_waits_for_what_was_told(talk, log):
     assert told(log) == [("leave", 0)]
 
 
+GOODBYE = Result(1, "answered", "Goodbye.", reason=Reason("parting"))
+
+
+def test_a_goodbye_leaves_as_quit_does(talk, log):
+    talk.hear(GOODBYE)
+    assert told(log) == [("leave", 0)]
+
+
+def test_a_goodbye_while_it_moves_waits_for_what_was_told(talk, log):
+    talk.session.is_idle = False
+    talk.hear(GOODBYE)
+    assert told(log) == []
+    talk.session.is_idle = True
+    talk.hear(Result(2, "completed", "done"))
+    assert told(log) == [("leave", 0)]
+
+
 def test_leaving_twice_does_not_wait(talk, log):
     talk.session.is_idle = False
     talk.leave()
@@ -98,7 +115,7 @@ def test_editing_withdraws_the_plan_silently_and_sends_the_new_one(talk, log):
     talk.hear(Result(1, "refused", "not approved"))
     assert "not approved" not in shown(log)
     talk.take_edited("drive 2 m\n")
-    assert told(log)[-1] == ("say_plan", "drive 2 m")
+    assert told(log)[-1] == ("say_edited_plan", "drive 2 m")
 
 
 def test_what_is_too_long_is_never_done_in_part(talk, log):

@@ -69,3 +69,8 @@ def test_every_outcome_has_the_exit_code_of_the_design() -> None:
     assert dict(EXIT_CODES) == {
         "completed": 0, "answered": 0, "failed": 1, "unclear": 3, "refused": 4, "stopped": 5,
     }  # fmt: skip
+
+
+def test_no_value_of_a_reason_hides_its_code() -> None:
+    with pytest.raises(ValueError, match="code"):
+        Reason("program_exit_code", {"code": 3})

@@ -9,7 +9,17 @@ from chatrobot.programs import names
 from chatrobot.programs.names import rclpy
 
 PAGE = (Path(__file__).parents[2] / "docs" / "rclpy-in-the-box.md").read_text(encoding="utf-8")
-INNER = {"_rclpy_pybind11", "impl", "node_checks", "node_graph", "node_parameters", "constants", "clock_type"}
+INNER = {
+    "_rclpy_pybind11",
+    "impl",
+    "node_checks",
+    "node_graph",
+    "node_parameters",
+    "node_entities",
+    "arguments",
+    "constants",
+    "clock_type",
+}
 WITHIN_NODE = {
     "publisher",
     "subscription",

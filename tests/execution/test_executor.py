@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections import deque
+from collections.abc import Callable
 
 import pytest
 from tests.rig import Rig
 
+from chatrobot.governor.governor import TICK_S
 from chatrobot.plan.steps import Drive, ObstacleWithin, Plan, RawTwist, Repeat, Turn, Wait
 from chatrobot.sim.shapes import rectangle
+from chatrobot.wire.messages import Message
+from chatrobot.wire.wire import M, Wire
 
 SQUARE = Plan((Repeat(4, (Drive(distance_m=1.0), Turn(angle_rad=math.pi / 2))),))
 
@@ -124,3 +129,42 @@ def test_a_raw_twist_beyond_the_limits_is_scaled_and_its_direction_kept() -> Non
     fastest = max(rig.sent, key=lambda twist: twist.speed_mps)
     assert fastest.speed_mps <= 1.0 + 1e-9
     assert fastest.wz_radps / fastest.vx_mps == pytest.approx(0.5, abs=0.06)
+
+
+class LateBase(Rig):
+    """Its motor board does what it is told 60 ms later."""
+
+    LATE_S = 0.06
+
+    def wired(self, wire: Wire) -> Wire:
+        self._inner, self._late = wire, deque[tuple[float, str, Message]]()
+        return self
+
+    def subscribe(self, topic: str, kind: type[M], callback: Callable[[M], None]) -> None:
+        self._inner.subscribe(topic, kind, callback)
+
+    def publish(self, topic: str, message: Message) -> None:
+        self._late.append((self.clock.now_s() + self.LATE_S, topic, message))
+
+    def close(self) -> None:
+        self._inner.close()
+
+    def live(self, duration_s: float) -> None:
+        for _ in range(round(duration_s / TICK_S)):
+            while self._late and self._late[0][0] <= self.clock.now_s() + 1e-9:
+                self._inner.publish(*self._late.popleft()[1:])
+            super().live(TICK_S)
+
+
+@pytest.mark.parametrize("angle_deg", [30.0, 90.0, 180.0])
+@pytest.mark.parametrize("kind", [Rig, LateBase])
+def test_a_base_that_does_late_what_it_is_told_does_not_go_too_far(kind: type[Rig], angle_deg: float) -> None:
+    rig = kind()
+    turn = Plan((Turn(angle_rad=math.radians(angle_deg)),))
+    rig.run(turn)
+    assert math.degrees(rig.robot.true_pose.yaw_rad) == pytest.approx(angle_deg, abs=0.15)
+    began_s = rig.clock.now_s()
+    rig.run(turn)
+    assert math.degrees(rig.robot.true_pose.yaw_rad) == pytest.approx(2.0 * angle_deg, abs=0.15)
+    expected_s = math.radians(angle_deg) / 0.6 + 0.3
+    assert rig.clock.now_s() - began_s == pytest.approx(expected_s, abs=0.15), "it went right there"

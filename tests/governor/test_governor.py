@@ -137,6 +137,16 @@ def test_a_scan_is_nothing_to_a_robot_without_a_lidar() -> None:
     governor, _ = governor_with_lease()
     governor.take_scan(LaserScan(0.0, -math.pi, 0.1, 0.1, 8.0, [0.2] * 63), ORIGIN)
     assert governor.govern(SLOW, "lease", 0.0, ORIGIN).rule == "acceleration"
+    assert governor.seen_points.shape == (0, 2)
+
+
+def test_it_tells_what_its_lidar_has_seen() -> None:
+    governor = Governor(load_profile("wheeltec_mini_mec"), StopEpoch())
+    assert governor.seen_points.shape == (0, 2)
+    ranges = [math.inf] * 360
+    ranges[180] = 2.0
+    governor.take_scan(LaserScan(0.0, -math.pi, math.radians(1.0), 0.1, 8.0, ranges), Pose(1.0, 0.5, 0.0))
+    assert governor.seen_points[0] == pytest.approx([1.0 + 0.032 + 2.0, 0.5])
 
 
 @pytest.mark.parametrize("pose", [Pose(1e308, 0.0, 0.0), Pose(0.0, -2e6, 0.0), Pose(0.0, 0.0, math.nan)])

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Literal
 
-from chatrobot.language.context import Context, Dialogue, Place, RobotState, TurnRecord
+from chatrobot.language.context import Context, Dialogue, Place, RobotState
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.interpreter import OfflineInterpreter
+from chatrobot.language.ledger import TurnRecord
 from tests.language.ideal_motion import Track, judge
 from tests.language.profiles import MECANUM
 
@@ -45,7 +46,9 @@ class Conversation:
         places.update({name: Place(pose) for name, pose in self.track.places.items()})
         self.track.places.clear()
         outcome: Any = {"plan": "completed", "stop": "stopped"}.get(meant.outcome, meant.outcome)
-        record = TurnRecord(text, outcome, meant.plan, start, self.track.pose)
+        record = TurnRecord(
+            text, outcome, meant.plan, start, self.track.pose, executed=meant.plan, walk=meant.walk
+        )
         self.dialogue = Dialogue(
             (*self.dialogue.turns, record),
             places,

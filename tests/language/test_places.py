@@ -9,6 +9,7 @@ from chatrobot.language.context import Context, Dialogue, Place
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.plan.steps import Drive, Go
+from chatrobot.plan.text import parse_plan
 from tests.language.profiles import MECANUM
 
 PLACES = {"home": Place(Pose(1.0, 2.0, 0.0)), "家": Place(Pose(1.0, 2.0, 0.0))}
@@ -78,12 +79,17 @@ def test_another_word_is_no_misspelt_place(said: str) -> None:
     assert meant_by(said).code != "did_you_mean_place"
 
 
-def test_a_yes_to_the_place_that_was_asked_about_goes_there() -> None:
-    asked = Context(Dialogue(places=PLACES, pending="go to the kichen"), world_places=CONTEXT.world_places)
-    plan = OfflineInterpreter(MECANUM).interpret("yes", asked).plan
-    assert plan is not None
-    assert [getattr(step, "place", "") for step in plan.steps] == ["kitchen"]
-    assert OfflineInterpreter(MECANUM).interpret("no", asked).plan is None
+def test_the_place_that_is_asked_about_is_offered_as_a_plan() -> None:
+    meant = meant_by("forward 1 m, then go to the kichen")
+    assert meant.proposal is not None
+    steps = parse_plan(meant.proposal.plan_text).steps
+    assert [getattr(step, "place", "") for step in steps] == ["", "kitchen"]
+    assert meant.proposal.say in meant.reply
+
+
+@pytest.mark.parametrize("said", ["go to the kichen and wibble", "go to the kichen unless it rains"])
+def test_no_place_is_offered_where_a_yes_would_not_be_understood(said: str) -> None:
+    assert meant_by(said).proposal is None
 
 
 def test_a_place_that_is_as_near_as_another_is_not_named() -> None:

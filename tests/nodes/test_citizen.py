@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import math
 import re
 import sys
 import threading
@@ -23,6 +24,8 @@ from chatrobot.cli import node as command
 from chatrobot.cli.arguments import parse, split_ros_args
 from chatrobot.core.clock import RealClock, VirtualClock
 from chatrobot.core.errors import UsageError, WireError
+from chatrobot.core.motion_budget import MotionBudget
+from chatrobot.nodes import control
 from chatrobot.nodes.parameters import PARAMETERS
 from chatrobot.session import motion_runner
 from chatrobot.session.guard_link import SimulatedGuard
@@ -134,6 +137,36 @@ def test_an_emergency_stop_is_released_over_ros_only_where_that_was_switched_on(
         assert not ros.call("/chatrobot_control/release").message.startswith("not")
         assert ros.call("/chatrobot_control/emergency_stop").success
         assert ros.call("/chatrobot_control/release").message == "released"
+    assert guards
+
+
+@pytest.mark.parametrize(
+    ("words", "budget"),
+    [
+        ((), MotionBudget()),
+        (("--max-distance", "3", "--max-time", "none"), MotionBudget(3.0, math.inf)),
+        (("--ros-args", "-p", "max_distance_m:=1.5"), MotionBudget(1.5)),
+        (("--max-time", "9", "--ros-args", "-p", "max_time_s:=-1.0"), MotionBudget(None, math.inf)),
+        (("--max-time", "9", "--ros-args", "-p", "max_time_s:=0.0"), MotionBudget()),
+    ],
+)
+def test_control_takes_its_motion_budget_from_options_and_parameters(
+    monkeypatch: pytest.MonkeyPatch,
+    ros: fake_rclpy.Ros,
+    guards: list[_Guard],
+    words: tuple[str, ...],
+    budget: MotionBudget,
+) -> None:
+    given: list[MotionBudget] = []
+    begin = control.MotionRunner.__init__
+
+    def note(self: Any, *arguments: Any, **named: Any) -> None:
+        given.append(named["budget"])
+        begin(self, *arguments, **named)
+
+    monkeypatch.setattr(control.MotionRunner, "__init__", note)
+    with running(monkeypatch, ros, "control", *words):
+        assert given == [budget]
     assert guards
 
 

@@ -54,6 +54,16 @@ def test_the_next_part_of_our_plan_stays_a_part_of_it_while_foreign_text_gives_w
     assert modes == ["replace", "extend"], "the foreign text is replaced, the turn to the left is not"
 
 
+def test_nobody_changes_the_motion_budget_over_topics_whatever_the_source_is_called() -> None:
+    runner: Any = Runner()
+    control = control_with(runner, Foreign(runner, lambda: False))
+    for source in ("console", "base", "agent"):
+        envelope = Sender(source).envelope("limit", max_distance_m="none")
+        control._hear(Text(envelope.to_bytes().decode()))
+    assert runner.received == []
+    assert runner.notices == ["limit_refused_here"] * 3
+
+
 def test_foreign_text_of_before_a_stop_belongs_to_before_it() -> None:
     runner: Any = Runner()
     runner.stops = 7

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
+from pathlib import Path
 
 import psutil
 import pytest
@@ -56,6 +57,10 @@ def test_the_tutorials_rotation_word_for_word(rig: NodeRig) -> None:
     said_s = rig.publish("user_input", Text(ROTATION))
     written = rig.event("program_written", said_s)
     assert "import rclpy" in written["source"]
+    _, shown = rig.replies.wait_for(lambda text: "version 1" in text.data, said_s)
+    assert "import rclpy" in shown.data
+    assert written["place"].endswith("program.py")
+    assert Path(written["place"]).name in shown.data
     result = rig.result(said_s)
     assert result["outcome"] == "completed"
     assert result["turned_rad"] == pytest.approx(3.0, abs=0.1)

@@ -81,21 +81,50 @@ def test_no_way_is_said_and_not_forced() -> None:
     assert found.reason.code == "no_route"
 
 
-def test_a_point_inside_something_is_refused_but_a_place_there_is_approached() -> None:
-    blocked = route(flat(), (2.0, 1.5))
+@pytest.mark.parametrize("named", [True, False])
+def test_a_goal_inside_something_is_refused_with_the_free_point_nearest_to_it(named: bool) -> None:
+    blocked = route(flat(), (2.0, 1.5), named=named)
     assert isinstance(blocked, NoRoute)
     assert blocked.reason.code == "target_blocked"
-    place = route(flat(), (2.0, 1.5), named=True)
+    values = blocked.reason.values
+    assert values["obstacle"] == "box 6"
+    end = float(values["nearest_x_m"]), float(values["nearest_y_m"])
+    assert values["short_m"] == pytest.approx(np.hypot(end[0] - 2.0, end[1] - 1.5))
+    assert flat().clearance_m(np.array([end]))[0] >= 0.25
+    assert isinstance(route(flat(), end), Route)
+
+
+def test_a_place_that_is_a_little_too_tight_is_gone_to_all_the_same() -> None:
+    world = BoxWorld([(2.0, -1.0, 2.1, 1.0)])
+    place = route(world, (1.72, 0.0), named=True)
     assert isinstance(place, Route)
     end = place.waypoints[-1]
-    assert 0.0 < np.hypot(end[0] - 2.0, end[1] - 1.5) <= 0.6
-    assert flat().clearance_m(np.array([end]))[0] >= 0.25
+    assert 0.0 < np.hypot(end[0] - 1.72, end[1]) <= 0.1
 
 
-def test_a_place_deep_inside_something_is_blocked_all_the_same() -> None:
-    found = route(BoxWorld([(1.0, -2.0, 5.0, 2.0)]), (3.0, 0.0), named=True)
+def test_of_points_that_are_as_near_the_one_on_the_robots_side_is_named() -> None:
+    blocked = route(BoxWorld([(1.7, -0.3, 2.3, 0.3)]), (2.0, 0.0), named=True)
+    assert isinstance(blocked, NoRoute)
+    assert blocked.reason.values["nearest_x_m"] < 2.0
+    assert blocked.reason.values["nearest_y_m"] == pytest.approx(0.0, abs=0.05)
+
+
+WALLED_IN = [
+    (1.5, -0.9, 1.6, 0.9),
+    (2.9, -0.9, 3.0, 0.9),
+    (1.5, -1.0, 3.0, -0.9),
+    (1.5, 0.9, 3.0, 1.0),
+    (2.1, -0.1, 2.3, 0.1),
+]
+"""A box in a room without a door, around (2.2, 0)."""
+
+
+@pytest.mark.parametrize("boxes", [[(0.5, -2.5, 6.0, 2.5)], WALLED_IN], ids=["far", "walled in"])
+def test_no_point_is_named_that_is_far_away_or_has_no_way_to_it(boxes: list[tuple[float, ...]]) -> None:
+    found = route(BoxWorld(boxes), (3.0, 0.0) if boxes is not WALLED_IN else (2.2, 0.0), named=True)  # type: ignore[arg-type]
     assert isinstance(found, NoRoute)
     assert found.reason.code == "target_blocked"
+    assert "nearest_x_m" not in found.reason.values
 
 
 def test_a_robot_parked_at_a_wall_finds_its_way_out_and_back() -> None:

@@ -39,7 +39,13 @@ from chatrobot.programs.names.tf_transformations import (
 def test_what_is_there_may_be_imported() -> None:
     found = {name[len(names.__name__) + 1 :] for name in preload()}
     packages = {name for name in found if "." not in name} - {"rclpy", "tf_transformations"}
-    inner = {"rclpy.node_checks", "rclpy.node_graph", "rclpy.node_parameters"}
+    inner = {
+        "rclpy.node_checks",
+        "rclpy.node_graph",
+        "rclpy.node_parameters",
+        "rclpy.node_entities",
+        "rclpy.arguments",
+    }
     assert found - packages - inner == ROBOT_MODULES
 
 

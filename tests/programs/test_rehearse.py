@@ -86,6 +86,42 @@ def test_an_exception_has_its_line_and_its_traceback(server: WarmServer) -> None
     assert not rehearsal.ok
 
 
+@pytest.mark.parametrize(
+    "ending",
+    [
+        "rclpy.shutdown(); rclpy.shutdown()",
+        "node.destroy_node(); pub.publish(Twist())",
+        "1 / 0",
+        "time.sleep(3); {}['x']",
+    ],
+)
+def test_a_program_that_fails_after_its_last_zero_is_offered_with_that(
+    server: WarmServer, ending: str
+) -> None:
+    rehearsal = rehearse(server, f"go(0.2)\ntime.sleep(1)\ngo(0)\n{ending}")
+    assert rehearsal.ok
+    assert codes(rehearsal) == ["program_raised_at_end"]
+    assert rehearsal.findings[0].severity == "warn"
+    assert rehearsal.findings[0].reason.values["line"] == 14
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "go(0)\n1 / 0",
+        "1 / 0",
+        "go(0.2)\ntime.sleep(1)\n1 / 0",
+        "go(0.2)\ntime.sleep(1)\ngo(0)\ngo(0.1)\n1 / 0",
+    ],
+)
+def test_a_program_that_fails_before_it_has_driven_and_stopped_is_refused(
+    server: WarmServer, body: str
+) -> None:
+    rehearsal = rehearse(server, body)
+    assert not rehearsal.ok
+    assert "program_raised" in codes(rehearsal)
+
+
 def test_an_endless_program_is_rehearsed_to_the_horizon(server: WarmServer) -> None:
     rehearsal = rehearse(server, "node.create_timer(0.1, lambda: go(0.1))\nrclpy.spin(node)", horizon_s=10.0)
     assert rehearsal.ok

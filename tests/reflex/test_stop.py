@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 from chatrobot.reflex import is_emergency_stop, is_release, is_stop, leads_with_stop
-from chatrobot.reflex.stop import _phrases
+from chatrobot.reflex.phrases import phrases
 
 STOPS = [
     "stop", "STOP!!", "stpo", "sotp", "stoooop", "halt!!", "please stop now", "freeze", "whoa",
@@ -78,7 +78,7 @@ def test_one_command_may_be_taken_back_and_no_more(text: str) -> None:
 
 
 def test_phrases_are_found_by_their_first_word() -> None:
-    assert _phrases(("stop", "stop it"), ("停下",)) == {
+    assert phrases(("stop", "stop it"), ("停下",)) == {
         "stop": {("stop",), ("stop", "it")},
         "停": {("停", "下")},
     }

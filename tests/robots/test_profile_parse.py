@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from chatrobot.core.errors import ProfileError
+from chatrobot.core.motion_budget import MotionBudget
 from chatrobot.robots.load import list_profiles
 from chatrobot.robots.parse import parse_profile
 from chatrobot.robots.profile import RobotProfile
@@ -312,3 +313,30 @@ def test_wheels_and_jerk_are_limited_where_a_profile_says_so() -> None:
 )
 def test_limits_that_do_not_fit_together_are_refused(values: dict[str, float], field: str) -> None:
     assert refused(with_limits(**values)).where.endswith(f"limits.{field}")
+
+
+# --- the motion budget ---
+
+BUDGETS = [
+    ("", MotionBudget()),
+    ("max_distance_m = 250\n", MotionBudget(250.0)),
+    ('max_time_s = "none"\n', MotionBudget(None, math.inf)),
+    ('max_distance_m = "none"\nmax_time_s = 30.5\n', MotionBudget(math.inf, 30.5)),
+]
+
+
+@pytest.mark.parametrize(("lines", "budget"), BUDGETS)
+def test_the_motion_budget_stands_under_safety(lines: str, budget: MotionBudget) -> None:
+    assert parse_profile(f"{MECANUM}\n[safety]\n{lines}", "bot").safety.budget == budget
+
+
+@pytest.mark.parametrize("value", ["0", "-3", "inf", "nan", "true", '"all"', '"100"', "1e9"])
+@pytest.mark.parametrize("key", ["max_distance_m", "max_time_s"])
+def test_what_is_no_motion_budget_is_refused(key: str, value: str) -> None:
+    error = refused(f"{MECANUM}\n[safety]\n{key} = {value}\n")
+    assert f"safety.{key}" in error.where
+    assert '"none"' in error.allowed
+
+
+def test_a_budget_is_no_table_of_its_own() -> None:
+    assert "max_distance_m" in refused(f"{MECANUM}\n[safety]\nbudget = 3\n").allowed

@@ -30,23 +30,28 @@ GOOD: dict[str, dict[str, Any]] = {
         "term_s": 0.3,
         "longest_s": 10,
         "more": False,
+        "pauses": 0,
     },
     "look": {},
     "program": {
         "code": "pass\n",
         "name": "square",
         "remap": {},
+        "args": [],
         "mode": "queue",
         "approve": False,
         "ask_findings": True,
         "strict": True,
         "rehearse_only": False,
         "term_s": 0.3,
+        "pauses": 0,
     },
     "approve": {"yes": True},
-    "stop": {"why": "x"},
+    "stop": {"why": "x", "keep": True},
+    "resume": {},
     "emergency_stop": {"why": "x"},
     "release": {},
+    "limit": {"max_distance_m": 1, "max_time_s": "none"},
     "goodbye": {},
 }
 FIELDS = sorted({field for fields in PAYLOADS.values() for field in fields})
@@ -61,6 +66,7 @@ ALLOWED: dict[str, list[Any]] = {
     "code": ["", "x", "queue", "now"],
     "name": ["", "x", "queue", "now"],
     "remap": [{}],
+    "args": [[], ["queue"]],
     "ask_findings": [True, False],
     "strict": [True, False],
     "why": ["", "x", "queue", "now"],
@@ -69,6 +75,10 @@ ALLOWED: dict[str, list[Any]] = {
     "rehearse_only": [True, False],
     "yes": [True, False],
     "more": [True, False],
+    "keep": [True, False],
+    "pauses": [0, 1, 10**400],
+    "max_distance_m": [1, 0.5],
+    "max_time_s": [1, 0.5],
 }
 STOPS = ("stop", "emergency_stop")
 

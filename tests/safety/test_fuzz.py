@@ -37,6 +37,16 @@ def test_the_fuzzer_notices_a_governor_that_lets_through_what_was_asked(
     assert fuzz.run_chunk(0, 50) != ""
 
 
+def test_the_fuzzer_notices_a_robot_that_is_fast_in_contact(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("chatrobot.governor.obstacles.AWAY_MPS", 0.3)
+    assert fuzz.run_chunk(0, 200) != ""
+
+
+def test_the_fuzzer_notices_a_robot_that_comes_nearer_in_contact(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("chatrobot.governor.obstacles.NEARER_M", 0.5)
+    assert fuzz.run_chunk(0, 200) != ""
+
+
 speeds = st.floats(allow_nan=True, allow_infinity=True) | st.floats(-3.0, 3.0)
 sources = st.integers(0, len(fuzz.SOURCES) - 1)
 

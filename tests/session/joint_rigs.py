@@ -9,13 +9,16 @@ from typing import Any, Protocol
 
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.events import Event, Finished, Telemetry
+from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
+from chatrobot.session.child import spawn
 from chatrobot.session.guard_link import SimulatedGuard
 from chatrobot.session.joint import Joint, SimulatedJoint
 from chatrobot.session.motion import Motion
 from chatrobot.session.planner import Planner
+from chatrobot.session.processes import MotionProcess
 from chatrobot.session.socket_joint import SocketJoint
 from chatrobot.sim.lies import SimLies
 from chatrobot.sim.load import load_world
@@ -67,12 +70,10 @@ class SimulatedRig:
 class ProcessRig:
     """The simulated robot, Motion and its guard in processes of their own."""
 
-    def __init__(self, folder: Path) -> None:
-        from chatrobot.compose import Setup, spawn_simulated_robot
-
+    def __init__(self, folder: Path, budget: MotionBudget = NOT_CHOSEN) -> None:
         path = folder / "robot.wire"
-        self._robot = spawn_simulated_robot(Setup(world="empty"), PROFILE, path)
-        joint = SocketJoint(str(path), PROFILE, "empty")
+        self._robot = spawn("chatrobot.sim", "--socket", str(path), "--profile", PROFILE, "--world", "empty")
+        joint = SocketJoint(MotionProcess.start(str(path), PROFILE, "empty", budget))
         joint.wait_until_ready()
         self.joint: Joint = joint
         self.velocities: list[TwistMessage] = []

@@ -13,8 +13,8 @@ from chatrobot.models.seam import CallLimits, Message, ModelError, Usage
 from chatrobot.session.model_terms import ModelOptions
 from chatrobot.session.options import Options
 
-Line = Union[str, Reason, None]
-"""What one reply says: text, then perhaps what goes wrong. None hangs for ever."""
+Line = Union[str, Reason, threading.Event, None]
+"""What one reply says: text, then perhaps what goes wrong. It goes on once an event is set; None hangs for ever."""
 
 
 class ScriptedReply:
@@ -31,6 +31,9 @@ class ScriptedReply:
                     return
                 if line is None:
                     self._cancelled.wait()
+                elif isinstance(line, threading.Event):
+                    while not line.wait(0.005) and not self._cancelled.is_set():
+                        pass
                 elif isinstance(line, Reason):
                     raise ModelError(line)
                 else:
@@ -50,7 +53,8 @@ class ScriptedModel:
 
     def __init__(self, *replies: Line | Sequence[Line]) -> None:
         self._replies = [
-            [reply] if isinstance(reply, (str, Reason)) or reply is None else reply for reply in replies
+            [reply] if isinstance(reply, (str, Reason, threading.Event)) or reply is None else reply
+            for reply in replies
         ]
         self.asked: list[Sequence[Message]] = []
         self.limits: list[CallLimits] = []

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 
 import pytest
 from tests.session.scripted_model import ModelOptions, ModelTalk, Options
@@ -11,6 +12,7 @@ from tests.session.scripted_model import ModelOptions, ModelTalk, Options
 from chatrobot.core.events import Interpreted, ModelCalled, Streamed
 from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation
+from chatrobot.session.understanding import Instruction
 
 ASKED = "please do something nice"
 PLAN = "drive 0.5 m\nturn left 90 deg\ndrive 0.3 m\n"
@@ -288,6 +290,9 @@ def test_undo_and_again_know_what_a_model_did() -> None:
     talk = ModelTalk("drive 0.5 m\n")
     talk.do(ASKED)
     assert talk.do("again").pose.x_m == pytest.approx(1.0, abs=0.03)
+    assert talk.do("undo").pose.x_m == pytest.approx(0.5, abs=0.02)
+    assert talk.do("undo").pose.x_m == pytest.approx(0.0, abs=0.02)
+    assert talk.do("redo").pose.x_m == pytest.approx(0.5, abs=0.02)
 
 
 # --- stop, and what else is said meanwhile ---
@@ -307,9 +312,9 @@ def test_a_stop_counts_that_comes_while_the_text_is_being_understood() -> None:
     talk = ModelTalk(None)
     understand = talk.session.understanding.interpret
 
-    def interpret(text: str) -> Interpretation:
+    def interpret(text: str, under_way: Sequence[Instruction] = ()) -> Interpretation:
         talk.session.stop("meanwhile")
-        return understand(text)
+        return understand(text, under_way)
 
     talk.session.understanding.interpret = interpret  # type: ignore[method-assign]
     assert talk.do(ASKED).outcome == "stopped"

@@ -18,6 +18,7 @@ from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.events import (
     Event,
     ModelCalled,
+    Paused,
     ProgramLog,
     ProgramRehearsed,
     ProgramWritten,
@@ -30,6 +31,19 @@ from chatrobot.programs.library import KeptProgram
 from chatrobot.session.options import Options
 
 ASKED = "Write a ROS 2 Python program that makes the robot dance as you like"
+ARGUED = """
+import time
+import rclpy
+from geometry_msgs.msg import Twist
+rclpy.init()
+node = rclpy.create_node("driver")
+publisher = node.create_publisher(Twist, "velocity", 10)
+twist = Twist()
+twist.linear.x = node.declare_parameter("speed", 0.1).value
+publisher.publish(twist)
+time.sleep(1.0)
+publisher.publish(Twist())
+"""
 DANCE = program("self.drive(0.2, 0.0, 1.0)\nself.drive(0.0, 0.5, 2.0)")
 
 
@@ -350,6 +364,27 @@ def test_a_stop_ends_a_program_that_never_would(house: House) -> None:
     assert result.path_m < 1.0
 
 
+@pytest.mark.parametrize("word", ["pause", "hold on", "暂停"])
+def test_a_pause_stops_a_program_and_says_so(house: House, word: str) -> None:
+    said: list[int] = []
+
+    def pause_soon(event: Event) -> None:
+        if isinstance(event, TruePose) and event.vx_mps > 0.15 and not said:
+            said.append(house.session.say(word))
+
+    house.on_event = pause_soon
+    result = house.run(program("while True:\n    self.drive(0.2, 0.0, 0.1)"))
+    assert result.outcome == "stopped"
+    assert result.reason is not None
+    assert result.reason.code == "program_not_paused"
+    assert result.reply.startswith("Stopped (a program cannot be paused, so it was stopped).")
+    assert result.path_m < 1.0
+    assert not house.session.is_paused
+    assert house.all(Paused) == []
+    stood = house.do("continue")
+    assert (stood.outcome, stood.proposal, stood.path_m) == ("answered", None, 0.0)
+
+
 def test_a_program_that_raises_in_rehearsal_never_moves(house: House) -> None:
     result = house.run(program("self.drive(0.2, 0.0, 1.0)\nraise ValueError('on purpose')"))
     assert (result.outcome, result.path_m) == ("refused", 0.0)
@@ -425,3 +460,43 @@ def test_a_kept_program_is_rehearsed_in_todays_world(house: House, tmp_path: Pat
     home.connection.close()
     assert result.outcome == "refused"
     assert "would_collide" in home.findings
+
+
+def test_a_kept_program_is_given_the_arguments_behind_two_dashes(house: House) -> None:
+    house.authoring.library.keep(KeptProgram("slow dash", ARGUED))
+    result = house.do("run the slow dash -- --ros-args -p speed:=0.3 -r velocity:=/cmd_vel")
+    assert result.outcome == "completed"
+    assert result.path_m == pytest.approx(0.3, abs=0.02)
+
+
+@pytest.mark.parametrize("arguments", ["--ros-args -p speed", "--ros-args --params-file x.yaml", "'open"])
+def test_arguments_that_cannot_be_given_refuse_it(house: House, arguments: str) -> None:
+    house.authoring.library.keep(KeptProgram("slow dash", ARGUED))
+    result = house.do(f"run the slow dash -- {arguments}")
+    assert result.outcome == "refused"
+    assert "arguments" in result.reply
+    assert "参数" in house.do(f"运行 slow dash -- {arguments}").reply
+
+
+SHUT_DOWN_TWICE = f"{ARGUED.replace('velocity', 'cmd_vel')}rclpy.shutdown()\nrclpy.shutdown()\n"
+
+
+def test_a_program_that_shuts_down_twice_is_asked_about_and_drives_for_a_yes(house: House) -> None:
+    def answer(event: Event) -> None:
+        if isinstance(event, Rehearsed) and event.needs_approval:
+            house.session.approve(event.turn, True)
+
+    house.on_event = answer
+    house.session.options = Options(ask_findings=True)
+    result = house.run(SHUT_DOWN_TWICE)
+    assert house.findings == ["program_raised_at_end"]
+    assert house.all(Rehearsed)[0].needs_approval
+    assert result.path_m == pytest.approx(0.1, abs=0.02)
+    assert (result.outcome, result.reason and result.reason.code) == ("failed", "program_raised")
+    assert house.all(TruePose)[-1].vx_mps == 0.0
+
+
+def test_a_model_mends_its_program_that_fails_after_its_last_zero(house: House) -> None:
+    house.model(fenced(SHUT_DOWN_TWICE), fenced(DANCE))
+    assert house.do(ASKED).outcome == "completed"
+    assert [written.version for written in house.all(ProgramWritten)] == [1, 2]

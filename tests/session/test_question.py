@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from tests.session.scripted_model import ModelTalk, Options
 
-from chatrobot.core.events import Event, Finished, Rehearsed, Started
+from chatrobot.core.events import Event, Finished, Paused, Rehearsed, Started
 from chatrobot.core.geometry import ORIGIN
 from chatrobot.language.consent import read_consent, wants_to_edit
 from chatrobot.session.question import Question
@@ -48,7 +48,7 @@ def test_a_question_is_answered_once() -> None:
     assert session.all == [(3, True)]
 
 
-@pytest.mark.parametrize("end", [finished(3), Started(3)])
+@pytest.mark.parametrize("end", [finished(3), Started(3), Paused(3, ORIGIN, "drive 1 m")])
 def test_a_question_ends_with_its_plan_and_no_other(end: Event) -> None:
     question = Question()
     question.hear(rehearsed(3))
@@ -65,14 +65,44 @@ def test_a_question_ends_with_its_plan_and_no_other(end: Event) -> None:
         ("yes", True),
         (" Yes. ", True),
         ("好的。", True),
+        ("yes, do it", True),
+        ("Yes please, go ahead!", True),
+        ("go ahead", True),
+        ("ok", True),
+        ("okay sure", True),
+        ("可以", True),
+        ("好的ok", True),
+        ("好的，可以", True),
+        ("好的执行吧，谢谢", True),
         ("no!", False),
         ("不要", False),
+        ("Yes, please, go ahead!", True),
+        ("yes please", True),
+        ("no, thank you", False),
+        (",", None),
+        ("不可以", False),
+        ("No, thanks.", False),
+        ("no, don’t", False),
         ("yes and go", None),
+        ("yes, no", None),
+        ("no, do it", None),
+        ("don't, please go", None),
+        ("ok go left", None),
+        ("yesterday", None),
+        ("okdo it", None),
+        ("请", None),
+        ("please", None),
+        ("", None),
     ],
 )
 def test_a_yes_is_a_whole_utterance(said: str, meant: bool | None) -> None:
     assert read_consent(said) is meant
     assert not wants_to_edit(said)
+
+
+@pytest.mark.parametrize("long", ["好的" * 20_000, "yes " * 20_000, "thanks, " * 20_000])
+def test_a_long_text_is_read_at_once(long: str) -> None:
+    assert read_consent(f"{long}x") is None  # without end, if its words could be cut in two ways
 
 
 # --- a model's plan ---
@@ -148,3 +178,14 @@ def test_all_else_that_a_connected_model_says_waits_for_a_yes(reply: str, option
 
 def test_the_form_frees_nothing_where_nobody_has_connected_the_model() -> None:
     waiting(ModelTalk(FORM, options=MODELS))
+
+
+def test_an_edited_plan_waits_for_a_yes_whatever_the_options() -> None:
+    talk = ModelTalk(PLAN)
+    turn = talk.session.say_edited_plan("drive 0.2 m")
+    talk.pump_until(lambda: any(isinstance(event, Rehearsed) for event in talk.events))
+    assert talk.of("rehearsed")[-1].needs_approval  # type: ignore[attr-defined]
+    assert not talk.moved()
+    talk.session.approve(turn, True)
+    talk.pump_until(lambda: turn in talk.session.results)
+    assert talk.session.results[turn].outcome == "completed"

@@ -187,7 +187,7 @@ def test_where_a_robot_is_that_never_said_so_is_not_known(text: str) -> None:
 
 
 def test_where_a_robot_is_that_has_just_been_started_is_known() -> None:
-    assert Talk().session.do("where are you?").reply.startswith("I am 0.00 m ahead")
+    assert Talk().session.do("where are you?").reply == "I am right where I started, not turned."
 
 
 def test_no_place_is_remembered_where_nobody_knows_which() -> None:

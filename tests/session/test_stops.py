@@ -13,6 +13,7 @@ from chatrobot.session.stops import Stops
 from chatrobot.session.zeroing import Zeroing
 
 PERSON = Reason("stopped_by", {"source": "console", "why": "stop"})
+FAILURE = Reason("does_not_move")
 
 
 class HaltingTransport:
@@ -53,10 +54,11 @@ def test_a_stop_is_out_before_it_is_booked_and_booked_once() -> None:
 
 def test_the_stop_at_the_end_of_a_motion_is_nobodys_and_leaves_what_waits() -> None:
     stops, transport, zeroing = rig()
-    stops.halt_and_book()
+    stops.halt_and_book(FAILURE)
     assert transport.zeros == 1
     assert zeroing.is_active
     assert stops.book() is None
+    assert stops.last_reason == FAILURE, "what it overtook is told why"
 
 
 def test_a_persons_stop_is_not_lost_in_a_motions_own() -> None:
@@ -66,7 +68,7 @@ def test_a_persons_stop_is_not_lost_in_a_motions_own() -> None:
             stops.halt(PERSON)
         else:
             transport.meanwhile = lambda stops=stops: stops.halt(PERSON)  # type: ignore[misc]
-        stops.halt_and_book()
+        stops.halt_and_book(FAILURE)
         assert transport.zeros == 2
         assert stops.book() == PERSON, "and it keeps its name"
         assert stops.book() is None

@@ -17,6 +17,7 @@ from tests.wire.fake_rosbridge import FakeRosbridge
 from chatrobot.core.clock import RealClock
 from chatrobot.core.events import Event, Finished, Notice
 from chatrobot.robots.load import load_profile
+from chatrobot.session.processes import MotionProcess
 from chatrobot.session.socket_joint import SocketJoint
 from chatrobot.sim.robot import SimRobot
 from chatrobot.wire.messages import Message, TwistMessage
@@ -61,7 +62,9 @@ class Rig:
         self._thread.start()
         self.events: list[Event] = []
         # An address of this machine that does not look like one.
-        self.joint = SocketJoint(f"rosbridge:ws://127.1:{self.bridge.port}", "wheeltec_mini_mec", "empty")
+        self.joint = SocketJoint(
+            MotionProcess.start(f"rosbridge:ws://127.1:{self.bridge.port}", "wheeltec_mini_mec", "empty")
+        )
         self.joint.wait_until_ready()
 
     def _live(self) -> None:

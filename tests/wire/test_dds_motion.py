@@ -16,6 +16,7 @@ from dds_rig import DOMAIN_ID, HERE, PATIENCE_S
 from tests.session.joint_rigs import PROFILE, finished, moving, send_plan
 
 from chatrobot.core.wiring import Wiring
+from chatrobot.session.processes import MotionProcess
 from chatrobot.session.socket_joint import SocketJoint
 from chatrobot.wire.dds.wire import DdsWire
 from chatrobot.wire.messages import TwistMessage
@@ -43,7 +44,7 @@ class DdsRig:
         assert self.robot.stdout is not None
         assert select.select([self.robot.stdout], [], [], PATIENCE_S)[0]
         assert self.robot.stdout.readline() == b"ready\n"
-        self.joint = SocketJoint(ADDRESS, PROFILE, "empty")
+        self.joint = SocketJoint(MotionProcess.start(ADDRESS, PROFILE, "empty"))
         self.joint.wait_until_ready()
         self.heard: list[tuple[float, TwistMessage]] = []
         self.ear = DdsWire(Wiring(), "ear", discovery=HERE)

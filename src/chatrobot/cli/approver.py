@@ -6,14 +6,19 @@ import contextlib
 import queue
 import sys
 import threading
+from collections.abc import Callable
 
 from chatrobot.cli.console.ride import Ride
 from chatrobot.cli.editor import edited_text
+from chatrobot.core.errors import UsageError
 from chatrobot.core.events import Event
 from chatrobot.language.consent import read_consent, wants_to_edit
 from chatrobot.session.question import Question
 from chatrobot.session.session import Session
 from chatrobot.sim.world import World
+
+SayEdited = Callable[[Session], int]
+"""Says what a person made of a plan or a program; gives the number of its turn."""
 
 
 class Approver:
@@ -33,7 +38,8 @@ class Approver:
         self._has_asked = False
         self._ride = Ride()
         self._world: World | None = None
-        self._edited_plan: str | None = None
+        self._edited: SayEdited | None = None
+        self._withdrawn: set[int] = set()
         self._typed: queue.SimpleQueue[str] = queue.SimpleQueue()
         self.editing = threading.Lock()
         """Held while an editor has the terminal."""
@@ -46,6 +52,10 @@ class Approver:
     def is_waiting(self) -> bool:
         """A plan waits for an answer."""
         return self._question.turn is not None
+
+    def is_withdrawn(self, event: Event) -> bool:
+        """It only tells that a plan was not done which is being edited: that is shown, and asked about anew."""
+        return event.turn in self._withdrawn
 
     def hear(self, event: Event) -> None:
         self._ride.hear(event)
@@ -90,15 +100,35 @@ class Approver:
 
     def take(self, session: Session, answer: str) -> None:
         """What the person typed: anything but a yes is none."""
+        turn, program, plan_text = self._question.turn, self._ride.program, self._ride.plan_text
         self.give(session, read_consent(answer) is True)
-        if wants_to_edit(answer) and self._ride.plan_text and self._ride.program is None:
-            with self.editing:
-                self._edited_plan = edited_text(self._ride.plan_text, ".txt").strip() or None
+        if not wants_to_edit(answer) or turn is None:
+            return
+        if program is not None:
+            source = self._edit(program.source, ".py", turn)
+            self._edited = (lambda session: session.say_source(program.program, source)) if source else None
+        elif plan_text:
+            text = self._edit(plan_text, ".txt", turn)
+            self._edited = (lambda session: session.say_edited_plan(text)) if text else None
 
-    def take_edited(self) -> str | None:
-        """The plan as the person has changed it; it is rehearsed and asked about like a new one."""
-        text, self._edited_plan = self._edited_plan, None
-        return text
+    def take_edited(self) -> SayEdited | None:
+        """What is to be said next, once: the plan or program that was edited, or the same where the editor failed."""
+        say, self._edited = self._edited, None
+        return say
+
+    def _edit(self, text: str, suffix: str, turn: int) -> str:
+        """`text` as the person leaves it, as it was where the editor fails; "" where nothing is left."""
+        self._withdrawn.add(turn)
+        with self.editing:
+            try:
+                edited = edited_text(text, suffix)
+            except UsageError as error:
+                print(f"chatrobot: {error}", file=sys.stderr)
+                return text
+        if not edited.strip():
+            self._withdrawn.discard(turn)
+            return ""
+        return edited
 
     def _draw_way(self) -> None:
         from rich.console import Console

@@ -30,6 +30,7 @@ DEFAULTS: dict[str, Any] = {
     "on": "auto", "robot": DEFAULT_ROBOT, "interpreter": "auto", "model": "", "fast": False, "json": False,
     "trace": False, "sim": "", "world": "", "approve": False, "yes": False, "config_dir": None,
     "rounds": 6, "budget_tokens": 20_000, "budget_s": 600.0, "parameters": [],
+    "max_distance": None, "max_time": None, "keep_going": False,
 }  # fmt: skip
 
 _NODES = ("node", "sim")
@@ -60,8 +61,9 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     Raises:
         UsageError: what is wrong, and what is allowed.
     """
-    arguments, ros_args = split_ros_args(arguments)
     parser, options = _parsers()
+    arguments, program_args = _split_program_args(arguments, options)
+    arguments, ros_args = split_ros_args(arguments)
     word = _first_word(arguments, options)
     if word is not None and word not in COMMANDS:
         raise UsageError(
@@ -77,7 +79,15 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         _expect_words([parsed.text], "plan")
     are_parameters = all(word == "-p" for word in ros_args[::2])
     if ros_args and not (parsed.command in _NODES or (parsed.command in _TALKS and are_parameters)):
-        raise UsageError("--ros-args is for nodes", allowed="chatrobot node … or chatrobot sim … --on ros")
+        allowed = "chatrobot node … or chatrobot sim … --on ros"
+        if parsed.command == "program":
+            allowed = "for a program, behind --: chatrobot program run NAME -- --ros-args -p NAME:=VALUE"
+        raise UsageError("--ros-args is for nodes", allowed=allowed)
+    if program_args and (parsed.command, getattr(parsed, "action", "")) != ("program", "run"):
+        raise UsageError(
+            "only a program that is run takes arguments behind --", allowed="chatrobot program run …"
+        )
+    parsed.program_args = program_args
     parsed.ros_args = ros_args
     for name, value in DEFAULTS.items():
         if not hasattr(parsed, name):
@@ -123,6 +133,14 @@ def split_ros_args(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
     return ours, theirs
 
 
+def _split_program_args(arguments: Sequence[str], options: Parser) -> tuple[list[str], list[str]]:
+    """The arguments before the first `--`, and those behind it, which `program` hands on to a program."""
+    if "--" not in arguments or _first_word(arguments, options) != "program":
+        return list(arguments), []
+    at = list(arguments).index("--")
+    return list(arguments[:at]), list(arguments[at + 1 :])
+
+
 def _first_word(arguments: Sequence[str], options: Parser) -> str | None:
     """The first argument that is neither an option nor the value of one."""
     takes_value = {
@@ -164,6 +182,11 @@ def _parsers() -> tuple[Parser, Parser]:
 def _do(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "texts", nargs="+", metavar="TEXT", help="what to do; several are turns of one dialogue"
+    )
+    parser.add_argument(
+        "--keep-going",
+        action="store_true",
+        help="do the rest, too, after a turn that was refused, stopped, failed or not understood",
     )
 
 
@@ -248,6 +271,9 @@ def _program(parser: argparse.ArgumentParser) -> None:
         )
         for argument, meaning in takes.items():
             action.add_argument(argument.casefold(), metavar=argument, help=meaning)
+        if name == "run":
+            action.usage = f"{action.prog} [options] NAME [-- ARGS]"
+            action.epilog = "ARGS are the program's own: -- --ros-args -p speed:=0.35 -r velocity:=/cmd_vel"
         if name == "new":
             action.add_argument("--name", dest="called", default="", metavar="NAME", help="what to call it")
         if name == "edit":

@@ -6,10 +6,12 @@ import argparse
 import sys
 from dataclasses import replace
 
+from chatrobot.cli.early import Early
 from chatrobot.cli.folders import config_folder
 from chatrobot.cli.parameters import parameters_in, read_parameters
 from chatrobot.compose import Setup
 from chatrobot.core.errors import UsageError
+from chatrobot.core.motion_budget import MotionBudget
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.models.seam import Model, ModelError
 from chatrobot.session.model_choice import chosen_model
@@ -36,6 +38,7 @@ def setup_from(
     Raises:
         UsageError: what was chosen does not exist.
     """
+    early: Early | None = getattr(args, "early", None)
     options = options or Options(approve=args.approve and not args.yes, ask_findings=not args.yes)
     return Setup(
         on=args.on,
@@ -46,12 +49,15 @@ def setup_from(
         trace=args.trace,
         yes=args.yes,
         programs=programs,
+        budget=MotionBudget(args.max_distance, args.max_time),
         folder=config_folder(args),
         options=replace(options, interpreter=args.interpreter),
         model=model_from(args, named=named_model),
         model_options=ModelOptions(
             rounds=args.rounds, budget_tokens=args.budget_tokens, budget_s=args.budget_s
         ),
+        processes=early.processes if early is not None else None,
+        on_ready=early.ready if early is not None else lambda: None,
     )
 
 

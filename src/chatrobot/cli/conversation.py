@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import queue
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from types import TracebackType
 
 from chatrobot.cli.approver import Approver
@@ -13,8 +13,10 @@ from chatrobot.cli.printer import Printer
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.errors import JointError
-from chatrobot.core.events import EXIT_CODES, Event
+from chatrobot.core.events import EXIT_CODES, Event, Notice, Result
+from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import LanguageCode
+from chatrobot.session.parting import is_parting
 
 PUMP_S = 0.1
 
@@ -33,12 +35,15 @@ class Conversation:
         self._posted: queue.SimpleQueue[Callable[[], object]] = queue.SimpleQueue()
         self._watch = SignalWatch(self.stop)
         self._is_cut_off = False
+        self._last_turn = 0
+        self.has_parted = False
+        """The person said goodbye: nothing more is heard, and what runs is still done."""
         self._connection: Connection | None = None
 
     def __enter__(self) -> Conversation:
-        self._connection = connect(self._setup, self._on_event)
-        self.session = self._connection.session
-        self._approver.attach(self._connection.world)
+        connection = connect(self._setup, self._on_event)
+        self.session, self._connection = connection.session, connection
+        self._approver.attach(connection.world)
         self._watch.__enter__()
         return self
 
@@ -65,7 +70,7 @@ class Conversation:
         if self.is_leaving:
             return STOPPED
         results = self.session.results
-        return EXIT_CODES[results[max(results)].outcome] if results else 0
+        return EXIT_CODES[results[self._last_turn or max(results)].outcome] if results else 0
 
     @property
     def language(self) -> LanguageCode:
@@ -86,8 +91,15 @@ class Conversation:
             with contextlib.suppress(JointError):  # Motion is gone: the main thread tells
                 self.session.say(text)
 
+    @property
+    def is_paused(self) -> bool:
+        """A plan is paused."""
+        return self._connection is not None and self.session.is_paused
+
     def stop(self, why: str) -> None:
-        """Stop the robot and drop what is queued."""
+        """Stop the robot and drop what is queued. Before there is a robot nothing moves, nor will."""
+        if self._connection is None:
+            return
         if self._setup.fast:
             self.post(lambda: self.session.stop(why))
         else:
@@ -105,20 +117,34 @@ class Conversation:
 
     # --- the main thread ---
 
-    def do(self, text: str) -> None:
-        """One turn, seen through to its result."""
-        self.see_through(self.session.say(text))
-        while (edited := self._approver.take_edited()) is not None:
-            self.see_through(self.session.say_plan(edited))
+    def do(self, text: str) -> Result:
+        """One turn, seen through: its result."""
+        return self.see_through_edits(self.session.say(text))
 
-    def see_through(self, turn: int) -> None:
+    def drop_if_stopped(self, texts: Sequence[str]) -> None:
+        """Where a stop came while the robot was started: say what is not begun."""
+        for text in texts if self.is_leaving else ():
+            self.show(Notice(0, Reason("dropped_by_stop", {"text": text})))
+
+    def see_through_edits(self, turn: int) -> Result:
+        """That turn, and those of what a person made of the plan or program that it asked about."""
+        result = self.see_through(turn)
+        while (say_edited := self._approver.take_edited()) is not None and not self.is_leaving:
+            result = self.see_through(say_edited(self.session))
+        return result
+
+    def see_through(self, turn: int) -> Result:
         """Let things happen until that turn has its result."""
+        self._last_turn = turn
         while turn not in self.session.results:
             self.step()
+        return self.session.results[turn]
 
     def finish(self) -> None:
         """See everything through that was heard."""
-        while not (self.session.is_idle and self._posted.empty()):
+        while not self.has_parted and not (self.session.is_idle and self._posted.empty()):
+            if self.session.waits_for_a_word and self._posted.empty():
+                self.session.stop("end of input")  # nobody is left to go on with what is paused
             self.step()
 
     def step(self) -> None:
@@ -132,7 +158,9 @@ class Conversation:
             self._is_cut_off = True
             self.session.stop("nobody reads")
         self._approver.answer(self.session)
-        if self._setup.fast and self._approver.is_waiting and self._wait_for_posted():
+        is_asking = self._approver.is_waiting and not self.session.is_being_paused
+        waits = is_asking or self.session.waits_for_a_word
+        if self._setup.fast and waits and self._wait_for_posted():
             return  # a virtual half minute is over before a person has read the question: time stands
         self.session.pump(PUMP_S)
 
@@ -161,4 +189,6 @@ class Conversation:
 
     def _on_event(self, event: Event) -> None:
         self._approver.hear(event)
-        self.show(event)
+        self.has_parted = self.has_parted or is_parting(event)
+        if not self._approver.is_withdrawn(event):
+            self.show(event)

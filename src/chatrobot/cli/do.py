@@ -6,21 +6,43 @@ import argparse
 
 from chatrobot.cli.approver import Approver
 from chatrobot.cli.choices import setup_from
+from chatrobot.cli.console.pasted import goes_on_after, quoted
 from chatrobot.cli.conversation import Conversation
 from chatrobot.cli.keyboard import Keyboard, has_keyboard
 from chatrobot.cli.printer import printer_for
+from chatrobot.core.events import Notice, Result
+from chatrobot.core.reason import Reason
+from chatrobot.language.consent import read_consent
 
 
 def run(args: argparse.Namespace) -> int:
-    """The exit code of the last turn."""
+    """The exit code of the last turn that was taken."""
     printer = printer_for(args)
     approver = Approver(can_ask=has_keyboard())
-    with Conversation(setup_from(args, programs=True), printer, approver) as conversation:
-        Keyboard(conversation, approver).start()
-        for text in args.texts:
-            if conversation.is_leaving:
+    conversation = Conversation(setup_from(args, programs=True), printer, approver)
+    Keyboard(conversation, approver).start()  # a stop may be typed while the robot starts
+    with conversation:
+        conversation.drop_if_stopped(args.texts)
+        results: list[Result] = []
+        for number, text in enumerate(args.texts):
+            if conversation.is_leaving or conversation.has_parted:
+                break
+            if not (args.keep_going or may_follow(text, results)):
+                rest = args.texts[number:]
+                reason = Reason("turns_not_done", {"texts": quoted(rest), "count": len(rest)})
+                conversation.show(Notice(0, reason))
                 break
             if len(args.texts) > 1:
                 printer.turn(text)
-            conversation.do(text)
+            results.append(conversation.do(text))
     return conversation.exit_code
+
+
+def may_follow(text: str, results: list[Result]) -> bool:
+    """Whether `text` is taken after turns that ended so: all was done, or it is the answer to what was asked, once."""
+    if not results or goes_on_after(results[-1].outcome):
+        return True
+    if len(results) > 1 and results[-2].is_question and not goes_on_after(results[-2].outcome):
+        return False  # the last text was to be the answer
+    last = results[-1]
+    return last.outcome == "unclear" or (last.is_question and read_consent(text) is not None)

@@ -62,8 +62,11 @@ def _run(arguments: Sequence[str]) -> int:
     from chatrobot.cli.arguments import parse
 
     args = parse(arguments)
-    command = import_module(f"chatrobot.cli.{_MODULES.get(args.command, args.command)}")
-    code: int = command.run(args)
+    from chatrobot.cli.early import started_early
+
+    with started_early(args):
+        command = import_module(f"chatrobot.cli.{_MODULES.get(args.command, args.command)}")
+        code: int = command.run(args)
     return code
 
 

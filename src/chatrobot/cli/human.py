@@ -23,8 +23,10 @@ from chatrobot.core.events import (
     TruePose,
 )
 from chatrobot.core.geometry import Pose, Twist
+from chatrobot.core.shown import fixed
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.phrases import render_reason, say
+from chatrobot.plan.shown import shown_plan
 
 _CLEAR_LINE = "\r\x1b[K"
 _MARKS = {"refuse": "✗", "warn": "!", "note": "·"}
@@ -60,7 +62,8 @@ class HumanPrinter:
         elif isinstance(event, Progress):
             self._show_progress(event)
         elif isinstance(event, Result):
-            self._line(event.reply)
+            asks = f" {say(language, 'yes_or_no')}" if event.proposal is not None else ""
+            self._line(f"{event.reply}{asks}")
         else:
             self._show_rest(event, language)
 
@@ -72,7 +75,7 @@ class HumanPrinter:
         self._show_plan(event.plan_text)
 
     def _show_plan(self, plan_text: str) -> None:
-        for line in plan_text.splitlines():
+        for line in shown_plan(plan_text).splitlines():
             self._line(f"    {line}")
 
     def _show_rehearsed(self, event: Rehearsed, language: LanguageCode) -> None:
@@ -88,7 +91,7 @@ class HumanPrinter:
 
     def _show_progress(self, event: Progress) -> None:
         metres = self._way.advance(event.pose)
-        status = f"  {self._way}  {event.fraction:4.0%}"
+        status = f"  {self._way.text(event.fraction)}"
         if self._output.is_terminal:
             self._output.write(f"{_CLEAR_LINE}{status}")
             self._has_status = True
@@ -99,7 +102,7 @@ class HumanPrinter:
         if isinstance(event, Said):
             self._line(f"  “{event.text}”")
         elif isinstance(event, Remembered):
-            self._line(f"  {event.place}: x {event.pose.x_m:.2f} m, y {event.pose.y_m:.2f} m")
+            self._line(f"  {event.place}: x {fixed(event.pose.x_m, 2)} m, y {fixed(event.pose.y_m, 2)} m")
         elif isinstance(event, Limited):
             self._line(f"  · {_twist(event.asked)} → {_twist(event.sent)}")
         elif isinstance(event, Notice):
@@ -111,22 +114,13 @@ class HumanPrinter:
         elif isinstance(event, ProgramLog):
             self._line(f"  | {event.text}")
         elif isinstance(event, TruePose):
-            yaw_deg = math.degrees(event.yaw_rad)
-            self._line(f"  {event.t_s:8.2f} s  x {event.x_m:.3f} m  y {event.y_m:.3f} m  {yaw_deg:.1f}°")
+            x, y, yaw = fixed(event.x_m, 3), fixed(event.y_m, 3), fixed(math.degrees(event.yaw_rad), 1)
+            self._line(f"  {event.t_s:8.2f} s  x {x} m  y {y} m  {yaw}°")
 
     def _show_program(self, event: ProgramWritten, language: LanguageCode) -> None:
-        from chatrobot.cli.program_text import marked_only, marks_of, numbered
+        from chatrobot.session.program_text import body, headline
 
-        by = say(language, f"written_by_{event.by}")
-        self._line(say(language, "program_shown", name=event.program, by=by, version=event.version))
-        marks = marks_of(event.marks)
-        if event.diff:
-            lines = [f"  {line}" for line in event.diff.splitlines()[2:]]
-            lines += marked_only(event.source, marks, language)
-        else:
-            shown = numbered if event.is_new else marked_only
-            lines = list(shown(event.source, marks, language))
-        for line in lines:
+        for line in (headline(event, language), *body(event, language)):
             self._line(line)
 
     def _show_program_rehearsed(self, event: ProgramRehearsed, language: LanguageCode) -> None:
@@ -162,11 +156,16 @@ class _Way:
         self._last = pose
         return math.floor(self._driven_m) > math.floor(before_m)
 
-    def __str__(self) -> str:
+    def text(self, fraction: float | None) -> str:
+        """How far, and which turn; of how much, and the share, where the whole is known."""
         turned_deg = math.degrees(self._last.yaw_rad - self._start_yaw_rad) if self._last is not None else 0.0
-        return f"{self._driven_m:.2f} / {self.planned_m:.2f} m  {turned_deg:+.0f}°"
+        rounded = fixed(turned_deg, 0)
+        turned = f"{'+' if float(rounded) > 0 else ''}{rounded}°"
+        if fraction is None:
+            return f"{self._driven_m:.2f} m  {turned}"
+        return f"{self._driven_m:.2f} / {self.planned_m:.2f} m  {turned}  {fraction:4.0%}"
 
 
 def _twist(twist: Twist) -> str:
-    speed = f"{twist.speed_mps:.2f} m/s"
-    return f"{speed}, {twist.wz_radps:.2f} rad/s" if twist.wz_radps else speed
+    speed, rate = f"{twist.speed_mps:.2f} m/s", fixed(twist.wz_radps, 2)
+    return f"{speed}, {rate} rad/s" if float(rate) else speed

@@ -11,7 +11,7 @@ import threading
 from chatrobot.cli.approver import Approver
 from chatrobot.cli.conversation import Conversation
 from chatrobot.cli.lines import MAX_LINE_BYTES
-from chatrobot.reflex import leads_with_stop
+from chatrobot.reflex import is_pause, leads_with_stop
 
 
 def has_keyboard() -> bool:
@@ -53,10 +53,14 @@ class Keyboard:
                 self._hear(line.decode("utf-8", errors="replace").strip())
             if not chunk:
                 self._approver.lose_keyboard()
+                if self._conversation.is_paused:
+                    self._conversation.stop("end of input")
                 return
 
     def _hear(self, line: str) -> None:
-        if leads_with_stop(line):
+        if is_pause(line) or (self._conversation.is_paused and not leads_with_stop(line)):
+            self._conversation.hear(line)
+        elif leads_with_stop(line):
             self._conversation.halt(line)
         else:
             self._approver.type(line)

@@ -11,6 +11,7 @@ from chatrobot.cli.entry import STOPPED
 from chatrobot.cli.parameters import parameters_in, read_parameters
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.core.errors import UsageError, WireError
+from chatrobot.core.motion_budget import MotionBudget
 from chatrobot.wire.connect import Connect, connect_wire
 
 if TYPE_CHECKING:
@@ -47,6 +48,7 @@ def _run_control(args: argparse.Namespace, citizen: Citizen | None, connect: Con
             args.allow_release,
             args.accept_others,
             args.on_robot,
+            MotionBudget(args.max_distance, args.max_time),
         ),
         connect,
     )

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, NoReturn, TypeVar
 
 from chatrobot.core.errors import UsageError
+from chatrobot.core.motion_budget import NONE, read_limit
 
 Number = TypeVar("Number", int, float)
 DEFAULT_ROBOT = "wheeltec_mini_mec"
@@ -14,14 +15,15 @@ DEFAULT_ROBOT = "wheeltec_mini_mec"
 
 
 _MODEL_OPTIONS = ("interpreter", "model", "rounds", "budget_tokens", "budget_s")
+_BUDGET_OPTIONS = ("max_distance", "max_time")
 SHOWN: dict[str, tuple[str, ...]] = {
-    "plan": ("on", "robot", *_MODEL_OPTIONS, "json", "world", "config_dir"),
+    "plan": ("on", "robot", *_MODEL_OPTIONS, *_BUDGET_OPTIONS, "json", "world", "config_dir"),
     "stop": (),
     "schema": (),
     "calibrate": ("on", "robot", "sim", "world", "config_dir"),
     "doctor": ("on", "robot", "world", "model", "json", "config_dir"),
     "sim": ("on", "robot", "sim", "world", "config_dir"),
-    "node": ("on", "robot", *_MODEL_OPTIONS, "world", "config_dir", "parameters"),
+    "node": ("on", "robot", *_MODEL_OPTIONS, *_BUDGET_OPTIONS, "world", "config_dir", "parameters"),
     "model": ("model", "json", "config_dir"),
     "usage": ("json", "config_dir"),
     "fake-model": ("json",),
@@ -96,6 +98,18 @@ def options_of(shown: Sequence[str] | None = None) -> Parser:
         help="how the simulated robot lies: slip=0.03,latency_s=0.05,noise=on,seed=1",
     )
     add("--world", metavar="WORLD", help="empty, home or a world file (default: home; eval: empty)")
+    add(
+        "--max-distance",
+        type=limit,
+        metavar="M|none",
+        help="metres that one text or program may drive (default: 100)",
+    )
+    add(
+        "--max-time",
+        type=limit,
+        metavar="S|none",
+        help="seconds that one text or program may drive (default: 600; a program without an end runs 60)",
+    )
     add("--approve", action="store_true", help="ask before each plan")
     add("--yes", action="store_true", help="do each plan without asking")
     add("--config-dir", metavar="DIR", help="where places, programs and robot profiles live")
@@ -116,6 +130,14 @@ def port(text: str) -> int:
     if not text.isdecimal() or int(text) > 65_535:
         raise argparse.ArgumentTypeError(f"{text!r} is no port (0 to 65535)")
     return int(text)
+
+
+def limit(text: str) -> float:
+    """A limit of the motion budget: a number above zero, or `none`."""
+    try:
+        return read_limit(text if text == NONE else float(text))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is neither a number above zero nor {NONE}") from None
 
 
 def positive(kind: Callable[[str], Number]) -> Callable[[str], Number]:

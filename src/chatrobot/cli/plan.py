@@ -9,11 +9,12 @@ from pathlib import Path
 
 from chatrobot.cli.choices import setup_from
 from chatrobot.cli.printer import printer_for
-from chatrobot.compose import SIMULATED, connect
+from chatrobot.compose import connect
 from chatrobot.core.errors import UsageError
 from chatrobot.core.events import EXIT_CODES, Event, Rehearsed
 from chatrobot.language.phrases import render_reason
 from chatrobot.session.options import Options
+from chatrobot.session.processes import SIMULATED
 
 
 def run(args: argparse.Namespace) -> int:

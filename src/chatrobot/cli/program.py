@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from chatrobot.cli.approver import Approver
 from chatrobot.cli.choices import setup_from
 from chatrobot.cli.conversation import Conversation
 from chatrobot.cli.editor import edited_text
 from chatrobot.cli.folders import config_folder, profile_folders
 from chatrobot.cli.json_lines import json_line
 from chatrobot.cli.keyboard import Keyboard, has_keyboard
+from chatrobot.cli.parameter_files import with_parameter_files
 from chatrobot.cli.printer import printer_for
-from chatrobot.cli.program_approver import ProgramApprover
 from chatrobot.core.errors import UsageError
 from chatrobot.programs.library import KeptProgram, Library, clean_name
+from chatrobot.programs.ros_args import RosArgumentsError, check_args
+from chatrobot.session.authoring import Authoring
+from chatrobot.session.draft import Draft
 from chatrobot.session.options import Options
 
 _READ_BYTES = 1_000_000
@@ -43,24 +47,35 @@ def _new(args: argparse.Namespace) -> int:
 
 
 def _run(args: argparse.Namespace) -> int:
-    path = Path(args.name).expanduser()
+    path, given = Path(args.name).expanduser(), _given(args)
     if path.suffix == ".py":
         source = _read(path)
-        return _drive(args, lambda conversation: _say_file(conversation, path, source))
+        return _drive(
+            args,
+            lambda conversation: _say(conversation, lambda made: made.draft_of_file(path, source), given),
+        )
     program = _library(args).get(args.name)
-    return _drive(args, lambda conversation: _say_kept(conversation, program))
+    return _drive(args, lambda conversation: _say(conversation, lambda made: made.draft_of(program), given))
 
 
-def _say_file(conversation: Conversation, path: Path, source: str) -> int:
+def _say(conversation: Conversation, draft_of: Callable[[Authoring], Draft], given: Sequence[str]) -> int:
     authoring = conversation.session.authoring
     assert authoring is not None
-    return conversation.session.say_draft(authoring.draft_of_file(path, source))
+    return conversation.session.say_draft(draft_of(authoring).with_args(given))
 
 
-def _say_kept(conversation: Conversation, program: KeptProgram) -> int:
-    authoring = conversation.session.authoring
-    assert authoring is not None
-    return conversation.session.say_draft(authoring.draft_of(program))
+def _given(args: argparse.Namespace) -> list[str]:
+    """The program's own command line, its parameter files read: in the box it can open none.
+
+    Raises:
+        InputError: it cannot be given to a program.
+    """
+    given = with_parameter_files(args.program_args)
+    try:
+        check_args(given)
+    except RosArgumentsError as error:
+        raise UsageError(str(error), where="behind --") from error
+    return given
 
 
 def _read(path: Path) -> str:
@@ -84,12 +99,10 @@ def _drive(args: argparse.Namespace, say: Callable[[Conversation], int]) -> int:
         ask_findings=not args.yes,
         ask_new=is_new and can_ask and not args.yes,
     )
-    approver = ProgramApprover(can_ask=can_ask)
+    approver = Approver(can_ask=can_ask)
     with Conversation(setup_from(args, options=options, programs=True), printer, approver) as conversation:
         Keyboard(conversation, approver).start()
-        conversation.see_through(say(conversation))
-        while (edited := approver.edited()) is not None and not conversation.is_leaving:
-            conversation.see_through(conversation.session.say_source(*edited))
+        conversation.see_through_edits(say(conversation))
     return conversation.exit_code
 
 
@@ -135,18 +148,22 @@ def _summary(program: KeptProgram) -> str:
 
 
 def _show(args: argparse.Namespace) -> int:
-    from chatrobot.cli.program_text import numbered
     from chatrobot.programs.check import check
     from chatrobot.robots.load import load_profile
+    from chatrobot.session.program_text import numbered
 
-    program = _library(args).get(args.name)
+    library = _library(args)
+    program = library.get(args.name)
+    place = library.place(program.name)
     if args.json:
-        print(json_line({"event": "program", **_about(program), "source": program.source}), end="")
+        about = {"event": "program", **_about(program), "source": program.source, "place": place}
+        print(json_line(about), end="")
         return 0
     profile = load_profile(args.robot, profile_folders(args))
     print(f"{program.name}  ({_summary(program)})")
     if program.provenance.sentence:
         print(f"asked for: {' '.join(program.provenance.sentence.split())}")
+    print(f"source: {place}")
     if program.description:
         print(program.description)
     for run in program.runs:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from typing import TYPE_CHECKING
 
 from chatrobot.nodes.parameters import PARAMETERS, Value
@@ -34,6 +35,8 @@ def open_citizen(args: argparse.Namespace, address: str, ros_args: list[str]) ->
         "allow_release": args.allow_release,
         "accept_others": args.accept_others,
         "on_robot": args.on_robot,
+        "max_distance_m": _parameter_of(args.max_distance),
+        "max_time_s": _parameter_of(args.max_time),
     }
     domain_id, namespace = domain_and_namespace(address)
     citizen = Citizen(
@@ -46,4 +49,16 @@ def open_citizen(args: argparse.Namespace, address: str, ros_args: list[str]) ->
     )
     vars(args).update(citizen.values)
     args.config_dir = args.config_dir or None
+    if args.which == "control":
+        args.max_distance = _limit_of(args.max_distance_m)
+        args.max_time = _limit_of(args.max_time_s)
     return citizen
+
+
+def _parameter_of(limit: float | None) -> float:
+    """A limit of the motion budget as a ROS parameter: 0 for not chosen, -1 for none."""
+    return 0.0 if limit is None else -1.0 if math.isinf(limit) else limit
+
+
+def _limit_of(value: float) -> float | None:
+    return None if value == 0.0 else math.inf if value < 0.0 else value

@@ -28,8 +28,9 @@ def run(args: argparse.Namespace) -> int:
     with Conversation(setup, printer, approver) as conversation:
         reader = LineReader(JsonInput(conversation, approver).hear if args.json else conversation.hear)
         reader.start()
-        while not conversation.is_leaving and not reader.has_ended:
-            conversation.wait() if conversation.session.is_idle else conversation.step()
+        while not (conversation.is_leaving or conversation.has_parted or reader.has_ended):
+            session = conversation.session
+            conversation.wait() if session.is_idle or session.waits_for_a_word else conversation.step()
         conversation.finish()
     return conversation.exit_code
 

@@ -7,32 +7,20 @@ are in `odom` as the robot itself measures them (`TruePose` alone is the simulat
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, Literal
+from typing import ClassVar, Literal
 
+from chatrobot.core.event import Event as Event
+from chatrobot.core.event import event_from_json as event_from_json
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
+from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
 
 Outcome = Literal["completed", "stopped", "refused", "unclear", "answered", "failed"]
 EXIT_CODES: Mapping[str, int] = {
     "completed": 0, "answered": 0, "failed": 1, "unclear": 3, "refused": 4, "stopped": 5,
 }  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Event:
-    """Base of all events. `turn` counts the instructions of a session from 1; 0 belongs to none."""
-
-    turn: int
-    name: ClassVar[str] = ""
-
-    def to_json(self) -> dict[str, Any]:
-        return {
-            "event": self.name,
-            **{f.name: _plain(getattr(self, f.name)) for f in dataclasses.fields(self)},
-        }
 
 
 @dataclass(frozen=True)
@@ -58,7 +46,11 @@ class FindingSeen(Event):
 
 @dataclass(frozen=True)
 class Rehearsed(Event):
-    """What the plan would do: `path` is (x_m, y_m, yaw_rad) along the predicted way, thinned for drawing."""
+    """What the plan would do: `path` is (x_m, y_m, yaw_rad) along the predicted way, thinned for drawing.
+
+    `open_ended`: nobody knows before how far it drives (a program without an end, a way up to an obstacle that is not
+    known); `length_m` and `duration_s` are what was rehearsed.
+    """
 
     name: ClassVar[str] = "rehearsed"
     ok: bool
@@ -68,6 +60,7 @@ class Rehearsed(Event):
     findings: tuple[FindingSeen, ...] = ()
     path: tuple[tuple[float, float, float], ...] = ()
     needs_approval: bool = False
+    open_ended: bool = False
 
 
 @dataclass(frozen=True)
@@ -75,7 +68,7 @@ class ProgramWritten(Event):
     """A program was written, or found under its name. `marks` have the line they are about in `step`.
 
     `by` is who wrote this version, `version` counts from 1, `diff` is what changed since the one before; `is_new`
-    where it was written in this turn.
+    where it was written in this turn. `place` is the file that holds its source, "" where none does.
     """
 
     name: ClassVar[str] = "program_written"
@@ -87,6 +80,7 @@ class ProgramWritten(Event):
     diff: str = ""
     is_new: bool = False
     marks: tuple[FindingSeen, ...] = ()
+    place: str = ""
 
 
 @dataclass(frozen=True)
@@ -127,20 +121,40 @@ class Started(Event):
 
 
 @dataclass(frozen=True)
+class Paused(Event):
+    """The plan of this turn was stopped by a word that keeps it: the turn stays open, and `plan_text` is what is left.
+
+    It is gone on with, from where the robot stands then, when its own source asks for that: `rehearsed` and `started`
+    follow. Else `finished` ends it.
+    """
+
+    name: ClassVar[str] = "paused"
+    pose: Pose
+    plan_text: str
+    reason: Reason | None = None
+
+
+@dataclass(frozen=True)
 class Progress(Event):
-    """How far a running turn is: step `step` of `of`, `fraction` of the whole predicted duration (0..1)."""
+    """How far a running turn is: step `step` of `of`, `fraction` of the whole predicted duration (0..1).
+
+    `fraction` is None where the whole is not known: a program without an end, a plan that is still coming in.
+    """
 
     name: ClassVar[str] = "progress"
     step: int
     of: int
-    fraction: float
+    fraction: float | None
     pose: Pose
     twist: Twist
 
 
 @dataclass(frozen=True)
 class Telemetry(Event):
-    """Where the robot is and how it moves, as it measures itself; `path_m` since odometry began."""
+    """Where the robot is and how it moves, as it measures itself; `path_m` since odometry began.
+
+    `odometry_epoch` counts the times odometry began anew: a pose of an older epoch means nothing any more.
+    """
 
     name: ClassVar[str] = "telemetry"
     pose: Pose
@@ -149,6 +163,7 @@ class Telemetry(Event):
     battery_percent: float | None = None
     nearest_obstacle_m: float | None = None
     moving: bool = False
+    odometry_epoch: int = 0
 
 
 @dataclass(frozen=True)
@@ -246,7 +261,13 @@ class Finished(Event):
     Odometry counts wheels, and a gyro sees only turns: wheels that spin straight on are counted as way
     (docs/simulation.md, "Wheels that spin").
 
-    `planned_m` and `planned_turn_rad` are what the plan wanted up to its end, for "1.00 m of 1.00 m".
+    `planned_m` is the way of the whole plan, for "0.60 m of 1.00 m", and `planned_turn_rad` what it wanted to turn up
+    to its end. `open_ended`: the whole is not known, and `planned_m` is what was rehearsed of it.
+    `possible` is plan text: what can be done of a plan that was refused.
+
+    `executed` and `remaining` are plan text: the part of the plan that was driven, as odometry measured it, and the
+    part that was not. Driving one after the other is driving the whole plan. Both are empty for a program and where
+    nothing measures; `remaining` also where the plan was completed or refused.
     """
 
     name: ClassVar[str] = "finished"
@@ -263,11 +284,18 @@ class Finished(Event):
     steps_done: int = 0
     steps: int = 0
     measured: bool = True
+    possible: str = ""
+    executed: str = ""
+    remaining: str = ""
+    open_ended: bool = False
 
 
 @dataclass(frozen=True)
 class Result(Event):
-    """The last event of every turn; pose and distances are what odometry measured, as in `Finished`."""
+    """The last event of every turn; pose and distances are what odometry measured, as in `Finished`.
+
+    `proposal` is a plan that the reply asks about.
+    """
 
     name: ClassVar[str] = "result"
     outcome: Outcome
@@ -278,62 +306,9 @@ class Result(Event):
     duration_s: float = 0.0
     paused_s: float = 0.0
     reason: Reason | None = field(default=None)
+    proposal: Proposal | None = None
 
-
-def _plain(value: Any) -> Any:
-    """JSON's own types: a Pose and a Twist become objects with their units in the keys."""
-    if isinstance(value, (Pose, Twist)):
-        return {key: round(number, 6) for key, number in zip(value._fields, value)}
-    if isinstance(value, float):
-        return round(value, 6)
-    if isinstance(value, (Reason, Event)):
-        return value.to_json()
-    if isinstance(value, (tuple, list)):
-        return [_plain(item) for item in value]
-    return value
-
-
-def event_from_json(data: Mapping[str, Any]) -> Event:
-    """The event that `to_json` made `data` of.
-
-    Raises:
-        ValueError: no event of ours has that name or those fields.
-    """
-    kind = EVENT_TYPES.get(str(data.get("event")))
-    if kind is None:
-        raise ValueError(f"no such event: {data.get('event')!r}")
-    values = {key: value for key, value in data.items() if key != "event"}
-    annotations = {f.name: str(f.type) for f in dataclasses.fields(kind)}
-    try:
-        return kind(**{key: _READERS.get(annotations[key], _as_is)(value) for key, value in values.items()})
-    except (KeyError, TypeError) as error:
-        raise ValueError(f"not a {kind.name} event: {error}") from error
-
-
-def _as_is(value: Any) -> Any:
-    return value
-
-
-def _reason(value: Any) -> Reason | None:
-    return None if value is None else Reason.from_json(value)
-
-
-_READERS: Mapping[str, Any] = {
-    "Pose": lambda value: Pose(**value),
-    "Twist": lambda value: Twist(**value),
-    "Reason": _reason,
-    "Reason | None": _reason,
-    "tuple[int, ...]": tuple,
-    "tuple[float | None, ...]": tuple,
-    "tuple[str, ...]": tuple,
-    "tuple[FindingSeen, ...]": lambda value: tuple(event_from_json(item) for item in value),
-    "tuple[tuple[float, float, float], ...]": lambda value: tuple(tuple(item) for item in value),
-}
-
-EVENT_TYPES: Mapping[str, type[Event]] = {
-    kind.name: kind
-    for kind in (
-        Interpreted, FindingSeen, Rehearsed, Started, Progress, Telemetry, TruePose, Limited, Said, Remembered,
-        Streamed, Looked, ModelCalled, Notice, Finished, Result, ProgramWritten, ProgramRehearsed, ProgramLog,
-    )
-}  # fmt: skip
+    @property
+    def is_question(self) -> bool:
+        """The next text may answer it."""
+        return self.outcome == "unclear" or self.proposal is not None

@@ -20,6 +20,12 @@ class Reason:
     code: str
     values: Mapping[str, Value] = field(default_factory=dict)
 
+    def __post_init__(self) -> None:
+        if "code" in self.values:
+            raise ValueError(
+                f"a value of {self.code!r} is named 'code': it would hide the reason's own in JSON"
+            )
+
     def to_json(self) -> dict[str, Any]:
         return {"code": self.code, **self.values}
 

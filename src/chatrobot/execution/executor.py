@@ -13,16 +13,27 @@ from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.execution.course import TICK_S, Course
 from chatrobot.execution.estimator import Estimate
-from chatrobot.execution.health import STANDS_LATE_S, is_seen_moving, sensor_fault, tracking_fault
+from chatrobot.execution.health import (
+    STANDS_LATE_S,
+    is_seen_moving,
+    is_seen_standing,
+    sensor_fault,
+    tracking_fault,
+)
 from chatrobot.execution.lookahead import must_brake
 from chatrobot.execution.mending import AT_THE_END, BETWEEN_STEPS, MEND_TRIES, Tolerance, mend
 from chatrobot.execution.sensors import Sensors
+from chatrobot.execution.tally import Tally
 from chatrobot.execution.tracking import feedback
 from chatrobot.plan.context import Impossible
 from chatrobot.plan.core_motion import CoreMotion, Emit, Pause
 from chatrobot.plan.lowering import NotYet, Walk
+from chatrobot.plan.split import Reached
 from chatrobot.plan.trajectory import Segment
 from chatrobot.robots.profile import RobotProfile
+
+UNSEEN_S = 0.1
+"""A robot that nobody sees is sent zeros for so long at the end of a plan: one may get lost."""
 
 SETTLE_S = 0.8
 """The longest wait, at the end of a plan, for the robot to be seen standing, where it is not seen moving."""
@@ -55,7 +66,9 @@ class Executor:
         self.planned_m = 0.0
         self.planned_turn_rad = 0.0
         self._course = Course(Pose())
+        self._tally = Tally()
         self._pause_until_s: float | None = None
+        self._pause_s = 0.0
         self._settle_since_s: float | None = None
         self._mends_left = MEND_TRIES
         self._is_mending = False
@@ -82,6 +95,14 @@ class Executor:
     def steps_done(self) -> int:
         """Steps finished, repeats counted each time."""
         return self.steps if self.is_done and self.reason is None else max(0, self.step - 1)
+
+    @property
+    def reached(self) -> Reached | None:
+        """How far the plan has been driven, as odometry shows it just now; None where there is no odometry."""
+        estimate = self._sensors.estimate
+        if estimate is None or not self._sensors.has_odometry:
+            return None
+        return self._tally.reached(estimate.pose)
 
     def progress(self, turn: int, now_s: float) -> Progress:
         """How far it is, by the rehearsed duration."""
@@ -155,18 +176,23 @@ class Executor:
         else:
             self.step, self.steps = item.number, item.total
             self._course.reference = item.start
+            self._tally.begin(item)
             self._begin_motion(item.motion, now_s)
         return True
 
     def _begin_motion(self, motion: CoreMotion | None, now_s: float) -> None:
         if isinstance(motion, Emit):
             self._tell(motion)
+            self._tally.end()
         elif isinstance(motion, Pause):
+            self._pause_s = motion.duration_s
             self._pause_until_s = self._course.free_from_s(now_s) + motion.duration_s
         elif motion is not None:
             self.planned_m += motion.twist.speed_mps * motion.hold_s
             self.planned_turn_rad += motion.twist.wz_radps * motion.hold_s
             self._begin_segment(Segment(motion, self._course.reference), now_s)
+        else:
+            self._tally.end()
 
     def _begin_segment(self, segment: Segment, now_s: float) -> None:
         self._course.begin(segment, now_s)
@@ -181,7 +207,7 @@ class Executor:
         t_s = now_s - self._course.began_s
         segment = self._cut_short(segment, t_s)
         if t_s >= segment.total_s:
-            return self._end_segment(now_s)
+            return self._end_segment(segment, now_s)
         if self._first_tick and segment.motion.asked is not None:
             self._first_tick = False
             return segment.motion.asked  # beyond the limits: the governor says so, once
@@ -190,12 +216,16 @@ class Executor:
         estimate = self._sensors.estimate
         if estimate is None or not self._sensors.has_odometry:
             return twist
-        reference = self._course.at(estimate.stamp_s)
+        reference = self._reference_at(estimate)
         fault = self._tracking_fault(segment, reference, estimate)
         if fault is not None:
             return self._end("failed", fault)
         more = feedback(self._profile, segment, reference.relative_to(estimate.pose))
         return Twist(twist.vx_mps + more.vx_mps, twist.vy_mps + more.vy_mps, twist.wz_radps + more.wz_radps)
+
+    def _reference_at(self, estimate: Estimate) -> Pose:
+        """Where the robot should be when it is seen as in `estimate`, as late as it does what it is told."""
+        return self._course.at(estimate.stamp_s - self._sensors.response.lag_s)
 
     def _tracking_fault(self, segment: Segment, reference: Pose, estimate: Estimate) -> Reason | None:
         begin, wheel_yaw_rad = self._begin
@@ -231,9 +261,12 @@ class Executor:
         self._course.cut_short(shorter)
         return shorter
 
-    def _end_segment(self, now_s: float) -> Twist | None:
+    def _end_segment(self, segment: Segment, now_s: float) -> Twist | None:
         self._course.end(is_planned=not self._is_mending)
         if not self._is_mending:
+            is_cut_short = segment.ramp.hold_s < segment.motion.hold_s
+            if self._ending is None or not is_cut_short:
+                self._tally.end(segment.ramp.hold_s)
             self._walk.ended_at(self._course.reference)
             self._mends_left = MEND_TRIES
         self._is_mending = False
@@ -242,8 +275,11 @@ class Executor:
         return None
 
     def _pause(self, until_s: float, now_s: float) -> Twist | None:
+        self._tally.wait(self._pause_s - (until_s - now_s))
         if now_s < until_s and self._ending is None:
             return ZERO_TWIST
+        if now_s >= until_s:
+            self._tally.end()
         self._pause_until_s = None
         return None
 
@@ -251,10 +287,9 @@ class Executor:
         """The plan is done: see the robot stand, and drive the rest that feedback left, if it is worth it."""
         assert self._settle_since_s is not None
         waited_s = now_s - self._settle_since_s
-        estimate = self._sensors.estimate
-        if not self._sensors.has_odometry or estimate is None:
-            return self._end("completed", None)
-        seen = estimate.is_standing and estimate.stamp_s > self._settle_since_s
+        if not self._sensors.has_odometry or self._sensors.estimate is None:
+            return ZERO_TWIST if waited_s < UNSEEN_S else self._end("completed", None)
+        seen = is_seen_standing(self._sensors)
         if not seen and waited_s < (STANDS_LATE_S if is_seen_moving(self._sensors) else SETTLE_S):
             return ZERO_TWIST
         if seen and self._course.has_moved and self._mend(AT_THE_END, now_s):
@@ -267,7 +302,7 @@ class Executor:
         estimate = self._sensors.estimate
         if estimate is None or not self._sensors.has_odometry or self._mends_left == 0:
             return False
-        rest = self._course.at(estimate.stamp_s).relative_to(estimate.pose)
+        rest = self._reference_at(estimate).relative_to(estimate.pose)
         motion = mend(self._profile, rest, tolerance)
         if motion is None:
             return False

@@ -18,6 +18,8 @@ MOVING_MPS, MOVING_RADPS = 0.03, 0.1
 """Above these it clearly moves; noise of a standing robot is below."""
 FRESH_S = 0.3
 """Odometry older than this shows nothing."""
+SAME_MOMENT_S = 0.001
+"""Stamps closer than this are of one moment: sums of clock ticks differ by rounding."""
 STANDS_LATE_S = 2.0
 """A robot that is told to stand and clearly moves after this long does not obey."""
 OFF_TRACK_M = 0.10
@@ -58,6 +60,14 @@ def is_seen_moving(sensors: Sensors) -> bool:
     if estimate is None or sensors.odometry_age_s() >= FRESH_S:
         return False
     return estimate.twist.speed_mps > MOVING_MPS or abs(estimate.twist.wz_radps) > MOVING_RADPS
+
+
+def is_seen_standing(sensors: Sensors, since_s: float = -math.inf) -> bool:
+    """It is told to stand, and odometry of after that (and after `since_s`) shows, just now, that it does."""
+    estimate = sensors.estimate
+    if estimate is None or not estimate.is_standing or sensors.odometry_age_s() >= FRESH_S:
+        return False
+    return estimate.stamp_s - max(since_s, sensors.estimator.rest.told_since_s) > SAME_MOMENT_S
 
 
 def tracking_fault(begin: Pose, reference: Pose, seen: Pose, wheel_turn_rad: float) -> Reason | None:

@@ -1,4 +1,4 @@
-"""What the robot tells: the newest of each sensor, and when it came."""
+"""What the robot tells: the newest of each sensor, when it came, and what that says of what it was told to do."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ from collections.abc import Callable
 from typing import Any
 
 from chatrobot.core.clock import Clock
-from chatrobot.core.geometry import Pose
+from chatrobot.core.geometry import Pose, Twist
 from chatrobot.execution.estimator import Estimate, PoseEstimator
+from chatrobot.execution.response import Response
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.messages import Flag, Imu, LaserScan, Number, Odometry
 from chatrobot.wire.sensor_topics import subscribe_sensors
@@ -29,6 +30,7 @@ class Sensors:
         self._profile = profile
         self._clock = clock
         self.estimator = PoseEstimator(profile.limits, profile.calibration)
+        self.response = Response()
         self.scan: LaserScan | None = None
         self.bumped = False
         self.battery_percent: float | None = None
@@ -82,6 +84,16 @@ class Sensors:
             return None
         late_s = max(0.0, min(self._clock.now_s() - estimate.stamp_s, OLD_NEWS_S))
         return estimate.pose.moved(estimate.twist, late_s)
+
+    def note_sent(self, twist: Twist) -> None:
+        """The robot has been sent `twist`, or is about to be."""
+        now_s, estimate = self._clock.now_s(), self.estimate
+        self.estimator.rest.note_command(is_zero=twist.is_zero, now_s=now_s)
+        if estimate is not None:
+            rolled_m = estimate.path_m / self._profile.calibration.distance_scale
+            turned_rad = self.estimator.wheel_yaw_rad
+            self.response.see(estimate.stamp_s, rolled_m, turned_rad)
+            self.response.tell(twist, now_s, rolled_m, turned_rad)
 
     def _on_imu(self, message: Imu) -> None:
         self._imu_at_s = self._clock.now_s()

@@ -45,6 +45,12 @@ class Footprint:
             np.maximum(clearance, normal_x * x_m + normal_y * y_m - away, out=clearance)
         return clearance
 
+    def nearest_m(self, points: Floats, within_m: float) -> float:
+        """The clearance of the nearest of points [n, 2] in the robot's frame; infinite where it is not `within_m`."""
+        reach_m = self.radius_m + within_m
+        close = points[np.einsum("ij,ij->i", points, points) <= reach_m * reach_m]
+        return float(self.clearance_m(close[:, 0], close[:, 1]).min(initial=math.inf))
+
 
 def seconds_to_contact(
     footprint: Footprint, points: Floats, twist: Twist, horizon_s: float, margin_m: float
@@ -82,6 +88,23 @@ def seconds_to_contact(
         return float(times[row - 1])
     share = np.min((before[worst] - margin_m) / (before[worst] - after[worst]))
     return float(times[row - 1] + share * (times[row] - times[row - 1]))
+
+
+def comes_nearer(
+    footprint: Footprint, points: Floats, twist: Twist, horizon_s: float, nearest_m: float, by_m: float
+) -> bool:
+    """Whether `twist` brings a point nearer, by more than `by_m`, than it is and than the nearest one is.
+
+    Args:
+        points: [n, 2], metres, in the robot's frame.
+        horizon_s: how far to look, in seconds of the twist.
+        nearest_m: the clearance of the nearest.
+    """
+    reach_m = 2.0 * footprint.radius_m  # beside a sharp corner the half planes reach far
+    near = points[np.einsum("ij,ij->i", points, points) <= reach_m * reach_m]
+    moved = _moved(twist, np.linspace(0.0, horizon_s, SAMPLES))
+    clearance = footprint.clearance_m(*_seen_from(near, *moved))
+    return bool((clearance < np.minimum(clearance[0], nearest_m) - by_m).any())
 
 
 def _moved(twist: Twist, times: Floats) -> tuple[Floats, Floats, Floats]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -12,11 +12,8 @@ from chatrobot.core.reason import Reason
 from chatrobot.governor.braking import Braking
 from chatrobot.governor.contact import SAMPLES, SHRINKS_BY_M, Floats
 from chatrobot.governor.rule import FREE, Ruling, Situation
-from chatrobot.plan.sweep import area_clearance, outline_points, transformed
+from chatrobot.plan.sweep import fence_clearance, outline_points, transformed
 from chatrobot.robots.profile import Circle, Point, RobotProfile
-
-Clearance = Callable[[Floats], Floats]
-"""Metres inside the fence at points [n, 2] of `odom`; negative outside."""
 
 
 class FenceRule:
@@ -32,9 +29,7 @@ class FenceRule:
         self._limits = profile.limits
         self._outline = outline_points(profile.footprint)
         self._radius_m = profile.footprint_radius_m
-        self._clearance: Clearance = (
-            _circle_clearance(fence) if isinstance(fence, Circle) else area_clearance(fence)
-        )
+        self._clearance = fence_clearance(fence)
 
     def judge(self, asked: Twist, situation: Situation) -> Ruling:
         pose = situation.pose
@@ -66,11 +61,3 @@ def seconds_to_edge(spare: Floats, times: Floats) -> float:
     if before <= 0.0:
         return float(times[row - 1])
     return float(times[row - 1] + before / (before - after) * (times[row] - times[row - 1]))
-
-
-def _circle_clearance(circle: Circle) -> Clearance:
-    def clearance(points: Floats) -> Floats:
-        away = np.hypot(points[:, 0] - circle.x_m, points[:, 1] - circle.y_m)
-        return np.asarray(circle.radius_m - away)
-
-    return clearance

@@ -13,17 +13,16 @@ from chatrobot.core.reason import Reason
 from chatrobot.governor.jerk import JerkLimit
 from chatrobot.governor.kernel import bounded, make_kernel
 from chatrobot.governor.lease import Leases
+from chatrobot.governor.looks import Floats
 from chatrobot.governor.narrowed import NarrowedRule
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.governor.rule import NOTHING_SENSED, Sensed, Situation
 from chatrobot.governor.rules import Composed, Setting, compose, make_rules
-from chatrobot.governor.seen import Seen
+from chatrobot.governor.seen import NO_POINTS, Seen
+from chatrobot.governor.tick import TICK_S as TICK_S
 from chatrobot.governor.wheel import Taken, Wheel
 from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.wire.messages import LaserScan
-
-TICK_S = 0.02
-"""The control period: 50 Hz."""
 
 LONGEST_STEP_S = 2.0 * TICK_S
 """A late tick may not buy a bigger jump in velocity than this much time."""
@@ -132,6 +131,11 @@ class Governor:
         self._narrowed.narrow(speed_mps, rate_radps)
 
     # --- every tick ---
+
+    @property
+    def seen_points(self) -> Floats:
+        """What the lidar sees around the robot and remembers, [n, 2] in `odom`: what a rehearsal has to know of."""
+        return self._seen.points if self._seen is not None else NO_POINTS
 
     def take_scan(self, scan: LaserScan, pose: Pose) -> None:
         """What the lidar saw when the robot stood at `pose` (of `odom`)."""

@@ -18,7 +18,7 @@ NEAR_M = 0.15
 
 SEEN_THROUGH_M = 0.10
 FORGET_AFTER_M = 1.0
-_NOTHING: Floats = np.empty((0, 2))
+NO_POINTS: Floats = np.empty((0, 2))
 
 
 class Seen:
@@ -32,7 +32,7 @@ class Seen:
     def __init__(self, lidar: Lidar) -> None:
         self.lidar = lidar
         self._scans: deque[Floats] = deque(maxlen=SCANS_KEPT)
-        self._remembered: Floats = _NOTHING
+        self._remembered: Floats = NO_POINTS
         self.looks = Looks()
 
     @property
@@ -61,7 +61,7 @@ class Seen:
         """Of all points known so far, those that the lidar cannot see now because they are too near."""
         known = self.points
         if len(known) == 0:
-            return _NOTHING
+            return NO_POINTS
         dx, dy = known[:, 0] - lidar.x_m, known[:, 1] - lidar.y_m
         distance = np.hypot(dx, dy)
         bearing = np.arctan2(dy, dx) - lidar.yaw_rad - scan.angle_min_rad

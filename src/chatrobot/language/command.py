@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from chatrobot import reflex
 from chatrobot.language import questions
+from chatrobot.language.corrections import MEANT
 from chatrobot.language.frames import GO, STILL, TURN, Frame
 from chatrobot.language.heeded import check_heeded
 from chatrobot.language.interpretation import Interpretation, planned, stopped
@@ -90,10 +91,13 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     default = _default(frames, reading)
     if default is not None:
         return default
+    walked = reading.walked(frames)
+    corrects = any({MEANT, "short_of"} & frame.flags for frame in frames)
     steps = reading.steps(frames)
     if not asks:
         check_heeded(atoms, steps, lambda changed: reading.steps(frames_of(changed)))
-    return planned(steps, language, append=_appends(atoms))
+    plan = planned(steps, language, append=_appends(atoms), walk=walked.walk if walked else None)
+    return replace(plan, corrects=corrects)
 
 
 def _answered(plain: str, atoms: list[Atom], reading: Reading) -> Interpretation | None:

@@ -2,28 +2,41 @@
 
 from __future__ import annotations
 
-_YES = frozenset(
-    {"y", "yes", "yes please", "ok", "okay", "do it", "go", "go ahead", "sure"}
-    | {"好", "好的", "是", "是的", "对", "可以", "行", "执行", "做", "做吧"}
-)
-_NO = frozenset(
-    {"n", "no", "nope", "no thanks", "don't", "cancel", "不", "不要", "否", "不行", "取消", "算了", "别做"}
-)
-_EDIT = frozenset({"e", "edit", "修改", "改", "编辑"})
+import re
+from functools import cache
+
+from chatrobot.language.data_files import LANGUAGES, load_table
+
+_APOSTROPHE = str.maketrans("’", "'")
 
 
 def read_consent(text: str) -> bool | None:
-    """True for a yes, False for a no, None for anything else."""
-    word = _word(text)
-    if word in _YES:
+    """True for a yes, False for a no, None for anything else; each has to be the whole utterance."""
+    if _consists_of("yes", text):
         return True
-    return False if word in _NO else None
+    return False if _consists_of("no", text) else None
 
 
 def wants_to_edit(text: str) -> bool:
     """Neither: it is to be changed first."""
-    return _word(text) in _EDIT
+    return _consists_of("edit", text)
 
 
-def _word(text: str) -> str:
-    return text.strip().casefold().rstrip(".!。！ ")
+def _consists_of(answer: str, text: str) -> bool:
+    return _pattern(answer).fullmatch(text.strip().casefold().translate(_APOSTROPHE)) is not None
+
+
+@cache
+def _pattern(answer: str) -> re.Pattern[str]:
+    """One of that answer's phrases or more, with courtesy and punctuation around them."""
+    phrase, courtesy = _any_of(answer), _any_of("courtesy")
+    gap = r"[\s,.!，。！、]*"
+    beside = f"(?:{courtesy}{gap})*"
+    return re.compile(f"{gap}{beside}(?:{phrase}{gap}{beside})+")
+
+
+def _any_of(name: str) -> str:
+    """Longest first; a Latin word ends where its letters end, Chinese is written without spaces."""
+    phrases = [phrase for language in LANGUAGES for phrase in load_table(language, "consent")[name]]
+    found = "|".join(re.escape(phrase) for phrase in sorted(phrases, key=len, reverse=True))
+    return rf"(?:(?:{found})(?:(?<![a-z])|(?<=[a-z])(?![a-z0-9'])))"

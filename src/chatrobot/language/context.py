@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from functools import cached_property
 
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
+from chatrobot.language.ledger import Ledger, TurnRecord
 from chatrobot.plan.steps import Plan
-
-Outcome = Literal["completed", "stopped", "refused", "unclear", "answered", "failed"]
 
 
 @dataclass(frozen=True)
@@ -18,17 +17,6 @@ class Place:
 
     pose: Pose
     usable: bool = True
-
-
-@dataclass(frozen=True)
-class TurnRecord:
-    """One turn as it really ended. Poses are in the odom frame; `plan` is None where nothing was to move."""
-
-    text: str
-    outcome: Outcome
-    plan: Plan | None = None
-    start_pose: Pose = ORIGIN
-    end_pose: Pose = ORIGIN
 
 
 @dataclass(frozen=True)
@@ -47,6 +35,11 @@ class Dialogue:
     def last_motion(self) -> TurnRecord | None:
         """The last turn that had a plan."""
         return next((turn for turn in reversed(self.turns) if turn.plan is not None), None)
+
+    @cached_property
+    def ledger(self) -> Ledger:
+        """What of it can be undone, and done again."""
+        return Ledger(self.turns)
 
 
 @dataclass(frozen=True)

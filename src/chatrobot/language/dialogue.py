@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from chatrobot.language.changes import a_bit_of, changed, is_change
 from chatrobot.language.context import Context
@@ -13,8 +14,9 @@ from chatrobot.language.meant import is_correction
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.totals import to_total
 from chatrobot.language.unclear import Unclear
-from chatrobot.language.undo import last_two, same_way_back, undone
+from chatrobot.language.undo import PACES, Walked, all_taken_back, last_two, redone, undone
 from chatrobot.plan.steps import Face, Go, Step
+from chatrobot.robots.profile import RobotProfile
 
 
 def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] | None:
@@ -25,17 +27,9 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     """
     if _goes_on_the_same_way(frames):
         return None
-    if len(frames) == 2 and frames[0].verb == "undo" and frames[1].verb == "return" and not frames[1].q:
-        frames = frames[:1]
     whole = _whole(frames)
     if whole is None:
         return None
-    if whole.verb == "undo":
-        return undone(whole, context, turning=any(frame.verb == "turn" for frame in frames[1:]))
-    if "same_way" in whole.flags and (
-        whole.verb in ("return", "", "go", "uturn") or whole.direction == "back"
-    ):
-        return same_way_back(context)
     if "short_of" in whole.flags:
         return to_total(whole, context, pace)
     if "original_heading" in whole.flags and ("to_start" in whole.flags or whole.verb == "return"):
@@ -69,6 +63,39 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     return None
 
 
+def walked(frames: Sequence[Frame], context: Context, pace: Pace) -> Walked | None:
+    """What an utterance does that undoes earlier turns, or does again what was undone; None where it does neither.
+
+    Raises:
+        Unclear: where there is nothing to undo, or nobody knows the way any more.
+    """
+    if any(_goes_on(frame) for frame in frames):
+        return None
+    if len(frames) == 2 and frames[0].verb == "undo" and frames[1].verb == "return" and not frames[1].q:
+        frames = frames[:1]
+    whole = _whole(frames)
+    found = _walked(whole, frames, context, pace.profile) if whole is not None else None
+    return found.at_pace(whole, pace) if whole is not None and found is not None else None
+
+
+def _walked(whole: Frame, frames: Sequence[Frame], context: Context, profile: RobotProfile) -> Walked | None:
+    if whole.verb == "undo" and "same_way" in whole.flags:
+        return all_taken_back(context, profile)
+    if whole.verb == "undo":
+        return undone(whole, context, profile, turning=any(frame.verb == "turn" for frame in frames[1:]))
+    if {"redo", "restore"} & whole.flags:
+        again = redone(context, profile)
+        if again and (whole.moves or set(whole.q) - PACES):
+            raise Unclear("unclear_motion", whole.text)  # `redo that twice`: what was undone, or the undo?
+        if again is None and "restore" in whole.flags:
+            raise Unclear("nothing_undone")
+        return again
+    back = whole.direction == "back" or (not whole.direction and whole.verb in ("return", "", "go", "uturn"))
+    if "same_way" not in whole.flags or not back:
+        return None
+    return replace(all_taken_back(context, profile), walk=None)  # a way back, and a turn of its own
+
+
 def _more_of_before(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
     """`a bit more`; `both again`: the last two turns."""
     if whole.moves or whole.q:
@@ -83,13 +110,15 @@ def _more_of_before(whole: Frame, context: Context, pace: Pace) -> list[Step] | 
 
 def _goes_on_the_same_way(frames: Sequence[Frame]) -> bool:
     """`another 45 the same way`: on, not back; the flag has then done its work."""
-    found = False
-    for frame in frames:
-        amount = frame.has_extent or "number" in frame.q or {"more", "bit"} & frame.flags
-        if "same_way" in frame.flags and amount and frame.verb != "return" and not frame.direction:
-            frame.flags.discard("same_way")
-            found = True
-    return found
+    on = [frame for frame in frames if _goes_on(frame)]
+    for frame in on:
+        frame.flags.discard("same_way")
+    return bool(on)
+
+
+def _goes_on(frame: Frame) -> bool:
+    amount = frame.has_extent or "number" in frame.q or {"more", "bit"} & frame.flags
+    return bool("same_way" in frame.flags and amount and frame.verb != "return" and not frame.direction)
 
 
 def _whole(frames: Sequence[Frame]) -> Frame | None:

@@ -127,7 +127,7 @@ class Frame:
                 return False
             self.pace = self.pace if self.pace in ("max", "half_max") else atom.value
         elif atom.kind == "flag":
-            self.flags.add(atom.value)
+            self.flags |= {atom.value, "again"} if atom.value == "redo" else {atom.value}
         elif atom.kind == "role":
             self.roles.append(atom.value)
         elif atom.kind == "shape":

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
+from chatrobot.core.proposal import Proposal
+from chatrobot.language.ledger import Walk
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Plan, Step
@@ -19,8 +21,10 @@ class Interpretation:
     """What an utterance means.
 
     `unaccounted` is the part that nothing explains, `code` the reason in a word (see `phrases.toml`).
-    `append`: it goes on where the running motion ends. The last four are for the dialogue's memory and hold
-    from the moment the session accepts the turn; `remember_place` is where the robot stands now.
+    `append`: it goes on where the running motion ends. `proposal`: the reply asks about that plan. The last six
+    are for the dialogue's memory and hold from the moment the session accepts the turn; `remember_place` is where
+    the robot stands now, `walk` what of the ledger of turns the plan undoes or does again; `corrects`: it puts the
+    turn before right.
     """
 
     outcome: Outcome
@@ -30,13 +34,23 @@ class Interpretation:
     append: bool = False
     unaccounted: str = ""
     code: str = ""
+    proposal: Proposal | None = None
     define: Mapping[str, Plan] = field(default_factory=dict)
     remember_place: str = ""
+    walk: Walk | None = None
+    corrects: bool = False
     default_speed_mps: float | None = None
     default_rate_radps: float | None = None
 
+    @property
+    def is_about_turn_before(self) -> bool:
+        """It undoes, does again or puts right, so that the turn before must have ended."""
+        return self.walk is not None or self.corrects
 
-def planned(steps: list[Step], language: LanguageCode, *, append: bool = False) -> Interpretation:
+
+def planned(
+    steps: list[Step], language: LanguageCode, *, append: bool = False, walk: Walk | None = None
+) -> Interpretation:
     """These steps are to be done.
 
     Raises:
@@ -46,7 +60,7 @@ def planned(steps: list[Step], language: LanguageCode, *, append: bool = False) 
         plan = Plan(tuple(steps))
     except ValueError:
         raise Unclear("nothing_to_do") from None
-    return Interpretation("plan", describe_plan(plan, language), language, plan, append)
+    return Interpretation("plan", describe_plan(plan, language), language, plan, append, walk=walk)
 
 
 def stopped(language: LanguageCode) -> Interpretation:

@@ -7,17 +7,17 @@ import re
 from functools import lru_cache
 
 from chatrobot import reflex
+from chatrobot.core.proposal import Proposal
 from chatrobot.language import forms, questions
 from chatrobot.language.acts import orders, without_requests, without_talk
 from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
-from chatrobot.language.consent import read_consent
 from chatrobot.language.context import Context
 from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import defined_unit, with_known_counts, with_measured_things
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
 from chatrobot.language.lexicon import lexicon
-from chatrobot.language.names import Misspelt, misspelt_place, names_in
+from chatrobot.language.names import misspelt_place, names_in
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.program_request import read_program_request
@@ -30,6 +30,7 @@ from chatrobot.language.tokens import tokenise
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.unfinished import check_consistent
+from chatrobot.plan.text import format_plan
 from chatrobot.robots.profile import RobotProfile
 
 
@@ -51,7 +52,8 @@ class OfflineInterpreter:
         try:
             return self._ordered(text, language, context)
         except Unclear as problem:
-            return _did_you_mean(problem, text, language, context) or asked_back(problem, language)
+            reading = Reading(language, context, self._profile)
+            return _did_you_mean(problem, text, reading) or asked_back(problem, language)
 
     def _ordered(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         """What is ordered. A plan that no clause orders is not driven; talk beside an order is passed over.
@@ -74,8 +76,7 @@ class OfflineInterpreter:
             with contextlib.suppress(Unclear):
                 return self._interpreted(asked, language, context)
             raise
-        ordered = meant.outcome != "plan" or orders(plain, names) or read_twists(plain) or read_consent(plain)
-        if not ordered:
+        if meant.outcome == "plan" and not (orders(plain, names) or read_twists(plain)):
             raise Unclear("nothing_to_do")
         return meant
 
@@ -98,7 +99,7 @@ class OfflineInterpreter:
             return Interpretation("stop", say(language, "stop_among_lines"), language)
         courtesy = questions.courtesy_of(plain, language)
         if courtesy:
-            return Interpretation("answered", say(language, f"answer_{courtesy}"), language)
+            return Interpretation("answered", say(language, f"answer_{courtesy}"), language, code=courtesy)
         return _in_words(plain, Reading(language, context, self._profile, facing_rad))
 
 
@@ -143,31 +144,29 @@ def _defined(definition: forms.Definition, reading: Reading) -> Interpretation:
     return Interpretation("answered", reply, language, define={definition.name: inner.plan})
 
 
-def _did_you_mean(
-    problem: Unclear, text: str, language: LanguageCode, context: Context
-) -> Interpretation | None:
-    """The question whether a place was misspelt, if it looks so."""
-    meant = _misspelt(problem, rephrased(normalise(text), language), context)
+def _did_you_mean(problem: Unclear, text: str, reading: Reading) -> Interpretation | None:
+    """The question whether a place was misspelt, if it looks so and the rest is understood; it offers the plan."""
+    language = reading.language
+    if problem.code != "unknown_part" or not orders(normalise(text), names_in(reading.context)):
+        return None
+    meant = misspelt_place(rephrased(normalise(text), language), problem.part, reading.context)
     if meant is None:
         return None
-    reply = say(language, "did_you_mean_place", part=problem.part, place=meant.place)
-    return Interpretation("unclear", reply, language, unaccounted=problem.part, code="did_you_mean_place")
-
-
-def _misspelt(problem: Unclear, plain: str, context: Context) -> Misspelt | None:
-    return misspelt_place(plain, problem.part, context) if problem.code == "unknown_part" else None
-
-
-def _agreed(plain: str, before: str, reading: Reading) -> Interpretation | None:
-    """A yes to `did you mean kitchen?`."""
-    if read_consent(plain) is not True:
-        return None
     try:
-        read_command(before, reading)
-    except Unclear as problem:
-        meant = _misspelt(problem, before, reading.context)
-        return read_command(meant.text, reading) if meant is not None else None
-    return None
+        plan = read_command(meant.text, reading).plan
+    except Unclear:
+        return None
+    if plan is None:
+        return None
+    ask = say(language, "did_you_mean_place", place=meant.place)
+    return Interpretation(
+        "unclear",
+        f"{say(language, 'unknown_place', part=problem.part)} {ask}",
+        language,
+        unaccounted=problem.part,
+        code="did_you_mean_place",
+        proposal=Proposal(format_plan(plan), ask),
+    )
 
 
 def _pending(plain: str, reading: Reading) -> Interpretation | None:
@@ -176,9 +175,6 @@ def _pending(plain: str, reading: Reading) -> Interpretation | None:
     if not pending or len(pending) + len(plain) > MAX_CHARACTERS or not orders(normalise(pending)):
         return None
     before = rephrased(normalise(pending), reading.language)
-    agreed = _agreed(plain, before, reading)
-    if agreed is not None:
-        return agreed
     atoms = tidy(reading.atoms(plain))
     ways = [k for k, a in enumerate(atoms) if k and a.kind == "dir" and atoms[k - 1].text == a.text]
     verbs = [a for k, a in enumerate(atoms) if k + 1 not in ways and a.text not in ("say",)]

@@ -31,7 +31,8 @@ def _undone(step: Step, speed_mps: float | None) -> list[Step]:
     if isinstance(step, RawTwist):
         return [RawTwist(-step.vx_mps, -step.vy_mps, -step.wz_radps, step.duration_s)]
     if isinstance(step, Repeat):
-        return [Repeat(step.count, tuple(inverse(list(step.steps), speed_mps)))]
+        inner = inverse(list(step.steps), speed_mps)
+        return [Repeat(step.count, tuple(inner))] if inner else []
     if isinstance(step, (Wait, Say, Remember)):
         return []
     raise Unclear("cannot_undo")

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 
-from chatrobot.language.context import Context, TurnRecord
+from chatrobot.language.context import Context
 from chatrobot.language.ellipsis import State
 from chatrobot.language.frames import DIRECTIONS
+from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.lexicon import cut, lexicon
 from chatrobot.language.normalise import normalise
 from chatrobot.language.tokens import quantity

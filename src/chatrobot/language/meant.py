@@ -7,20 +7,25 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
-from chatrobot.language.context import Context, TurnRecord
+from chatrobot.language.context import Context
 from chatrobot.language.corrections import MEANT, corrected
 from chatrobot.language.frames import GO, SIDES, TURN, Frame
-from chatrobot.language.inverse import inverse
+from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.normalise import normalise
 from chatrobot.language.quantities import read_quantities
 from chatrobot.language.tokens import Atom, tokenise
 from chatrobot.language.unclear import Unclear
+from chatrobot.language.undo import taken_back
 from chatrobot.plan.steps import Arc, Drive, Face, Go, Step, Turn
+from chatrobot.robots.profile import RobotProfile
 
 
 def instead(
-    frames: list[Frame], context: Context, read: Callable[[list[Frame]], list[Step]]
+    frames: list[Frame],
+    context: Context,
+    read: Callable[[list[Frame]], list[Step]],
+    profile: RobotProfile,
 ) -> list[Step] | None:
     """The steps that put the turn before right; None where `frames` correct none that was done.
 
@@ -34,8 +39,9 @@ def instead(
     last = context.dialogue.turns[-1] if context.dialogue.turns else None
     if last is None or last.plan is None or any("short_of" in frame.flags for frame in frames):
         return None  # a total is reached from where it is
-    if last.outcome != "completed":
-        raise Unclear("unclear_motion", frames[0].text)  # how much of it is there to undo?
+    if not last.moved:
+        return None
+    back = taken_back(context, profile, 1).steps
     done = list(last.plan.steps)
     if len(frames) == 1 and not frames[0].has_extent and not frames[0].shape and not frames[0].place:
         _point_back(frames[0], done)
@@ -46,7 +52,7 @@ def instead(
         raise Unclear("unclear_motion", frames[0].text)  # `no, the other left`
     turned = all(isinstance(step, Turn) for step in done)
     absolute = isinstance(meant[0], Go) or (isinstance(meant[0], Face) and turned)
-    return meant if absolute else _net([*inverse(done), *meant])
+    return meant if absolute else _net([*back, *meant])
 
 
 def _point_back(frame: Frame, done: list[Step]) -> None:

@@ -8,11 +8,15 @@ from collections.abc import Iterable
 from functools import cache
 
 from chatrobot.core.reason import Reason, Value
+from chatrobot.core.shown import ANGLE_PLACES, LENGTH_PLACES, number
 from chatrobot.language.data_files import load_table
+from chatrobot.plan.shown import shown_plan
 from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, RawTwist, Remember, Repeat, Say, Step, Turn, Wait
-from chatrobot.plan.text import format_step
+from chatrobot.plan.text import format_step, parse_plan
 
 _TABLES = ("phrases", "outcomes")
+_OURS = ("", "console", "base", "user_input", "service")
+"""The sources of a stop that the person who is answered speaks through."""
 _SHOWN = 6
 """Steps of a plan that are spelt out in a reply; the rest is counted."""
 
@@ -27,7 +31,26 @@ _MINUS_ZERO = re.compile(r"(?<![\w.\-])-(?=0(?:\.0+)?(?![\d.]))")
 """What is rounded to nothing has no side: no robot is -0.00 m to the left."""
 
 
+class _Tidy(float):
+    """A number that is shown without float noise where the phrase does not say how."""
+
+    places = LENGTH_PLACES
+
+    def __format__(self, spec: str) -> str:
+        return super().__format__(spec) if spec not in ("", "g") else number(self, self.places)
+
+
+class _TidyAngle(_Tidy):
+    places = ANGLE_PLACES
+
+
 class _Formatted(dict[str, Value]):
+    def __getitem__(self, key: str) -> Value:
+        value = super().__getitem__(key)
+        if not isinstance(value, float):
+            return value
+        return _TidyAngle(value) if key.endswith("_deg") else _Tidy(value)
+
     def __missing__(self, key: str) -> str:
         return f"{{{key}}}"
 
@@ -45,17 +68,42 @@ def say(language: str, code: str, **values: Value) -> str:
 
 
 def _shown(value: Value) -> str:
-    return f"{value:g}" if isinstance(value, float) else str(value)
+    return number(value) if isinstance(value, float) else str(value)
 
 
 def render_reason(reason: Reason, language: str) -> str:
-    """A reason in words."""
-    return say(language, reason.code, **dict(reason.values))
+    """A reason in words; one that knows the name of what is in the way may have words of its own for it."""
+    values: dict[str, Value] = dict(reason.values)
+    if reason.code in ("stopped_by", "paused_by"):
+        return _stop_cause(str(values.get("source", "")), str(values.get("why", "")), language)
+    names = load_table(language, "causes")["sources"]
+    for key in ("source", "to"):
+        if key in values:
+            values[key] = names.get(values[key], values[key])
+    named = f"{reason.code}_named"
+    return say(language, named if "obstacle" in values and named in _phrases("en") else reason.code, **values)
+
+
+def _stop_cause(source: str, why: str, language: str) -> str:
+    """Who stopped the robot: `why` is what a person said, or one of the causes in the table."""
+    causes = load_table(language, "causes")
+    name, is_ours = causes["sources"].get(source, source), source in _OURS
+    if why in causes["stops"]:
+        cause = str(causes["stops"][why])
+        return cause if is_ours else say(language, "stopped_at", source=name, cause=cause)
+    if not why:
+        return say(language, "stopped_by" if source else "stopped", source=name)
+    return say(language, "stopped_said" if is_ours else "stopped_said_by", source=name, why=why)
 
 
 def describe_plan(plan: Plan, language: str) -> str:
     """One short line: what is going to happen."""
     return describe_steps(plan.steps, language)
+
+
+def describe_text(plan_text: str, language: str) -> str:
+    """Plan text in a few words."""
+    return describe_steps(parse_plan(plan_text).steps, language)
 
 
 def describe_steps(steps: Iterable[Step], language: str) -> str:
@@ -70,10 +118,6 @@ def _way(direction_rad: float) -> str:
     return f"way_{names[round(direction_rad / (math.pi / 4)) % 8]}"
 
 
-def _number(value: float) -> str:
-    return f"{value:.3g}"
-
-
 def _step(step: Step, language: str) -> str:
     def spoken(code: str, **values: Value) -> str:
         return say(language, code, **values)
@@ -81,42 +125,45 @@ def _step(step: Step, language: str) -> str:
     if isinstance(step, Drive):
         way = spoken(_way(step.direction_rad))
         if step.distance_m is not None:
-            text = spoken("step_drive", way=way, m=_number(step.distance_m))
+            text = spoken("step_drive", way=way, m=number(step.distance_m))
         elif step.duration_s is not None:
-            text = spoken("step_drive_time", way=way, s=_number(step.duration_s))
+            text = spoken("step_drive_time", way=way, s=number(step.duration_s))
         else:
             text = spoken("step_drive_until", way=way)
-        return text + (spoken("step_speed", mps=_number(step.speed_mps)) if step.speed_mps else "")
+        return text + (spoken("step_speed", mps=number(step.speed_mps)) if step.speed_mps else "")
     if isinstance(step, Turn):
         side = spoken("way_left" if step.left else "way_right")
         if step.angle_rad is not None:
-            return spoken("step_turn", side=side, deg=_number(math.degrees(step.angle_rad)))
-        return spoken("step_turn_time", side=side, s=_number(step.duration_s or 0.0))
+            return spoken("step_turn", side=side, deg=number(math.degrees(step.angle_rad), ANGLE_PLACES))
+        return spoken("step_turn_time", side=side, s=number(step.duration_s or 0.0))
     if isinstance(step, Arc):
         side = spoken("way_left" if step.left else "way_right")
         return spoken(
-            "step_arc", side=side, m=_number(step.radius_m), deg=_number(math.degrees(step.angle_rad))
+            "step_arc",
+            side=side,
+            m=number(step.radius_m),
+            deg=number(math.degrees(step.angle_rad), ANGLE_PLACES),
         )
     if isinstance(step, RawTwist):
         return spoken(
             "step_twist",
-            vx=_number(step.vx_mps),
-            vy=_number(step.vy_mps),
-            wz=_number(step.wz_radps),
-            s=_number(step.duration_s),
+            vx=number(step.vx_mps),
+            vy=number(step.vy_mps),
+            wz=number(step.wz_radps),
+            s=number(step.duration_s),
         )
     if isinstance(step, Go):
-        return spoken(
-            "step_go", place=step.place or spoken("the_start" if step.frame == "start" else "the_point")
-        )
+        code = "the_start" if step.frame == "start" else "the_point"
+        point = spoken(code, x=number(step.x_m, 2), y=number(step.y_m, 2))
+        return spoken("step_go", place=step.place or point)
     if isinstance(step, Face):
         return spoken("step_face")
     if isinstance(step, Wait):
-        return spoken("step_wait", s=_number(step.duration_s))
+        return spoken("step_wait", s=number(step.duration_s))
     if isinstance(step, Say):
         return step.text
     if isinstance(step, Remember):
         return spoken("step_remember", place=step.place)
     if isinstance(step, Repeat):
         return spoken("step_repeat", count=step.count, text=describe_steps(step.steps, language))
-    return format_step(step)  # somebody else's primitive
+    return shown_plan(format_step(step))  # somebody else's primitive

@@ -6,6 +6,8 @@ import math
 import re
 from functools import cache
 
+from chatrobot.core.geometry import Pose
+from chatrobot.core.shown import fixed
 from chatrobot.language.context import Context
 from chatrobot.language.data_files import load_table
 from chatrobot.language.phrases import say
@@ -95,14 +97,31 @@ def topic_of(text: str, language: str) -> str:
     return next((name for name, pattern in _topics(language) if pattern.search(text)), "")
 
 
+def _where(pose: Pose, language: str) -> str:
+    """`1.36 m behind`, `0.20 m ahead and 0.50 m to the left of`: how far from the start, with the sides named."""
+    along_m, across_m = (fixed(abs(metres), 2) for metres in (pose.x_m, pose.y_m))
+    along = ["ahead" if pose.x_m > 0.0 else "behind"] if float(along_m) else []
+    across = ["across"] if float(across_m) else []
+    code = "_".join(["where", *(along + across or ["started"])])
+    side = say(language, "side_left" if pose.y_m > 0.0 else "side_right")
+    return say(language, code, along_m=along_m, across_m=across_m, side=side)
+
+
+def _turned(pose: Pose, language: str) -> str:
+    yaw_deg = math.degrees(math.remainder(pose.yaw_rad, 2 * math.pi))
+    degrees = fixed(yaw_deg, 0)
+    if not float(degrees):
+        return say(language, "not_turned")
+    return say(language, "turned_to_left" if yaw_deg > 0.0 else "turned_to_right", deg=degrees.lstrip("-"))
+
+
 def answer(topic: str, language: str, context: Context, profile: RobotProfile) -> str:
     """The answer in words; says so where something is not known."""
     state = context.state
     pose = state.pose.relative_to(context.dialogue.start_pose)
     values: dict[str, float | int | str] = {
-        "x_m": pose.x_m,
-        "y_m": pose.y_m,
-        "yaw_deg": math.degrees(math.remainder(pose.yaw_rad, 2 * math.pi)),
+        "where": _where(pose, language),
+        "turned": _turned(pose, language),
         "speed_mps": math.hypot(state.twist.vx_mps, state.twist.vy_mps),
         "path_m": state.path_m,
         "max_speed_mps": profile.limits.max_speed_mps,

@@ -12,7 +12,7 @@ from chatrobot.language.compass import with_headings
 from chatrobot.language.conditions import settle_condition
 from chatrobot.language.context import Context
 from chatrobot.language.corrections import corrected, without_negated
-from chatrobot.language.dialogue import refer
+from chatrobot.language.dialogue import refer, walked
 from chatrobot.language.facts import with_defined_units, with_words_counted
 from chatrobot.language.frames import Frame
 from chatrobot.language.interpretation import LanguageCode
@@ -29,6 +29,7 @@ from chatrobot.language.returning import back_to_places
 from chatrobot.language.script import Memory
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import Atom, tokenise
+from chatrobot.language.undo import Walked
 from chatrobot.language.writing import write
 from chatrobot.plan.steps import Go, Step
 from chatrobot.robots.profile import RobotProfile
@@ -80,15 +81,23 @@ class Reading:
         Raises:
             Unclear: where a clause cannot be acted on.
         """
-        return instead(frames, self.context, self._steps) or self._steps(frames)
+        found = self.walked(frames)
+        if found is not None:
+            return list(found.steps)
+        return instead(frames, self.context, self._steps, self.profile) or self._steps(frames)
+
+    def walked(self, frames: list[Frame]) -> Walked | None:
+        """What the frames do if they undo turns before, or do again what was undone, and nothing else.
+
+        Raises:
+            Unclear: where there is nothing to undo, or nobody knows the way any more.
+        """
+        return None if _goes_on_after_undo(frames) else walked(frames, self.context, self.pace)
 
     def _steps(self, frames: list[Frame]) -> list[Step]:
-        on = len(frames) > 1 and frames[0].verb == "undo" and (frames[1].has_extent or frames[1].direction)
-        undone = (
-            refer(frames[:1], self.context, self.pace) if on and frames[1].joined in ("and", "then") else None
-        )
-        if undone:  # `undo that and go back 1 m`
-            return [*undone, *self.steps_of_their_own(frames[1:])]
+        if _goes_on_after_undo(frames):  # `undo that and go back 1 m`
+            undone = walked(frames[:1], self.context, self.pace)
+            return [*(undone.steps if undone else ()), *self.steps_of_their_own(frames[1:])]
         return refer(frames, self.context, self.pace) or self.steps_of_their_own(frames)
 
     def steps_of_their_own(self, frames: list[Frame]) -> list[Step]:
@@ -103,3 +112,8 @@ class Reading:
                 places[name] = Go(place.pose.x_m, place.pose.y_m, place=name)
         words = {name: plan.steps for name, plan in dialogue.words.items()}
         return Memory(places, words, state_after(self.context))
+
+
+def _goes_on_after_undo(frames: Sequence[Frame]) -> bool:
+    on = len(frames) > 1 and frames[0].verb == "undo" and (frames[1].has_extent or frames[1].direction)
+    return bool(on and frames[1].joined in ("and", "then"))

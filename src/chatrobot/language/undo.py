@@ -1,42 +1,116 @@
-"""`Undo that`, `undo the last two`, the same way back: earlier turns, undone."""
+"""`Undo that`, `undo the last two`, the same way back, `redo`: turns that walk the ledger of earlier turns."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from dataclasses import dataclass, replace
 
-from chatrobot.language.context import Context, TurnRecord
+from chatrobot.core.geometry import Pose, wrap_angle
+from chatrobot.language.context import Context
 from chatrobot.language.frames import Frame
 from chatrobot.language.inverse import inverse
-from chatrobot.language.lexicon import lexicon
+from chatrobot.language.ledger import Walk, Way
+from chatrobot.language.manner import Pace
 from chatrobot.language.numbers import is_chinese
-from chatrobot.language.rephrase import plain_text
-from chatrobot.language.tokens import tokenise
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Step, Turn
+from chatrobot.plan.lowering import ideal_end
+from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, Repeat, Step, Turn
+from chatrobot.robots.profile import RobotProfile
+
+PACES = frozenset({"speed", "percent", "fold", "faster"})
+"""Quantities that say how fast."""
+
+NEAR_M, NEAR_RAD = 0.01, math.radians(0.6)
+"""Steps that end within this of the pose they are to lead to lead there."""
+FAR_M, FAR_RAD = 0.3, math.radians(20.0)
+"""Steps that end farther off than this do not lead there at all."""
 
 
-def undone(whole: Frame, context: Context, *, turning: bool) -> list[Step]:
+@dataclass(frozen=True)
+class Walked:
+    """The steps of a turn that walks the ledger; `walk` is None where they are a part of an entry."""
+
+    steps: tuple[Step, ...]
+    walk: Walk | None
+
+    def at_pace(self, whole: Frame, pace: Pace) -> Walked:
+        """The same, as fast as `whole` says.
+
+        Raises:
+            Unclear: for a drive that lasted so long: is it to last as long, or to go as far?
+        """
+        if not (whole.pace or PACES & set(whole.q)):
+            return self
+        return replace(self, steps=tuple(_at_pace(step, whole, pace) for step in self.steps))
+
+
+def _at_pace(step: Step, whole: Frame, pace: Pace) -> Step:
+    if isinstance(step, Repeat):
+        return replace(step, steps=tuple(_at_pace(inner, whole, pace) for inner in step.steps))
+    if isinstance(step, (Drive, Turn)) and step.duration_s is not None:
+        raise Unclear("unclear_motion", whole.text)
+    if isinstance(step, (Drive, Arc, Go)):
+        return replace(step, speed_mps=pace.speed(whole))
+    return replace(step, rate_radps=pace.rate(whole)) if isinstance(step, (Turn, Face)) else step
+
+
+def undone(whole: Frame, context: Context, profile: RobotProfile, *, turning: bool) -> Walked:
     """`undo that`; `undo both`, `undo the last three`: so many turns that moved, the last one first.
 
     `turning`: it is said to have been a turn.
 
     Raises:
-        Unclear: where so many did not move, or were no turns.
+        Unclear: where so many did not move, were no turns, or nobody knows the way back any more.
     """
     counts = [whole.q[name] for name in ("number", "count", "times") if name in whole.q]
     both = any(text.split()[-1] in ("both", "two") for text in whole.texts)
     count = counts[0].number if counts else 2.0 if both else 1.0
-    moved = _not_undone(context)
-    if count != int(count) or count < 1 or set(whole.q) - {"number", "count", "times", "speed"}:
+    if count != int(count) or count < 1 or set(whole.q) - {"number", "count", "times"} - PACES:
         raise Unclear("unclear_motion", whole.text)
+    turns: int | list[Step] = int(count)
     if counts and counts[0].role == "step" and is_chinese(counts[0].text):
-        return inverse(_steps_counted(moved, int(count), whole.text))
-    if len(moved) < count:
-        raise Unclear("nothing_before", whole.text)
-    steps = [step for turn in moved[-int(count) :] if turn.plan for step in turn.plan.steps]
-    if turning and not all(isinstance(step, Turn) for step in steps):
+        turns = _last_steps(int(count), context, whole.text)
+    if not isinstance(turns, int):
+        taken_back(context, profile, 1)
+        return Walked(tuple(inverse(turns)), None)
+    back = taken_back(context, profile, turns)
+    way = context.dialogue.ledger.undoes(turns).way
+    if turning and (way is None or not all(isinstance(step, Turn) for step in way)):
         raise Unclear("unclear_motion", whole.text)
-    return inverse(steps)
+    return back
+
+
+def taken_back(context: Context, profile: RobotProfile, count: int) -> Walked:
+    """The way back to the pose before the last `count` turns that moved.
+
+    Raises:
+        Unclear: there were not as many, or nobody knows the way back any more.
+    """
+    entry = context.dialogue.ledger.undoes(count)
+    _check_seen(context)
+    return Walked(_leading_to(entry.before, entry.back, context.state.pose, profile), Walk("undo", count))
+
+
+def redone(context: Context, profile: RobotProfile) -> Walked | None:
+    """What an undo directly before took back, done again; None where there was no undo.
+
+    Raises:
+        Unclear: nobody knows the way any more.
+    """
+    entry = context.dialogue.ledger.redoes()
+    if entry is None:
+        return None
+    _check_seen(context)
+    return Walked(_leading_to(entry.after, entry.forth, context.state.pose, profile), Walk("redo"))
+
+
+def all_taken_back(context: Context, profile: RobotProfile) -> Walked:
+    """`Undo everything`: the way back to where the first turn that moved began.
+
+    Raises:
+        Unclear: where nothing was done, or nobody knows the way back any more.
+    """
+    return taken_back(context, profile, len(context.dialogue.ledger.done))
 
 
 def last_two(context: Context, said: str, *, steps: bool) -> list[Step]:
@@ -56,47 +130,38 @@ def last_two(context: Context, said: str, *, steps: bool) -> list[Step]:
     return turns
 
 
-def _steps_counted(moved: Sequence[TurnRecord], count: int, said: str) -> list[Step]:
-    """刚才两步: the last steps, where turns of one step, or a single turn, leave no doubt which.
+def _check_seen(context: Context) -> None:
+    if not context.state.has_said_so:
+        raise Unclear("cannot_undo_unmeasured", refused=True)
+
+
+def _leading_to(target: Pose, way: Way, here: Pose, profile: RobotProfile) -> tuple[Step, ...]:
+    """`way` where it leads from `here` to `target`, with what it lacks; else a `go to`."""
+    go = Go.to_pose(target)
+    end = ideal_end(Plan(way), profile, here) if way else None
+    if way is None or end is None:
+        return (go,)
+    off_m, off_rad = end.distance_to(target), abs(wrap_angle(end.yaw_rad - target.yaw_rad))
+    if off_m > FAR_M or off_rad > FAR_RAD:
+        return (go,)
+    is_near = off_m <= NEAR_M and off_rad <= NEAR_RAD
+    # A base that steers would drive a whole circle for a centimetre aside.
+    return way if is_near or not profile.can_turn_on_the_spot else (*way, go)
+
+
+def _last_steps(count: int, context: Context, said: str) -> int | list[Step]:
+    """刚才两步: how many turns these are, where they are whole turns; else the steps themselves.
 
     Raises:
-        Unclear: where as many turns would be something else.
+        Unclear: there are not as many, or as many turns would be something else.
     """
-    done = [step for turn in moved if turn.plan for step in turn.plan.steps]
-    turns = [step for turn in moved[-count:] if turn.plan for step in turn.plan.steps]
+    ways = [entry.way or () for entry in context.dialogue.ledger.done]
+    done = [step for way in ways for step in way]
     if len(done) < count:
-        raise Unclear("nothing_before", said)
-    if len(moved) >= count and turns != done[-count:]:
-        raise Unclear("unclear_motion", said)
-    return done[-count:]
-
-
-def _not_undone(context: Context) -> list[TurnRecord]:
-    """The turns that moved and still count: `undo` twice takes back two of them."""
-    moved: list[TurnRecord] = []
-    for turn in context.dialogue.turns:
-        if turn.plan is None:
-            continue
-        said = tokenise(plain_text(turn.text), lexicon(), {})
-        undoes = any((atom.kind, atom.value) == ("verb", "undo") for atom in said)
-        before = [step for record in moved[-1:] if record.plan for step in record.plan.steps]
-        if undoes and before and list(turn.plan.steps) == inverse(before):
-            moved.pop()
-        else:
-            moved.append(turn)
-    return moved
-
-
-def same_way_back(context: Context) -> list[Step]:
-    """All that was done in this dialogue, undone.
-
-    Raises:
-        Unclear: where nothing was done.
-    """
-    plans = [
-        turn.plan for turn in context.dialogue.turns if turn.plan is not None and turn.outcome == "completed"
-    ]
-    steps = [step for plan in plans for step in plan.steps]
-    if not steps:
-        raise Unclear("nothing_before")
-    return inverse(steps)
+        raise Unclear("nothing_to_undo")
+    if len(ways) >= count:
+        if [step for way in ways[-count:] for step in way] != done[-count:]:
+            raise Unclear("unclear_motion", said)
+        return count
+    turns = (k for k in range(1, len(ways) + 1) if sum(map(len, ways[-k:])) == count)
+    return next(turns, done[-count:])

@@ -40,6 +40,7 @@ from chatrobot.session.camera import wire_camera
 from chatrobot.session.model_choice import warm_up
 from chatrobot.session.model_terms import ModelOptions
 from chatrobot.session.options import Options
+from chatrobot.session.program_text import body, headline
 from chatrobot.session.question import Question
 from chatrobot.session.session import Session
 from chatrobot.session.thinking import Interpreter, Mind
@@ -261,10 +262,8 @@ class BaseNode:
         self._say(" ".join([*_sentences(event.findings, language), say(language, "ask_plan", **about)]))
 
     def _say_written(self, event: ProgramWritten, language: str) -> None:
-        """Its source goes to whoever shows it on the events' topic; here it is named, with what is risky in it."""
-        by = say(language, f"written_by_{event.by}")
-        shown = say(language, "program_shown", name=event.program, by=by, version=event.version)
-        self._say(" ".join([shown, *_sentences(event.marks, language)]))
+        """In one message, as a person reads it; programs find the parts of it on the events' topic."""
+        self._say("\n".join([headline(event, language), *body(event, language)]))
 
     def _authoring(self, profile: RobotProfile, world: World, understanding: Understanding) -> Authoring:
         def routes() -> RoutePlanner | None:

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Finished, Notice, ProgramLog, Started
+from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.nodes.foreign import Foreign
@@ -39,7 +40,8 @@ ODOMETRY_LATE_S = 1.0
 
 @dataclass(frozen=True)
 class ControlOptions:
-    """`release`: an emergency stop may be released over ROS. `accept_others`, `on_robot`: see `MotionRunner`."""
+    """`release`: an emergency stop may be released over ROS. `accept_others`, `on_robot`, `budget`: see
+    `MotionRunner`."""
 
     wire: str
     profile: str
@@ -47,6 +49,7 @@ class ControlOptions:
     release: bool = False
     accept_others: bool = False
     on_robot: bool = False
+    budget: MotionBudget = NOT_CHOSEN
 
 
 class ControlNode:
@@ -71,6 +74,7 @@ class ControlNode:
             accept_others=options.accept_others,
             on_robot=options.on_robot,
             releasers=RELEASERS | {BASE} if options.release else RELEASERS,
+            budget=options.budget,
             connect=connect,
         )
         self._foreign = Foreign(self._runner, lambda: bool(self._ours))
@@ -153,6 +157,8 @@ class ControlNode:
             self._hear_plan(envelope)
         elif envelope.word == "release" and not self._options.release:
             self._runner.notice(Reason("release_refused", {"source": envelope.source}))
+        elif envelope.word == "limit":  # here nobody is at a local console, whatever the source is called
+            self._runner.notice(Reason("limit_refused_here", {"source": envelope.source}))
         else:
             self._runner.receive(envelope)
 

@@ -66,6 +66,18 @@ CONTROL = (
     Parameter(
         "on_robot", False, "This machine is the robot's own: no network lies between control and base."
     ),
+    Parameter(
+        "max_distance_m",
+        0.0,
+        "How far one text or program may drive; 0: as the profile says, -1: no limit.",
+        (-1.0, 1e6),
+    ),
+    Parameter(
+        "max_time_s",
+        0.0,
+        "How long one text or program may drive; 0: as the profile says, -1: no limit.",
+        (-1.0, 1e6),
+    ),
 )
 INPUT: tuple[Parameter, ...] = ()
 PARAMETERS = {"input": INPUT, "base": BASE, "control": CONTROL}

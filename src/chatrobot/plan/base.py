@@ -30,6 +30,38 @@ def require_finite(name: str, value: float) -> None:
     require(math.isfinite(value), f"{name} must be a finite number, not {value}")
 
 
+_SHORTEST = 1e-3
+
+
+def divide_extent(extent: float, share: float) -> tuple[float, float]:
+    """The part of `extent` (m, s) that is done, to a tenth of a millimetre, and the rest of it.
+
+    What is shorter than a millimetre is no part of its own.
+    """
+    done = round(extent * share, 4)
+    if done < _SHORTEST:
+        return 0.0, extent
+    if extent - done < _SHORTEST:
+        return extent, 0.0
+    return done, round(extent - done, 9)
+
+
+def divide_angle(angle_rad: float, share: float) -> tuple[float, float]:
+    """As `divide_extent`, to a hundredth of a degree; what is less than a twentieth of one is no part of its own."""
+    done_deg = round(math.degrees(angle_rad) * share, 2)
+    rest_deg = math.degrees(angle_rad) - done_deg
+    if done_deg < 0.05:
+        return 0.0, angle_rad
+    if rest_deg < 0.05:
+        return angle_rad, 0.0
+    return math.radians(done_deg), math.radians(round(rest_deg, 7))
+
+
+def rounded_angle(angle_rad: float, decimals: int) -> float:
+    """To so many decimals of a degree."""
+    return math.radians(round(math.degrees(angle_rad), decimals))
+
+
 class Step:
     """One line of a plan. Every primitive is a frozen dataclass on top of this, with a `kind` of its own."""
 

@@ -8,7 +8,7 @@ from typing import Protocol, Union
 
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.core.reason import Reason
-from chatrobot.plan.base import Frame
+from chatrobot.plan.base import Frame, Step
 from chatrobot.plan.core_motion import CoreMotion
 from chatrobot.robots.profile import Point, RobotProfile
 
@@ -18,10 +18,15 @@ MAX_EXTENT_M = 1000.0
 
 @dataclass(frozen=True)
 class Impossible:
-    """This step cannot be done by this robot, or not from here. `index` is the path of the step in its plan."""
+    """This step cannot be done by this robot, or not from here. `index` is the path of the step in its plan.
+
+    `number` counts steps with repeats done, from 1; `instead` could be done in its place.
+    """
 
     reason: Reason
     index: tuple[int, ...] = ()
+    number: int = 1
+    instead: Step | None = None
 
 
 def too_long(duration_s: float) -> Reason:
@@ -56,7 +61,7 @@ class RoutePlanner(Protocol):
     """Finds a way around what is known. Deterministic: rehearsal and execution ask alike and get the same."""
 
     def route(self, start: Pose, goal: Point, *, named_place: bool) -> Route | NoRoute:
-        """Both in the odom frame. At a named place the nearest free point will do, elsewhere only the goal."""
+        """Both in the odom frame. At a named place a free point right beside it will do, elsewhere only the goal."""
         ...
 
 

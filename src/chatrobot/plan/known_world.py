@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
-from chatrobot.core.geometry import Twist
+from chatrobot.core.geometry import Pose, Twist
 from chatrobot.robots.profile import Point
 
 if TYPE_CHECKING:
@@ -15,6 +16,16 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 else:
     Floats = Any
+
+
+@dataclass(frozen=True)
+class Contact:
+    """Where along a path the footprint comes too close: the row of the path, and the point that is too close."""
+
+    row: int
+    x_m: float
+    y_m: float
+
 
 GovernorKernel = Callable[[Twist, Twist, float], Twist]
 """(what was sent last, what is asked now, seconds since) -> what may be sent now. Pure."""
@@ -38,6 +49,18 @@ class Bounds(Protocol):
     def max_x_m(self) -> float: ...
     @property
     def max_y_m(self) -> float: ...
+
+
+class SeenWorld(Protocol):
+    """What the lidar has seen around the robot, as the governor knows it, in the odom frame."""
+
+    def free_ahead_m(self, pose: Pose, direction_rad: float) -> float:
+        """How far it is straight on to what was seen, from the front of the footprint; infinite where nothing was."""
+        ...
+
+    def first_contact(self, poses: Floats) -> Contact | None:
+        """The first of [n, 3] poses, from where the robot stands, that the governor would not allow."""
+        ...
 
 
 class KnownWorld(Protocol):

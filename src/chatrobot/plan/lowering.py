@@ -17,6 +17,7 @@ from chatrobot.plan.core_motion import CoreMotion, RampedTwist
 from chatrobot.plan.primitive import BlockPrimitive
 from chatrobot.plan.registry import for_step
 from chatrobot.plan.steps import Plan, count_steps
+from chatrobot.robots.profile import RobotProfile
 
 
 def lower(step: Step, context: LoweringContext) -> Lowered:
@@ -108,7 +109,7 @@ class CoreWalk(Iterator[CoreItem]):
         for number, (index, step) in enumerate(_expanded(plan.steps, ()), start=1):
             motions = lower(step, replace(self._context, pose=self.pose))
             if isinstance(motions, Impossible):
-                yield Impossible(motions.reason, index)
+                yield replace(motions, index=index, number=number)
                 return
             yield from self._motions(index, number, step, motions)
 
@@ -127,6 +128,15 @@ class CoreWalk(Iterator[CoreItem]):
 def iterate_core(plan: Plan, context: LoweringContext) -> CoreWalk:
     """Walk `plan` from `context.pose`."""
     return CoreWalk(plan, context)
+
+
+def ideal_end(plan: Plan, profile: RobotProfile, start: Pose) -> Pose | None:
+    """Where `plan` ends when it is driven exactly from `start`; None where a step of it is impossible.
+
+    Ways around obstacles are left out: they change no end.
+    """
+    walk = CoreWalk(plan, LoweringContext(profile, start, start))
+    return None if any(isinstance(item, Impossible) for item in walk) else walk.pose
 
 
 def _expanded(steps: Sequence[Step], path: tuple[int, ...]) -> Iterator[tuple[tuple[int, ...], Step]]:

@@ -8,8 +8,10 @@ find it through `plan.registry`.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import ClassVar, Generic, TypeVar
+from collections.abc import Callable
+from typing import ClassVar, Generic, TypeVar, Union
 
+from chatrobot.core.geometry import Pose
 from chatrobot.plan.base import Block, Step
 from chatrobot.plan.context import Lowered, LoweringContext
 from chatrobot.plan.reader import LineReader
@@ -17,6 +19,15 @@ from chatrobot.plan.reader import LineReader
 StepT = TypeVar("StepT", bound=Step)
 BlockT = TypeVar("BlockT", bound=Block)
 HeaderT = TypeVar("HeaderT")
+
+StepParts = tuple[Union[Step, None], Union[Step, None]]
+"""The part of a step that was done and the part that is left; None for a part that is nothing."""
+
+
+def step_parts(extents: tuple[float, float], make: Callable[[float], Step]) -> StepParts:
+    """The two parts of a step that `make` makes of an extent."""
+    done, rest = extents
+    return make(done) if done else None, make(rest) if rest else None
 
 
 class PrimitiveInfo:
@@ -48,6 +59,19 @@ class Primitive(PrimitiveInfo, ABC, Generic[StepT]):
     @abstractmethod
     def lower(self, step: StepT, context: LoweringContext) -> Lowered:
         """The core motions that do it from `context.pose`, or why it is impossible."""
+
+    def divide(self, step: StepT, share: float, context: LoweringContext) -> StepParts:  # noqa: ARG002
+        """Divide `step` where it was left off. Both None: `plan.split` divides its core motions instead.
+
+        Args:
+            share: how much of its core motion was driven, 0 to 1, for a step that lowers to one.
+            context: `pose` is where the robot stands now.
+        """
+        return None, None
+
+    def resolve(self, step: StepT, plan_start: Pose) -> StepT:  # noqa: ARG002
+        """The same step without the frame `start`, for a plan that begins elsewhere."""
+        return step
 
 
 class BlockPrimitive(PrimitiveInfo, ABC, Generic[BlockT, HeaderT]):

@@ -7,6 +7,7 @@ it: something in the way of the swept footprint, a way out of the allowed area, 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,19 +25,22 @@ from chatrobot.plan.context import (
 )
 from chatrobot.plan.core_motion import Pause, RampedTwist
 from chatrobot.plan.findings import Finding, Severity
+from chatrobot.plan.free_part import free_part, nearest_part
 from chatrobot.plan.governed_path import TICK_S, GovernorCheck, pose_of
-from chatrobot.plan.known_world import Floats, GovernorKernel, KnownWorld
+from chatrobot.plan.known_world import Contact, Floats, GovernorKernel, KnownWorld, SeenWorld
 from chatrobot.plan.lowering import CoreWalk, PlannedMotion, iterate_core
 from chatrobot.plan.rounding import round_corners
 from chatrobot.plan.sampling import sample_poses, sample_ramp, tick_times
 from chatrobot.plan.steps import Plan
-from chatrobot.plan.sweep import Clearance, area_clearance, first_contact, free_ahead_m
+from chatrobot.plan.sweep import fence_clearance, first_contact, free_ahead_m
 from chatrobot.plan.trajectory import Segment
-from chatrobot.robots.profile import RobotProfile
+from chatrobot.robots.profile import Circle, Point, RobotProfile
 
 MARGIN_M = 0.04
 """A little more than the governor keeps from what the lidar sees, so that what was rehearsed is not stopped."""
 PAUSE_SPACING_S = 0.05
+KNOWN_WITHIN_M = 0.15
+"""What was seen so near to a known obstacle is that obstacle."""
 
 
 @dataclass(frozen=True)
@@ -55,6 +59,7 @@ class Rehearsal:
 
     `plan` is the one to run (corners may have been rounded for a base that steers). `path` is [n, 4] of t_s, x_m,
     y_m, yaw_rad in the odom frame, at most 50 ms apart, up to the end or to the first step that cannot be done.
+    `possible` is what can be done of a plan that is refused, where that is worth a question.
     """
 
     plan: Plan
@@ -63,6 +68,7 @@ class Rehearsal:
     length_m: float
     findings: tuple[Finding, ...]
     steps: tuple[StepEnd, ...]
+    possible: Plan | None = None
 
     @property
     def ok(self) -> bool:
@@ -96,6 +102,7 @@ def rehearse(
     *,
     plan_start: Pose | None = None,
     route_planner: RoutePlanner | None = None,
+    seen: SeenWorld | None = None,
 ) -> Rehearsal:
     """Rehearse `plan` from `start_pose` (odom frame).
 
@@ -104,6 +111,7 @@ def rehearse(
         governor: what will stand between executor and robot; its kernel, made for this profile.
         plan_start: what the frame `start` means, if the plan is the continuation of one that began elsewhere.
         route_planner: for `go`; by default a grid search in `world`.
+        seen: what the lidar has seen; None where there is none.
     """
     planner = route_planner
     if planner is None and world is not None and not world.is_empty:
@@ -114,7 +122,7 @@ def rehearse(
         profile, start_pose, plan_start if plan_start is not None else start_pose, planner
     )
     rounded = round_corners(plan, profile)
-    run = _Run(rounded.plan, context, world, governor)
+    run = _Run(rounded.plan, context, world, governor, seen)
     run.findings += [
         Finding(note.severity, note.reason, note.index, 0.0, start_pose) for note in rounded.notes
     ]
@@ -135,23 +143,32 @@ class _Run:
     """One rehearsal: walks the plan, collects rows and findings, then sweeps the footprint along all of it."""
 
     def __init__(
-        self, plan: Plan, context: LoweringContext, world: KnownWorld | None, governor: GovernorKernel
+        self,
+        plan: Plan,
+        context: LoweringContext,
+        world: KnownWorld | None,
+        governor: GovernorKernel,
+        seen: SeenWorld | None,
     ) -> None:
         self.plan = plan
         self.context = context
         self.world = world if world is not None and not world.is_empty else None
         self.area = world.allowed_area if world is not None else None
+        self.seen = seen
         self.governor = GovernorCheck(governor)
         self.findings: list[Finding] = []
         self.legs: list[_Leg] = []
         self.steps: list[StepEnd] = []
         self.t_s = 0.0
+        self.possible: Plan | None = None
+        self._blocked_row = math.inf
 
     def drive(self) -> None:
         walk = iterate_core(self.plan, self.context)
         for item in walk:
             if isinstance(item, Impossible):
                 self._find("refuse", item.reason, item.index, walk.pose)
+                self.possible = nearest_part(self.plan, self.context, item)
                 break
             if not self._is_within_bounds(item):
                 break
@@ -169,7 +186,7 @@ class _Run:
         path = np.concatenate(rows)
         length_m = float(np.hypot(*np.diff(path[:, 1:3], axis=0).T).sum())
         findings = tuple(sorted(self.findings, key=lambda finding: finding.t_s))
-        return Rehearsal(self.plan, self.context, path, length_m, findings, tuple(self.steps))
+        return Rehearsal(self.plan, self.context, path, length_m, findings, tuple(self.steps), self.possible)
 
     def _find(
         self,
@@ -219,18 +236,19 @@ class _Run:
         self._add(item, rows)
 
     def _until(self, segment: Segment, distance_m: float, item: PlannedMotion) -> Segment:
-        """The segment as it will be if the lidar sees what is known, and nothing else."""
+        """The segment as it will be if the lidar sees what is known and what it saw, and nothing else."""
         twist, lidar = segment.motion.twist, self.context.profile.lidar
         if lidar is not None:
             distance_m = min(distance_m, lidar.max_range_m)
         most_m = twist.speed_mps * segment.ramp.hold_s
+        reach_m, direction_rad = most_m + distance_m, math.atan2(twist.vy_mps, twist.vx_mps)
         free_m = math.inf
         if self.world is not None:
-            direction_rad = math.atan2(twist.vy_mps, twist.vx_mps)
             footprint, clearance = self.context.profile.footprint, self.world.clearance_m
-            reach_m = most_m + distance_m
             free_m = free_ahead_m(segment.start, footprint, direction_rad, clearance, reach_m)
-            free_m = math.inf if free_m >= reach_m else free_m
+        if self.seen is not None:
+            free_m = min(free_m, self.seen.free_ahead_m(segment.start, direction_rad))
+        free_m = math.inf if free_m >= reach_m else free_m
         if math.isinf(free_m):
             self._find("note", Reason("no_obstacle_known", {"distance_m": most_m}), item.index, item.start)
             return segment
@@ -240,18 +258,27 @@ class _Run:
         )
 
     def _sweep(self) -> None:
+        """Find where the footprint first comes too close to what is known, to what was seen, or leaves its area."""
         if not self.legs:
             return
         rows = np.concatenate([leg.rows for leg in self.legs])
+        poses, footprint = rows[:, 1:], self.context.profile.footprint
+        solid = [self.seen.first_contact(poses)] if self.seen is not None else []
         if self.world is not None:
-            self._check(rows, "would_collide", self.world.clearance_m, MARGIN_M)
-        if self.area is not None:
-            self._check(rows, "leaves_area", area_clearance(self.area.points), 0.0)
+            solid.append(first_contact(poses, footprint, self.world.clearance_m, MARGIN_M))
+        self._block(rows, "would_collide", solid)
+        fences: list[Circle | Sequence[Point]] = [self.area.points] if self.area is not None else []
+        if self.context.profile.safety.fence is not None:
+            fences.append(self.context.profile.safety.fence)
+        left = [
+            first_contact(poses, footprint, fence_clearance(fence), 0.0, core_stays_clear=False)
+            for fence in fences
+        ]
+        self._block(rows, "leaves_area", left)
 
-    def _check(self, rows: Floats, code: str, clearance: Clearance, margin_m: float) -> None:
-        solid = code == "would_collide"
-        footprint = self.context.profile.footprint
-        contact = first_contact(rows[:, 1:], footprint, clearance, margin_m, core_stays_clear=solid)
+    def _block(self, rows: Floats, code: str, contacts: Sequence[Contact | None]) -> None:
+        """Refuse the plan for the first of the contacts, if there is one."""
+        contact = min((found for found in contacts if found is not None), key=lambda c: c.row, default=None)
         if contact is None:
             return
         ends = np.cumsum([len(leg.rows) for leg in self.legs])
@@ -263,10 +290,25 @@ class _Run:
             "distance_m": float(driven[first_row:].sum()),
             "total_m": float(driven.sum()),
         }
-        name = self.world.obstacle_name_at(contact.x_m, contact.y_m) if self.world is not None else ""
-        if solid and name:
+        if contact.row < self._blocked_row:
+            self._blocked_row = contact.row
+            of_step = [found.item for found in self.legs if found.item.number == item.number]
+            way = rows[first_row : contact.row + 1]
+            self.possible, free = free_part(
+                self.plan, self.context, item, of_step.index(item), of_step[0].start, way
+            )
+            values.update(free)
+        name = self._name_of(contact) if code == "would_collide" else ""
+        if name:
             values["obstacle"] = name
         self._find("refuse", Reason(code, values), item.index, pose_of(row), float(row[0]))
+
+    def _name_of(self, contact: Contact) -> str:
+        """What stands there, if it is known."""
+        if self.world is None:
+            return ""
+        is_known = self.world.clearance_m(np.array([[contact.x_m, contact.y_m]]))[0] < KNOWN_WITHIN_M
+        return self.world.obstacle_name_at(contact.x_m, contact.y_m) if is_known else ""
 
 
 def _limited(asked: Twist, possible: Twist) -> Reason:

@@ -32,8 +32,17 @@ COMFORT_M = 0.3
 CLOSE_COST = 3.0
 """A cell at the very edge of fitting costs this much more than one with comfort."""
 
-NEAR_PLACE_M = 0.6
-"""How far from a named place its nearest free point may be, and how far the start's own tightness is excused."""
+AT_PLACE_M = 0.1
+"""So far from a named place a robot still is there."""
+
+TIGHT_END_M = 0.6
+"""How far from start and goal their own tightness is excused."""
+
+NEAREST_WITHIN_M = 2.0
+"""A free point that is farther from a blocked goal than this is not worth a question."""
+
+OWN_SIDE = 0.05
+"""A metre on the way from the start counts as so many metres from the goal."""
 
 LEG_SPACING_M = 0.025
 MAX_ANSWERS = 256
@@ -84,9 +93,9 @@ class GridRoutePlanner:
     def route(self, start: Pose, goal: Point, *, named_place: bool) -> Route | NoRoute:
         """Waypoints from `start` to `goal`, both in the odom frame.
 
-        At a named place with something in it, the route ends at the nearest free point within 0.6 m. Otherwise
-        `target_blocked` (clearance_m there, needed_m) or `no_route` is the answer. Answers are remembered: what
-        rehearsal asked, the executor gets without a search.
+        At a named place that is a little too tight, the route ends at the free point within 0.1 m. Otherwise
+        `target_blocked` or `no_route` is the answer. Answers are remembered: what rehearsal asked, the executor gets
+        without a search.
         """
         question = (start, goal, named_place)
         if question not in self._answers:
@@ -106,9 +115,10 @@ class GridRoutePlanner:
             return NoRoute(Reason("no_route", {"distance_m": _length((start.x_m, start.y_m), goal)}))
         grid = self._grid(start, goal)
         if is_tight:
-            free = self._nearest_free(grid, goal) if named_place else None
-            if free is None:
-                return NoRoute(Reason("target_blocked", {"clearance_m": goal_m, "needed_m": self._needed_m}))
+            free = self._nearest_free(grid, goal, start)
+            if free is None or not named_place or _length(free, goal) > AT_PLACE_M:
+                is_reached = free is not None and self._search(grid, start, free) is not None
+                return self._blocked(goal, goal_m, free if is_reached else None)
             goal = free
         cells = self._search(grid, start, goal)
         if cells is None:
@@ -153,17 +163,36 @@ class GridRoutePlanner:
         clearance = self._world.clearance_m(points.reshape(-1, 2)).reshape(len(ys), len(xs))
         return _Grid(float(x0), float(y0), size_m, clearance)
 
-    def _nearest_free(self, grid: _Grid, goal: Point) -> Point | None:
-        distance = np.where(grid.clearance_m >= self._needed_m, grid.distance_to(*goal), np.inf)
-        i, j = np.unravel_index(int(distance.argmin()), distance.shape)
-        return grid.point(int(i), int(j)) if distance[i, j] <= NEAR_PLACE_M else None
+    def _blocked(self, goal: Point, goal_m: float, free: Point | None) -> NoRoute:
+        """What stands at the goal, how much room there is, and the free point that is `short_m` from it."""
+        values: dict[str, float | int | str] = {"clearance_m": max(0.0, goal_m), "needed_m": self._needed_m}
+        name = self._world.obstacle_name_at(*goal)
+        if name:
+            values["obstacle"] = name
+        if free is not None:
+            nearest = round(free[0], 2), round(free[1], 2)
+            values |= {
+                "short_m": _length(nearest, goal),
+                "nearest_x_m": nearest[0],
+                "nearest_y_m": nearest[1],
+            }
+        return NoRoute(Reason("target_blocked", values))
+
+    def _nearest_free(self, grid: _Grid, goal: Point, start: Pose) -> Point | None:
+        """The free point nearest to the goal; of those that are about as near, one on the robot's side."""
+        away_m = grid.distance_to(*goal)
+        cost = np.where(grid.clearance_m >= self._needed_m, away_m, np.inf)
+        cost += OWN_SIDE * grid.distance_to(start.x_m, start.y_m)
+        i, j = np.unravel_index(int(cost.argmin()), cost.shape)
+        is_near = cost[i, j] < np.inf and away_m[i, j] <= NEAREST_WITHIN_M
+        return grid.point(int(i), int(j)) if is_near else None
 
     def _search(self, grid: _Grid, start: Pose, goal: Point) -> list[tuple[int, int]] | None:
         """Cells from start to goal. Around both the robot may be as tight as it is there, but not tighter."""
         fits = grid.clearance_m >= self._needed_m
         for point in ((start.x_m, start.y_m), goal):
             tight_m = min(self._needed_m, self._clearance_at(point)) - 0.5 * grid.size_m
-            fits |= (grid.distance_to(*point) <= NEAR_PLACE_M) & (grid.clearance_m >= tight_m)
+            fits |= (grid.distance_to(*point) <= TIGHT_END_M) & (grid.clearance_m >= tight_m)
         spare = np.clip((grid.clearance_m - self._needed_m) / COMFORT_M, 0.0, 1.0)
         cost = np.where(fits, 1.0 + CLOSE_COST * (1.0 - spare), np.inf)
         ends = [grid.cell(start.x_m, start.y_m), grid.cell(*goal)]
@@ -178,8 +207,8 @@ class GridRoutePlanner:
         first, last = clearance[0], clearance[-1]
         length = along[-1]
         needed = np.full(len(along), needed_m)
-        needed[along <= NEAR_PLACE_M] = min(needed_m, first - 0.01)
-        near_end = length - along <= NEAR_PLACE_M
+        needed[along <= TIGHT_END_M] = min(needed_m, first - 0.01)
+        near_end = length - along <= TIGHT_END_M
         needed[near_end] = np.minimum(needed[near_end], min(needed_m, last - 0.01))
         return bool((clearance >= needed).all())
 

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
-from chatrobot.plan.known_world import Floats
-from chatrobot.robots.profile import Point
+from chatrobot.plan.known_world import Contact, Floats
+from chatrobot.robots.profile import Circle, Point
 
 SPACING_M = 0.05
 _CHUNK_ROWS = 2000
@@ -19,15 +18,6 @@ GIVE_M = 0.005
 
 Clearance = Callable[[Floats], Floats]
 """Signed metres to spare at points [n, 2]."""
-
-
-@dataclass(frozen=True)
-class Contact:
-    """Where along a path the footprint came too close: the row of the path, and the point that did."""
-
-    row: int
-    x_m: float
-    y_m: float
 
 
 def outline_points(footprint: Sequence[Point], spacing_m: float = SPACING_M) -> Floats:
@@ -120,6 +110,18 @@ def area_clearance(corners: Sequence[Point]) -> Clearance:
         inside = (crosses & right_of).sum(axis=1) % 2 == 1
         signed: Floats = np.where(inside, distance, -distance)
         return signed
+
+    return clearance
+
+
+def fence_clearance(fence: Circle | Sequence[Point]) -> Clearance:
+    """The same for a fence: a circle, or the corners of a polygon."""
+    if not isinstance(fence, Circle):
+        return area_clearance(fence)
+
+    def clearance(points: Floats) -> Floats:
+        away = np.hypot(points[:, 0] - fence.x_m, points[:, 1] - fence.y_m)
+        return np.asarray(fence.radius_m - away)
 
     return clearance
 

@@ -14,6 +14,8 @@ from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
 from chatrobot.plan.core_motion import RampedTwist
 
 STRAIGHT_RADPS = 1e-6  # below this the circle's centre is so far off that rounding beats the curvature
+TIGHT_M = 0.1
+"""On a smaller radius than this the heading tells better than the position how far a motion is."""
 
 
 class Ramp:
@@ -124,6 +126,22 @@ class Segment:
         return Pose(
             self._center_x + (sin * vx + cos * vy) / wz, self._center_y + (sin * vy - cos * vx) / wz, yaw
         )
+
+    def progress_at(self, pose: Pose) -> float:
+        """The progress whose reference pose is nearest to `pose`; it may lie before the start or after the end.
+
+        On a curve it is measured about the curve's centre, on a tight one and on the spot by the heading.
+        """
+        twist, moved = self.motion.twist, pose.relative_to(self.start)
+        speed = twist.speed_mps
+        if speed < TIGHT_M * abs(twist.wz_radps):
+            return moved.yaw_rad / twist.wz_radps
+        if abs(twist.wz_radps) < STRAIGHT_RADPS:
+            return (moved.x_m * (twist.vx_mps / speed) + moved.y_m * (twist.vy_mps / speed)) / speed
+        cx, cy = -twist.vy_mps / twist.wz_radps, twist.vx_mps / twist.wz_radps
+        x, y = moved.x_m - cx, moved.y_m - cy
+        about = math.atan2(cy * x - cx * y, -cx * x - cy * y)
+        return (moved.yaw_rad + math.remainder(about - moved.yaw_rad, 2.0 * math.pi)) / twist.wz_radps
 
     def at(self, t_s: float) -> tuple[Pose, Twist]:
         """Reference pose and reference twist (robot's frame) at `t_s` after the start."""

@@ -32,16 +32,21 @@ _INVISIBLE = str.maketrans({"\ufeff": None, "\u200b": None, "\u200c": None, "\u2
 
 @dataclass(frozen=True)
 class Extracted:
-    """A program and the words around it. `source` ends with a line break; it need not be right Python."""
+    """A program and the words around it. `source` ends with a line break; it need not be right Python.
+
+    `is_closed`: the fence around it was closed, so that no more of it was to come.
+    """
 
     source: str
     description: str
+    is_closed: bool = False
 
 
 @dataclass(frozen=True)
 class _Block:
     info: str
     code: str
+    is_closed: bool = True
 
     @property
     def may_be_python(self) -> bool:
@@ -68,7 +73,8 @@ def extract(reply: str) -> Extracted | None:
         blocks, prose = _in_html(text)
     python = [block for block in blocks if block.may_be_python]
     if python:
-        return Extracted(_mended(_chosen(python)), _described(prose))
+        is_closed = all(block.is_closed for block in blocks)
+        return Extracted(_mended(_chosen(python)), _described(prose), is_closed)
     if blocks:  # code, but none of it Python: a C++ node, a shell command
         return None
     return _bare(text)
@@ -94,10 +100,10 @@ def _fenced(text: str) -> tuple[list[_Block], str]:
             continue
         prose.append(opening["before"].strip(" \t>*-"))
         info, first = _split_info(opening["info"])
-        body, at = _until_closed(lines, at + 1, opening["fence"])
-        blocks.append(
-            _Block(info, textwrap.dedent("\n".join(body)) if not first else "\n".join([first, *body]))
-        )
+        body, end = _until_closed(lines, at + 1, opening["fence"])
+        is_closed, at = end is not None, len(lines) if end is None else end
+        code = textwrap.dedent("\n".join(body)) if not first else "\n".join([first, *body])
+        blocks.append(_Block(info, code, is_closed))
     return [block for block in blocks if block.code.strip()], "\n".join(prose)
 
 
@@ -111,15 +117,15 @@ def _split_info(info: str) -> tuple[str, str]:
     return info, ""
 
 
-def _until_closed(lines: list[str], begin: int, fence: str) -> tuple[list[str], int]:
-    """The lines up to the closing fence, and the number of the line after it."""
+def _until_closed(lines: list[str], begin: int, fence: str) -> tuple[list[str], int | None]:
+    """The lines up to the closing fence, and the number of the line after it; None where it is never closed."""
     for at in range(begin, len(lines)):
         stripped = lines[at].strip()
         if stripped.startswith(fence) and not stripped.strip(fence[0]):
             return lines[begin:at], at + 1
         if stripped.endswith(fence) and fence not in stripped[: -len(fence)] and not stripped.startswith("#"):
             return [*lines[begin:at], lines[at].rstrip()[: -len(fence)]], at + 1
-    return lines[begin:], len(lines)
+    return lines[begin:], None
 
 
 def _unquoted(text: str) -> str:

@@ -90,6 +90,10 @@ class Library:
         key = folder_name(name)
         return next((program for program in self._all() if folder_name(program.name) == key), None)
 
+    def place(self, name: str) -> str:
+        """The file of that program's source, whether it is kept yet or not; "" where nothing is written to files."""
+        return str(self._folder / folder_name(name) / _SOURCE) if self._folder is not None else ""
+
     def free_name(self, wanted: str) -> str:
         """`wanted`, or with the first number behind it that makes it new."""
         wanted = clean_name(wanted) or "program"
@@ -117,7 +121,7 @@ class Library:
     def edit(self, name: str, source: str) -> KeptProgram:
         """Another source for a program that is kept: what is known of the old one's rehearsal is forgotten."""
         old = self.get(name)
-        provenance = replace(old.provenance, versions=old.provenance.versions + 1)
+        provenance = replace(old.provenance, by="person", versions=old.provenance.versions + 1)
         new = replace(old, source=source, provenance=provenance, rehearsal={}, remap={})
         self.keep(new)
         return new

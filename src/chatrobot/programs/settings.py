@@ -6,7 +6,7 @@ import json
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
-from typing import Any, Literal
+from typing import Literal
 
 from chatrobot.core.wiring import Wiring
 
@@ -21,7 +21,8 @@ class ProgramSettings:
     """All that goes into the box besides the code that is there anyway.
 
     `topics` maps what the robot has (cmd_vel, odom, scan, imu, battery, bumper) to resolved ROS names (`/cmd_vel`).
-    `remaps` maps names as ROS's remapping does (`/turtle1/cmd_vel` to `/cmd_vel`), `params` are parameter overrides.
+    `remaps` maps names as ROS's remapping does (`/turtle1/cmd_vel` to `/cmd_vel`); `args` are its command-line
+    arguments, which go before them where they remap.
     `start_ns` is the wall clock at the program's start on virtual time, `horizon_s` where virtual time ends.
     """
 
@@ -31,7 +32,6 @@ class ProgramSettings:
     topics: Mapping[str, str] = field(default_factory=dict)
     odom_type: str = "Odometry"
     remaps: Mapping[str, str] = field(default_factory=dict)
-    params: Mapping[str, Any] = field(default_factory=dict)
     args: tuple[str, ...] = ()
     start_ns: int = 1_800_000_000_000_000_000
     horizon_s: float = math.inf

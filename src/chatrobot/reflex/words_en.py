@@ -72,6 +72,8 @@ STOP = (
     "quit driving", "quit rolling", "quit turning", "quit spinning", "quit doing that", "cease driving",
     "cease turning", "cease operations", "halt your motion", "halt the motors", "halt the robot",
     "halt all movement", "halt all motors", "halt operations", "freeze in place", "freeze where you are",
+    "pause that", "pause the motion", "pause the robot", "suspend it", "that'll do", "thatll do", "that does it",
+    "knock it off", "knock that off", "pack it in", "give it a rest", "leave it", "call a halt", "stop for now",
     "hold where you are", "hold there", "park yourself", "park right there", "do not go", "do not go further",
     "do not go any further", "do not drive", "don't drive", "don't drive any further", "do not continue",
     "don't continue", "don't keep going", "do not proceed", "don't proceed", "do not take another step",
@@ -83,6 +85,22 @@ STOP = (
     "wheels still", "engines stop", "motors halt", "put the brake on", "pull the brake", "pull the handbrake",
     "handbrake", "hand brake", "parking brake", "anchor", "anchors", "hang on there", "hang on", "stall",
 )  # fmt: skip
+
+PAUSE = (
+    "pause", "pause there", "pause it", "pause motion", "pause that", "pause the motion", "pause the robot",
+    "hold on", "hold on there", "hold it", "hold it there", "hold up", "hang on", "hang on there", "wait",
+    "wait there", "suspend", "suspend motion", "suspend it",
+)  # fmt: skip
+"""Stops that keep what was under way, for it to be gone on with."""
+
+PAUSE_FILLER = (
+    "please", "pls", "plz", "now", "right now", "ok", "okay", "hey", "robot", "and", "just", "oh", "there", "here",
+    "would you", "could you", "can you", "will you", "you", "it", "thanks", "thank you", "um", "uh", "er", "so",
+    "then", "yes", "sorry", "for now", "for a while", "for a moment", "for a second", "for a minute", "for a bit",
+    "for a sec", "a moment", "a second", "a minute", "a sec", "a bit", "one moment", "one second", "one minute",
+    "kindly", "my friend", "friend", "buddy", "mate", "hm", "hmm", "a little", "me", "quickly", "immediately",
+)  # fmt: skip
+"""What may stand beside a pause: nothing that might mean that it is over."""
 
 FILLER = (
     "please", "pls", "plz", "now", "right now", "right away", "immediately", "at once", "this instant",
@@ -140,6 +158,8 @@ DOUBLED = (
     "stop", "halt", "freeze", "whoa", "no",
 )  # fmt: skip
 """Words people stretch: `stoooop`, `haaalt`."""
+
+NOT_DOUBLED = ("stoop",)
 
 CANCELLED = (
     "never mind", "nevermind", "forget it", "forget that", "forget about it", "scratch that",

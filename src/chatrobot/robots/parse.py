@@ -11,6 +11,7 @@ import re
 import sys
 from typing import Any
 
+from chatrobot.core.motion_budget import NONE, MotionBudget
 from chatrobot.robots.fields import Range, Source, Table
 from chatrobot.robots.profile import (
     Calibration,
@@ -71,6 +72,10 @@ CALIBRATION_RANGES = {
 FENCE_RANGE = Range(-1000.0, 1000.0, "m", with_low=True)
 BLIND_RANGE = Range(0.0, 10.0, "m/s", with_low=True)
 PERCENT_RANGE = Range(0.0, 100.0, "%", with_low=True)
+BUDGET_RANGES = {
+    "max_distance_m": Range(0.0, 1e6, 'm, or "none"'),
+    "max_time_s": Range(0.0, 1e6, 's, or "none"'),
+}
 SENSORS = ("odom", "scan", "imu")
 TIMEOUT_RANGE = Range(0.0, 60.0, 's, or "forever"')
 FOOTPRINT_RANGE = Range(-5.0, 5.0, "m", with_low=True)
@@ -168,9 +173,9 @@ def _lidar(table: Table) -> Lidar:
 
 
 def _safety(table: Table) -> Safety:
-    known = tuple(field.name for field in dataclasses.fields(Safety))
-    table.only(known)
-    values: dict[str, Any] = {}
+    known = [field.name for field in dataclasses.fields(Safety) if field.name != "budget"]
+    table.only((*known, *BUDGET_RANGES))
+    values: dict[str, Any] = {"budget": MotionBudget(**_budget(table))}
     if "fence" in table:
         values["fence"] = _fence(table)
     if "requires" in table:
@@ -180,6 +185,14 @@ def _safety(table: Table) -> Safety:
     if "battery_low_percent" in table:
         values["battery_low_percent"] = table.number("battery_low_percent", PERCENT_RANGE)
     return Safety(**values)
+
+
+def _budget(table: Table) -> dict[str, float]:
+    return {
+        key: math.inf if table.is_text(key, NONE) else table.number(key, allowed)
+        for key, allowed in BUDGET_RANGES.items()
+        if key in table
+    }
 
 
 def _calibration(table: Table) -> Calibration:

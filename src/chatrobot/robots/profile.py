@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
+from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.core.wiring import Wiring as Wiring
 
 Kinematics = Literal["differential", "mecanum", "ackermann"]
@@ -82,13 +83,14 @@ class Safety:
 
     `fence` is a circle, or the corners of a polygon, in `odom`: the footprint stays inside. Without the sensors in
     `requires` nothing moves. `blind_speed_mps` is for ways that the lidar does not see; 0 refuses them. Below
-    `battery_low_percent` no motion begins.
+    `battery_low_percent` no motion begins. `budget` is what one text or program may drive.
     """
 
     fence: Circle | tuple[Point, ...] | None = None
     requires: tuple[Literal["odom", "scan", "imu"], ...] = ()
     blind_speed_mps: float = 0.1
     battery_low_percent: float | None = None
+    budget: MotionBudget = NOT_CHOSEN
 
 
 @dataclass(frozen=True)
@@ -124,6 +126,10 @@ class RobotProfile:
     calibration: Calibration = Calibration()
     approval: Literal["plan", "stream"] = "plan"
     sources: Mapping[str, str] = field(default_factory=dict)
+
+    def with_budget(self, choice: MotionBudget) -> RobotProfile:
+        """The same robot with what somebody chose in place of its own motion budget."""
+        return replace(self, safety=replace(self.safety, budget=self.safety.budget.changed(choice)))
 
     @property
     def can_turn_on_the_spot(self) -> bool:

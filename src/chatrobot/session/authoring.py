@@ -5,6 +5,7 @@ Nothing here runs a program: its source goes to Motion, which rehearses it in th
 
 from __future__ import annotations
 
+import shlex
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -99,26 +100,49 @@ class Authoring:
 
     # --- which program ---
 
-    def kept(self, text: str) -> Draft | None:
-        """The kept program that `text` asks to run; None where it asks for none."""
+    def kept(self, text: str, language: str) -> Draft | None:
+        """The kept program that `text` asks to run, with the arguments behind a `--`; None where it asks for none.
+
+        Raises:
+            NotWrittenError: it cannot be given those arguments.
+        """
         names = self.library.names()
-        name = read_program_name(text, names) if names else None
-        return self.draft_of(self.library.get(name)) if name is not None else None
+        if not names:
+            return None
+        said, _, command_line = text.partition(" -- ")
+        name = read_program_name(said, names)
+        if name is None:
+            return None
+        try:
+            return self.draft_of(self.library.get(name)).with_args(shlex.split(command_line))
+        except ValueError as error:
+            reason = Reason("program_arguments", {"problem": str(error)})
+            raise NotWrittenError("refused", render_reason(reason, language)) from error
 
     def draft_of(self, program: KeptProgram) -> Draft:
         """A program that is there already."""
         checked = check(program.source, self._profile)
-        return Draft(replace(program, remap=dict(checked.remap)), checked)
+        program = replace(program, remap=dict(checked.remap))
+        place = self.library.place(program.name)
+        return Draft(program, checked, place=place, version=program.provenance.versions)
 
     def draft_of_file(self, path: Path, source: str) -> Draft:
         """A program from a file, which is not kept."""
-        return self.draft_of(KeptProgram(path.stem, source, provenance=Provenance(f"from {path.name}")))
+        program = KeptProgram(path.stem, source, provenance=Provenance(f"from {path.name}"))
+        return replace(self.draft_of(program), place=str(path))
 
-    def edited(self, name: str, source: str) -> Draft:
-        """What a person made of a program; where that one is kept, it is kept so."""
-        if self.library.find(name) is not None:
-            return self.draft_of(self.library.edit(name, source))
-        return self.draft_of(KeptProgram(name, source))
+    def edited(self, draft: Draft, source: str) -> Draft:
+        """What a person made of a program that was shown: its next version, or the same where nothing was changed.
+
+        It is asked about before it runs. One that came from a file is kept from now on: the file stays as it is.
+        """
+        if source == draft.program.source:
+            return replace(draft, asks=True)
+        if draft.place != self.library.place(draft.program.name):
+            name = self.library.free_name(draft.program.name)
+            draft = replace(draft, program=replace(draft.program, name=name))
+        new = draft.next(source, check(source, self._profile))
+        return replace(new, asks=True, place=self.library.place(new.program.name))
 
     @staticmethod
     def request(text: str, *, is_asked_for: bool = False) -> ProgramRequest | None:
@@ -175,7 +199,14 @@ class Authoring:
     def _new(self, program: KeptProgram, request: ProgramRequest, messages: Sequence[Message] = ()) -> Draft:
         checked = check(program.source, self._profile)
         program = replace(program, remap=dict(checked.remap))
-        return Draft(program, checked, True, promises=request.promises, messages=tuple(messages))
+        return Draft(
+            program,
+            checked,
+            is_new=True,
+            place=self.library.place(program.name),
+            promises=request.promises,
+            messages=tuple(messages),
+        )
 
     # --- with a model ---
 
@@ -220,7 +251,8 @@ class Authoring:
             if self._cancels == before:
                 pieces.extend(reply)
         except ModelError as error:
-            if extract("".join(pieces)) is None:
+            found = extract("".join(pieces))
+            if found is None or not found.is_closed:  # half a program is not run, nor blamed on its writer
                 raise NotWrittenError("failed", render_reason(error.reason, language)) from error
         finally:
             self._cancel_reply = None

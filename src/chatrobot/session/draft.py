@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from chatrobot.core.events import FindingSeen, ProgramWritten
@@ -10,40 +11,64 @@ from chatrobot.core.reason import Reason
 from chatrobot.models.seam import Message
 from chatrobot.programs.check import Checked
 from chatrobot.programs.library import KeptProgram
+from chatrobot.programs.ros_args import check_args, read_ros_args
 
 
 @dataclass(frozen=True)
 class Draft:
     """One version of a program.
 
-    `is_new`: it was written in this turn, so it is kept once it stands. `messages` is the conversation with the model
-    that wrote it, empty where none did. `promises` are what the request says and its numbers do not give.
+    `is_new`: it was written in this turn, so it is kept once it stands. `asks`: a person's yes is waited for, whatever
+    the options. `place` is the file of its source, "" where it is in none. `messages` is the conversation with the
+    model that wrote it, empty where none did. `args` is the command line it gets. `promises` are what the request says
+    and its numbers do not give.
     """
 
     program: KeptProgram
     checked: Checked
     is_new: bool = False
+    asks: bool = False
+    place: str = ""
     version: int = 1
     diff: str = ""
+    args: tuple[str, ...] = ()
     promises: tuple[Reason, ...] = ()
     messages: tuple[Message, ...] = ()
+
+    @property
+    def remap(self) -> dict[str, str]:
+        """What its topics are led to, but for those that its arguments lead elsewhere."""
+        named = {rule.what.strip("/") for rule in read_ros_args(self.args).remaps}
+        return {topic: to for topic, to in self.program.remap.items() if topic.strip("/") not in named}
+
+    def with_args(self, args: Sequence[str]) -> Draft:
+        """With a command line of its own.
+
+        Raises:
+            RosArgumentsError: they cannot be given to a program.
+        """
+        check_args(args)
+        return replace(self, args=tuple(args))
 
     @property
     def by_model(self) -> bool:
         return bool(self.messages)
 
-    def next(self, source: str, checked: Checked, messages: tuple[Message, ...]) -> Draft:
-        """The version after this one."""
+    def next(self, source: str, checked: Checked, messages: tuple[Message, ...] = ()) -> Draft:
+        """The version after this one: a model's where there are `messages`, otherwise a person's."""
+        origin = self.program.provenance
         program = replace(
             self.program,
             source=source,
             remap=dict(checked.remap),
-            provenance=replace(self.program.provenance, versions=self.version + 1),
+            rehearsal={},
+            provenance=replace(origin, by="model" if messages else "person", versions=self.version + 1),
         )
         return replace(
             self,
             program=program,
             checked=checked,
+            is_new=True,
             version=self.version + 1,
             diff=difference(self.program.source, source),
             messages=messages,
@@ -51,8 +76,11 @@ class Draft:
 
     def event(self, turn: int) -> ProgramWritten:
         """What the faces show of it."""
+        led = self.remap
         marks = [
-            FindingSeen(turn, m.severity, m.reason, (m.line,) if m.line else ()) for m in self.checked.marks
+            FindingSeen(turn, m.severity, m.reason, (m.line,) if m.line else ())
+            for m in self.checked.marks
+            if m.reason.code != "other_topic" or m.reason.values["topic"] in led
         ]
         marks += [FindingSeen(turn, "note", promise) for promise in self.promises]
         program = self.program
@@ -66,6 +94,7 @@ class Draft:
             self.diff,
             self.is_new,
             tuple(marks),
+            self.place,
         )
 
 

@@ -1,14 +1,20 @@
-"""Drives one job at a time: launched once it has been rehearsed and approved, ticked at 50 Hz, ended as measured."""
+"""Drives one job at a time: launched once it has been rehearsed and approved, ticked at 50 Hz, ended as measured.
+
+A motion ends at once, and its end is told once the robot stands: a robot that was stopped rolls on until it has braked,
+and only then do pose, turn and path say what became of the motion.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
 from chatrobot.core.clock import Clock
-from chatrobot.core.events import Event, Outcome, Progress, Started
+from chatrobot.core.events import Event, Finished, Outcome, Progress, Started
 from chatrobot.core.reason import Reason
 from chatrobot.execution.health import is_seen_moving
+from chatrobot.session.budgets import REACHED
 from chatrobot.session.clearance import Clearance
+from chatrobot.session.ends import Ends
 from chatrobot.session.governed_robot import GovernedRobot
 from chatrobot.session.inbox import Inbox
 from chatrobot.session.job import Job
@@ -18,7 +24,7 @@ from chatrobot.session.program_run import LiveProgram, ProgramRun
 from chatrobot.session.run import Run
 from chatrobot.session.stops import Stops
 
-FAILURES = frozenset({"guard_lost", "bumped", "motion_froze", "wire_gone"})
+FAILURES = frozenset({"guard_lost", "bumped", "motion_froze", "beats_missed", "wire_gone"})
 """A stop for one of these is no wish of anybody's: what ran has failed."""
 
 
@@ -33,9 +39,11 @@ class Driver:
         programs: ProgramBox,
         inbox: Inbox,
         clock: Clock,
+        ends: Ends,
         emit: Callable[[Event], None],
     ) -> None:
         self._robot = robot
+        self._ends = ends
         self._clearance = clearance
         self._stops = stops
         self._programs = programs
@@ -106,13 +114,14 @@ class Driver:
         run.tick(now_s)
         if run.is_done:
             outcome, reason = run.outcome, run.reason
-            if outcome == "completed" and is_seen_moving(
-                self._robot.sensors
-            ):  # told to stand, and waited for
+            is_waited_for = outcome == "completed"  # it has been told to stand
+            if is_waited_for and is_seen_moving(self._robot.sensors):
                 outcome, reason = "failed", Reason("moves_on")
             if outcome != "completed":
-                self._stops.halt_and_book()
+                self._stops.halt_and_book(reason or Reason("cause_unknown"))
             self._end(run, outcome, reason)
+            if is_waited_for:
+                self._ends.tell_all()
 
     def expect(self, duration_s: float) -> None:
         """The plan under way has become longer: so long in all."""
@@ -139,25 +148,41 @@ class Driver:
         elif self.job is not None:
             self._give_up("stopped", why)
 
+    def break_off(self, why: Reason) -> Callable[[], Finished] | None:
+        """The robot has been paused: what tells how much was done of the plan under way, and is left of it.
+
+        None, and nothing is done, where it cannot be gone on with.
+        """
+        run = self._run
+        if not isinstance(run, Run) or not run.finished("stopped", why).remaining:
+            return None
+        self._let_go(run)
+        return lambda: run.job.whole(run.finished("stopped", why))
+
     def fail(self, why: Reason) -> None:
         """The way to the robot is gone for good: what was under way has failed."""
         if self._run is not None:
             self._end(self._run, "failed", why)
         elif self.job is not None:
             self._give_up("failed", why)
+        self._ends.tell_all()
 
     def _end(self, run: Run | ProgramRun, outcome: Outcome, reason: Reason | None) -> None:
+        self._let_go(run)
+        stream = run.job.stream
+        if outcome == "completed" and stream is not None and stream.refusal is not None:
+            reason = stream.refusal  # what came before it has been done
+            outcome = "stopped" if reason.code in REACHED else "refused"
+        self._ends.tell_later(lambda: run.job.whole(run.finished(outcome, reason)))
+
+    def _let_go(self, run: Run | ProgramRun) -> None:
         self.job = self._run = None
         run.close()
         self._robot.governor.end(run.job.lease)
-        stream = run.job.stream
-        if outcome == "completed" and stream is not None and stream.refusal is not None:
-            outcome, reason = "refused", stream.refusal  # what came before it has been done
-        self._emit(run.finished(outcome, reason))
 
     def _give_up(self, outcome: Outcome, reason: Reason) -> None:
         """End what has not begun to move. It may have the wheel already: a program that is being launched."""
         job, self.job = self.job, None
         assert job is not None
         self._robot.governor.end(job.lease)
-        self._emit(job.unmoved(outcome, reason, self._robot.pose))
+        self._ends.tell(lambda: job.unmoved(outcome, reason, self._robot.pose))

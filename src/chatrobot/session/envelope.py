@@ -8,21 +8,29 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any, Literal
 
+from chatrobot.core.motion_budget import read_limit
+from chatrobot.programs.ros_args import MOST_ARGS, MOST_CHARS
+
 Word = Literal[
     "hello",  # opens the lease: {"term_s": …}
     "beat",  # keeps it; any word that names its term opens it for a Motion that came after the hello
     "plan",  # {"plan_text", "mode", "more": bool, "approve": bool, "rehearse_only": bool, "longest_s": …}
     "look",  # asks for a `looked` event of this turn
-    "program",  # {"code", "name", "remap": {from: to}, "mode", "approve", "ask_findings", "strict", "rehearse_only"}
+    # {"code", "name", "remap": {from: to}, "args": [text], "mode", "approve", "ask_findings", "strict",
+    # "rehearse_only"}
+    "program",
     "approve",  # {"yes": bool} answers a Rehearsed event that needs approval
-    "stop",  # {"why": …}; makes void what belongs to this turn and those before
+    "stop",  # {"why": …, "keep": bool}; makes void what belongs to this turn and those before. keep: a pause
+    "resume",  # {}: go on with the plan of this turn, which was paused
     "emergency_stop",
     "release",
+    "limit",  # {"max_distance_m", "max_time_s": number or "none"}; changes the motion budget, empty: asks for it
     "goodbye",  # an orderly end: what is queued is still done, then the lease ends
 ]
 MODES = ("queue", "replace", "append", "extend")
 """What becomes of what runs already. `extend`: the next part of a plan of this very turn that was sent with `more`; the
-part without `more` is the last and may be empty. What is to be approved, or only rehearsed, comes whole."""
+part without `more` is the last and may be empty. What is to be approved, or only rehearsed, comes whole. `pauses`:
+how many pauses its source had said before it; where Motion has heard more of them, one has overtaken it."""
 
 
 def _is_text(value: object) -> bool:
@@ -31,6 +39,17 @@ def _is_text(value: object) -> bool:
 
 def _is_flag(value: object) -> bool:
     return isinstance(value, bool)
+
+
+def _is_limit(value: object) -> bool:
+    try:
+        return read_limit(value) > 0.0
+    except ValueError:
+        return False
+
+
+def _is_count(value: object) -> bool:
+    return type(value) is int and value >= 0
 
 
 def _is_term(value: object) -> bool:
@@ -64,6 +83,16 @@ def _is_remap(value: object) -> bool:
     )
 
 
+def _is_args(value: object) -> bool:
+    """A program's command line, short enough that source and arguments fit into one packet."""
+    return (
+        isinstance(value, list)
+        and len(value) <= MOST_ARGS
+        and all(isinstance(argument, str) for argument in value)
+        and sum(map(len, value)) <= MOST_CHARS
+    )
+
+
 PAYLOADS: Mapping[str, Mapping[str, Callable[[object], bool]]] = {
     "hello": {"term_s": _is_term},
     "beat": {"term_s": _is_term},
@@ -75,23 +104,28 @@ PAYLOADS: Mapping[str, Mapping[str, Callable[[object], bool]]] = {
         "more": _is_flag,
         "term_s": _is_term,
         "longest_s": _is_term,
+        "pauses": _is_count,
     },
     "look": {},
     "program": {
         "code": _is_code,
         "name": _is_name,
         "remap": _is_remap,
+        "args": _is_args,
         "mode": lambda value: value in MODES and value != "extend",
         "approve": _is_flag,
         "ask_findings": _is_flag,
         "strict": _is_flag,
         "rehearse_only": _is_flag,
+        "pauses": _is_count,
         "term_s": _is_term,
     },
     "approve": {"yes": _is_flag},
-    "stop": {"why": _is_text},
+    "stop": {"why": _is_text, "keep": _is_flag},
+    "resume": {},
     "emergency_stop": {"why": _is_text},
     "release": {},
+    "limit": {"max_distance_m": _is_limit, "max_time_s": _is_limit},
     "goodbye": {},
 }
 """All that an envelope may say, with a check for every field of its payload."""

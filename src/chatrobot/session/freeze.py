@@ -35,8 +35,10 @@ class FreezeWatch:
         self._last_tick_s = now_s
         tripped = self._guard.was_tripped()
         slept = suspended_s > FROZEN_S and is_engaged
-        if slept or (is_driven and (gap_s > FROZEN_S or tripped)):
+        if slept or (is_driven and gap_s > FROZEN_S):
             self._halt(Reason("motion_froze", {"gap_s": round(gap_s, 2)}))
+        elif is_driven and tripped:  # we were there, and our beats came late all the same
+            self._halt(Reason("beats_missed"))
         if tripped or gap_s > FROZEN_S:
             self._guard.handshake()
 

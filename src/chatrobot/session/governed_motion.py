@@ -8,6 +8,7 @@ from chatrobot.core.events import Finished, Limited, Outcome
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
 from chatrobot.governor.governor import Verdict
+from chatrobot.session.budgets import Meter
 from chatrobot.session.governed_robot import GovernedRobot
 from chatrobot.session.job import Job
 
@@ -59,17 +60,35 @@ class GovernedMotion:
         self._sensors = sensors = robot.sensors
         self._stopwatch = Stopwatch(now_s)
         self._start_path_m = sensors.estimate.path_m if sensors.estimate is not None else 0.0
+        is_endless = job.planned is not None and job.planned.is_endless
+        limits = robot.profile.limits
+        self._meter = Meter(job.account, lambda: job.certain, sensors, limits, now_s, is_endless=is_endless)
 
     def send(self, asked: Twist, now_s: float) -> Verdict:
         """Send what the governor allows of `asked`."""
         verdict = self._robot.govern(asked, self._job.lease, now_s)
         self._robot.send(verdict)
         self._stopwatch.count(verdict.sent.twist.is_zero, now_s)
+        self._meter.note(verdict.sent.twist, now_s)
         return verdict
+
+    def over_budget(self) -> Reason | None:
+        """Why it has to brake now, so that its text stays within the motion budget; told once."""
+        return self._meter.over()
+
+    def close(self) -> None:
+        """It is over: book what it has driven."""
+        self._meter.close()
 
     def limited(self, verdict: Verdict) -> Limited:
         """What a person is told of a limit."""
         return Limited(self._job.turn, verdict.rule, verdict.asked, verdict.allowed, verdict.reason)
+
+    @property
+    def path_m(self) -> float:
+        """How far it has driven, as measured."""
+        estimate = self._sensors.estimate
+        return (estimate.path_m - self._start_path_m) if estimate is not None else 0.0
 
     def turned_rad(self) -> float:
         """How far it has turned since its start, as measured; radians, counter-clockwise positive."""
@@ -85,6 +104,9 @@ class GovernedMotion:
         planned_turn_rad: float,
         steps_done: int,
         steps: int,
+        executed: str = "",
+        remaining: str = "",
+        open_ended: bool = False,
     ) -> Finished:
         """The end, as odometry measured it."""
         start, estimate = self._job.start, self._sensors.estimate
@@ -95,7 +117,7 @@ class GovernedMotion:
             start=start,
             pose=estimate.pose if estimate is not None else start,
             turned_rad=self.turned_rad(),
-            path_m=(estimate.path_m - self._start_path_m) if estimate is not None else 0.0,
+            path_m=self.path_m,
             duration_s=self._stopwatch.moving_s,
             paused_s=self._stopwatch.paused_s,
             planned_m=planned_m,
@@ -103,4 +125,7 @@ class GovernedMotion:
             steps_done=steps_done,
             steps=steps,
             measured=self._sensors.has_odometry,
+            executed=executed,
+            remaining=remaining,
+            open_ended=open_ended,
         )

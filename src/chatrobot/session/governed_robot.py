@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
+from chatrobot.core.governed import GovernedTwist
 from chatrobot.core.reason import Reason
 from chatrobot.execution.executor import RAMP_RULES
 from chatrobot.execution.health import freshness, sensor_fault, silence
@@ -61,11 +62,19 @@ class GovernedRobot:
 
     def send(self, verdict: Verdict) -> None:
         """Send what was allowed, unless a stop came since."""
-        self._transport.send(verdict.sent)
+        self._send(verdict.sent)
 
     def send_zero(self, now_s: float) -> None:
         """Zero in nobody's name: it is exempt from every rule."""
-        self._transport.send(self.governor.govern(ZERO_TWIST, "", now_s).sent)
+        self._send(self.governor.govern(ZERO_TWIST, "", now_s).sent)
+
+    def _send(self, governed: GovernedTwist) -> None:
+        """What it is told counts as told from before it moves, and until after it was told to stand."""
+        if not governed.twist.is_zero:
+            self.sensors.note_sent(governed.twist)
+        self._transport.send(governed)
+        if governed.twist.is_zero:
+            self.sensors.note_sent(governed.twist)
 
     def look(self) -> None:
         """Show the governor what the lidar has seen since the last time."""

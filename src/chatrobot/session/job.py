@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from chatrobot.core.events import Finished, Outcome
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.core.reason import Reason
+from chatrobot.plan.base import Step
 from chatrobot.plan.lowering import Walk
+from chatrobot.plan.rehearsal import Rehearsal
 from chatrobot.session.approval import Approval
+from chatrobot.session.budgets import Account, Extent
 from chatrobot.session.envelope import Envelope, seconds
 from chatrobot.session.planner import Planned
 from chatrobot.session.stream import Stream
+from chatrobot.session.summed import gone_on
 
 
 @dataclass
@@ -20,7 +24,9 @@ class Job:
     """`epoch` is the stop epoch it was received in: a later stop makes it void. `start` is where it begins.
 
     `longest_s` is what the source may take: a plan that rehearsal expects to last longer is refused. `stream` holds
-    what comes after `plan_text` where the plan comes in parts.
+    what comes after `plan_text` where the plan comes in parts. `account` is what its text may drive, and has driven.
+    Where the job is the rest of a plan that was paused, `plan_start` is where the whole began and `so_far` what was
+    measured of it.
     """
 
     turn: int
@@ -35,11 +41,15 @@ class Job:
     planned: Planned | None = None
     approval: Approval | None = None
     stream: Stream | None = None
+    pauses: int | None = None
+    account: Account = field(default_factory=Account)
+    plan_start: Pose | None = None
+    so_far: Finished | None = None
 
     @classmethod
-    def of(cls, envelope: Envelope, epoch: int, now_s: float) -> Job:
+    def of(cls, envelope: Envelope, epoch: int, now_s: float, account: Account | None = None) -> Job:
         """The job that a `plan` envelope asks for."""
-        payload = envelope.payload
+        payload, account = envelope.payload, account or Account()
         longest_s = seconds(payload.get("longest_s"), math.inf)
         comes_whole = payload.get("approve") or payload.get("rehearse_only") or not payload.get("more")
         return cls(
@@ -51,7 +61,9 @@ class Job:
             epoch=epoch,
             received_s=now_s,
             longest_s=longest_s,
-            stream=None if comes_whole else Stream(longest_s),
+            stream=None if comes_whole else Stream(longest_s, account),
+            pauses=payload.get("pauses"),
+            account=account,
         )
 
     @property
@@ -61,7 +73,28 @@ class Job:
             return None
         if self.planned.ok and self.planned.duration_s > self.longest_s:
             return Reason("lasts_too_long", {"duration_s": self.planned.duration_s, "max_s": self.longest_s})
-        return self.planned.refusal
+        return self.planned.refusal or self.account.refusal(self.planned.certain)
+
+    @property
+    def certain(self) -> Extent:
+        """What it drives at least, as far as it is there."""
+        if self.stream is not None:
+            return self.stream.certain
+        return self.planned.certain if self.planned is not None else Extent()
+
+    @property
+    def length_m(self) -> float:
+        """Of the whole way, as it was rehearsed."""
+        if self.stream is not None:
+            return self.stream.length_m
+        return self.planned.length_m if self.planned is not None else 0.0
+
+    @property
+    def is_open_ended(self) -> bool:
+        """The whole way is not known."""
+        if self.stream is not None:
+            return self.stream.is_open_ended
+        return self.planned is not None and self.planned.is_open_ended
 
     def take(self, planned: Planned) -> Reason | None:
         """What it begins with, rehearsed; why it may not run."""
@@ -75,6 +108,45 @@ class Job:
         assert self.planned is not None
         return self.planned.walk()
 
+    @property
+    def rehearsal(self) -> Rehearsal | None:
+        """Of what it begins with."""
+        return self.planned.rehearsal if self.planned is not None else None
+
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """What was accepted to be driven."""
+        if self.stream is not None:
+            return self.stream.accepted
+        return self.rehearsal.plan.steps if self.rehearsal is not None else ()
+
     def unmoved(self, outcome: Outcome, reason: Reason | None, pose: Pose) -> Finished:
         """Its end where nothing moved."""
-        return Finished(self.turn, outcome, reason, pose, pose, 0.0, 0.0, 0.0, 0.0)
+        remaining = self.unread if outcome == "stopped" and not self.rehearse_only else ""
+        is_blocked = outcome == "refused" and self.planned is not None and reason == self.planned.refusal
+        possible = self.planned.possible if is_blocked and self.planned is not None else ""
+        return self.whole(
+            Finished(
+                self.turn,
+                outcome,
+                reason,
+                pose,
+                pose,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+                possible=possible,
+                remaining=remaining,
+            )
+        )
+
+    def whole(self, finished: Finished) -> Finished:
+        """Its end, together with what was done before it was paused."""
+        return gone_on(self.so_far, finished) if self.so_far is not None else finished
+
+    @property
+    def unread(self) -> str:
+        """All the plan text that came."""
+        parts = self.stream.waiting if self.stream is not None else ()
+        return "\n".join(part.strip("\n") for part in (self.plan_text, *parts))

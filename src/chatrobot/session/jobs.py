@@ -5,17 +5,20 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from chatrobot.core.clock import Clock
-from chatrobot.core.events import Event, Notice, Outcome
+from chatrobot.core.events import Event, Finished, Notice, Outcome
 from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import Priority
 from chatrobot.session.approval import Approval
+from chatrobot.session.budgets import Budgets
 from chatrobot.session.driver import Driver
+from chatrobot.session.ends import Ends
 from chatrobot.session.envelope import Envelope
 from chatrobot.session.governed_robot import GovernedRobot
 from chatrobot.session.inbox import Inbox
 from chatrobot.session.intake import Intake
 from chatrobot.session.job import Job
-from chatrobot.session.planner import Planned, Planner
+from chatrobot.session.paused import PausedJob, Pausing
+from chatrobot.session.planner import Planned, Planner, refused
 from chatrobot.session.program_box import ProgramBox
 from chatrobot.session.program_job import ProgramJob, job_of, needs_approval
 from chatrobot.session.stops import Stops
@@ -35,12 +38,17 @@ class Jobs:
         driver: Driver,
         planner: Planner,
         programs: ProgramBox,
+        budgets: Budgets,
         stops: Stops,
         inbox: Inbox,
         clock: Clock,
+        pausing: Pausing,
+        ends: Ends,
         emit: Callable[[Event], None],
     ) -> None:
         self._robot = robot
+        self._ends = ends
+        self._budgets = budgets
         self._intake = intake
         self._driver = driver
         self._planner = planner
@@ -49,6 +57,7 @@ class Jobs:
         self._inbox = inbox
         self._clock = clock
         self._emit = emit
+        self._pausing = pausing
         self._preparing: Job | None = None
 
     @property
@@ -58,15 +67,22 @@ class Jobs:
 
     @property
     def are_done(self) -> bool:
-        """Nothing is prepared, driven or queued."""
-        return self.current is None and not self._intake.jobs
+        """Nothing is prepared, driven, paused or queued."""
+        return self._pausing.job is None and self.current is None and not self._intake.jobs
+
+    @property
+    def let_others_drive(self) -> bool:
+        """Nothing is done before others; what is paused is dropped for them."""
+        return self.are_done or self._pausing.job is not None
 
     def is_engaged(self, lease: str) -> bool:
-        """Something is prepared, driven or queued in that lease's name."""
-        current = self.current
-        return (current is not None and current.lease == lease) or any(
-            job.lease == lease for job in self._intake.jobs
-        )
+        """Something is prepared, driven, paused or queued in that lease's name."""
+        return any(job.lease == lease for job in self._all())
+
+    def _all(self) -> list[Job]:
+        """What moves the robot, or may: one that is prepared, driven or paused, and then the queue."""
+        first = (self.current, self._pausing.job)
+        return [*(job for job in first if job is not None), *self._intake.jobs]
 
     # --- accepted ---
 
@@ -76,17 +92,24 @@ class Jobs:
         if mode == "extend":
             self._extend(envelope)
             return
-        job = job_of(envelope, epoch, self._clock.now_s())
+        account = self._budgets.account_of(envelope.source, envelope.lease, envelope.turn)
+        job = job_of(envelope, epoch, self._clock.now_s(), account)
+        if self._intake.is_void(job, self._stops.count):
+            self._finish(job, "stopped", self._stops.last_reason)
+            return
+        self._drop_paused_for(job, mode)
         declined = self._give_way(job)
         if declined is None and mode == "replace":
             self._replace(Reason("replaced"))
-        declined = declined or self._intake.add(job, self._stops.count)
+        declined = declined or self._intake.add(job)
         if declined is not None:
-            self._finish(job, "stopped" if declined.code == "stopped" else "refused", declined)
+            self._finish(job, "refused", declined)
 
-    def void(self, envelope: Envelope, epoch: int, why: Reason) -> None:
-        """It was overtaken by a later word, most likely a stop: its turn ends here."""
-        self._finish(Job.of(envelope, epoch, self._clock.now_s()), "stopped", why)
+    def void(self, envelope: Envelope, epoch: int) -> None:
+        """A later word came before it, a stop or another: its turn ends here."""
+        job = Job.of(envelope, epoch, self._clock.now_s())
+        is_stopped = self._intake.is_void(job, self._stops.count)
+        self._finish(job, "stopped", self._stops.last_reason if is_stopped else Reason("overtaken"))
 
     def refuse(self, envelope: Envelope, epoch: int, why: Reason) -> None:
         """Its source may not ask for anything."""
@@ -102,14 +125,17 @@ class Jobs:
                 return Reason("outranked", {"source": leases.source_of(other.lease)})
         lower = [other for other in before if leases.priority_of(other.lease) < priority]
         if lower:
-            names = {"source": leases.source_of(lower[0].lease), "to": leases.source_of(job.lease)}
-            handed_over = Reason("handed_over", names)
+            handed_over = self._handed_over(lower[0], job)
             self._emit(Notice(job.turn, handed_over))
             for waiting in self._intake.take(lower):
                 self._finish(waiting, "stopped", handed_over)
             if lower[0] is current:
                 self._end_current_gently(handed_over)
         return None
+
+    def _handed_over(self, job: Job, to: Job) -> Reason:
+        source_of = self._robot.governor.leases.source_of
+        return Reason("handed_over", {"source": source_of(job.lease), "to": source_of(to.lease)})
 
     def _replace(self, why: Reason) -> None:
         """New motion takes the place of the old, after a controlled stop; what was queued is dropped."""
@@ -126,15 +152,21 @@ class Jobs:
     def begin_next(self, now_s: float) -> None:
         """Prepare the next in the queue, if nothing is prepared or driven."""
         jobs = self._intake.jobs
-        if self.current is not None or not jobs or self._is_waiting_for_odometry(jobs[0], now_s):
+        if self.current is not None or not jobs:
+            return
+        if self._pausing.job is not None and not jobs[0].rehearse_only:
+            return  # it waits behind what is paused
+        if self._is_waiting_for_odometry(jobs[0], now_s):
             return
         self._preparing = job = jobs.popleft()
         job.start = self._robot.pose
 
+        seen_points = self._robot.governor.seen_points
+
         def rehearse() -> Planned:
             if isinstance(job, ProgramJob):
                 return self._programs.rehearse(job, self._planner)
-            return self._planner.plan(job.turn, job.plan_text, job.start)
+            return self._planner.plan(job.turn, job.plan_text, job.start, job.plan_start, seen_points)
 
         self._inbox.fetch(rehearse, lambda planned: self._take_rehearsed(job, planned))
 
@@ -153,8 +185,11 @@ class Jobs:
             return  # stopped or replaced meanwhile; its end has been told
         refusal = job.take(planned)
         asks = needs_approval(job, planned)
+        notice = job.account.notice(planned.is_endless)
+        if refusal is None and notice is not None:
+            self._emit(Notice(job.turn, notice))
         for event in planned.events(asks):
-            self._emit(event)
+            self._emit(refused(event, refusal))
         if refusal is not None:
             self._drop_prepared("refused", refusal)
         elif job.rehearse_only:
@@ -173,8 +208,7 @@ class Jobs:
 
     def _extend(self, envelope: Envelope) -> None:
         """The next part of a plan that came with `more`; worth nothing once that plan has ended."""
-        current = self.current
-        for job in (*((current,) if current is not None else ()), *self._intake.jobs):
+        for job in self._all():
             if job.stream is not None and (job.turn, job.lease) == (envelope.turn, envelope.lease):
                 job.stream.add(str(envelope.payload.get("plan_text", "")), bool(envelope.payload.get("more")))
                 self._rehearse_part(job)
@@ -187,19 +221,55 @@ class Jobs:
             return
         plan_text, start = stream.take(), stream.walk.end
         if plan_text is not None:
-            text = plan_text
+            text, seen_points = plan_text, self._robot.governor.seen_points
             self._inbox.fetch(
-                lambda: self._planner.plan(job.turn, text, start, job.start),
+                lambda: self._planner.plan(job.turn, text, start, job.plan_start or job.start, seen_points),
                 lambda planned: self._take_part(job, stream, planned),
             )
 
     def _take_part(self, job: Job, stream: Stream, planned: Planned) -> None:
         if not self._driver.drives(job):
             return
-        self._emit(planned.part_event(stream.steps))
-        if stream.accept(planned) is None:
+        part = planned.part_event(stream.steps)
+        refusal = stream.accept(planned)
+        self._emit(refused(part, refusal))
+        if refusal is None:
             self._driver.expect(stream.duration_s)
         self._rehearse_part(job)
+
+    # --- paused ---
+
+    def pause(self, why: Reason, now_s: float) -> None:
+        """The robot has been stopped by a word that keeps what was under way; what cannot be kept has ended."""
+        job = self.current
+        if job is None and self._pausing.job is not None:
+            return  # it waits already
+        measure = self._break_off(job, why) if job is not None else None
+        if job is None or measure is None:
+            is_program = isinstance(job, ProgramJob)
+            self.end_stopped(Reason("program_not_paused") if is_program else why)
+        else:
+            self._pausing.begin(PausedJob(job, measure, now_s))
+
+    def _break_off(self, job: Job, why: Reason) -> Callable[[], Finished] | None:
+        """What tells how far it has come; None for what nobody could go on with."""
+        is_foreign = self._robot.governor.leases.priority_of(job.lease) <= Priority.FOREIGN
+        if isinstance(job, ProgramJob) or job.rehearse_only or is_foreign:
+            return None
+        if self._preparing is None:
+            return self._driver.break_off(why)
+        self._preparing = None
+        return lambda: job.unmoved("stopped", why, self._robot.pose)
+
+    def _drop_paused_for(self, job: Job, mode: object) -> None:
+        """Another instruction takes its place, but for one of the same source that is to come after it."""
+        paused = self._pausing.job
+        if paused is None or job.rehearse_only:
+            return
+        if job.lease != paused.lease:
+            self._pausing.drop(self._handed_over(paused, job))
+        elif mode == "replace":
+            self._pausing.drop(Reason("replaced"))
 
     # --- approved ---
 
@@ -217,6 +287,8 @@ class Jobs:
             self._drop_prepared("refused", lapse or Reason("not_approved"))
         else:
             job.approval = None
+            if not is_a_persons:
+                job.account.renew()  # a person has ordered it
             self._launch(job)
 
     def expire_approval(self, now_s: float) -> None:
@@ -229,15 +301,16 @@ class Jobs:
     # --- ended, before anything moved ---
 
     def end_stopped(self, why: Reason) -> None:
-        """The robot has been stopped: end what was driven, prepared, or queued before the stop."""
+        """The robot has been stopped: end what was driven, prepared, paused, or queued before the stop."""
         self._driver.end_stopped(why)
+        self._pausing.end(why)
         self._drop_prepared("stopped", why)
         for job in self._intake.take_void(self._stops.count):
             self._finish(job, "stopped", why)
 
     def hand_over(self, to: str) -> None:
         """Somebody of higher priority takes the wheel: what was driven, prepared or queued ends, and it is told."""
-        jobs = [*([self.current] if self.current is not None else []), *self._intake.jobs]
+        jobs = self._all()
         if not jobs:
             return
         why = Reason(
@@ -245,6 +318,7 @@ class Jobs:
         )
         self._emit(Notice(jobs[0].turn, why))
         self._driver.end_stopped(why)
+        self._pausing.end(why)
         self._drop_prepared("stopped", why)
         for job in self._intake.take_all():
             self._finish(job, "stopped", why)
@@ -252,6 +326,7 @@ class Jobs:
     def fail_all(self, why: Reason) -> None:
         """The way to the robot is gone for good: all that was asked for has failed."""
         self._driver.fail(why)
+        self._pausing.end(why)
         self._drop_prepared("failed", why)
         for job in self._intake.take_all():
             self._finish(job, "failed", why)
@@ -267,4 +342,4 @@ class Jobs:
             self._finish(job, outcome, reason)
 
     def _finish(self, job: Job, outcome: Outcome, reason: Reason | None) -> None:
-        self._emit(job.unmoved(outcome, reason, self._robot.pose))
+        self._ends.tell(lambda: job.unmoved(outcome, reason, self._robot.pose))

@@ -6,16 +6,18 @@ import itertools
 import uuid
 from collections import deque
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.events import Event
-from chatrobot.governor.governor import TICK_S
+from chatrobot.governor.tick import TICK_S
 from chatrobot.session.envelope import Envelope, Word
 from chatrobot.session.guard_link import SimulatedGuard
-from chatrobot.session.motion import Motion
 from chatrobot.transports.transport import ZERO
 from chatrobot.wire.wire import Wire
+
+if TYPE_CHECKING:
+    from chatrobot.session.motion import Motion
 
 
 class Joint(Protocol):
@@ -130,6 +132,12 @@ class SimulatedJoint:
             self._guard_wire.publish(self._cmd_vel_topic, ZERO)
         self._clock.advance(TICK_S)
         self._advance(TICK_S)
+
+    def live(self, duration_s: float) -> None:
+        """Let time pass; what is told meanwhile, nobody hears."""
+        until_s = self._clock.now_s() + duration_s
+        while (left_s := until_s - self._clock.now_s()) > TICK_S / 2.0:
+            self.next_event(left_s)
 
     def abandon(self) -> None:
         self.beats = False

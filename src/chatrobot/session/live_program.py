@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Sequence
 
 from chatrobot.core.reason import Reason
-from chatrobot.governor.governor import TICK_S
+from chatrobot.governor.tick import TICK_S
 from chatrobot.programs.boxed import BoxedProgram
 from chatrobot.programs.events import ENDS, AsksTime, Beat, Died, Listens, ProgramEvent
 from chatrobot.session.program_senses import Senses, stamped

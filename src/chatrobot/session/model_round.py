@@ -80,7 +80,7 @@ class ModelRound:
         """Motion has told the end of its run."""
         self.run = finished
         if finished.outcome != "completed":
-            self.run_problem = finished.reason or Reason("stopped")
+            self.run_problem = finished.reason or Reason("cause_unknown")
 
     def forget_what_is_done(self) -> None:
         """A correction that begins with all that is done already is the whole plan once more: that part is left out."""

@@ -73,23 +73,3 @@ def told(problem: Reason) -> str:
         return str(problem.values.get("problem", ""))
     values = ", ".join(f"{name} {value}" for name, value in problem.values.items() if name != "model")
     return f"{problem.code}: {values}" if values else problem.code
-
-
-def summed(total: Finished, run: Finished) -> Finished:
-    """Two runs of one turn as one."""
-    return Finished(
-        run.turn,
-        run.outcome,
-        run.reason,
-        total.start,
-        run.pose,
-        turned_rad=total.turned_rad + run.turned_rad,
-        path_m=total.path_m + run.path_m,
-        duration_s=total.duration_s + run.duration_s,
-        paused_s=total.paused_s + run.paused_s,
-        planned_m=total.planned_m + run.planned_m,
-        planned_turn_rad=total.planned_turn_rad + run.planned_turn_rad,
-        steps_done=total.steps_done + run.steps_done,
-        steps=total.steps + run.steps,
-        measured=total.measured and run.measured,
-    )

@@ -26,15 +26,17 @@ from chatrobot.models.seam import Message, Model
 from chatrobot.plan.base import Step
 from chatrobot.plan.primitives.say import Say
 from chatrobot.plan.text import format_step
+from chatrobot.session.budgets import EXCEEDED
 from chatrobot.session.model_call import CallEnd
 from chatrobot.session.model_look import ModelLook
 from chatrobot.session.model_round import ModelRound
-from chatrobot.session.model_terms import Ended, ModelOptions, Surroundings, summed, told
+from chatrobot.session.model_terms import Ended, ModelOptions, Surroundings, told
 from chatrobot.session.observations import without_pictures
 from chatrobot.session.plan_feed import PlanFeed
 from chatrobot.session.prompt import correction
 from chatrobot.session.quoting import one_line
 from chatrobot.session.spending import Spending
+from chatrobot.session.summed import summed
 from chatrobot.session.tutorial_mode import is_short_form
 
 if TYPE_CHECKING:
@@ -73,6 +75,7 @@ class ModelTurn:
         emit: Callable[[Event], None],
         mode: Literal["queue", "replace", "append"],
         *,
+        pauses: Callable[[], int],
         approve: bool = False,
         frees_form: bool = False,
         rehearse_only: bool = False,
@@ -91,7 +94,9 @@ class ModelTurn:
         self._rehearse_only = rehearse_only
         self._only_talks = only_talks
         self._spending = Spending(options)
-        self._feed = PlanFeed(turn, joint, emit, mode, approve=approve, rehearse_only=rehearse_only)
+        self._feed = PlanFeed(
+            turn, joint, emit, mode, approve=approve, rehearse_only=rehearse_only, pauses=pauses
+        )
         self._cancelled: Reason | None = None
         self._look: ModelLook | None = None
         self._total: Finished | None = None
@@ -243,15 +248,16 @@ class ModelTurn:
         """The call has ended, and so has its run, if there was one."""
         current, run = self._round, self._round.run
         self._all_done = (*self._all_done, *current.steps_done())
-        if self._cancelled is not None:
-            why = run.reason if run is not None and run.outcome == "stopped" else None
-            self._conclude("stopped", why or self._cancelled)
-        elif run is not None and run.outcome in ("stopped", "failed"):
+        if run is not None and run.outcome in ("stopped", "failed"):
             self._conclude(run.outcome, run.reason)
+        elif self._cancelled is not None:
+            self._conclude("stopped", self._cancelled)
         elif run is not None and run.outcome == "refused":
-            refused = current.run_problem or Reason("not_approved")
+            refused = current.run_problem or Reason("cause_unknown")
             is_the_plans = current.is_plan_refused or refused.code in PLAN_REFUSED
-            self._retry("refused", refused) if is_the_plans else self._conclude("refused", refused)
+            # A shorter plan than the person asked for is no correction.
+            may_retry = is_the_plans and refused.code not in EXCEEDED
+            self._retry("refused", refused) if may_retry else self._conclude("refused", refused)
         elif self._only_talks:
             self._end_talk()
         elif (problem := current.problem) is not None:
@@ -267,10 +273,8 @@ class ModelTurn:
     def _end_talk(self) -> None:
         """It was only to take note of something."""
         end = self._round.call_end
-        if end is not None and end.problem is not None:
-            self._conclude("failed", end.problem)
-        else:
-            self._conclude("answered", None)
+        problem = end.problem if end is not None else None
+        self._conclude("answered" if problem is None else "failed", problem)
 
     def _end_with(self, problem: Reason) -> None:
         """The reply could not be used, or only up to a line."""

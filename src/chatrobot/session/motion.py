@@ -18,8 +18,10 @@ from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
 from chatrobot.governor.priority import RELEASERS, Priority, priority_of
 from chatrobot.robots.profile import RobotProfile
+from chatrobot.session.budgets import Budgets
 from chatrobot.session.clearance import Clearance
 from chatrobot.session.driver import Driver
+from chatrobot.session.ends import Ends
 from chatrobot.session.envelope import Envelope
 from chatrobot.session.freeze import FreezeWatch
 from chatrobot.session.governed_robot import GovernedRobot
@@ -27,12 +29,13 @@ from chatrobot.session.guard_link import GuardLink
 from chatrobot.session.inbox import Inbox
 from chatrobot.session.intake import Intake
 from chatrobot.session.jobs import Jobs
+from chatrobot.session.paused import Pausing
 from chatrobot.session.planner import Planner
 from chatrobot.session.program_box import NoBox, ProgramBox
 from chatrobot.session.relay import Relay
 from chatrobot.session.sectors import sectors_m
 from chatrobot.session.sources import Sources
-from chatrobot.session.stops import Stops
+from chatrobot.session.stops import PAUSED, Stops
 from chatrobot.session.telling import Telling
 from chatrobot.session.zeroing import Zeroing
 from chatrobot.transports.transport import WireTransport
@@ -70,7 +73,7 @@ class Motion:
         self._clock = clock
         self._guard = guard
         self._emit = emit
-        self._programs = programs or NoBox()
+        self._programs = programs = programs or NoBox()
         epoch = StopEpoch()
         transport = WireTransport(wire, profile.wiring, epoch)
         self._governor = Governor(profile, epoch, planner.allowed_area, releasers)
@@ -84,11 +87,32 @@ class Motion:
             self._governor.leases, lambda lease: self._jobs.is_engaged(lease), self._intake.forget
         )
         self._inbox = Inbox(background)
-        self._driver = Driver(robot, self.clearance, self._stops, self._programs, self._inbox, clock, emit)
+        self._ends = ends = Ends(emit)
+        stops, inbox = self._stops, self._inbox
+        self._driver = Driver(robot, self.clearance, stops, programs, inbox, clock, ends, emit)
+        self._pausing = pausing = Pausing(robot, self._intake, self.clearance, stops, clock, ends, emit)
+        self._budgets = Budgets(profile.safety.budget)
         self._jobs = Jobs(
-            robot, self._intake, self._driver, planner, self._programs, self._stops, self._inbox, clock, emit
+            robot,
+            self._intake,
+            self._driver,
+            planner,
+            programs,
+            self._budgets,
+            stops,
+            inbox,
+            clock,
+            pausing,
+            ends,
+            emit,
         )
-        self._relay = Relay(clock, robot, self.see_it_stand, self._notice)
+        self._relay = Relay(
+            clock,
+            robot,
+            self.see_it_stand,
+            self._notice,
+            takes_over=lambda: pausing.drop(Reason("other_drove", {"source": RELAY_TOPIC})),
+        )
         self._joystick = Relay(
             clock,
             robot,
@@ -121,13 +145,20 @@ class Motion:
             self._emergency = envelope
             self._governor.latch(envelope.source, str(envelope.payload.get("why", "")))
         if envelope.word in ("stop", "emergency_stop"):
-            why = str(envelope.payload.get("why", ""))
-            self._intake.void_turn(envelope.lease, envelope.turn)
-            self.halt(Reason("stopped_by", {"source": envelope.source, "why": why}))
+            self._heed_stop(envelope)
         # What was said before a stop must not run after it, however late it is handled.
         epoch = self._stops.count if said_in is None else said_in
         emergency = self._emergency
         self.post(lambda: self._handle(envelope, epoch, emergency))
+
+    def _heed_stop(self, envelope: Envelope) -> None:
+        keeps = envelope.word == "stop" and envelope.payload.get("keep") is True
+        if keeps:
+            self._intake.pause(envelope.lease)
+        else:
+            self._intake.void_turn(envelope.lease, envelope.turn)
+        about = {"source": envelope.source, "why": str(envelope.payload.get("why", ""))}
+        self.halt(Reason(PAUSED if keeps else "stopped_by", about))
 
     def lose(self, lease: str) -> None:
         """The source behind `lease` is gone without a goodbye: a loss, and it stops."""
@@ -148,7 +179,8 @@ class Motion:
     def is_busy(self) -> bool:
         """True while anything is moving, queued, being rehearsed, awaited or zeroed."""
         is_zeroed = self.zeroing.is_active and self.zeroing.disobeyed is None
-        return not self._jobs.are_done or bool(self._inbox) or self._stops.is_unbooked or is_zeroed
+        is_ending = is_zeroed or not self._ends.are_told
+        return not self._jobs.are_done or bool(self._inbox) or self._stops.is_unbooked or is_ending
 
     @property
     def has_work(self) -> bool:
@@ -202,6 +234,9 @@ class Motion:
         self._jobs.expire_approval(now_s)
         if not self._driver.is_driving:
             self.zeroing.tick(now_s)
+        if not self.zeroing.is_watched:
+            self._ends.tell_all()
+        self._pausing.watch(now_s, is_standing=not self.zeroing.is_watched)
         self._relay.tick(now_s, self._is_free)
         self._begin_next(now_s)
         self._guard.beat()  # after the velocity: it wakes the guard, which may take this processor
@@ -211,7 +246,10 @@ class Motion:
         """A stop has gone out, from whatever thread: end what ran and what waited, then see the robot stand."""
         why = self._stops.book()
         if why is not None:
-            self._jobs.end_stopped(why)
+            if why.code == PAUSED:
+                self._jobs.pause(why, self._clock.now_s())
+            else:
+                self._jobs.end_stopped(why)
             self._relay.stop()
             self._joystick.stop()
 
@@ -223,7 +261,7 @@ class Motion:
 
     def _is_free(self) -> bool:
         """Nothing of ours drives, waits or stops the robot, and nothing keeps it from moving."""
-        return self._jobs.are_done and not self._joystick.is_driving and self._is_clear()
+        return self._jobs.let_others_drive and not self._joystick.is_driving and self._is_clear()
 
     def _is_clear(self) -> bool:
         """Nothing stops the robot, and nothing keeps it from moving."""
@@ -244,7 +282,7 @@ class Motion:
         self._sources.note(envelope.lease, now_s)
         if self._intake.is_old(envelope):
             if envelope.word in ("plan", "program"):
-                self._jobs.void(envelope, epoch, self._stops.last_reason)
+                self._jobs.void(envelope, epoch)
             return
         self._sources.hear(envelope, now_s)
         if envelope.word in ("plan", "program"):
@@ -252,13 +290,20 @@ class Motion:
             self._begin_next(now_s)
         elif envelope.word == "look":
             self._emit(Looked(envelope.turn, sectors_m(self._profile, self.sensors.scan)))
+        elif envelope.word == "resume":
+            self._pausing.resume(envelope)
+            self._begin_next(now_s)
         elif envelope.word == "approve":
             if priority_of(envelope.source) >= Priority.PLAN:  # a person's word, not an agent's
                 self._jobs.approve(envelope)
         elif envelope.word == "release":
             self._release(envelope, emergency)
+        elif envelope.word == "limit":
+            for reason in self._budgets.change(envelope.source, envelope.payload):
+                self._emit(Notice(envelope.turn, reason))
         elif envelope.word == "goodbye":
             self._sources.leave(envelope.lease)
+            self._pausing.drop(Reason("source_left", {"source": envelope.source}), envelope.lease)
 
     def _accept(self, envelope: Envelope, epoch: int) -> None:
         if self._sources.has_left(envelope.lease):

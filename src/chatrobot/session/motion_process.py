@@ -1,4 +1,5 @@
-"""Motion's process under a console: `python -m chatrobot.session.motion_process --profile … --world … --wire … --fd N`.
+"""Motion's process under a console: `python -m chatrobot.session.motion_process --profile … --world … --wire …
+--max-distance … --max-time … --fd N`.
 
 Envelopes come over an inherited socket, and events go back over it; `MotionRunner` does the rest.
 """
@@ -14,6 +15,7 @@ from collections import deque
 
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Telemetry
+from chatrobot.core.motion_budget import MotionBudget, read_limit_text
 from chatrobot.session.envelope import READY, Envelope
 from chatrobot.session.motion_runner import MotionRunner
 from chatrobot.wire.local import PACKET_BYTES
@@ -81,7 +83,10 @@ def main(arguments: list[str]) -> int:
     line = socket.socket(fileno=int(options["--fd"]))
     outbox = Outbox(line)
     try:
-        runner = MotionRunner(options["--wire"], options["--profile"], options["--world"], outbox.put)
+        budget = MotionBudget(*(read_limit_text(options[name]) for name in ("--max-distance", "--max-time")))
+        runner = MotionRunner(
+            options["--wire"], options["--profile"], options["--world"], outbox.put, budget=budget
+        )
         threading.Thread(target=SocketReader(line, runner).run, name="joint", daemon=True).start()
         line.send(READY)
         runner.run(lambda: runner.motion.has_left, outbox.flush)

@@ -19,12 +19,13 @@ from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Notice
 from chatrobot.core.memory_pressure import MOTION, prefer
+from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.core.reason import Reason
 from chatrobot.core.scheduling import wake_promptly
 from chatrobot.core.wiring import Wiring
-from chatrobot.governor.governor import TICK_S
 from chatrobot.governor.priority import RELEASERS
-from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
+from chatrobot.governor.tick import TICK_S
+from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
@@ -37,6 +38,7 @@ from chatrobot.session.planner import Planner
 from chatrobot.session.program_host import ProgramHost
 from chatrobot.session.rivals import BEAT_S, Rivals
 from chatrobot.session.stop_socket import remove_stop_socket, serve_stop
+from chatrobot.session.stops import PAUSED
 from chatrobot.session.topics import STOP, USER_INPUT
 from chatrobot.sim.load import load_world
 from chatrobot.wire.connect import Connect, Knowing, clock_of, connect_wire, is_on_this_machine, resolved
@@ -60,6 +62,7 @@ class MotionRunner:
         accept_others: drive though another Motion is on the same robot.
         on_robot: no network lies between this machine and the base, whatever the address looks like.
         releasers: the sources that may release an emergency stop.
+        budget: the motion budget as the command line chose it; what it leaves open the profile chooses.
         connect: how our end of the wire is made; the guard has one of its own, at `address`.
 
     Raises:
@@ -78,12 +81,13 @@ class MotionRunner:
         accept_others: bool = False,
         on_robot: bool = False,
         releasers: Collection[str] = RELEASERS,
+        budget: MotionBudget = NOT_CHOSEN,
         connect: Connect = connect_wire,
     ) -> None:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         prefer(MOTION)
         wake_promptly()
-        given, known_world = load_profile(profile), load_world(world)
+        given, known_world = load_profile(profile).with_budget(budget), load_world(world)
         self.wire, self.profile, said = _meet(connect, address, given, node, on_robot=on_robot)
         self._emit = emit
         self._wake = threading.Event()
@@ -166,9 +170,9 @@ class MotionRunner:
         self.motion.lose(lease)
         self._wake.set()
 
-    def halt(self, source: str, why: str) -> None:
-        """Stop; the zero is out before this returns."""
-        self.motion.halt(Reason("stopped_by", {"source": source, "why": why}))
+    def halt(self, source: str, why: str, *, keep: bool = False) -> None:
+        """Stop; the zero is out before this returns. `keep`: it is a pause."""
+        self.motion.halt(Reason(PAUSED if keep else "stopped_by", {"source": source, "why": why}))
         self._wake.set()
 
     def notice(self, reason: Reason) -> None:
@@ -195,7 +199,7 @@ class MotionRunner:
                 Envelope("emergency_stop", USER_INPUT, USER_INPUT, time.monotonic_ns(), 0, {"why": text})
             )
         elif leads_with_stop(text) if self.motion.is_busy else is_stop(text):
-            self.halt(USER_INPUT, text[:80])
+            self.halt(USER_INPUT, text[:80], keep=is_pause(text))
 
     def _hear_stop(self, message: Flag) -> None:
         if message.data:

@@ -68,10 +68,8 @@ def measured(finished: Finished) -> str:
     """What odometry shows, in numbers."""
     if not finished.measured:
         return "nobody knows how far, this robot does not measure its motion"
-    return (
-        f"drove {finished.path_m:.2f} m of {finished.planned_m:.2f} m, "
-        f"turned {math.degrees(finished.turned_rad):.0f} deg"
-    )
+    of_all = "" if finished.open_ended else f" of {finished.planned_m:.2f} m"
+    return f"drove {finished.path_m:.2f} m{of_all}, turned {math.degrees(finished.turned_rad):.0f} deg"
 
 
 def scan_line(looked: Looked | None) -> str:

@@ -19,6 +19,7 @@ class PlanFeed:
 
     Args:
         mode: what the first plan does to one that is under way; those after it go on where it ended.
+        pauses: how many there were by now; a plan that was begun before the last one is not driven.
     """
 
     def __init__(
@@ -30,7 +31,9 @@ class PlanFeed:
         *,
         approve: bool,
         rehearse_only: bool,
+        pauses: Callable[[], int],
     ) -> None:
+        self._pauses = pauses
         self._turn = turn
         self._joint = joint
         self._emit = emit
@@ -49,6 +52,7 @@ class PlanFeed:
     def begin(self, *, streams: bool) -> None:
         """Another plan; `streams`: its steps go to Motion as they come."""
         self._streams = streams
+        self._pauses_before = self._pauses()
         self._held: list[Step] = []
         self.is_open = self._is_closed = False
 
@@ -96,5 +100,6 @@ class PlanFeed:
             more=more,
             approve=self._approve and not unasked,
             rehearse_only=self._rehearse_only,
+            pauses=self._pauses_before,
         )
         self._mode = "queue"  # what comes later in this turn goes on after it

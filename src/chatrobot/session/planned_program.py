@@ -9,7 +9,7 @@ from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.plan.findings import Finding
 from chatrobot.programs.events import Died, Ended, Log, Raised
-from chatrobot.session.planner import Planned, drawn
+from chatrobot.session.planner import Planned, drawn, driving_s
 from chatrobot.session.program_rehearsal import ProgramRehearsal
 
 LOG_LINES = 50
@@ -33,6 +33,15 @@ class PlannedProgram(Planned):
     def refusal(self) -> Reason | None:
         found = self._shown.refusal or (self._to_mend if self.strict else None)
         return found.reason if found is not None else None
+
+    @property
+    def _driving_s(self) -> float:
+        return driving_s(self._shown.path)
+
+    @property
+    def is_endless(self) -> bool:
+        end = self._shown.end
+        return isinstance(end, Ended) and end.how in ("horizon", "stuck")
 
     @property
     def has_findings(self) -> bool:
@@ -76,6 +85,7 @@ class PlannedProgram(Planned):
             findings,
             drawn(shown.path),
             needs_approval,
+            self.is_open_ended,
         )
 
     @property

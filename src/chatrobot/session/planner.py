@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Event, FindingSeen, Rehearsed
 from chatrobot.core.geometry import Pose
@@ -14,8 +16,10 @@ from chatrobot.plan.known_world import Floats
 from chatrobot.plan.lowering import CoreWalk
 from chatrobot.plan.rehearsal import Rehearsal, rehearse
 from chatrobot.plan.route import GridRoutePlanner
-from chatrobot.plan.text import parse_plan
+from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.robots.profile import Point, RobotProfile
+from chatrobot.session.budgets import Extent
+from chatrobot.session.seen_world import SeenPoints
 from chatrobot.sim.world import World
 
 DRAWN_POINTS = 400
@@ -42,12 +46,48 @@ class Planned:
         return self.rehearsal.refusal.reason if self.rehearsal.refusal is not None else None
 
     @property
+    def possible(self) -> str:
+        """Plan text of what can be done of it if it is refused; empty where nothing is worth a question."""
+        possible = self.rehearsal.possible if self.rehearsal is not None else None
+        return format_plan(possible) if possible is not None else ""
+
+    @property
     def duration_s(self) -> float:
         return self.rehearsal.duration_s if self.rehearsal is not None else 0.0
 
     @property
     def length_m(self) -> float:
         return self.rehearsal.length_m if self.rehearsal is not None else 0.0
+
+    @property
+    def is_endless(self) -> bool:
+        """It does not end by itself."""
+        return False
+
+    @property
+    def is_open_ended(self) -> bool:
+        """Nobody knows before how far and how long it drives: its length and duration are those of its rehearsal."""
+        return self.is_endless or bool(self._unknown_lengths_m)
+
+    @property
+    def certain(self) -> Extent:
+        """What it drives at least."""
+        if self.is_endless:
+            return Extent()
+        length_m = max(0.0, self.length_m - sum(self._unknown_lengths_m))
+        return Extent(length_m, 0.0 if self.is_open_ended else self._driving_s)
+
+    @property
+    def _driving_s(self) -> float:
+        """How long it drives, without its waits."""
+        return driving_s(self.rehearsal.path) if self.rehearsal is not None else 0.0
+
+    @property
+    def _unknown_lengths_m(self) -> list[float]:
+        """The longest ways up to obstacles that nobody knows of."""
+        findings = self.rehearsal.findings if self.rehearsal is not None else ()
+        reasons = (finding.reason for finding in findings if finding.reason.code == "no_obstacle_known")
+        return [float(reason.values["distance_m"]) for reason in reasons]
 
     @property
     def has_findings(self) -> bool:
@@ -87,7 +127,22 @@ class Planned:
             findings,
             drawn(rehearsal.path),
             needs_approval,
+            self.is_open_ended,
         )
+
+
+def refused(event: Event, reason: Reason | None) -> Event:
+    """The event; where it shows a plan that may not run for `reason`, it says so."""
+    if reason is None or not isinstance(event, Rehearsed) or not event.ok:
+        return event
+    found = FindingSeen(event.turn, "refuse", reason)
+    return replace(event, ok=False, findings=(*event.findings, found), needs_approval=False)
+
+
+def driving_s(path: Floats) -> float:
+    """How long the robot moves on a path whose rows ([n, 4]) begin with a time."""
+    steps = np.diff(path, axis=0)
+    return float(steps[np.any(np.abs(steps[:, 1:]) > 1e-9, axis=1), 0].sum())
 
 
 def drawn(path: Floats) -> tuple[tuple[float, float, float], ...]:
@@ -126,11 +181,19 @@ class Planner:
         """Corners, in `odom`, of where the world lets a robot be; None where it says nothing."""
         return self._world.allowed_area.points if self._world.allowed_area is not None else None
 
-    def plan(self, turn: int, plan_text: str, start: Pose, plan_start: Pose | None = None) -> Planned:
+    def plan(
+        self,
+        turn: int,
+        plan_text: str,
+        start: Pose,
+        plan_start: Pose | None = None,
+        seen_points: Floats | None = None,
+    ) -> Planned:
         """Read and rehearse `plan_text` from `start` (odom frame). Never raises for what a person or model wrote.
 
         Args:
             plan_start: where the whole began that this is a part of, if it did not begin here.
+            seen_points: [n, 2] in odom, what the governor knows of by its lidar.
         """
         try:
             plan = parse_plan(plan_text)
@@ -144,5 +207,8 @@ class Planner:
             self._kernel,
             plan_start=plan_start,
             route_planner=self._routes,
+            seen=SeenPoints(self._profile, seen_points)
+            if seen_points is not None and len(seen_points)
+            else None,
         )
         return Planned(turn, rehearsal)

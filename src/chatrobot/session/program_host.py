@@ -45,6 +45,7 @@ class ProgramHost:
                 job.start,
                 name=_file_name(job.name),
                 remaps=job.remap,
+                args=job.args,
             )
         except BoxError as error:
             return Planned(job.turn, None, error.reason)
@@ -58,6 +59,7 @@ class ProgramHost:
             topics=robot_topics(self._profile.wiring),
             odom_type=self._profile.wiring.odom_type,
             remaps=job.remap,
+            args=job.args,
             horizon_s=LATEST_S,
         )
         program = BoxedProgram(self._server, settings)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from chatrobot.session.budgets import Account
 from chatrobot.session.envelope import Envelope
 from chatrobot.session.job import Job
 from chatrobot.session.planner import Planned
@@ -20,13 +21,14 @@ class ProgramJob(Job):
     code: str = ""
     name: str = "program"
     remap: Mapping[str, str] = field(default_factory=dict)
+    args: tuple[str, ...] = ()
     ask_findings: bool = False
     strict: bool = False
 
 
-def job_of(envelope: Envelope, epoch: int, now_s: float) -> Job:
+def job_of(envelope: Envelope, epoch: int, now_s: float, account: Account) -> Job:
     """The job that a `plan` or a `program` envelope asks for."""
-    job = Job.of(envelope, epoch, now_s)
+    job = Job.of(envelope, epoch, now_s, account)
     if envelope.word != "program":
         return job
     payload = envelope.payload
@@ -38,9 +40,12 @@ def job_of(envelope: Envelope, epoch: int, now_s: float) -> Job:
         rehearse_only=job.rehearse_only,
         epoch=epoch,
         received_s=now_s,
+        pauses=job.pauses,
+        account=account,
         code=str(payload.get("code", "")),
         name=str(payload.get("name", "")) or "program",
         remap={str(name): str(to) for name, to in dict(payload.get("remap", {})).items()},
+        args=tuple(payload.get("args", ())),
         ask_findings=bool(payload.get("ask_findings")),
         strict=bool(payload.get("strict")),
     )

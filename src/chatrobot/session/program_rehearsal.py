@@ -95,7 +95,7 @@ def rehearse_program(
     name: str = "program",
     horizon_s: float = HORIZON_S,
     remaps: Mapping[str, str] | None = None,
-    params: Mapping[str, Any] | None = None,
+    args: tuple[str, ...] = (),
     wall_limit_s: float = WALL_LIMIT_S,
 ) -> ProgramRehearsal:
     """Rehearse `source` from `start` (odom frame), at most to `horizon_s` of its own time. Raises BoxError."""
@@ -104,7 +104,7 @@ def rehearse_program(
         name=name,
         topics=robot_topics(profile.wiring),
         remaps=remaps or {},
-        params=params or {},
+        args=args,
         horizon_s=horizon_s,
     )
     area = world.allowed_area.points if world.allowed_area is not None else None
@@ -143,6 +143,11 @@ def _stopped(played: Played) -> bool:
     return not played.cmd_vel or played.cmd_vel[-1][1].is_zero
 
 
+def _has_driven_and_stopped(played: Played) -> bool:
+    """What it did with the robot was done: the last velocity it asked for was a zero behind others."""
+    return _stopped(played) and any(not twist.is_zero for _, twist in played.cmd_vel)
+
+
 def _found(severity: Severity, reason_code: str, t_s: float = 0.0, **values: float | int | str) -> Finding:
     return Finding(severity, Reason(reason_code, values), t_s=t_s)
 
@@ -151,6 +156,8 @@ def _about_the_end(played: Played, horizon_s: float) -> Iterator[Finding]:
     end = played.end
     if isinstance(end, Died):
         yield Finding("refuse", end.reason, t_s=played.duration_s)
+    elif isinstance(end, Raised) and _has_driven_and_stopped(played):
+        yield Finding("warn", Reason("program_raised_at_end", raised_reason(end).values), t_s=end.t_s)
     elif isinstance(end, Raised):
         yield Finding("refuse", raised_reason(end), t_s=end.t_s)
     elif end.how == "horizon":
@@ -158,7 +165,7 @@ def _about_the_end(played: Played, horizon_s: float) -> Iterator[Finding]:
     elif end.how == "stuck":
         yield _found("warn", "program_waits_for_ever", end.t_s, horizon_s=horizon_s)
     elif end.exit_code != 0:
-        yield _found("warn", "program_exit_code", end.t_s, code=end.exit_code)
+        yield _found("warn", "program_exit_code", end.t_s, exit_code=end.exit_code)
     for attempt in played.attempts:
         yield Finding("warn" if attempt.code in _HARMLESS else "refuse", attempt, t_s=played.duration_s)
 
@@ -171,7 +178,7 @@ def _about_motion(played: Played, stage: ProgramStage) -> Iterator[Finding]:
             yield Finding("note", limited_reason(verdict), t_s=t_s)
     if not played.is_planar:
         yield _found("note", "program_not_planar")
-    if not any(not twist.is_zero for _, twist in played.cmd_vel):
+    if all(twist.is_zero for _, twist in played.cmd_vel):
         yield _found("warn", "program_moves_nothing")
     elif not _stopped(played) and not (isinstance(played.end, Ended) and played.end.how == "horizon"):
         yield _found("warn", "program_never_stops", played.duration_s)

@@ -12,8 +12,8 @@ from typing import Protocol
 from chatrobot.core.events import Event, Finished, Outcome, ProgramLog, Progress
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.reason import Reason
-from chatrobot.execution.health import STANDS_LATE_S, is_seen_moving
-from chatrobot.governor.governor import Verdict
+from chatrobot.execution.health import STANDS_LATE_S, is_seen_moving, is_seen_standing
+from chatrobot.governor.governor import TICK_S, Verdict
 from chatrobot.governor.lease import TERM_S
 from chatrobot.programs.events import Died, Ended, Log, Output, ProgramEvent, Raised, TwistAsked
 from chatrobot.programs.held_twist import HeldTwist
@@ -27,6 +27,9 @@ SETTLE_S = 1.0
 """A robot that is told to stand is waited for no longer than this, where it is not seen moving."""
 STARTING_S = 3.0
 """A program that says nothing for so long after its launch is not coming."""
+LATER_S = 1.0
+FARTHER_SHARE, FARTHER_M = 0.1, 0.1
+"""A program that lasts or drives so much more than its rehearsal does something else: its rehearsal is no measure."""
 LOG_LINES = 500
 """More of what a program logs is not told; it may go on for an hour."""
 
@@ -69,6 +72,7 @@ class ProgramRun:
         self._limits = robot.profile.limits
         self._held = HeldTwist(robot.profile.wiring.base_timeout_s)
         self._ended_s: float | None = None
+        self._ramps_down = False
         self._logged = 0
         self._told: set[tuple[str, Twist]] = set()
 
@@ -81,44 +85,51 @@ class ProgramRun:
             self._notice_silence(now_s)
             self._notice_fault()
         asked = self._held.at(now_s) if self._ended_s is None else ZERO_TWIST
-        if self.outcome == "completed":
+        if self.outcome == "completed" or self._ramps_down:
             asked = softened(asked, self._sent, self._limits, now_s - since_s)
         verdict = self._motion.send(asked, now_s)
         self._sent = verdict.sent.twist
+        over = self._motion.over_budget()
+        if over is not None:
+            self.ramp_down(over)
         self._tell(verdict)
         if self._ended_s is not None and verdict.sent.twist.is_zero:
-            estimate = self._sensors.estimate
-            standing = estimate is None or estimate.is_standing
+            standing = self._sensors.estimate is None or is_seen_standing(self._sensors)
             patience_s = STANDS_LATE_S if is_seen_moving(self._sensors) else SETTLE_S
             self.is_done = standing or now_s - self._ended_s > patience_s
 
     def ramp_down(self, why: Reason) -> None:
         """A controlled stop: the program is ended, the robot brought to stand."""
+        self._ramps_down = self._ended_s is None
         self._end("stopped", why)
 
     def close(self) -> None:
         """The program is not to run on, whatever ended this run."""
         self._program.close()
+        self._motion.close()
 
     def progress(self, now_s: float) -> Progress:
-        """By the duration that was rehearsed."""
+        """By the duration that was rehearsed; a program that goes on for longer has no share of it."""
         estimate = self._sensors.estimate
         assert estimate is not None
         assert self.job.planned is not None
-        expected_s = self.job.planned.duration_s
-        fraction = min(1.0, (now_s - self._began_s) / expected_s) if expected_s > 0.0 else 1.0
+        lasted_s, expected_s = now_s - self._began_s, self.job.planned.duration_s
+        is_known = not self.job.is_open_ended and lasted_s <= expected_s + LATER_S
+        fraction = min(1.0, lasted_s / max(expected_s, TICK_S)) if is_known else None
         return Progress(self.job.turn, 1, 1, fraction, estimate.pose, estimate.twist)
 
     def finished(self, outcome: Outcome, reason: Reason | None) -> Finished:
         """The end, as odometry measured it."""
-        planned = self.job.planned
+        planned_m = self.job.length_m
+        goes_on_m = planned_m * (1.0 + FARTHER_SHARE) + FARTHER_M
         return self._motion.finished(
             outcome,
             reason,
-            planned_m=planned.length_m if planned is not None else 0.0,
+            planned_m=planned_m,
             planned_turn_rad=self._motion.turned_rad(),  # a program promises none
             steps_done=1 if outcome == "completed" else 0,
             steps=1,
+            open_ended=self.job.is_open_ended or self._motion.path_m > goes_on_m,
         )
 
     # --- what it says ---
@@ -134,7 +145,7 @@ class ProgramRun:
                 self._log(now_s, event.stream, line)
         elif isinstance(event, Ended):
             code = event.exit_code
-            reason = Reason("program_exit_code", {"code": code}) if code else None
+            reason = Reason("program_exit_code", {"exit_code": code}) if code else None
             self._end("failed" if code else "completed", reason)
         elif isinstance(event, Raised):
             self._log(now_s, "traceback", event.traceback)

@@ -19,6 +19,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.normalise import has_chinese
 from chatrobot.language.phrases import render_reason
+from chatrobot.language.program_request import ProgramRequest
 from chatrobot.session.authoring import MOST_REPAIRS, Authoring, NotWrittenError, Rehearsal
 from chatrobot.session.draft import Draft
 from chatrobot.session.orders import Orders
@@ -28,7 +29,8 @@ from chatrobot.session.understanding import Understanding
 MENDABLE = frozenset(
     {
         "program_syntax", "program_unreadable", "program_too_long", "import_forbidden", "import_unknown",
-        "program_import", "program_forbidden", "program_raised", "program_exit_code",
+        "program_import", "program_forbidden", "program_raised", "program_raised_at_end",
+        "program_exit_code",
         "program_waits_for_ever", "program_never_stops", "program_moves_nothing", "program_not_finite",
         "program_other_topic", "program_topic_silent", "program_too_busy", "program_vanished", "limited",
         "would_collide", "leaves_area", "leaves_fence",
@@ -67,26 +69,21 @@ class ProgramTurns:
         self._emit = emit
         self._is_void_turn = is_void_turn
         self._turns: dict[int, _Turn] = {}
+        self._shown: dict[str, Draft] = {}
 
     def begin(self, turn: int, text: str, *, is_asked_for: bool = False, name: str = "") -> bool:
         """Take the turn if it is about a program; `name` is what it is to be called.
 
         Blocks while a model writes; a stop ends that.
         """
-        draft = None if is_asked_for else self.authoring.kept(text)
-        if draft is not None:
-            self.run(turn, text, draft)
-            return True
-        request = self.authoring.request(text, is_asked_for=is_asked_for)
-        if request is None:
-            return False
-        request = replace(request, name=name or request.name)
         language: LanguageCode = "zh" if has_chinese(text) else "en"
         try:
-            try:
-                draft = self.authoring.write(request, self._understanding.pose, language)
-            finally:
-                self._tell_spent(turn, 1)
+            draft = None if is_asked_for else self.authoring.kept(text, language)
+            if draft is None:
+                request = self.authoring.request(text, is_asked_for=is_asked_for)
+                if request is None:
+                    return False
+                draft = self._write(turn, replace(request, name=name or request.name), language)
         except NotWrittenError as refusal:
             self._emit(Interpreted(turn, "offline", "", refusal.reply))
             meant = Interpretation(_MEANT.get(refusal.outcome, "refused"), refusal.reply, language)
@@ -96,6 +93,12 @@ class ProgramTurns:
         self.run(turn, text, draft)
         return True
 
+    def _write(self, turn: int, request: ProgramRequest, language: LanguageCode) -> Draft:
+        try:
+            return self.authoring.write(request, self._understanding.pose, language)
+        finally:
+            self._tell_spent(turn, 1)
+
     def run(self, turn: int, text: str, draft: Draft) -> None:
         """Have Motion rehearse and run it, as soon as it can be read at all."""
         code = "program_new" if draft.is_new else "program_kept"
@@ -104,6 +107,10 @@ class ProgramTurns:
         self._turns[turn] = about = _Turn(draft)
         self._book.track(turn, text, Interpretation("plan", reply, self._understanding.language))
         self._send(turn, about)
+
+    def run_edited(self, turn: int, name: str, source: str) -> None:
+        """Have what a person made of the program of that name rehearsed, and asked about."""
+        self.run(turn, name, self.authoring.edited(self._shown[name], source))
 
     def hear(self, event: Event) -> bool:
         """Take in Motion's event; True where Motion is done with the turn, and we are not."""
@@ -143,26 +150,36 @@ class ProgramTurns:
 
     def _send(self, turn: int, about: _Turn) -> None:
         """Show this version and hand it to Motion; one that cannot even be read is mended first, or ends the turn."""
-        self._emit(about.draft.event(turn))
+        self._show(turn, about.draft)
         while (refusal := about.draft.checked.refusal) is not None:
             if not self._mend(turn, about, refusal.reason, ""):
                 del self._turns[turn]
                 reply = render_reason(refusal.reason, self._understanding.language)
                 self._book.conclude(turn, "refused", reply)
                 return
-            self._emit(about.draft.event(turn))
+            self._show(turn, about.draft)
         self.authoring.keep(about.draft)
         draft = about.draft
         payload = {
             "code": draft.program.source,
             "name": draft.program.name,
-            "remap": dict(draft.program.remap),
+            "remap": draft.remap,
+            "args": list(draft.args),
             "strict": draft.by_model and draft.version <= MOST_REPAIRS,
         }
-        is_led_elsewhere = bool(draft.program.remap) and not draft.program.runs
+        is_led_elsewhere = bool(draft.remap) and not draft.program.runs
         self._orders.program(
-            turn, payload, is_new=draft.is_new, by_model=draft.by_model, is_led_elsewhere=is_led_elsewhere
+            turn,
+            payload,
+            is_new=draft.is_new,
+            by_model=draft.by_model,
+            is_led_elsewhere=is_led_elsewhere,
+            asks=draft.asks,
         )
+
+    def _show(self, turn: int, draft: Draft) -> None:
+        self._shown[draft.program.name] = draft
+        self._emit(draft.event(turn))
 
     def _tell_spent(self, turn: int, call: int) -> None:
         """What a model has used, as for plans; `call` counts those of the turn."""

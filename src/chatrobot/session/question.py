@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from chatrobot.core.events import Event, Finished, Rehearsed, Started
+from chatrobot.core.events import Event, Finished, Paused, Rehearsed, Started
 
 
 class Approving(Protocol):
@@ -33,7 +33,7 @@ class Question:
         if isinstance(event, Rehearsed) and event.needs_approval:
             self._asked = event
             return True
-        if isinstance(event, (Started, Finished)) and event.turn == self.turn:
+        if isinstance(event, (Started, Paused, Finished)) and event.turn == self.turn:
             self._asked = None
         return False
 

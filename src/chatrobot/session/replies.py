@@ -4,10 +4,16 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from chatrobot.core.events import Finished
-from chatrobot.language.phrases import render_reason, say
+from chatrobot.core.proposal import Proposal
+from chatrobot.core.reason import Reason
+from chatrobot.core.shown import fixed
+from chatrobot.language.phrases import describe_plan, render_reason, say
+from chatrobot.plan.steps import Face, Go, Step
+from chatrobot.plan.text import parse_plan
 
 if TYPE_CHECKING:
     from chatrobot.session.model_terms import Ended
@@ -19,16 +25,40 @@ _STOPPED_TWICE = re.compile(r"([.?!。？！])[.。]")
 """A reason that is a sentence of its own has its full stop, or its question mark, already."""
 
 
-def describe_end(finished: Finished, language: str) -> str:
-    """What a plan came to: outcome, measured motion, and the reason if it did not complete."""
+def describe_end(finished: Finished, language: str, steps: Sequence[Step] = ()) -> str:
+    """What a plan of those steps came to: outcome, measured motion, and the reason if it did not complete."""
     moved = _measured(finished, language)
     if finished.outcome == "completed":
-        return say(language, "done", moved=moved) if moved else say(language, "done_standing")
+        return say(language, "done", moved=moved) if moved else _done_standing(steps, language)
     reason = render_reason(finished.reason, language) if finished.reason is not None else ""
     if finished.outcome == "refused":
-        return reason
+        return " ".join(filter(None, (reason, _free(finished.reason, language))))
     code = "stopped_after" if finished.outcome == "stopped" else "failed_after"
     return _ended_once(say(language, code, moved=moved or say(language, "nothing_moved"), reason=reason))
+
+
+def _done_standing(steps: Sequence[Step], language: str) -> str:
+    """It stood already where it was to go, or as it was to look; else it had something to do that moves nothing."""
+    only = steps[0] if len(steps) == 1 else None
+    if isinstance(only, Go):
+        return say(language, "there_already" if only.place else "there_already_unnamed", place=only.place)
+    return say(language, "already_facing" if isinstance(only, Face) else "done_standing")
+
+
+def offered(finished: Finished, language: str) -> Proposal | None:
+    """The question whether to do what is possible of a plan that was refused."""
+    if not finished.possible:
+        return None
+    text = describe_plan(parse_plan(finished.possible), language)
+    return Proposal(finished.possible, say(language, "offer", text=text))
+
+
+def _free(reason: Reason | None, language: str) -> str:
+    """How far a way is free that is blocked."""
+    for code in ("free_m", "free_deg", "short_m"):
+        if reason is not None and code in reason.values:
+            return say(language, code, **reason.values)
+    return ""
 
 
 def _ended_once(sentences: str) -> str:
@@ -41,7 +71,7 @@ def describe_model_end(ended: Ended, language: str) -> str:
     if ended.outcome == "answered":
         return ended.said or say(language, "done_standing")
     if ended.outcome == "completed":
-        return describe_end(finished, language) if finished is not None else say(language, "done_standing")
+        return describe_end(finished, language, ended.steps) if finished else say(language, "done_standing")
     why = render_reason(reason, language) if reason is not None else ""
     moved = _measured(finished, language) if finished is not None else ""
     if ended.outcome == "stopped":
@@ -55,9 +85,16 @@ def describe_model_end(ended: Ended, language: str) -> str:
 
 def _measured(finished: Finished, language: str) -> str:
     parts = []
-    if finished.planned_m > LEAST_DISTANCE_M:
-        code = "drove" if finished.measured else "drove_unmeasured"
+    if finished.planned_m > LEAST_DISTANCE_M or (finished.open_ended and finished.path_m > LEAST_DISTANCE_M):
+        code = "drove_open" if finished.open_ended else "drove"
+        code = code if finished.measured else f"{code}_unmeasured"
         parts.append(say(language, code, drove_m=f"{finished.path_m:.2f}", of_m=f"{finished.planned_m:.2f}"))
     if abs(finished.planned_turn_rad) > LEAST_ANGLE_RAD or abs(finished.turned_rad) > math.radians(3.0):
-        parts.append(say(language, "turned", turned_deg=f"{math.degrees(finished.turned_rad):.1f}"))
+        parts.append(_turned(math.degrees(finished.turned_rad), language))
     return say(language, "list_comma").join(parts)
+
+
+def _turned(turned_deg: float, language: str) -> str:
+    shown = fixed(turned_deg, 1)
+    code = "turned" if not float(shown) else "turned_left" if turned_deg > 0.0 else "turned_right"
+    return say(language, code, turned_deg=shown.lstrip("-"))

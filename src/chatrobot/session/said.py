@@ -6,19 +6,24 @@ import threading
 import time
 from collections import deque
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
+from chatrobot.core.reason import Reason
 from chatrobot.session.draft import Draft
 from chatrobot.session.envelope import QUEUE_LIMIT
 
-Kind = Literal["text", "plan", "program", "draft", "stop", "emergency_stop", "too_many"]
-INSTRUCTIONS: tuple[Kind, ...] = ("text", "plan", "program", "draft")
+Kind = Literal[
+    "text", "plan", "edited_plan", "program", "draft", "source", "stop", "emergency_stop", "pause", "resume",
+    "too_many",
+]  # fmt: skip
+INSTRUCTIONS: tuple[Kind, ...] = ("text", "plan", "edited_plan", "program", "draft", "source")
 """What may have to wait, and what a stop clears; the others are answered at once."""
 
 
 @dataclass(frozen=True)
 class Said:
-    """One text. `at_s` is when it was said (monotonic), `about` a program that is there, or the name of one to be."""
+    """One text. `at_s` is when it was said (monotonic), `about` a program that is there, the name of one to be, or
+    what a person made of the source of the one that `text` names."""
 
     turn: int
     text: str
@@ -31,14 +36,24 @@ class Said:
         return self.kind in INSTRUCTIONS
 
 
+class _Hold(NamedTuple):
+    """`turn` is the last that was said before that pause."""
+
+    number: int
+    turn: int
+
+
 class SaidTexts:
-    """`add` and `void` may be called from any thread; the rest belongs to the thread that pumps."""
+    """`add`, `void` and `hold` may be called from any thread; the rest belongs to the thread that pumps."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._texts: deque[Said] = deque()
         self._turns = 0
-        self._void_turn = 0
+        self._void_turn = self._dropped_turn = 0
+        self._hold = self._released = _Hold(0, 0)
+        self.stopped_by = Reason("cause_unknown")
+        """Why what was said is void."""
 
     def add(self, text: str, kind: Kind, about: Draft | str = "", *, is_moving: bool) -> int:
         """Take in a text; the number of its turn. Where too many wait for a moving robot it is one too many."""
@@ -49,14 +64,42 @@ class SaidTexts:
             self._texts.append(Said(self._turns, text, kind, time.monotonic(), about))
             return self._turns
 
-    def void(self) -> int:
-        """A stop: what was said up to now is void; the last turn of it. No lock: a stop waits for nothing."""
+    def void(self, why: str) -> int:
+        """A stop, and why: what was said up to now is void; the last turn of it. No lock: a stop waits for nothing."""
+        self.stopped_by = Reason("stopped_by", {"why": why})
         self._void_turn = self._turns
         return self._void_turn
 
+    def hold(self) -> None:
+        """A pause: what was said up to now and waits goes on waiting. No lock: it waits for nothing."""
+        self._hold = _Hold(self._hold.number + 1, self._turns)
+
+    @property
+    def pauses(self) -> int:
+        """How many pauses there were."""
+        return self._hold.number
+
+    @property
+    def is_holding(self) -> bool:
+        """There was a pause, and what was said before it has neither been released nor dropped."""
+        return self._hold is not self._released
+
+    def is_held(self, said: Said) -> bool:
+        """It waits behind what is paused."""
+        return said.is_instruction and self.is_holding and said.turn <= self._hold.turn
+
+    def release(self) -> None:
+        """What was paused is gone on with: what waits behind it waits its turn again."""
+        self._released = self._hold
+
+    def drop_held(self) -> None:
+        """What was paused is not gone on with: what waits behind it is not done."""
+        hold = self._hold
+        self._dropped_turn, self._released = hold.turn, hold
+
     def is_void_turn(self, turn: int) -> bool:
         """A stop came after that turn was said."""
-        return turn <= self._void_turn
+        return turn <= max(self._void_turn, self._dropped_turn)
 
     def is_void(self, said: Said) -> bool:
         """A stop came after it was said; what is no instruction is answered all the same."""
@@ -67,15 +110,22 @@ class SaidTexts:
         """Oldest first."""
         return tuple(self._texts)
 
-    def take(self, said: Said) -> Said:
-        """It waits no longer."""
+    def take(self, said: Said) -> Said | None:
+        """It waits no longer; None where a pause came in the same moment, so that it does."""
+        if self.is_held(said) and not self.is_void(said):
+            return None
         with self._lock:
             self._texts.remove(said)
         return said
 
+    def put_back(self, said: Said) -> None:
+        """It waits again, before all others."""
+        with self._lock:
+            self._texts.appendleft(said)
+
     def take_too_many(self) -> list[Said]:
         """Those that may not even wait."""
-        return [self.take(said) for said in self.waiting if said.kind == "too_many"]
+        return [said for said in self.waiting if said.kind == "too_many" and self.take(said)]
 
     def _count_waiting(self) -> int:
         return sum(said.is_instruction and not self.is_void(said) for said in self._texts)

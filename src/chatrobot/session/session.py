@@ -6,20 +6,27 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
-from chatrobot.core.errors import JointError, PlanTextError
-from chatrobot.core.events import Event, Finished, Interpreted, Remembered, Result, Telemetry
-from chatrobot.language.interpretation import Interpretation
-from chatrobot.plan.text import format_plan, parse_plan
-from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
+from chatrobot.core.errors import JointError
+from chatrobot.core.events import Event, Finished, Remembered, Result, Telemetry
+from chatrobot.core.reason import Reason
+from chatrobot.plan.text import format_plan
+from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.session.authoring import Authoring
+from chatrobot.session.dispatch import Dispatch
 from chatrobot.session.draft import Draft
+from chatrobot.session.early import EarlyAnswers
 from chatrobot.session.joint import Joint
 from chatrobot.session.model_terms import Ended
+from chatrobot.session.next_text import NextText
 from chatrobot.session.observations import measured
 from chatrobot.session.options import Options
 from chatrobot.session.orders import Orders
 from chatrobot.session.program_turns import ProgramTurns
+from chatrobot.session.proposals import Proposals
+from chatrobot.session.replies import offered
+from chatrobot.session.resuming import Resuming
 from chatrobot.session.said import Kind, Said, SaidTexts
 from chatrobot.session.thinking import Mind, Thinking
 from chatrobot.session.turn_book import TurnBook
@@ -49,20 +56,50 @@ class Session:
     ) -> None:
         self._joint = joint
         self.understanding = understanding
-        self._emit = on_event
+        self._on_event = on_event
         self._orders = Orders(joint, options)
         self._said = SaidTexts()
-        self._book = TurnBook(understanding, on_event)
+        self._proposals = Proposals(understanding, self._said.is_void_turn)
+        self._book = TurnBook(understanding, self._emit)
         self._thinking = Thinking(
-            mind, options.interpreter, joint, understanding, on_event, self._conclude_model_turn
+            mind,
+            options.interpreter,
+            joint,
+            understanding,
+            self._emit,
+            self._conclude_model_turn,
+            lambda: self._said.pauses,
         )
         self.authoring = authoring
+        self._resuming = Resuming(understanding)
+        self._next = NextText(
+            self._said,
+            self._book,
+            self._thinking,
+            understanding,
+            self._resuming,
+            EarlyAnswers(understanding, self._thinking, self._book, authoring),
+        )
         self._programs = (
             ProgramTurns(
-                authoring, understanding, self._book, self._orders, on_event, self._said.is_void_turn
+                authoring, understanding, self._book, self._orders, self._emit, self._said.is_void_turn
             )
             if authoring is not None
             else None
+        )
+        self._dispatch = Dispatch(
+            joint,
+            self._orders,
+            self._said,
+            understanding,
+            self._book,
+            self._proposals,
+            self._resuming,
+            self._thinking,
+            self._programs,
+            self._emit,
+            self.stop,
+            self._hears_robot_soon,
         )
 
     @property
@@ -87,8 +124,8 @@ class Session:
             self.emergency_stop(text.strip()[:80])
             kind: Kind = "emergency_stop"
         elif leads_with_stop(text) if self.is_moving else is_stop(text):
-            self.stop(text.strip()[:80])
-            kind = "stop"
+            kind = "pause" if is_pause(text) else "stop"
+            (self.pause if kind == "pause" else self.stop)(text.strip()[:80])
         else:
             kind = "text"
         return self._take_in(text, kind)
@@ -96,6 +133,10 @@ class Session:
     def say_plan(self, plan_text: str) -> int:
         """Take in a plan that a person or a program wrote itself; the number of its turn."""
         return self._take_in(plan_text, "plan")
+
+    def say_edited_plan(self, plan_text: str) -> int:
+        """Take in what a person made of a plan that waited for a yes: it is asked about anew, whatever the options."""
+        return self._take_in(plan_text, "edited_plan")
 
     def say_program(self, text: str, name: str = "") -> int:
         """Take in what a program is to do, asked for as one; the number of its turn."""
@@ -106,9 +147,8 @@ class Session:
         return self._take_in(draft.program.name, "draft", draft)
 
     def say_source(self, name: str, source: str) -> int:
-        """Take in what a person made of the program of that name; where that one is kept, it is kept so."""
-        assert self.authoring is not None
-        return self.say_draft(self.authoring.edited(name, source))
+        """Take in what a person made of the program of that name: it is asked about before it runs."""
+        return self._take_in(name, "source", source)
 
     def _take_in(self, text: str, kind: Kind, about: Draft | str = "") -> int:
         turn = self._said.add(text, kind, about, is_moving=self.is_moving)
@@ -117,23 +157,42 @@ class Session:
 
     def stop(self, why: str = "") -> None:
         """Stop the robot and drop what was said before this moment."""
-        self._joint.send("stop", self._said.void(), why=why)
+        self._joint.send("stop", self._said.void(why), why=why)
         self._cancel_asking()
+
+    def pause(self, why: str = "") -> None:
+        """Stop the robot as `stop` does, and keep what it was told; what cannot be kept ends as with a stop."""
+        self._said.hold()
+        self._joint.send("stop", why=why, keep=True)
+        self._thinking.cancel_unmoved(Reason("paused_by", {"why": why}))
+        if self.authoring is not None:
+            self.authoring.cancel()
+
+    def resume(self) -> int:
+        """Go on with what is paused; the number of the turn that says so."""
+        return self._take_in("", "resume")
 
     def emergency_stop(self, why: str = "") -> None:
         """Stop the robot and keep it stopped until `release`."""
-        self._joint.send("emergency_stop", self._said.void(), why=why)
+        self._joint.send("emergency_stop", self._said.void(why), why=why)
         self._cancel_asking()
 
     def _cancel_asking(self) -> None:
         """End what models are being asked."""
-        self._thinking.cancel()
+        self._thinking.cancel(self._said.stopped_by)
         if self.authoring is not None:
             self.authoring.cancel()
 
     def release(self) -> None:
         """Release an emergency stop. For the local console alone."""
         self._joint.send("release")
+
+    def limit(self, **limits: Any) -> None:
+        """Change the motion budget, or ask for it: `max_distance_m`, `max_time_s`, each a number or `none`.
+
+        For the local console alone.
+        """
+        self._joint.send("limit", **limits)
 
     def approve(self, turn: int, yes: bool) -> None:
         """Answer a rehearsed plan that waits for a yes."""
@@ -143,6 +202,21 @@ class Session:
     def is_moving(self) -> bool:
         """True while a plan of ours runs, or is on its way to."""
         return self._book.is_any_with_motion or self._thinking.is_moving
+
+    @property
+    def is_paused(self) -> bool:
+        """A plan of ours is paused."""
+        return self._resuming.paused is not None
+
+    @property
+    def is_being_paused(self) -> bool:
+        """A pause was said, and Motion has not told yet what came of it."""
+        return self._next.is_being_paused
+
+    @property
+    def waits_for_a_word(self) -> bool:
+        """A plan is paused, and nothing happens before somebody says something."""
+        return self.is_paused and not self._thinking.is_calling and self._find_next() is None
 
     @property
     def is_idle(self) -> bool:
@@ -169,7 +243,7 @@ class Session:
             self._thinking.wait(timeout_s)  # a model thinks in no time at all
             self._thinking.pump()
             timeout_s = 0.0
-        event = self._joint.next_event(0.0 if self._next_said() is not None else timeout_s)
+        event = self._joint.next_event(0.0 if self._find_next() is not None else timeout_s)
         while event is not None:
             self._hear(event)
             event = self._joint.next_event(0.0)
@@ -182,82 +256,28 @@ class Session:
         """Goodbye: what runs is still done."""
         self._joint.close()
 
+    def _emit(self, event: Event) -> None:
+        self._proposals.hear(event)
+        self._on_event(event)
+
     # --- what was said ---
 
-    def _next_said(self) -> Said | None:
-        """The one to take now: the first, unless it has to wait for what runs or is thought about."""
-        for said in self._said.waiting:
-            waits = said.is_instruction and not self._said.is_void(said)
-            if not waits or self.options.while_moving == "replace":
-                return said
-            if self._book.is_any_with_motion:
-                return None
-            if not self._thinking.is_busy or self._overtakes(said):
-                return said
-        return None
-
-    def _overtakes(self, said: Said) -> bool:
-        """It needs no model, and the one that is being asked says nothing."""
-        if not self._thinking.may_be_overtaken(said.at_s):
-            return False
-        return said.kind == "plan" or not self._thinking.wants(
-            said.text, self.understanding.interpret(said.text)
-        )
+    def _find_next(self) -> Said | None:
+        """The text to take now, if any."""
+        return self._next.find(self.options, self._dispatch.waits_for_end)
 
     def _take_texts(self) -> None:
         for said in self._said.take_too_many():
             # Who said one too many hears so now, not when the ten before it are done.
             self._book.conclude(said.turn, "refused", self.understanding.say("queue_full", said.text))
-        while (said_now := self._next_said()) is not None:
-            self._take(self._said.take(said_now))
+        if self._said.is_holding and not self.is_moving:
+            self._said.drop_held()  # nothing is paused that it could wait for
+        while (found := self._find_next()) is not None:
+            self._orders.pauses = self._said.pauses
+            if (taken := self._said.take(found)) is not None:
+                self._dispatch.take(taken)
 
-    def _take(self, said: Said) -> None:
-        if self._said.is_void(said):
-            self._book.conclude(said.turn, "stopped", self.understanding.say("dropped_by_stop", said.text))
-        elif said.kind == "text":
-            self._understand(said)
-        elif said.kind == "plan":
-            self._read_plan(said)
-        elif said.kind in ("program", "draft"):
-            self._begin_program(said)
-        else:
-            code = "stopped_now" if said.kind == "stop" else "emergency_stopped"
-            self._emit(Interpreted(said.turn, "reflex", "", ""))
-            self._book.conclude(said.turn, "stopped", self.understanding.say(code, said.text))
-
-    def _begin_program(self, said: Said) -> None:
-        if self._programs is None:
-            self._book.conclude(said.turn, "refused", self.understanding.say("no_programs_here", said.text))
-        elif isinstance(said.about, Draft):
-            self._programs.run(said.turn, said.text, said.about)
-        else:
-            self._programs.begin(said.turn, said.text, is_asked_for=True, name=said.about)
-
-    def _understand(self, said: Said) -> None:
-        if self._programs is not None and self._programs.begin(said.turn, said.text):
-            return
-        meant = self.understanding.interpret(said.text)
-        if self.understanding.misses_robot(meant) and self._hears_robot_soon():
-            meant = self.understanding.interpret(said.text)
-        if self._thinking.wants(said.text, meant):
-            self._ask_model(said, meant)
-            return
-        meant = self._thinking.without_model(said.text, meant)
-        plan_text = format_plan(meant.plan) if meant.plan is not None else ""
-        interpreted = Interpreted(said.turn, "offline", plan_text, meant.reply)
-        if meant.outcome == "plan":
-            # Before it is told: telling takes longer than the way to Motion.
-            self._send_plan(said, meant, plan_text)
-            self._emit(interpreted)
-            return
-        self._emit(interpreted)
-        if meant.outcome == "stop":
-            self.stop(said.text[:80])
-            self._book.conclude(said.turn, "stopped", meant.reply)
-        else:
-            self.understanding.note_unmoved(said.text, meant)
-            self._thinking.note(said.text, "", f"{meant.outcome}: {meant.reply}")
-            self._book.conclude(said.turn, meant.outcome, meant.reply)
+    # --- what Motion and the model tell ---
 
     def _hears_robot_soon(self) -> bool:
         """A robot that is there says where it is within a moment of the start."""
@@ -270,52 +290,20 @@ class Session:
                 return True
         return False
 
-    def _ask_model(self, said: Said, meant: Interpretation) -> None:
-        options = self.options
-        if options.while_moving == "replace":
-            self._thinking.replace()
-        self._thinking.begin(
-            said.turn,
-            said.text,
-            meant,
-            options.while_moving,
-            approve="all" if options.approve else "models" if options.approve_models else "",
-            rehearse_only=options.rehearse_only,
-        )
-        if self._said.is_void_turn(said.turn):
-            self._thinking.cancel()  # a stop came while it was being understood
-
     def _conclude_model_turn(self, turn: int, text: str, ended: Ended) -> None:
         reply = self.understanding.note_model_turn(text, ended, self.options.rehearse_only)
         self._book.conclude(turn, ended.outcome, reply, ended.finished, ended.reason)
 
-    def _read_plan(self, said: Said) -> None:
-        try:
-            plan = parse_plan(said.text)
-        except PlanTextError as error:
-            self._emit(Interpreted(said.turn, "offline", "", ""))
-            self._book.conclude(
-                said.turn, "unclear", self.understanding.say("plan_text", said.text, problem=str(error))
-            )
-            return
-        meant = self.understanding.accept(plan)
-        plan_text = format_plan(plan)
-        self._emit(Interpreted(said.turn, "offline", plan_text, ""))
-        self._send_plan(said, meant, plan_text)
-
-    def _send_plan(self, said: Said, meant: Interpretation, plan_text: str) -> None:
-        mode = "append" if meant.append else self.options.while_moving
-        if mode == "replace":
-            self._thinking.replace()
-        self._book.track(said.turn, said.text, meant)
-        self._orders.plan(said.turn, plan_text, mode)
-
     def _hear(self, event: Event) -> None:
         if isinstance(event, Telemetry):
-            self.understanding.note_telemetry(event)
+            is_ours = self._book.is_any_with_motion or self._thinking.is_busy
+            self.understanding.note_telemetry(event, is_ours=is_ours)
         elif isinstance(event, Remembered):
             self.understanding.note_place(event)
         self._emit(event)
+        if self._book.has(event.turn) or self._thinking.has(event.turn):
+            self._resuming.hear(event)
+            self._orders.is_paused = self.is_paused
         if self._programs is not None and self._programs.hear(event):
             return  # the next version of a program is on its way
         self._thinking.hear(event)
@@ -327,10 +315,12 @@ class Session:
         instruction = self._book.take(event.turn)
         if instruction is None:
             return
-        text, meant = instruction
+        text, meant, _ = instruction
         reply = self.understanding.note_finished(text, meant, event, self.options.rehearse_only)
         if self._programs is not None:
             reply = self._programs.ending(event.turn, reply)
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         self._thinking.note(text, plan_text, f"{event.outcome}: {measured(event)}")
-        self._book.conclude(event.turn, event.outcome, reply, event)
+        proposal = offered(event, meant.language) if not self.options.rehearse_only else None
+        reply = f"{reply} {proposal.say}" if proposal is not None else reply
+        self._book.conclude(event.turn, event.outcome, reply, event, proposal=proposal)

@@ -13,10 +13,10 @@ from typing import Any
 from chatrobot.core.errors import JointError
 from chatrobot.core.events import event_from_json
 from chatrobot.governor.lease import LOCAL_BEAT_HZ, LOCAL_TERM_S
-from chatrobot.session.child import spawn_with_line
 from chatrobot.session.envelope import READY, Word
 from chatrobot.session.event_queue import EventQueue
 from chatrobot.session.joint import Sender
+from chatrobot.session.processes import MotionProcess
 from chatrobot.wire.local import PACKET_BYTES
 
 START_TIMEOUT_S = 20.0
@@ -24,7 +24,7 @@ END_TIMEOUT_S = 5.0
 
 
 class SocketJoint(EventQueue):
-    """Spawns Motion (in a session of its own: no terminal signal reaches it) and talks to it.
+    """Talks to a Motion that has been started.
 
     A thread beats the lease; a thread reads events. If this process freezes or dies, the beats end and Motion
     stops the robot.
@@ -33,18 +33,14 @@ class SocketJoint(EventQueue):
         JointError: Motion does not start.
     """
 
-    def __init__(self, wire_path: str, profile: str, world: str, source: str = "console") -> None:
+    def __init__(self, motion: MotionProcess, source: str = "console") -> None:
         super().__init__()
         self._sender = Sender(source)
         self._closed = threading.Event()
         self.is_lost = False
         self.is_simulated = False
         self.beats = True
-        self.process, self._line = spawn_with_line(
-            "chatrobot.session.motion_process",
-            *("--profile", profile, "--world", world, "--wire", wire_path),
-            kind=socket.SOCK_SEQPACKET,
-        )
+        self.process, self._line = motion.process, motion.line
 
     def wait_until_ready(self) -> None:
         """Block until Motion has its robot and its guard; then begin to beat."""

@@ -8,6 +8,9 @@ from chatrobot.core.reason import Reason
 from chatrobot.session.zeroing import Zeroing
 from chatrobot.transports.transport import Transport
 
+PAUSED = "paused_by"
+"""The code of a stop that keeps what was under way."""
+
 
 class Stops:
     """`halt` may be called from any thread at any moment; the rest belongs to the control thread.
@@ -22,11 +25,16 @@ class Stops:
         self._clock = clock
         self._booked = epoch.value
         self._asked = self._booked_ask = object()
-        self.last_reason = Reason("stopped")
+        self._cleared = self._booked_clear = object()
+        self.last_reason = self._clear_reason = Reason("cause_unknown")
+        """Of the last stop, be it asked for or the end of a motion that failed."""
 
     def halt(self, why: Reason) -> None:
         """Stop now: the zero is out before this returns. It takes no lock and waits for nothing."""
         self.last_reason = why
+        if why.code != PAUSED:
+            self._clear_reason = why
+            self._cleared = object()
         self._asked = object()
         self._transport.halt()
 
@@ -40,15 +48,19 @@ class Stops:
         return self._booked != self._epoch.value
 
     def book(self) -> Reason | None:
-        """Why the robot was stopped since the last time, None where it was not; from now on zeros are sent."""
+        """Why the robot was stopped since the last time, None where it was not; from now on zeros are sent.
+
+        Of a pause and a stop that came together the stop counts.
+        """
         if not self.is_unbooked:
             return None
         self._booked_ask = self._asked
         self._booked = self._epoch.value
+        cleared, self._booked_clear = self._cleared is not self._booked_clear, self._cleared
         self._zeroing.begin(self._clock.now_s())
-        return self.last_reason
+        return self._clear_reason if cleared else self.last_reason
 
-    def halt_and_book(self) -> None:
+    def halt_and_book(self, why: Reason) -> None:
         """The stop at the end of a motion that failed or was broken off: what waits is not touched by it.
 
         One that came from elsewhere in the same moment is left to be booked, and does clear what waits.
@@ -58,5 +70,5 @@ class Stops:
             self._epoch.value
         )  # two at the same instant may share one value: the count alone does not tell
         if self._asked is self._booked_ask:
-            self._booked = count
+            self._booked, self.last_reason = count, why
         self._zeroing.begin(self._clock.now_s())

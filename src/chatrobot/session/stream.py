@@ -8,10 +8,12 @@ from dataclasses import replace
 
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
+from chatrobot.plan.base import Step
 from chatrobot.plan.context import MAX_DURATION_S
 from chatrobot.plan.lowering import NOT_YET, CoreWalk, NotYet, PlannedMotion, WalkItem, iterate_core
 from chatrobot.plan.rehearsal import Rehearsal
 from chatrobot.plan.steps import MAX_LINES, count_steps
+from chatrobot.session.budgets import Account, Extent
 from chatrobot.session.planner import Planned
 
 PARTS_LIMIT = MAX_LINES
@@ -24,16 +26,29 @@ class Stream:
     it are still done.
     """
 
-    def __init__(self, longest_s: float) -> None:
+    def __init__(self, longest_s: float, account: Account) -> None:
         self.is_open = True
-        self.is_planning = False
+        self._planning: str | None = None
         self.refusal: Reason | None = None
-        self.duration_s = 0.0
-        self.steps = 0
+        self.duration_s = self.length_m = 0.0
+        self.certain = Extent()
+        self.accepted: tuple[Step, ...] = ()
+        self._account = account
+        self._has_unknown_part = False
         self._longest_s = min(longest_s, MAX_DURATION_S)
         self._waiting: deque[str] = deque()
         self._count = 1
         self.walk: PartedWalk | None = None
+
+    @property
+    def steps(self) -> int:
+        """How many were accepted."""
+        return len(self.accepted)
+
+    @property
+    def waiting(self) -> tuple[str, ...]:
+        """The parts that have not been rehearsed."""
+        return tuple(self._waiting)
 
     def add(self, plan_text: str, more: bool) -> None:
         """Take in a part, which may be empty; nothing after the last one counts."""
@@ -50,22 +65,40 @@ class Stream:
         """The next part to rehearse; None while one is being rehearsed, or none waits."""
         if self.is_planning or not self._waiting:
             return None
-        self.is_planning = True
-        return self._waiting.popleft()
+        self._planning = self._waiting.popleft()
+        return self._planning
+
+    @property
+    def is_planning(self) -> bool:
+        """A part is being rehearsed."""
+        return self._planning is not None
+
+    def rewind(self) -> None:
+        """Begin anew with the rest of what was accepted: it comes first, and those that were not rehearsed follow."""
+        if self._planning is not None:
+            self._waiting.appendleft(self._planning)
+        self._planning, self.walk = None, None
+        self.duration_s = self.length_m = 0.0
+        self.certain, self.accepted = Extent(), ()
 
     def accept(self, planned: Planned) -> Reason | None:
         """The next part as it was rehearsed; why it is not accepted."""
-        self.is_planning = False
+        self._planning = None
         duration_s = self.duration_s + planned.duration_s
         refusal = planned.refusal
         if refusal is None and duration_s > self._longest_s:
             refusal = Reason("lasts_too_long", {"duration_s": duration_s, "max_s": self._longest_s})
+        certain = self.certain.plus(planned.certain)
+        # The first part that is too much is refused; a later one ends what is under way.
+        refusal = refusal or (self._account.refusal if self.walk is None else self._account.end)(certain)
         if refusal is not None:
             self.refuse(refusal)
             return refusal
         assert planned.rehearsal is not None
-        self.duration_s = duration_s
-        self.steps += len(planned.rehearsal.plan.steps)
+        self.duration_s, self.certain = duration_s, certain
+        self.length_m += planned.length_m
+        self._has_unknown_part = self._has_unknown_part or planned.is_open_ended
+        self.accepted += planned.rehearsal.plan.steps
         if self.walk is None:
             self.walk = PartedWalk(self, planned.rehearsal)
         else:
@@ -77,6 +110,11 @@ class Stream:
         self.refusal = self.refusal or reason
         self.is_open = False
         self._waiting.clear()
+
+    @property
+    def is_open_ended(self) -> bool:
+        """The whole way is not known."""
+        return self.may_go_on or self._has_unknown_part
 
     @property
     def may_go_on(self) -> bool:

@@ -41,5 +41,6 @@ class Telling:
                 self._sensors.battery_percent,
                 nearest_m(scan) if scan is not None else None,
                 progress is not None,
+                self._sensors.estimator.epoch,
             )
         )

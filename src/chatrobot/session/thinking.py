@@ -66,6 +66,7 @@ class Thinking:
     Args:
         mind: None where no model is set up.
         conclude: hears how each turn ended.
+        pauses: how many there were by now.
     """
 
     def __init__(
@@ -76,7 +77,9 @@ class Thinking:
         understanding: Understanding,
         emit: Callable[[Event], None],
         conclude: Callable[[int, str, Ended], None],
+        pauses: Callable[[], int],
     ) -> None:
+        self._pauses = pauses
         self._mind = mind if interpreter != "offline" else None
         self._interpreter = interpreter
         self._joint = joint
@@ -90,10 +93,25 @@ class Thinking:
 
     # --- from any thread ---
 
-    def cancel(self) -> None:
+    def cancel(self, why: Reason) -> None:
         """A stop: end what models are being asked. Returns at once."""
         for turn in tuple(self._turns.values()):
-            turn.doing.cancel(Reason("stopped"))
+            turn.doing.cancel(why)
+
+    def cancel_unmoved(self, why: Reason) -> None:
+        """A pause: end what has no plan with Motion, which would begin after it. Returns at once."""
+        for turn in tuple(self._turns.values()):
+            if not turn.doing.is_moving:
+                turn.doing.cancel(why)
+
+    @property
+    def has_mind(self) -> bool:
+        """A model may be asked."""
+        return self._mind is not None
+
+    def has(self, turn: int) -> bool:
+        """A model plans that turn."""
+        return turn in self._turns
 
     @property
     def is_moving(self) -> bool:
@@ -135,7 +153,7 @@ class Thinking:
 
     def without_model(self, text: str, meant: Interpretation) -> Interpretation:
         """What was not understood, with how to set up a model; the tutorial's first instruction is answered."""
-        if meant.outcome != "unclear" or self._mind is not None:
+        if meant.outcome != "unclear" or meant.proposal is not None or self._mind is not None:
             return meant
         if connects_to_the_robot(text):
             return replace(meant, outcome="answered", reply=say(meant.language, "tutorial_without_model"))
@@ -175,6 +193,7 @@ class Thinking:
             self._shown,
             self._emit,
             mode,
+            pauses=self._pauses,
             approve=approve != "",
             frees_form=approve == "models" and self._is_tutorial,
             rehearse_only=rehearse_only,

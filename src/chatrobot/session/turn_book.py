@@ -3,19 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
 
 from chatrobot.core.events import Event, Finished, Notice, Outcome, Result
+from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation
-from chatrobot.session.understanding import Understanding
-
-
-class Instruction(NamedTuple):
-    """What was said, and what it means."""
-
-    text: str
-    meant: Interpretation
+from chatrobot.session.understanding import Instruction, Understanding
 
 
 class TurnBook:
@@ -31,9 +24,18 @@ class TurnBook:
     def is_any_with_motion(self) -> bool:
         return bool(self._with_motion)
 
+    @property
+    def under_way(self) -> tuple[Instruction, ...]:
+        """What Motion has, in the order it was said."""
+        return tuple(self._with_motion.values())
+
+    def has(self, turn: int) -> bool:
+        """That turn is with Motion."""
+        return turn in self._with_motion
+
     def track(self, turn: int, text: str, meant: Interpretation) -> None:
         """That turn is now Motion's; its `finished` ends it."""
-        self._with_motion[turn] = Instruction(text, meant)
+        self._with_motion[turn] = Instruction(text, meant, self._understanding.pose)
 
     def take(self, turn: int) -> Instruction | None:
         """Motion is done with that turn: what it was about, None where Motion never had it."""
@@ -46,15 +48,16 @@ class TurnBook:
         reply: str,
         finished: Finished | None = None,
         reason: Reason | None = None,
+        proposal: Proposal | None = None,
     ) -> None:
-        """End that turn: `finished` is what was measured, None where nothing moved."""
+        """End that turn: `finished` is what was measured, None where nothing moved; the reply asks about `proposal`."""
         self.take(turn)
         understanding = self._understanding
         pose = understanding.pose
         unkept = understanding.places.take_unkept()
         if unkept:
             self._emit(Notice(turn, Reason("places_not_kept", {"why": unkept})))
-        result = Result(turn, outcome, reply, pose, reason=reason)
+        result = Result(turn, outcome, reply, pose, reason=reason, proposal=proposal)
         if finished is not None:
             result = Result(
                 turn,
@@ -66,6 +69,7 @@ class TurnBook:
                 finished.duration_s,
                 finished.paused_s,
                 reason or finished.reason,
+                proposal,
             )
         self.results[turn] = result
         self._emit(result)

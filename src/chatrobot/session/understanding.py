@@ -6,23 +6,36 @@ import uuid
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
+from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Finished, Outcome, Remembered, Telemetry
 from chatrobot.core.geometry import ZERO_TWIST, Pose
-from chatrobot.language.context import Context, Dialogue, RobotState, TurnRecord
+from chatrobot.language.context import Context, Dialogue, RobotState
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.interpreter import OfflineInterpreter
+from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.normalise import has_chinese
 from chatrobot.language.phrases import describe_steps, say
 from chatrobot.plan.steps import Plan, Step
+from chatrobot.plan.text import parse_plan
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.places import Places
 from chatrobot.session.replies import describe_end, describe_model_end
+from chatrobot.session.rest_watch import UNMEASURED, RestWatch
 from chatrobot.sim.world import World
 
 if TYPE_CHECKING:
     from chatrobot.session.model_terms import Ended
+
+
+class Instruction(NamedTuple):
+    """What was said, what it means, and where the robot stood then."""
+
+    text: str
+    meant: Interpretation
+    start: Pose
+
 
 REMEMBERED_TURNS = 50
 """Older turns are forgotten: nobody says "again" about what was fifty instructions ago."""
@@ -46,6 +59,7 @@ class Understanding:
         self._main_places = dict(world.places)
         # The simulated robot's odometry begins anew with every session, as a real one's does at power-on.
         self._places = Places(folder, profile.name, uuid.uuid4().hex)
+        self._rest = RestWatch()
         self._started = False
         self.language: LanguageCode = "en"
 
@@ -82,9 +96,10 @@ class Understanding:
         for text in ("forward 1 m", "前进一米"):
             self._interpreter.interpret(text, Context())
 
-    def interpret(self, text: str) -> Interpretation:
-        """What `text` means now."""
-        dialogue = replace(self._dialogue, places=self._places.all())
+    def interpret(self, text: str, under_way: Sequence[Instruction] = ()) -> Interpretation:
+        """What `text` means now. Instructions that are under way are read as turns before."""
+        turns = (*self._dialogue.turns, *map(self._as_if_done, under_way))
+        dialogue = replace(self._dialogue, turns=turns, places=self._places.all())
         meant = self._interpreter.interpret(text, Context(dialogue, self._state, self._world_places))
         self.language = meant.language
         if meant.remember_place and not self.hears_robot:  # nobody knows which place this is
@@ -106,11 +121,17 @@ class Understanding:
 
     def say(self, code: str, text: str, **values: float | str) -> str:
         """A phrase in the language of `text`, what the person said."""
-        if any(character.isalpha() for character in text):
-            self.language = "zh" if has_chinese(text) else "en"
+        self.hear_language(text)
         return say(self.language, code, text=text[:80], **values)
 
-    def note_telemetry(self, event: Telemetry) -> None:
+    def hear_language(self, text: str) -> None:
+        """Answer in the language of `text`, where it has one."""
+        if any(character.isalpha() for character in text):
+            self.language = "zh" if has_chinese(text) else "en"
+
+    def note_telemetry(self, event: Telemetry, *, is_ours: bool) -> None:
+        """`is_ours`: a turn of ours moves the robot, or may."""
+        self._lose(self._rest.hear(event, is_ours=is_ours))
         self._state = RobotState(
             event.pose,
             event.twist,
@@ -144,11 +165,11 @@ class Understanding:
         self._state = replace(self._state, pose=finished.pose, twist=ZERO_TWIST, moving=False)
         outcome: Outcome = finished.outcome
         plan = meant.plan if outcome in ("completed", "stopped", "failed") and not rehearse_only else None
-        self._record(TurnRecord(text, outcome, plan, finished.start, finished.pose))
+        self._record_measured(TurnRecord(text, outcome, plan, walk=meant.walk), finished)
         self._dialogue = replace(self._dialogue, pending="")
         if rehearse_only and outcome == "completed":
             return say(meant.language, "only_rehearsed")
-        return describe_end(finished, meant.language)
+        return describe_end(finished, meant.language, meant.plan.steps if meant.plan is not None else ())
 
     def describe(self, steps: Sequence[Step]) -> str:
         """Steps in a few words."""
@@ -160,7 +181,7 @@ class Understanding:
         plan = _plan_of(ended.steps) if not rehearse_only else None
         if finished is not None:
             self._state = replace(self._state, pose=finished.pose, twist=ZERO_TWIST, moving=False)
-            self._record(TurnRecord(text, ended.outcome, plan, finished.start, finished.pose))
+            self._record_measured(TurnRecord(text, ended.outcome, plan), finished)
         else:
             self._record(TurnRecord(text, ended.outcome))
         self._dialogue = replace(self._dialogue, pending="")
@@ -177,9 +198,41 @@ class Understanding:
             default_rate_radps=meant.default_rate_radps or dialogue.default_rate_radps,
         )
 
+    def _as_if_done(self, instruction: Instruction) -> TurnRecord:
+        text, meant, start = instruction
+        plan, pose = meant.plan, self._state.pose
+        return TurnRecord(text, "completed", plan, start, pose, executed=plan, walk=meant.walk)
+
+    def _record_measured(self, record: TurnRecord, finished: Finished) -> None:
+        """Enter a turn that Motion has ended into the ledger, as it was measured."""
+        self._lose(self._rest.begin(finished))
+        measured = replace(
+            record,
+            start_pose=finished.start,
+            end_pose=finished.pose,
+            executed=_plan_in(finished.executed),
+            remaining=_plan_in(finished.remaining),
+            lost="" if finished.measured else UNMEASURED,
+        )
+        self._record(measured)
+        self._lose(self._rest.end(finished))
+
+    def _lose(self, code: str) -> None:
+        """Nobody can tell any more how to get back to where the turns up to now began."""
+        if code:
+            turns = tuple(replace(turn, lost=turn.lost or code) for turn in self._dialogue.turns)
+            self._dialogue = replace(self._dialogue, turns=turns)
+
     def _record(self, record: TurnRecord) -> None:
         turns = (*self._dialogue.turns, record)[-REMEMBERED_TURNS:]
         self._dialogue = replace(self._dialogue, turns=turns)
+
+
+def _plan_in(text: str) -> Plan | None:
+    try:
+        return parse_plan(text) if text else None
+    except PlanTextError:  # more than a plan may have: the parts of many runs of one turn
+        return None
 
 
 def _plan_of(steps: Sequence[Step]) -> Plan | None:

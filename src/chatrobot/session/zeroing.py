@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Literal
 
 from chatrobot.core.reason import Reason
-from chatrobot.execution.health import FRESH_S, STANDS_LATE_S, is_seen_moving
+from chatrobot.execution.health import FRESH_S, STANDS_LATE_S, is_seen_moving, is_seen_standing
 from chatrobot.execution.sensors import Sensors
 
 PATIENCE_S = STANDS_LATE_S
@@ -54,6 +54,11 @@ class Zeroing:
             return "unseen"
         return "standing" if estimate.is_standing else "moving"
 
+    @property
+    def is_watched(self) -> bool:
+        """A robot that was told to stand is in sight, and not seen standing yet: what it measures still changes."""
+        return self.is_active and self.disobeyed is None and self.sight != "unseen"
+
     def begin(self, now_s: float) -> None:
         self._since_s = now_s
         self._was_out_of_sight = False
@@ -62,7 +67,7 @@ class Zeroing:
         """Send what is due."""
         if self._since_s is None:
             self._look_for_the_lost(now_s)
-        elif self._is_seen_standing(self._since_s):
+        elif is_seen_standing(self._sensors, self._since_s):
             self._end()
         elif now_s - self._since_s <= PATIENCE_S:
             self._send_zero(now_s)
@@ -94,15 +99,6 @@ class Zeroing:
 
     def _is_in_sight(self) -> bool:
         return self._sensors.estimate is not None and self._sensors.odometry_age_s() < FRESH_S
-
-    def _is_seen_standing(self, since_s: float) -> bool:
-        estimate = self._sensors.estimate
-        return (
-            estimate is not None
-            and estimate.is_standing
-            and estimate.stamp_s > since_s
-            and self._sensors.odometry_age_s() < FRESH_S
-        )
 
     @property
     def disobedience(self) -> Reason:

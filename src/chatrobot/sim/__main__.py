@@ -17,6 +17,7 @@ from chatrobot.sim.load import load_world
 from chatrobot.sim.marshalled import MarshalledWire
 from chatrobot.sim.robot import SimRobot
 from chatrobot.sim.server import SimServer
+from chatrobot.sim.start import check_start
 from chatrobot.sim.tf import FieldsPublisher, TransformPublisher
 from chatrobot.wire.local import LocalHub
 from chatrobot.wire.messages import TwistMessage
@@ -60,6 +61,7 @@ def _serve(options: argparse.Namespace) -> None:
     profile = load_profile(options.profile)
     lies = SimLies.parse(options.sim)
     world = load_world(options.world)
+    check_start(world, profile, f"--world {options.world}")
     clock = RealClock()
     wake_promptly()
     hub = _open_wire(options, profile)

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Mapping
 from dataclasses import replace
 
-from rich.console import Console, RenderableType
+from rich.console import RenderableType
 from rich.text import Text
 
 from chatrobot.cli.console import commands, plain
@@ -17,11 +17,11 @@ from chatrobot.cli.console.lines import indented
 from chatrobot.cli.console.tables import example_place, place_in
 from chatrobot.cli.console.talk import Talk
 from chatrobot.cli.console.words import Words, language_of_environment
-from chatrobot.compose import SIMULATED, Connection, OnEvent, Setup, connect
+from chatrobot.compose import Setup, connect
 from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import JointError, UsageError
 from chatrobot.core.events import Event
-from chatrobot.robots.load import load_profile
+from chatrobot.session.processes import SIMULATED
 
 HISTORY_FILE = "history"
 
@@ -43,7 +43,7 @@ def run_console(setup: Setup) -> int:
         assert talk is not None  # nothing is heard before it is pumped
         talk.hear(event)
 
-    connection = _connect(setup, words, hear)
+    connection = connect(setup, hear)
     talk = Talk(connection, words, RealClock(), commands.run)
     try:
         code = _converse(talk, setup)
@@ -61,15 +61,6 @@ def can_chat(environment: Mapping[str, str] = os.environ) -> bool:
         and sys.stdout.isatty()
         and shutil.get_terminal_size().columns >= plain.LEAST_WIDTH
     )
-
-
-def _connect(setup: Setup, words: Words, hear: OnEvent) -> Connection:
-    console = Console(highlight=False, markup=False)
-    title = load_profile(setup.robot, (setup.folder / "robots",) if setup.folder is not None else ()).title
-    if not can_chat():
-        return connect(setup, hear)
-    with console.status(words.say("starting", title=title)):
-        return connect(setup, hear)
 
 
 def _converse(talk: Talk, setup: Setup) -> int:

@@ -10,6 +10,7 @@ from pathlib import Path
 from rich.text import Text
 
 from chatrobot.cli.console import tables
+from chatrobot.cli.console.limits import read_limits
 from chatrobot.cli.console.maps import big_map
 from chatrobot.cli.console.talk import Talk
 
@@ -145,6 +146,14 @@ def _release(talk: Talk, _: str) -> None:
     talk.release()  # Motion says whether it is
 
 
+def _limit(talk: Talk, argument: str) -> None:
+    limits = read_limits(argument)
+    if limits is None:
+        talk.tell("limit_unclear", argument=argument)
+    else:
+        talk.attempt(lambda: talk.session.limit(**limits))  # Motion says what holds then
+
+
 def _quit(talk: Talk, _: str) -> None:
     talk.leave()
 
@@ -159,6 +168,7 @@ COMMANDS = (
     Command("program", _program, takes="[TEXT]"),
     Command("undo", _undo),
     Command("map", _map, takes="[big]"),
+    Command("limit", _limit, takes="[200 m] [20 min] [none]"),
     Command("stop", _stop, at_once=True, heeds_the_rest=False),
     Command("estop", _estop, at_once=True, heeds_the_rest=False),
     Command("release", _release, at_once=True),

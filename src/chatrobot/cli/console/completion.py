@@ -15,10 +15,10 @@ COMMON: Mapping[str, tuple[str, ...]] = {
     "en": (
         *("forward", "backward", "turn left", "turn right", "turn around", "go to the", "come back"),
         *("drive in a square of one metre", "draw a circle", "face the other way", "remember this place as"),
-        *("stop", "undo", "again", "faster", "slower"),
+        *("stop", "undo", "redo", "again", "faster", "slower"),
     ),
     "zh": (
-        *("前进", "后退", "左转", "右转", "掉头", "去", "回来", "停", "再来一次", "撤销"),
+        *("前进", "后退", "左转", "右转", "掉头", "去", "回来", "停", "再来一次", "撤销", "重做"),
         *("走一个正方形", "画一个圆", "记住这里叫"),
     ),
 }

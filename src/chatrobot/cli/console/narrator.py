@@ -10,7 +10,6 @@ from rich.text import Text
 
 from chatrobot.cli.console.lines import indented, marked
 from chatrobot.cli.console.words import Words
-from chatrobot.cli.program_text import marked_only, marks_of, numbered
 from chatrobot.core.events import (
     Event,
     FindingSeen,
@@ -18,6 +17,7 @@ from chatrobot.core.events import (
     Limited,
     Notice,
     Outcome,
+    Paused,
     ProgramLog,
     ProgramRehearsed,
     ProgramWritten,
@@ -28,7 +28,10 @@ from chatrobot.core.events import (
     Streamed,
 )
 from chatrobot.core.geometry import Twist
-from chatrobot.language.phrases import render_reason, say
+from chatrobot.core.shown import fixed
+from chatrobot.language.phrases import describe_text, render_reason, say
+from chatrobot.plan.shown import shown_plan
+from chatrobot.session.program_text import body, headline
 
 PLAN_LINES = 16
 """A longer plan is shown in part; `/plan` shows it whole."""
@@ -75,6 +78,8 @@ class Narrator:
                 return self._said(event)
             case Remembered():
                 return self._remembered(event)
+            case Paused():
+                return self._paused(event)
             case Notice():
                 return self._notice(event)
             case Result():
@@ -92,7 +97,7 @@ class Narrator:
             )
             head.append(f"  {facts}", "dim")
         yield head
-        lines = plan_text.splitlines()
+        lines = shown_plan(plan_text).splitlines()
         shown = lines if limit is None or len(lines) <= limit else lines[: limit - 1]
         for number, line in enumerate(shown, 1):
             yield Text("  ").append(f"{number:>3}  ", "dim").append_text(_plan_line(line))
@@ -141,21 +146,15 @@ class Narrator:
         """A step of a plan that is still coming in."""
         if event.turn not in self._streamed:
             yield Text("  ").append(self._words.say("plan"), "bold")
-        for line in event.plan_text.splitlines():
+        for line in shown_plan(event.plan_text).splitlines():
             number = self._streamed[event.turn] = self._streamed.get(event.turn, 0) + 1
             yield Text("  ").append(f"{number:>3}  ", "dim").append_text(_plan_line(line))
 
     def _program_written(self, event: ProgramWritten) -> Iterator[RenderableType]:
         self._programs.add(event.turn)
         language = self._words.language
-        by = say(language, f"written_by_{event.by}")
-        head = say(language, "program_shown", name=event.program, by=by, version=event.version)
-        yield indented(Text(head, "bold"))
-        marks = marks_of(event.marks)
-        if event.diff:
-            yield from (indented(Text(line)) for line in event.diff.splitlines()[2:])
-        shown = numbered if event.is_new and not event.diff else marked_only
-        yield from (Text(line) for line in shown(event.source, marks, language))
+        yield indented(Text(headline(event, language), "bold"))
+        yield from (Text(line) for line in body(event, language))
 
     def _program_rehearsed(self, event: ProgramRehearsed) -> Iterator[RenderableType]:
         values = {"speed": f"{event.top_speed_mps:.2f}", "rate": f"{event.top_rate_radps:.2f}"}
@@ -173,6 +172,12 @@ class Narrator:
         words = self._words.say("remembered", place=event.place, pose=self._words.pose(event.pose))
         yield marked("·", "cyan", words)
 
+    def _paused(self, event: Paused) -> Iterator[RenderableType]:
+        language = self._words.language
+        yield marked(
+            "‖", "yellow", say(language, "paused_now", plan=describe_text(event.plan_text, language))
+        )
+
     def _notice(self, event: Notice) -> Iterator[RenderableType]:
         yield marked("!", "yellow", event.text or render_reason(event.reason, self._words.language))
 
@@ -180,7 +185,8 @@ class Narrator:
         self._plans.pop(event.turn, None)
         self._streamed.pop(event.turn, None)
         mark, style = _MARKS[event.outcome]
-        yield marked(mark, style, event.reply)
+        asks = f" {say(self._words.language, 'yes_or_no')}" if event.proposal is not None else ""
+        yield marked(mark, style, f"{event.reply}{asks}")
         if event.path_m > _LEAST_M or abs(event.turned_rad) > _LEAST_RAD:
             measured = self._words.say(
                 "measured", pose=self._words.pose(event.pose), duration=f"{event.duration_s:.1f}"
@@ -189,10 +195,11 @@ class Narrator:
 
     def _twist(self, twist: Twist) -> str:
         parts = []
-        if twist.speed_mps > 0.0:
+        if twist.speed_mps >= _LEAST_M:
             parts.append(self._words.say("speed", speed=f"{twist.speed_mps:.2f}"))
-        if twist.wz_radps != 0.0:
-            parts.append(self._words.say("rate", rate=f"{math.degrees(twist.wz_radps):.0f}"))
+        rate = fixed(math.degrees(twist.wz_radps), 0)
+        if float(rate):
+            parts.append(self._words.say("rate", rate=rate))
         return " · ".join(parts) or self._words.say("speed", speed="0")
 
 

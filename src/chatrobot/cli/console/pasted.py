@@ -17,6 +17,7 @@ _GOES_ON: frozenset[Outcome] = frozenset({"completed", "answered"})
 _STOPS = frozenset({"/stop", "/estop"})
 _LAST = ("/program", "/quit")
 """What they begin takes a turn of its own, or ends the talk: nothing can follow."""
+_TYPED_ALONE = ("release", "limit")
 _SHOWN_CHARS = 60
 
 
@@ -74,9 +75,10 @@ def ends_a_paste(command: str) -> bool:
     return command.casefold().startswith(_LAST)
 
 
-def asks_for_release(command: str) -> bool:
-    """Whether it would release an emergency stop: only a person does who types it by itself."""
-    return command[1:].casefold().split()[:1] == ["release"]
+def must_be_typed(command: str) -> str:
+    """The command's name where only a person who types it by itself does it: what is pasted may be anybody's words."""
+    word = (command[1:].casefold().split() or [""])[0]
+    return word if word in _TYPED_ALONE else ""
 
 
 def quoted(texts: Sequence[str]) -> str:

@@ -33,7 +33,8 @@ class Plain:
         self._wake_read, self._wake_write = os.pipe()
         os.set_blocking(self._wake_write, False)
         self._rest = b""
-        self._plan_lines: list[str] | None = None
+        self._edited_lines: list[str] | None = None
+        self._edit_ends_with = ""
         self._pasted: list[str] = []
         self._is_at_prompt = False
         self._console = Console(
@@ -79,8 +80,9 @@ class Plain:
             self._show_prompt()
 
     def edit(self, plan_text: str) -> None:  # noqa: ARG002  # what it was has just been printed
-        self._plan_lines = []
-        self._talk.tell("edit_plan_lines")
+        is_program = self._talk.ride.program is not None
+        self._edited_lines, self._edit_ends_with = [], "." if is_program else ""
+        self._talk.tell("edit_program_lines" if is_program else "edit_plan_lines")
 
     def leave(self, code: int) -> None:
         self._code = max(self._code or 0, code)
@@ -135,19 +137,19 @@ class Plain:
             self._talk.enter("\n".join(lines))
 
     def _take(self, line: str) -> None:
-        if self._plan_lines is None:
+        if self._edited_lines is None:
             self._pasted.append(line)
             if is_stop(line) and not line.lstrip().startswith("/"):
                 self._hand_on()
-        elif line.strip():
-            self._plan_lines.append(line)
+        elif line.strip() != self._edit_ends_with:
+            self._edited_lines.append(line)
         else:
-            plan_text, self._plan_lines = "\n".join(self._plan_lines), None
-            self._talk.take_edited(plan_text)
+            edited, self._edited_lines = "\n".join(self._edited_lines), None
+            self._talk.take_edited(edited)
 
     def _on_signal(self, number: int) -> None:
         if number == signal.SIGINT:
-            self._plan_lines = None
+            self._edited_lines = None
             self._pasted.clear()
             self._talk.interrupt()
         elif number == signal.SIGTSTP:

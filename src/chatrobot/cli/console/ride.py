@@ -10,6 +10,7 @@ from chatrobot.core.events import (
     Event,
     Finished,
     Interpreted,
+    Paused,
     ProgramWritten,
     Progress,
     Rehearsed,
@@ -34,7 +35,7 @@ class Ride:
     is_moving: bool = False
     step: int = 0
     of: int = 0
-    fraction: float = 0.0
+    fraction: float | None = 0.0
     nearest_m: float | None = None
     battery_percent: float | None = None
     path: tuple[XY, ...] = ()
@@ -65,8 +66,13 @@ class Ride:
             goes_on = event.turn == self._streamed and self.is_moving
             self.path = (*self.path, *path) if goes_on else path
         elif isinstance(event, Started):
-            self.turn, self.is_moving, self.step, self.of, self.fraction = event.turn, True, 0, 0, 0.0
+            self.turn, self.is_moving, self.step, self.of = event.turn, True, 0, 0
+            self.fraction = None if self.rehearsed is not None and self.rehearsed.open_ended else 0.0
             self.pose, self.trail = event.pose, ((event.pose.x_m, event.pose.y_m),)
+        elif isinstance(event, Paused):
+            self.pose = event.pose
+            if event.turn == self.turn:
+                self.is_moving, self.twist = False, ZERO_TWIST
         elif isinstance(event, Finished):
             self._finish(event)
 
@@ -74,7 +80,7 @@ class Ride:
         """A plan that comes in step by step."""
         goes_on = event.turn == self._streamed
         self.plan_text = f"{self.plan_text}\n{event.plan_text}" if goes_on else event.plan_text
-        self._streamed = event.turn
+        self._streamed, self.program = event.turn, None
 
     def _follow(self, pose: Pose) -> None:
         here = (pose.x_m, pose.y_m)

@@ -84,7 +84,9 @@ class Strip:
             more.append(say("battery", percent=f"{ride.battery_percent:.0f}"))
         label = f" {say('moving')}  "
         bar_cells = max(LEAST_BAR_CELLS, min(BAR_CELLS, room - cell_len(label) - PERCENT_CELLS))
-        head: Fragments = [("class:strip.key", label), *_bar(ride.fraction, bar_cells)]
+        head: Fragments = [("class:strip.key", label)]
+        if ride.fraction is not None:  # of what has no known end there is no share
+            head += _bar(ride.fraction, bar_cells)
         if ride.of > 1:
             head.append(("", f"  {say('step', step=max(1, ride.step), of=ride.of)}"))
         lines: list[Fragments] = [head, [("", f" {' · '.join(facts)}")]]

@@ -19,11 +19,11 @@ from chatrobot.cli.console.narrator import Narrator
 from chatrobot.cli.console.pasted import (
     MOST_TEXTS,
     Pasted,
-    asks_for_release,
     cut_at_stop,
     ends_a_paste,
     goes_on_after,
     is_plan,
+    must_be_typed,
     quoted,
 )
 from chatrobot.cli.console.pump import Pump
@@ -38,6 +38,7 @@ from chatrobot.core.events import Event, Interpreted, Notice, Result, Started, T
 from chatrobot.language.consent import read_consent, wants_to_edit
 from chatrobot.programs.check import MAX_SOURCE_CHARS
 from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
+from chatrobot.session.parting import is_parting
 from chatrobot.session.question import Question
 
 TWICE_S = 1.5
@@ -127,11 +128,11 @@ class Talk:
         with self._order:
             text = self._pasted.next()
             while text is not None and text.startswith("/") and text != "/undo":
-                is_release = asks_for_release(text)
-                undone = self._pasted.drop() if is_release or ends_a_paste(text) else ()
+                typed_alone = must_be_typed(text)
+                undone = self._pasted.drop() if typed_alone or ends_a_paste(text) else ()
                 self._echo(text, anew=True)
                 self._tell_undone(undone)
-                self.tell("release_alone") if is_release else self._run_command(self, text)
+                self.tell(f"{typed_alone}_alone") if typed_alone else self._run_command(self, text)
                 text = self._pasted.next()
             if text is not None:
                 self._say_in_order(text if text != "/undo" else self.words.say("undo_words"), is_pasted=True)
@@ -143,16 +144,17 @@ class Talk:
         if len(edited) > (LONGEST_CHARS if program is None else MAX_SOURCE_CHARS):
             self.tell("line_too_long", limit=LONGEST_CHARS)
         elif text and program is None:
-            self._say_plan(text, self.words.say("edited"))
+            self._say_plan(text, self.words.say("edited"), is_edited=True)
         elif text and program is not None:
             with self._order:
                 self.attempt(lambda: self.session.say_source(program.program, f"{text}\n"))
                 self._echo(self.words.say("edited"))
 
-    def _say_plan(self, plan_text: str, shown: str) -> None:
+    def _say_plan(self, plan_text: str, shown: str, *, is_edited: bool = False) -> None:
+        say = self.session.say_edited_plan if is_edited else self.session.say_plan
         with self._order:
             undone = self._pasted.drop()
-            self.attempt(lambda: self.session.say_plan(plan_text))
+            self.attempt(lambda: say(plan_text))
             self._echo(shown)
         self._tell_undone(undone)
 
@@ -173,6 +175,8 @@ class Talk:
             self.face.leave(0)
             return
         self._leaving = True
+        if self.session.is_paused:
+            self.stop("end of input")  # nobody is left to go on with it
         if self._question.turn is not None:
             self.attempt(lambda: self._question.answer(self.session, False))
             return
@@ -267,7 +271,7 @@ class Talk:
             if (
                 isinstance(event, Interpreted)
                 and event.by == "reflex"
-                and (self.ride.is_moving or self._said_stopped)
+                and (self.ride.is_moving or self._said_stopped or self.session.is_paused)
             ):
                 self._muted.add(event.turn)  # what was moving says how it ended
             if isinstance(event, Result):
@@ -276,6 +280,8 @@ class Talk:
                 self.face.print(*lines)
         if isinstance(event, Result):
             self._go_on_after(event)
+            if is_parting(event):
+                self.leave()
             if self._leaving and self._has_nothing_to_do:
                 self.face.leave(0)
         if isinstance(event, (Telemetry, Started, Result)) and (

@@ -7,6 +7,7 @@ import os
 from collections.abc import Mapping
 
 from chatrobot.core.geometry import Pose, wrap_angle
+from chatrobot.core.shown import fixed
 from chatrobot.language.data_files import load_table
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.normalise import has_chinese
@@ -34,9 +35,8 @@ class Words:
     def pose(self, pose: Pose) -> str:
         """A pose as `(1.00, -0.50) 90°`: metres and heading in the odom frame."""
         heading_deg = round(math.degrees(wrap_angle(pose.yaw_rad)))
-        return (
-            f"({_zero(pose.x_m):.2f}, {_zero(pose.y_m):.2f}) {180 if heading_deg == -180 else heading_deg}°"
-        )
+        heading_deg = 180 if heading_deg == -180 else heading_deg
+        return f"({fixed(pose.x_m, 2)}, {fixed(pose.y_m, 2)}) {heading_deg}°"
 
 
 def language_of_environment(environment: Mapping[str, str] = os.environ) -> LanguageCode:
@@ -45,8 +45,3 @@ def language_of_environment(environment: Mapping[str, str] = os.environ) -> Lang
         (environment[name] for name in ("LC_ALL", "LC_MESSAGES", "LANG") if environment.get(name)), ""
     )
     return "zh" if value.startswith("zh") else "en"
-
-
-def _zero(value_m: float) -> float:
-    """No "-0.00" for a robot that stands where it began."""
-    return 0.0 if abs(value_m) < 0.005 else value_m

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from chatrobot.core.geometry import Twist
-from chatrobot.plan.base import Step, require_positive
+from chatrobot.plan.base import Step, divide_angle, require_positive
 from chatrobot.plan.context import Impossible, Lowered, LoweringContext
 from chatrobot.plan.core_motion import RampedTwist
-from chatrobot.plan.primitive import Primitive
+from chatrobot.plan.primitive import Primitive, StepParts, step_parts
 from chatrobot.plan.reader import LineReader
 from chatrobot.plan.speeds import choose_arc_speed
 from chatrobot.plan.units import angle_text, number_text
@@ -72,6 +72,10 @@ class ArcPrimitive(Primitive[Arc]):
                 context.profile.limits, Twist(vx, 0.0, wz), step.angle_rad * step.radius_m / speed
             )
         ]
+
+    def divide(self, step: Arc, share: float, context: LoweringContext) -> StepParts:  # noqa: ARG002
+        angles = divide_angle(step.angle_rad, share)
+        return step_parts(angles, lambda part: replace(step, angle_rad=part))
 
 
 PRIMITIVE = ArcPrimitive()

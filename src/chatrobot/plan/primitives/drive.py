@@ -3,15 +3,23 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
-from chatrobot.plan.base import Condition, ObstacleWithin, Step, require, require_finite, require_positive
+from chatrobot.plan.base import (
+    Condition,
+    ObstacleWithin,
+    Step,
+    divide_extent,
+    require,
+    require_finite,
+    require_positive,
+)
 from chatrobot.plan.context import Impossible, Lowered, LoweringContext
 from chatrobot.plan.core_motion import RampedTwist
-from chatrobot.plan.primitive import Primitive
+from chatrobot.plan.primitive import Primitive, StepParts, step_parts
 from chatrobot.plan.reader import LineReader
 from chatrobot.plan.speeds import choose_speed
 from chatrobot.plan.units import angle_text, number_text
@@ -127,6 +135,16 @@ class DrivePrimitive(Primitive[Drive]):
         else:
             hold_s = (step.distance_m if step.distance_m is not None else UNTIL_AT_MOST_M) / speed
         return [RampedTwist.within(profile.limits, twist, hold_s, until=step.until)]
+
+    def divide(self, step: Drive, share: float, context: LoweringContext) -> StepParts:  # noqa: ARG002
+        timed = step.duration_s
+        if timed is not None:
+            extents = divide_extent(timed, share)
+            done, rest = step_parts(extents, lambda part: replace(step, duration_s=part))
+        else:
+            extents = divide_extent(step.distance_m or UNTIL_AT_MOST_M, share)
+            done, rest = step_parts(extents, lambda part: replace(step, distance_m=part))
+        return replace(done, until=None) if isinstance(done, Drive) else None, rest
 
 
 def straight_twist(speed_mps: float, direction_rad: float) -> Twist:

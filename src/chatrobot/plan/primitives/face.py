@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
-from chatrobot.plan.base import Frame, Step, require_finite, require_positive
+from chatrobot.core.geometry import Pose, wrap_angle
+from chatrobot.plan.base import Frame, Step, require_finite, require_positive, rounded_angle
 from chatrobot.plan.context import Lowered, LoweringContext
 from chatrobot.plan.legs import turn_to
-from chatrobot.plan.primitive import Primitive
+from chatrobot.plan.primitive import Primitive, StepParts
 from chatrobot.plan.reader import LineReader
 from chatrobot.plan.units import angle_text
 
@@ -55,6 +56,16 @@ class FacePrimitive(Primitive[Face]):
     def lower(self, step: Face, context: LoweringContext) -> Lowered:
         heading = context.frame_pose(step.frame).yaw_rad + step.yaw_rad
         return turn_to(context.profile, context.pose, heading, step.rate_radps)
+
+    def divide(self, step: Face, share: float, context: LoweringContext) -> StepParts:  # noqa: ARG002
+        yaw_rad = rounded_angle(wrap_angle(context.pose.yaw_rad), 2)
+        return Face(yaw_rad, "odom", step.rate_radps), step
+
+    def resolve(self, step: Face, plan_start: Pose) -> Face:
+        if step.frame == "odom":
+            return step
+        yaw_rad = rounded_angle(wrap_angle(plan_start.yaw_rad + step.yaw_rad), 6)
+        return replace(step, yaw_rad=yaw_rad, frame="odom")
 
 
 PRIMITIVE = FacePrimitive()

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
-from chatrobot.core.geometry import Pose
-from chatrobot.plan.base import Frame, Step, require, require_finite, require_positive
-from chatrobot.plan.context import Lowered, LoweringContext
+from chatrobot.core.geometry import Pose, wrap_angle
+from chatrobot.plan.base import Frame, Step, require, require_finite, require_positive, rounded_angle
+from chatrobot.plan.context import Impossible, Lowered, LoweringContext
 from chatrobot.plan.legs import go_to
-from chatrobot.plan.primitive import Primitive
+from chatrobot.plan.primitive import Primitive, StepParts
 from chatrobot.plan.reader import LineReader, quote
 from chatrobot.plan.units import angle_text, number_text
 
@@ -42,6 +42,11 @@ class Go(Step):
             self.place.isprintable() and len(self.place) <= MAX_PLACE_CHARS,
             f"the name of a place is printable text of at most {MAX_PLACE_CHARS} characters",
         )
+
+    @classmethod
+    def to_pose(cls, pose: Pose) -> Go:
+        """Back to a measured pose of `odom`: to a tenth of a millimetre and a hundredth of a degree."""
+        return cls(round(pose.x_m, 4), round(pose.y_m, 4), rounded_angle(wrap_angle(pose.yaw_rad), 2))
 
 
 class GoPrimitive(Primitive[Go]):
@@ -89,8 +94,25 @@ class GoPrimitive(Primitive[Go]):
         frame = context.frame_pose(step.frame)
         target = frame.compose(Pose(step.x_m, step.y_m, step.yaw_rad or 0.0))
         heading = None if step.yaw_rad is None else target.yaw_rad
-        return go_to(
+        lowered = go_to(
             context, (target.x_m, target.y_m), heading, speed_mps=step.speed_mps, named_place=bool(step.place)
+        )
+        if isinstance(lowered, Impossible) and "nearest_x_m" in lowered.reason.values:
+            at = lowered.reason.values
+            nearest = Go(float(at["nearest_x_m"]), float(at["nearest_y_m"]), speed_mps=step.speed_mps)
+            return replace(lowered, instead=nearest)
+        return lowered
+
+    def divide(self, step: Go, share: float, context: LoweringContext) -> StepParts:  # noqa: ARG002
+        return Go.to_pose(context.pose), step
+
+    def resolve(self, step: Go, plan_start: Pose) -> Go:
+        if step.frame == "odom":
+            return step
+        target = plan_start.compose(Pose(step.x_m, step.y_m, step.yaw_rad or 0.0))
+        yaw_rad = None if step.yaw_rad is None else rounded_angle(wrap_angle(target.yaw_rad), 6)
+        return replace(
+            step, x_m=round(target.x_m, 6), y_m=round(target.y_m, 6), yaw_rad=yaw_rad, frame="odom"
         )
 
 

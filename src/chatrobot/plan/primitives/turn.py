@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from chatrobot.core.geometry import Twist
-from chatrobot.plan.base import Step, require, require_positive
+from chatrobot.plan.base import Step, divide_angle, divide_extent, require, require_positive
 from chatrobot.plan.context import Impossible, Lowered, LoweringContext
 from chatrobot.plan.core_motion import RampedTwist
-from chatrobot.plan.primitive import Primitive
+from chatrobot.plan.primitive import Primitive, StepParts, step_parts
 from chatrobot.plan.reader import LineReader
 from chatrobot.plan.speeds import choose_rate, refuse_turn_on_the_spot
 from chatrobot.plan.units import angle_text, number_text
@@ -70,6 +70,13 @@ class TurnPrimitive(Primitive[Turn]):
         if refused is not None:
             return refused
         return [RampedTwist.within(context.profile.limits, Twist(0.0, 0.0, sign * rate), hold_s)]
+
+    def divide(self, step: Turn, share: float, context: LoweringContext) -> StepParts:  # noqa: ARG002
+        if step.angle_rad is not None:
+            angles = divide_angle(step.angle_rad, share)
+            return step_parts(angles, lambda part: replace(step, angle_rad=part))
+        times = divide_extent(step.duration_s or 0.0, share)
+        return step_parts(times, lambda part: replace(step, duration_s=part))
 
 
 PRIMITIVE = TurnPrimitive()

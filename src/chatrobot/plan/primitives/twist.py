@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
-from chatrobot.plan.base import Step, require_finite, require_positive
+from chatrobot.plan.base import Step, divide_extent, require_finite, require_positive
 from chatrobot.plan.context import Impossible, Lowered, LoweringContext
 from chatrobot.plan.core_motion import Pause, RampedTwist
-from chatrobot.plan.primitive import Primitive
+from chatrobot.plan.primitive import Primitive, StepParts, step_parts
 from chatrobot.plan.reader import LineReader
 from chatrobot.plan.speeds import refuse_turn_on_the_spot, scale_into_limits
 from chatrobot.plan.units import number_text
@@ -64,6 +64,10 @@ class TwistPrimitive(Primitive[RawTwist]):
         twist = scale_into_limits(limits, asked)
         scaled = None if twist == asked else asked
         return [RampedTwist.within(limits, twist, step.duration_s, asked=scaled)]
+
+    def divide(self, step: RawTwist, share: float, context: LoweringContext) -> StepParts:  # noqa: ARG002
+        times = divide_extent(step.duration_s, share)
+        return step_parts(times, lambda part: replace(step, duration_s=part))
 
 
 def _velocity(line: LineReader, unit: str, direction: str) -> float:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
-from chatrobot.plan.base import Step, require, require_positive
+from chatrobot.plan.base import Step, divide_extent, require, require_positive
 from chatrobot.plan.context import Lowered, LoweringContext
 from chatrobot.plan.core_motion import Pause
-from chatrobot.plan.primitive import Primitive
+from chatrobot.plan.primitive import Primitive, StepParts, step_parts
 from chatrobot.plan.reader import LineReader
 from chatrobot.plan.units import number_text
 
@@ -45,6 +45,10 @@ class WaitPrimitive(Primitive[Wait]):
 
     def lower(self, step: Wait, context: LoweringContext) -> Lowered:  # noqa: ARG002
         return [Pause(step.duration_s)]
+
+    def divide(self, step: Wait, share: float, context: LoweringContext) -> StepParts:  # noqa: ARG002
+        times = divide_extent(step.duration_s, share)
+        return step_parts(times, lambda part: replace(step, duration_s=part))
 
 
 PRIMITIVE = WaitPrimitive()

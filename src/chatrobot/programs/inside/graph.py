@@ -1,4 +1,7 @@
-"""Who publishes, listens and serves within the program: the topics and services that need nobody outside."""
+"""Who publishes, listens and serves within the program: the topics and services that need nobody outside.
+
+Publishers and services are known by their handles.
+"""
 
 from __future__ import annotations
 
@@ -13,29 +16,29 @@ nodes: list[Any] = []
 
 def add_subscription(subscription: Any) -> None:
     """What was published before comes to it if both sides keep it (transient local)."""
-    _subscriptions.setdefault(subscription.topic_name, []).append(subscription)
-    for publisher in _publishers.get(subscription.topic_name, ()):
+    _subscriptions.setdefault(subscription.handle.name, []).append(subscription)
+    for publisher in _publishers.get(subscription.handle.name, ()):
         for message in publisher.kept_for(subscription):
-            subscription.receive(deepcopy(message))
+            subscription._receive(deepcopy(message))
 
 
 def remove_subscription(subscription: Any) -> None:
-    _subscriptions[subscription.topic_name].remove(subscription)
+    _subscriptions[subscription.handle.name].remove(subscription)
 
 
 def add_publisher(publisher: Any) -> None:
-    _publishers.setdefault(publisher.topic_name, []).append(publisher)
+    _publishers.setdefault(publisher.name, []).append(publisher)
 
 
 def remove_publisher(publisher: Any) -> None:
-    _publishers[publisher.topic_name].remove(publisher)
+    _publishers[publisher.name].remove(publisher)
 
 
 def publish(publisher: Any, message: Any) -> None:
     """To every subscription of that topic and type, each with a copy of its own."""
-    for subscription in tuple(_subscriptions.get(publisher.topic_name, ())):
+    for subscription in tuple(_subscriptions.get(publisher.name, ())):
         if subscription.msg_type is publisher.msg_type:
-            subscription.receive(deepcopy(message))
+            subscription._receive(deepcopy(message))
 
 
 def count_publishers(topic: str) -> int:
@@ -58,12 +61,12 @@ def topic_types() -> list[tuple[str, list[str]]]:
 
 
 def add_service(service: Any) -> None:
-    _services[service.service_name] = service
+    _services[service.name] = service
 
 
 def remove_service(service: Any) -> None:
-    if find_service(service.service_name, service.srv_type) is service:
-        del _services[service.service_name]
+    if find_service(service.name, service.srv_type) is service:
+        del _services[service.name]
 
 
 def find_service(name: str, srv_type: Any) -> Any:

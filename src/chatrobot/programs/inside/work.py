@@ -27,8 +27,9 @@ def find_batch(executor: Any, nodes: Iterable[Any], now_ns: int) -> tuple[Iterat
                 continue
             if _is_ready(entity, now_ns):
                 batch.append((entity, kind))
-            elif kind is _timer_call and entity.due_ns is not None:
-                next_ns = entity.due_ns if next_ns is None else min(next_ns, entity.due_ns)
+            elif kind is _timer_call and entity.handle.due_ns is not None:
+                due_ns = entity.handle.due_ns
+                next_ns = due_ns if next_ns is None else min(next_ns, due_ns)
     return _tasks(executor, batch, now_ns), next_ns
 
 
@@ -45,9 +46,10 @@ def _entities(node: Any) -> Iterator[tuple[Any, Kind]]:
 
 
 def _is_ready(entity: Any, now_ns: int) -> bool:
-    if hasattr(entity, "due_ns"):
-        return entity.due_ns is not None and bool(entity.due_ns <= now_ns)
-    return entity.is_waiting and not entity.is_destroyed
+    handle = entity.handle
+    if hasattr(handle, "due_ns"):
+        return handle.due_ns is not None and bool(handle.due_ns <= now_ns)
+    return handle.is_waiting and not handle.is_destroyed
 
 
 def _tasks(executor: Any, batch: Iterable[tuple[Any, Kind]], now_ns: int) -> Iterator[Task]:
@@ -65,32 +67,32 @@ def _task(executor: Any, entity: Any, call: Call) -> Task:
         group.ending_execution(entity)
         executor.wake()
 
-    task.at_end = at_end
+    task._at_end = at_end
     return task
 
 
 def _timer_call(timer: Any) -> Call:
-    timer.take()
+    timer.handle.take()
     return lambda: timer.callback() if timer.callback is not None else None
 
 
 def _message_call(subscription: Any) -> Call:
-    arguments = subscription.take()
+    arguments = subscription._take()
     return lambda: subscription.callback(*arguments)
 
 
 def _guard_call(guard: Any) -> Call:
-    guard.take()
+    guard.handle.is_waiting = False
     return lambda: guard.callback()
 
 
 def _response_call(client: Any) -> Call:
-    future, response = client.take()
+    future, response = client.handle.responses.popleft()
     return lambda: future.set_result(response)
 
 
 def _request_call(service: Any) -> Call:
-    request, answer = service.take()
+    request, answer = service.handle.queue.popleft()
 
     async def respond() -> None:
         response = service.callback(request, service.srv_type.Response())

@@ -26,6 +26,12 @@ ParameterDescriptor = message(
     "string name; uint8 type; string description; string additional_constraints; bool read_only; bool dynamic_typing;"
     "rcl_interfaces/FloatingPointRange[<=1] floating_point_range; rcl_interfaces/IntegerRange[<=1] integer_range",
 )
+ParameterEvent = message(
+    "rcl_interfaces/ParameterEvent",
+    "builtin_interfaces/Time stamp; string node; rcl_interfaces/Parameter[] new_parameters;"
+    "rcl_interfaces/Parameter[] changed_parameters; rcl_interfaces/Parameter[] deleted_parameters",
+)
+ListParametersResult = message("rcl_interfaces/ListParametersResult", "string[] names; string[] prefixes")
 SetParametersResult = message("rcl_interfaces/SetParametersResult", "bool successful; string reason")
 Log = message(
     "rcl_interfaces/Log",

@@ -5,43 +5,71 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
+from collections.abc import Callable
 from copy import deepcopy
 from typing import Any
 
 from chatrobot.programs.inside import graph
 from chatrobot.programs.inside.link import get_link
-from chatrobot.programs.names.rclpy._rclpy_pybind11 import DESTROYED, InvalidHandle
+from chatrobot.programs.names.rclpy._rclpy_pybind11 import Destroyable
 from chatrobot.programs.names.rclpy.qos import QoSProfile
 from chatrobot.programs.names.rclpy.task import Future
 
 LOOKS_EVERY_S = 0.25
 
 
+class ClientHandle(Destroyable):
+    """What services answer, until an executor takes it."""
+
+    def __init__(self, wake: Callable[[], None], name: str, srv_type: Any) -> None:
+        super().__init__()
+        self.wake = wake
+        self.name = name
+        self.srv_type = srv_type
+        self.responses: deque[tuple[Future, Any]] = deque()
+
+    @property
+    def is_waiting(self) -> bool:
+        return bool(self.responses)
+
+    def find_service(self) -> Any:
+        """Who serves it, None for nobody."""
+        return graph.find_service(self.name, self.srv_type)
+
+    def receive(self, future: Future, response: Any) -> None:
+        self.responses.append((future, response))
+        self.wake()
+
+
 class Client:
     """Calls a service of the program; there is no other."""
 
     def __init__(
-        self, node: Any, srv_type: Any, srv_name: str, qos_profile: QoSProfile, callback_group: Any
+        self,
+        context: Any,
+        client_impl: ClientHandle,
+        srv_type: Any,
+        srv_name: str,
+        qos_profile: QoSProfile,
+        callback_group: Any,
     ) -> None:
+        self.context = context
+        self.__client = client_impl
         self.srv_type = srv_type
         self.srv_name = srv_name
-        self.service_name: str = node.resolve_service_name(srv_name)
         self.qos_profile = qos_profile
         self.callback_group = callback_group
-        self.is_destroyed = False
-        self._node = node
-        self._responses: deque[tuple[Future, Any]] = deque()
-        get_link().send("topic", "listens", self.service_name, srv_type._type_name)
+        get_link().send("topic", "listens", client_impl.name, srv_type._type_name)
 
     def call_async(self, request: Any) -> Future:
         if not isinstance(request, self.srv_type.Request):
             raise TypeError
-        self._check()
-        future = Future()
-        service = graph.find_service(self.service_name, self.srv_type)
-        if service is not None:
-            service.receive(deepcopy(request), lambda response: self._receive(future, deepcopy(response)))
-        return future
+        with self.handle:
+            impl, future = self.__client, Future()
+            service = impl.find_service()
+            if service is not None:
+                service.receive(deepcopy(request), lambda response: impl.receive(future, deepcopy(response)))
+            return future
 
     def call(self, request: Any, timeout_sec: float | None = None) -> Any:
         """Waits; for ever where nobody spins."""
@@ -52,44 +80,42 @@ class Client:
             raise TimeoutError
         return future.result()
 
+    def get_pending_request(self, sequence_number: int) -> Future:
+        """Requests have no numbers here: what is answered is taken at once."""
+        raise KeyError(sequence_number)
+
     def remove_pending_request(self, future: Future) -> None:
         """Its answer is not wanted any more."""
-        self._responses = deque(entry for entry in self._responses if entry[0] is not future)
-
-    def _receive(self, future: Future, response: Any) -> None:
-        self._responses.append((future, response))
-        self._node._wake_executor()
-
-    @property
-    def is_waiting(self) -> bool:
-        return bool(self._responses)
-
-    def take(self) -> tuple[Future, Any]:
-        return self._responses.popleft()
+        impl = self.__client
+        impl.responses = deque(entry for entry in impl.responses if entry[0] is not future)
 
     def service_is_ready(self) -> bool:
-        self._check()
-        get_link().look()
-        return graph.find_service(self.service_name, self.srv_type) is not None
+        with self.handle:
+            get_link().look()
+            return self.__client.find_service() is not None
 
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
         until_s = None if timeout_sec is None else time.monotonic() + timeout_sec
         while not self.service_is_ready():
             left_s = LOOKS_EVERY_S if until_s is None else min(LOOKS_EVERY_S, until_s - time.monotonic())
-            if left_s <= 0.0 or not self._node.context.is_valid:
+            if left_s <= 0.0 or not self.context._is_valid:
                 return False
             time.sleep(left_s)
         return True
 
+    @property
+    def service_name(self) -> str:
+        with self.handle:
+            return self.__client.name
+
+    @property
+    def handle(self) -> Any:
+        return self.__client
+
+    def configure_introspection(
+        self, clock: Any, service_event_qos_profile: Any, introspection_state: Any
+    ) -> None:
+        """Nobody outside could look on."""
+
     def destroy(self) -> None:
-        self.is_destroyed = True
-
-    def _check(self) -> None:
-        if self.is_destroyed:
-            raise InvalidHandle(DESTROYED)
-
-    def __enter__(self) -> Client:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.destroy()
+        self.__client.destroy_when_not_in_use()

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from typing import Any
 
 from chatrobot.programs.inside.link import get_link
+from chatrobot.programs.names.rclpy.arguments import parsed
+from chatrobot.programs.names.rclpy.impl.logging_severity import LoggingSeverity
+from chatrobot.programs.names.rclpy.logging import set_logger_level
+from chatrobot.programs.ros_args import RosArguments
 
 
 class Context:
@@ -15,6 +20,7 @@ class Context:
         self._is_initialized = False
         self._is_shut_down = False
         self._callbacks: list[Callable[[], Any]] = []
+        self._ros_arguments = RosArguments()
 
     def init(
         self, args: Any = None, *, initialize_logging: bool = True, domain_id: int | None = None
@@ -23,25 +29,28 @@ class Context:
             raise RuntimeError("Context.init() must only be called once")
         if domain_id is not None and domain_id < 0:
             raise RuntimeError("domain_id must be a non-negative integer")
+        self._ros_arguments = parsed(sys.argv if args is None else args)
+        for logger, level in self._ros_arguments.levels:
+            set_logger_level(logger, LoggingSeverity[level])
         self._is_initialized = True
 
     def ok(self) -> bool:
         get_link().look()
-        return self.is_valid
+        return self._is_valid
 
     @property
-    def is_valid(self) -> bool:
+    def _is_valid(self) -> bool:
         """As `ok`, at no cost of time."""
         return self._is_initialized and not self._is_shut_down
 
     @property
-    def was_initialized(self) -> bool:
+    def _was_initialized(self) -> bool:
         return self._is_initialized
 
     def on_shutdown(self, callback: Callable[[], Any]) -> None:
         if not callable(callback):
             raise TypeError("callback should be a callable")
-        if not self.is_valid:
+        if not self._is_valid:
             callback()
         else:
             self._callbacks.append(callback)
@@ -54,7 +63,7 @@ class Context:
         self._finish()
 
     def try_shutdown(self) -> None:
-        if self.is_valid:
+        if self._is_valid:
             self._finish()
 
     def _finish(self) -> None:
@@ -62,6 +71,15 @@ class Context:
         callbacks, self._callbacks = self._callbacks, []
         for callback in callbacks:
             callback()
+
+    def destroy(self) -> None:
+        """It is not used any more."""
+        self.try_shutdown()
+
+    @property
+    def handle(self) -> Context:
+        """There is none below this one."""
+        return self
 
     def get_domain_id(self) -> int:
         return 0

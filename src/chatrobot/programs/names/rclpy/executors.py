@@ -37,7 +37,7 @@ class Executor:
     def __init__(self, *, context: Any = None) -> None:
         self._context = get_default_context() if context is None else context
         if (
-            not self._context.was_initialized
+            not self._context._was_initialized
         ):  # in rclpy it has no handle then, and this is what comes of that
             raise TypeError("'NoneType' object does not support the context manager protocol")
         self._nodes: list[Any] = []
@@ -66,12 +66,15 @@ class Executor:
     def get_nodes(self) -> list[Any]:
         return list(self._nodes)
 
+    def can_execute(self, entity: Any) -> bool:
+        return bool(entity.callback_group.can_execute(entity))
+
     def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Task:
         task = Task(callback, args, kwargs, executor=self)
-        self.resume(task)
+        self._resume(task)
         return task
 
-    def resume(self, task: Task) -> None:
+    def _resume(self, task: Task) -> None:
         """`task` is to be run, or to be run on."""
         self._tasks.append(task)
         self.wake()
@@ -129,7 +132,7 @@ class Executor:
                 return task
             if self._is_shutdown:
                 raise ShutdownException
-            if not self._context.is_valid:
+            if not self._context._is_valid:
                 raise ExternalShutdownException
             if is_reached():
                 raise ConditionReachedException

@@ -4,27 +4,35 @@ from __future__ import annotations
 
 from typing import Any
 
-from chatrobot.programs.names.rclpy._rclpy_pybind11 import DESTROYED, InvalidHandle
+from chatrobot.programs.names.rclpy._rclpy_pybind11 import Destroyable
+
+
+class GuardHandle(Destroyable):
+    """Whether it was triggered."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.is_waiting = False
+        self.wake: Any = lambda: None
 
 
 class GuardCondition:
     """Has an executor call something, from any thread."""
 
-    def __init__(self, callback: Any, callback_group: Any, wake: Any) -> None:
+    def __init__(self, callback: Any, callback_group: Any, context: Any = None) -> None:
+        self._context = context
+        self.__gc = GuardHandle()
         self.callback = callback
         self.callback_group = callback_group
-        self.is_destroyed = False
-        self.is_waiting = False
-        self._wake = wake
+
+    @property
+    def handle(self) -> Any:
+        return self.__gc
 
     def trigger(self) -> None:
-        if self.is_destroyed:
-            raise InvalidHandle(DESTROYED)
-        self.is_waiting = True
-        self._wake()
-
-    def take(self) -> None:
-        self.is_waiting = False
+        with self.handle:
+            self.__gc.is_waiting = True
+            self.__gc.wake()
 
     def destroy(self) -> None:
-        self.is_destroyed = True
+        self.__gc.destroy_when_not_in_use()

@@ -1,38 +1,64 @@
-"""rclpy.node"""
+"""rclpy.node
+
+A program derives from `Node`. So nothing here has a name that rclpy's has not, for a method or an attribute of the
+program could take its place; and what is used of `self` is what rclpy uses, so that an override which breaks rclpy's
+constructor breaks this one.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from typing import Any, TypeVar
+from collections.abc import Iterator
+from types import FunctionType
+from typing import Any
 
 from chatrobot.programs.inside import graph, ros_names
 from chatrobot.programs.inside.link import get_link
-from chatrobot.programs.names.rclpy._rclpy_pybind11 import DESTROYED, InvalidHandle, RCLError
+from chatrobot.programs.names.rcl_interfaces.msg import ParameterEvent
+from chatrobot.programs.names.rclpy._rclpy_pybind11 import Destroyable
+from chatrobot.programs.names.rclpy.arguments import parsed
 from chatrobot.programs.names.rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
-from chatrobot.programs.names.rclpy.client import Client
 from chatrobot.programs.names.rclpy.clock import Clock, ROSClock
 from chatrobot.programs.names.rclpy.exceptions import (
     InvalidNamespaceException,
     InvalidNodeNameException,
     NotInitializedException,
 )
-from chatrobot.programs.names.rclpy.guard_condition import GuardCondition
 from chatrobot.programs.names.rclpy.impl.rcutils_logger import RcutilsLogger
 from chatrobot.programs.names.rclpy.logging import get_logger
-from chatrobot.programs.names.rclpy.node_checks import check_type, destroy, qos_of, raise_for
+from chatrobot.programs.names.rclpy.node_checks import destroy, raise_for
+from chatrobot.programs.names.rclpy.node_entities import NodeEntities
 from chatrobot.programs.names.rclpy.node_graph import NodeGraph
 from chatrobot.programs.names.rclpy.node_parameters import NodeParameters
-from chatrobot.programs.names.rclpy.publisher import Publisher
-from chatrobot.programs.names.rclpy.qos import QoSProfile, qos_profile_services_default
-from chatrobot.programs.names.rclpy.service import Service
-from chatrobot.programs.names.rclpy.subscription import Subscription
-from chatrobot.programs.names.rclpy.timer import Rate, Timer
+from chatrobot.programs.names.rclpy.qos import qos_profile_parameter_events
 from chatrobot.programs.names.rclpy.utilities import get_default_context
+from chatrobot.programs.ros_args import RosArguments
 
-T = TypeVar("T")
+PARAMETER_EVENTS = "/parameter_events"
 
 
-class Node(NodeGraph, NodeParameters):
+class NodeHandle(Destroyable):
+    """The names of a node, as its program and the arguments have them."""
+
+    def __init__(self, name: str, namespace: str | None, arguments: RosArguments) -> None:
+        super().__init__()
+        given = arguments.namespace(name)
+        space = (namespace or "") if given is None else given
+        self.name = arguments.node_name(name)
+        self.namespace = space if space.startswith("/") else f"/{space}"
+        raise_for(ros_names.node_name_problem(self.name), InvalidNodeNameException, self.name)
+        raise_for(ros_names.namespace_problem(self.namespace), InvalidNamespaceException, self.namespace)
+        self.topics = arguments.names(name, "topic")
+        for topic, led_to in get_link().settings.remaps.items():
+            self.topics.setdefault(topic, led_to)
+        self.services = arguments.names(name, "service")
+        self.parameters = arguments.values(self.name)
+
+    @property
+    def full_name(self) -> str:
+        return f"{self.namespace.rstrip('/')}/{self.name}"
+
+
+class Node(NodeEntities, NodeParameters):
     """What a program's class derives from."""
 
     def __init__(
@@ -44,35 +70,30 @@ class Node(NodeGraph, NodeParameters):
         namespace: str | None = None,
         use_global_arguments: bool = True,
         enable_rosout: bool = True,
-        rosout_qos_profile: Any = None,
         start_parameter_services: bool = True,
         parameter_overrides: list[Any] | None = None,
         allow_undeclared_parameters: bool = False,
         automatically_declare_parameters_from_overrides: bool = False,
         enable_logger_service: bool = False,
+        rosout_qos_profile: Any = None,
     ) -> None:
         self._context = get_default_context() if context is None else context
-        if not self._context.is_valid:
-            raise NotInitializedException("cannot create node")
-        self._name = get_link().settings.remaps.get("__node", node_name)
-        space = namespace or ""
-        self._namespace = space if space.startswith("/") else f"/{space}"
-        raise_for(ros_names.node_name_problem(self._name), InvalidNodeNameException, self._name)
-        raise_for(ros_names.namespace_problem(self._namespace), InvalidNamespaceException, self._namespace)
-        self._publishers: list[Publisher] = []
-        self._subscriptions: list[Subscription] = []
-        self._clients: list[Client] = []
-        self._services: list[Service] = []
-        self._timers: list[Timer] = []
-        self._guards: list[GuardCondition] = []
-        self._rates: dict[int, Timer] = {}
-        self._executor: Any = None
-        self._is_destroyed = False
-        self._clock = ROSClock()
-        self._logger = get_logger(self.get_fully_qualified_name().strip("/").replace("/", "."))
+        NodeEntities.__init__(self)
+        self.__waitables: list[Any] = []
+        self.__executor: Any = None
         self._default_callback_group = MutuallyExclusiveCallbackGroup()
+        if not self._context.ok():
+            raise NotInitializedException("cannot create node")
+        given = self._context._ros_arguments if use_global_arguments else RosArguments()
+        self.__node = NodeHandle(node_name, namespace, given.overridden_by(parsed(cli_args or ())))
+        with self.handle:
+            self._logger = get_logger(self.__node.full_name.strip("/").replace("/", "."))
         graph.nodes.append(self)
-        overrides = {**get_link().settings.params, **{p.name: p.value for p in parameter_overrides or ()}}
+        self._parameter_event_publisher = self.create_publisher(
+            ParameterEvent, PARAMETER_EVENTS, qos_profile_parameter_events
+        )
+        self._clock = ROSClock()
+        overrides = {**self.__node.parameters, **{p.name: p.value for p in parameter_overrides or ()}}
         NodeParameters.__init__(
             self, overrides, allow_undeclared_parameters, automatically_declare_parameters_from_overrides
         )
@@ -80,14 +101,16 @@ class Node(NodeGraph, NodeParameters):
     # --- what it is ---
 
     def get_name(self) -> str:
-        self._check_destroyed()
-        return self._name
+        with self.handle:
+            return str(self.handle.name)
 
     def get_namespace(self) -> str:
-        return self._namespace
+        with self.handle:
+            return str(self.handle.namespace)
 
     def get_fully_qualified_name(self) -> str:
-        return f"{self._namespace.rstrip('/')}/{self._name}"
+        with self.handle:
+            return str(self.handle.full_name)
 
     def get_logger(self) -> RcutilsLogger:
         return self._logger
@@ -101,8 +124,7 @@ class Node(NodeGraph, NodeParameters):
 
     @property
     def handle(self) -> Any:
-        """There is none below this one."""
-        return self
+        return self.__node
 
     @handle.setter
     def handle(self, value: Any) -> None:
@@ -113,216 +135,53 @@ class Node(NodeGraph, NodeParameters):
         return self._default_callback_group
 
     @property
-    def publishers(self) -> Iterator[Publisher]:
-        yield from tuple(self._publishers)
+    def waitables(self) -> Iterator[Any]:
+        yield from tuple(self.__waitables)
 
-    @property
-    def subscriptions(self) -> Iterator[Subscription]:
-        yield from tuple(self._subscriptions)
+    def add_waitable(self, waitable: Any) -> None:
+        """Nothing in the box waits for one."""
+        self.__waitables.append(waitable)
+        self._wake_executor()
 
-    @property
-    def clients(self) -> Iterator[Client]:
-        yield from tuple(self._clients)
-
-    @property
-    def services(self) -> Iterator[Service]:
-        yield from tuple(self._services)
-
-    @property
-    def timers(self) -> Iterator[Timer]:
-        yield from tuple(self._timers)
-
-    @property
-    def guards(self) -> Iterator[GuardCondition]:
-        yield from tuple(self._guards)
+    def remove_waitable(self, waitable: Any) -> None:
+        self.__waitables.remove(waitable)
+        self._wake_executor()
 
     @property
     def executor(self) -> Any:
-        return self._executor
+        return self.__executor
 
     @executor.setter
     def executor(self, new_executor: Any) -> None:
-        previous = self._executor
+        previous = self.__executor
         if previous is new_executor:
             return
-        self._executor = new_executor
+        self.__executor = new_executor
         if previous is not None:
             previous.remove_node(self)
         if new_executor is not None:
             new_executor.add_node(self)
 
     def _wake_executor(self) -> None:
-        if self._executor is not None:
-            self._executor.wake()
-
-    # --- making ---
-
-    def create_publisher(
-        self,
-        msg_type: Any,
-        topic: str,
-        qos_profile: QoSProfile | int,
-        *,
-        callback_group: CallbackGroup | None = None,
-        event_callbacks: Any = None,
-        qos_overriding_options: Any = None,
-        publisher_class: type[Publisher] = Publisher,
-    ) -> Publisher:
-        check_type("message", msg_type)
-        self._check_destroyed()
-        self._check_context("Failed to create publisher: rcl node's context is invalid")
-        publisher = publisher_class(self, msg_type, topic, qos_of(qos_profile), self._group(callback_group))
-        self._publishers.append(publisher)
-        return publisher
-
-    def create_subscription(
-        self,
-        msg_type: Any,
-        topic: str,
-        callback: Callable[..., Any],
-        qos_profile: QoSProfile | int,
-        *,
-        callback_group: CallbackGroup | None = None,
-        event_callbacks: Any = None,
-        qos_overriding_options: Any = None,
-        raw: bool = False,
-    ) -> Subscription:
-        check_type("message", msg_type)
-        self._check_destroyed()
-        self._check_context("Failed to create subscription: rcl node's context is invalid")
-        group = self._group(callback_group)
-        subscription = Subscription(self, msg_type, topic, callback, qos_of(qos_profile), group, raw)
-        return self._add(self._subscriptions, subscription, group)
-
-    def create_client(
-        self,
-        srv_type: Any,
-        srv_name: str,
-        *,
-        qos_profile: QoSProfile = qos_profile_services_default,
-        callback_group: CallbackGroup | None = None,
-    ) -> Client:
-        check_type("service", srv_type)
-        self._check_destroyed()
-        self._check_context("Failed to create client: rcl node's context is invalid")
-        group = self._group(callback_group)
-        return self._add(self._clients, Client(self, srv_type, srv_name, qos_profile, group), group)
-
-    def create_service(
-        self,
-        srv_type: Any,
-        srv_name: str,
-        callback: Callable[[Any, Any], Any],
-        *,
-        qos_profile: QoSProfile = qos_profile_services_default,
-        callback_group: CallbackGroup | None = None,
-    ) -> Service:
-        check_type("service", srv_type)
-        self._check_destroyed()
-        self._check_context("Failed to create service: rcl node's context is invalid")
-        group = self._group(callback_group)
-        service = Service(self, srv_type, srv_name, callback, group, qos_profile)
-        return self._add(self._services, service, group)
-
-    def create_timer(
-        self,
-        timer_period_sec: float,
-        callback: Callable[..., Any] | None,
-        callback_group: CallbackGroup | None = None,
-        clock: Clock | None = None,
-        autostart: bool = True,
-    ) -> Timer:
-        group = self._group(callback_group)
-        period_ns = int(float(timer_period_sec) * 1e9)
-        self._check_context(
-            "failed to create timer: the given context is not valid, either rcl_init() was not called or "
-            "rcl_shutdown() was called."
-        )
-        clock = self._clock if clock is None else clock
-        timer = Timer(
-            callback,
-            group,
-            period_ns,
-            clock,
-            context=self._context,
-            autostart=autostart,
-            wake=self._wake_executor,
-        )
-        return self._add(self._timers, timer, group)
-
-    def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
-        if frequency <= 0:
-            raise ValueError("frequency must be > 0")
-        timer = self.create_timer(1.0 / frequency, None, MutuallyExclusiveCallbackGroup(), clock)
-        rate = Rate(timer, context=self._context)
-        self._rates[id(rate)] = timer
-        return rate
-
-    def create_guard_condition(
-        self, callback: Callable[[], Any], callback_group: CallbackGroup | None = None
-    ) -> GuardCondition:
-        group = self._group(callback_group)
-        return self._add(self._guards, GuardCondition(callback, group, self._wake_executor), group)
-
-    # --- destroying ---
-
-    def destroy_publisher(self, publisher: Publisher) -> bool:
-        return destroy(self._publishers, publisher)
-
-    def destroy_subscription(self, subscription: Subscription) -> bool:
-        return destroy(self._subscriptions, subscription)
-
-    def destroy_client(self, client: Client) -> bool:
-        return destroy(self._clients, client)
-
-    def destroy_service(self, service: Service) -> bool:
-        return destroy(self._services, service)
-
-    def destroy_timer(self, timer: Timer) -> bool:
-        return destroy(self._timers, timer)
-
-    def destroy_guard_condition(self, guard: GuardCondition) -> bool:
-        return destroy(self._guards, guard)
-
-    def destroy_rate(self, rate: Rate) -> bool:
-        timer = self._rates.pop(id(rate), None)
-        rate.destroy()
-        return timer is not None and self.destroy_timer(timer)
+        executor = self.executor
+        if executor:
+            executor.wake()
 
     def destroy_node(self) -> None:
         """Everything it made is destroyed; a second time does nothing."""
-        if self._executor is not None:
-            self._executor.remove_node(self)
+        if self.__executor is not None:
+            self.__executor.remove_node(self)
         for entities in (
             self._publishers, self._subscriptions, self._clients, self._services, self._timers, self._guards,
         ):  # fmt: skip
             for entity in tuple(entities):
                 destroy(entities, entity)
-        self._is_destroyed = True
+        self.__node.destroy_when_not_in_use()
         if self in graph.nodes:
             graph.nodes.remove(self)
 
-    def __enter__(self) -> Node:
-        return self
 
-    def __exit__(self, *_: object) -> None:
-        self.destroy_node()
-
-    # --- inner ---
-
-    def _group(self, group: CallbackGroup | None) -> CallbackGroup:
-        return self._default_callback_group if group is None else group
-
-    def _check_destroyed(self) -> None:
-        if self._is_destroyed:
-            raise InvalidHandle(DESTROYED)
-
-    def _check_context(self, words: str) -> None:
-        if not self._context.is_valid:
-            raise RCLError(words)
-
-    def _add(self, entities: list[T], entity: T, group: CallbackGroup) -> T:
-        entities.append(entity)
-        group.add_entity(entity)
-        self._wake_executor()
-        return entity
+for _part in (NodeEntities, NodeGraph, NodeParameters):
+    for _name, _value in vars(_part).items():
+        if isinstance(_value, FunctionType):
+            _value.__qualname__ = f"Node.{_name}"  # what a complaint about its arguments calls it

@@ -5,7 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from chatrobot.programs.names.rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
+from chatrobot.programs.names.rcl_interfaces.msg import (
+    ListParametersResult,
+    ParameterDescriptor,
+    SetParametersResult,
+)
 from chatrobot.programs.names.rclpy.exceptions import (
     InvalidParameterException,
     InvalidParameterTypeException,
@@ -15,7 +19,7 @@ from chatrobot.programs.names.rclpy.exceptions import (
     ParameterNotDeclaredException,
     ParameterUninitializedException,
 )
-from chatrobot.programs.names.rclpy.parameter import Parameter
+from chatrobot.programs.names.rclpy.parameter import Parameter, parameter_value_to_python
 
 _NOT_SET = Parameter.Type.NOT_SET
 Result = Any
@@ -24,33 +28,38 @@ Result = Any
 class NodeParameters:
     """Declares, reads and sets; types are static unless a descriptor says otherwise."""
 
+    PARAM_REL_TOL = 1e-6
+
     def __init__(self, overrides: Mapping[str, Any], allow_undeclared: bool, declare_overrides: bool) -> None:
         self._parameters: dict[str, Parameter] = {}
         self._descriptors: dict[str, Any] = {}
-        self._overrides = dict(overrides)
-        self._allow_undeclared = allow_undeclared
-        self._on_set: list[Callable[[list[Parameter]], Result]] = []
-        self._post_set: list[Callable[[list[Parameter]], None]] = []
-        self.declare_parameter("use_sim_time", False)
+        self._parameter_overrides = {name: Parameter(name, value=value) for name, value in overrides.items()}
+        self._allow_undeclared_parameters = allow_undeclared
+        self._on_set_parameters_callbacks: list[Callable[[list[Parameter]], Result]] = []
+        self._post_set_parameters_callbacks: list[Callable[[list[Parameter]], None]] = []
+        self._pre_set_parameters_callbacks: list[Callable[[list[Parameter]], list[Parameter]]] = []
         if declare_overrides:
-            for name, value in overrides.items():
-                if name not in self._parameters:
-                    self.declare_parameter(name, value)
+            declared = [(name, value, ParameterDescriptor()) for name, value in overrides.items()]
+            self.declare_parameters("", declared, ignore_override=True)
+        for name, value in (("use_sim_time", False), ("start_type_description_service", True)):
+            if not self.has_parameter(name):  # as rclpy's own parts do, one after the other
+                self.declare_parameter(name, value)
 
     def declare_parameter(
         self, name: str, value: Any = None, descriptor: Any = None, ignore_override: bool = False
     ) -> Parameter:
-        if not isinstance(name, str):
-            raise TypeError(f"First element {name} at index 0 in parameters list is not a str.")
+        descriptor = ParameterDescriptor() if descriptor is None else descriptor
+        return self.declare_parameters("", [(name, value, descriptor)], ignore_override)[0]
+
+    def __declare(self, name: str, value: Any, descriptor: Any, ignore_override: bool) -> Parameter:
         if not name or name.startswith(".") or name.endswith("."):
             raise InvalidParameterException(name)
         if name in self._parameters:
             raise ParameterAlreadyDeclaredException([name])
         descriptor = ParameterDescriptor() if descriptor is None else descriptor
         kind, value = _typed(value)
-        if not ignore_override and name in self._overrides:
-            override = self._overrides[name]
-            value = float(override) if kind is Parameter.Type.DOUBLE and type(override) is int else override
+        if not ignore_override and name in self._parameter_overrides:
+            value = self._parameter_overrides[name].value
         descriptor.name = name
         parameter = Parameter(name, value=value)
         if (
@@ -64,7 +73,7 @@ class NodeParameters:
         problem = _out_of_range(descriptor, value)
         if problem:
             raise InvalidParameterValueException(name, value, problem)
-        result = self._ask_callbacks([parameter])
+        result = self.__ask_callbacks([parameter])
         if not result.successful:
             raise InvalidParameterValueException(name, value, result.reason)
         self._parameters[name], self._descriptors[name] = parameter, descriptor
@@ -78,9 +87,11 @@ class NodeParameters:
             if not isinstance(entry, Sequence) or isinstance(entry, str):
                 raise TypeError(f"Each parameter must be a tuple, got {entry!r}")
         declared = []
-        for name, *rest in parameters:
+        for index, (name, *rest) in enumerate(parameters):
+            if not isinstance(name, str):
+                raise TypeError(f"First element {name} at index {index} in parameters list is not a str.")
             value, descriptor = [*rest, None, None][:2]
-            declared.append(self.declare_parameter(f"{prefix}{name}", value, descriptor, ignore_override))
+            declared.append(self.__declare(f"{prefix}{name}", value, descriptor, ignore_override))
         return declared
 
     def undeclare_parameter(self, name: str) -> None:
@@ -99,7 +110,7 @@ class NodeParameters:
             if parameter.type_ is _NOT_SET and self._descriptors[name].type != 0:
                 raise ParameterUninitializedException(name)
             return parameter
-        if self._allow_undeclared:
+        if self._allow_undeclared_parameters:
             return Parameter(name, _NOT_SET, None)
         raise ParameterNotDeclaredException(name)
 
@@ -131,30 +142,63 @@ class NodeParameters:
     def describe_parameters(self, names: Sequence[str]) -> list[Any]:
         return [self.describe_parameter(name) for name in names]
 
+    def set_descriptor(self, name: str, descriptor: Any, alternative_value: Any = None) -> Any:
+        """The value afterwards, as a message."""
+        if self.describe_parameter(name).read_only:
+            raise ParameterImmutableException(name)
+        parameter = self.get_parameter(name)
+        if alternative_value is not None:
+            parameter = Parameter(name, value=parameter_value_to_python(alternative_value))
+        descriptor.name, descriptor.type = name, parameter.type_.value
+        problem = _out_of_range(descriptor, parameter.value)
+        if problem:
+            raise InvalidParameterValueException(name, parameter.value, problem)
+        self._parameters[name], self._descriptors[name] = parameter, descriptor
+        return parameter.get_parameter_value()
+
+    def list_parameters(self, prefixes: Sequence[str], depth: int) -> Any:
+        """`depth` counts names between dots below a prefix; 0 is all of them."""
+        if not isinstance(prefixes, list) or not all(isinstance(prefix, str) for prefix in prefixes):
+            raise TypeError("The prefixes argument must be a list of strings")
+        if not isinstance(depth, int) or depth < 0:
+            raise TypeError("The depth must be an integer that is not negative")
+        found = ListParametersResult()
+        for name in self._parameters:
+            below = [name[len(prefix) + 1 :] for prefix in prefixes if name.startswith(f"{prefix}.")]
+            below = below or [name for prefix in prefixes if name == prefix] or ([] if prefixes else [name])
+            if below and (depth == 0 or min(rest.count(".") for rest in below) < depth):
+                found.names = [*found.names, name]
+                prefix = name.rpartition(".")[0]
+                if prefix and prefix not in found.prefixes:
+                    found.prefixes = [*found.prefixes, prefix]
+        return found
+
     def set_parameters(self, parameter_list: Sequence[Parameter]) -> list[Result]:
         return [self.set_parameters_atomically([parameter]) for parameter in parameter_list]
 
     def set_parameters_atomically(self, parameter_list: Sequence[Parameter]) -> Result:
         parameters = list(parameter_list)
+        for before in self._pre_set_parameters_callbacks:
+            parameters = before(parameters)
         if not all(isinstance(parameter, Parameter) for parameter in parameters):
             raise TypeError(f"parameter must be instance of type '{Parameter!r}'")
         unknown = [parameter.name for parameter in parameters if parameter.name not in self._parameters]
-        if unknown and not self._allow_undeclared:
+        if unknown and not self._allow_undeclared_parameters:
             raise ParameterNotDeclaredException([])  # rclpy has used up the names by then
         for parameter in parameters:
-            problem = self._problem(parameter)
+            problem = self.__problem(parameter)
             if problem:
                 return SetParametersResult(successful=False, reason=problem)
-        result = self._ask_callbacks(parameters)
+        result = self.__ask_callbacks(parameters)
         if result.successful:
             for parameter in parameters:
                 self._parameters[parameter.name] = parameter
                 self._descriptors.setdefault(parameter.name, ParameterDescriptor(name=parameter.name))
-            for callback in self._post_set:
+            for callback in self._post_set_parameters_callbacks:
                 callback(parameters)
         return result
 
-    def _problem(self, parameter: Parameter) -> str:
+    def __problem(self, parameter: Parameter) -> str:
         descriptor = self._descriptors.get(parameter.name)
         if descriptor is None:
             return ""
@@ -165,21 +209,32 @@ class NodeParameters:
             return f"Wrong parameter type, expected '{expected}' got '{parameter.type_}'"
         return _out_of_range(descriptor, parameter.value)
 
-    def _ask_callbacks(self, parameters: list[Parameter]) -> Result:
-        for callback in self._on_set:
+    def __ask_callbacks(self, parameters: list[Parameter]) -> Result:
+        for callback in self._on_set_parameters_callbacks:
             result = callback(parameters)
             if not result.successful:
                 return result
         return SetParametersResult(successful=True)
 
     def add_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], Result]) -> None:
-        self._on_set.insert(0, callback)
+        self._on_set_parameters_callbacks.insert(0, callback)
 
     def remove_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], Result]) -> None:
-        self._on_set.remove(callback)
+        self._on_set_parameters_callbacks.remove(callback)
 
     def add_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], None]) -> None:
-        self._post_set.insert(0, callback)
+        self._post_set_parameters_callbacks.insert(0, callback)
+
+    def remove_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], None]) -> None:
+        self._post_set_parameters_callbacks.remove(callback)
+
+    def add_pre_set_parameters_callback(self, callback: Callable[[list[Parameter]], list[Parameter]]) -> None:
+        self._pre_set_parameters_callbacks.insert(0, callback)
+
+    def remove_pre_set_parameters_callback(
+        self, callback: Callable[[list[Parameter]], list[Parameter]]
+    ) -> None:
+        self._pre_set_parameters_callbacks.remove(callback)
 
 
 def _typed(value: Any) -> tuple[Parameter.Type, Any]:

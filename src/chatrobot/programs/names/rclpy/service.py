@@ -3,11 +3,32 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable
 from typing import Any
 
 from chatrobot.programs.inside import graph
-from chatrobot.programs.names.rclpy._rclpy_pybind11 import DESTROYED, InvalidHandle
+from chatrobot.programs.names.rclpy._rclpy_pybind11 import Destroyable
 from chatrobot.programs.names.rclpy.qos import QoSProfile
+
+
+class ServiceHandle(Destroyable):
+    """What is asked of a service, until an executor takes it."""
+
+    def __init__(self, wake: Callable[[], None], name: str) -> None:
+        super().__init__()
+        self.wake = wake
+        self.name = name
+        self.srv_type: Any = None
+        self.queue: deque[tuple[Any, Any]] = deque()
+
+    @property
+    def is_waiting(self) -> bool:
+        return bool(self.queue)
+
+    def receive(self, request: Any, answer: Any) -> None:
+        """A request; `answer` takes the response."""
+        self.queue.append((request, answer))
+        self.wake()
 
 
 class Service:
@@ -15,49 +36,43 @@ class Service:
 
     def __init__(
         self,
-        node: Any,
+        service_impl: ServiceHandle,
         srv_type: Any,
         srv_name: str,
         callback: Any,
         callback_group: Any,
         qos_profile: QoSProfile,
     ) -> None:
+        self.__service = service_impl
         self.srv_type = srv_type
         self.srv_name = srv_name
-        self.service_name: str = node.resolve_service_name(srv_name)
         self.callback = callback
         self.callback_group = callback_group
         self.qos_profile = qos_profile
-        self.is_destroyed = False
-        self._node = node
-        self._queue: deque[tuple[Any, Any]] = deque()
-        graph.add_service(self)
+        service_impl.srv_type = srv_type
+        graph.add_service(service_impl)
 
-    def receive(self, request: Any, answer: Any) -> None:
-        """A request; `answer` takes the response."""
-        self._queue.append((request, answer))
-        self._node._wake_executor()
-
-    @property
-    def is_waiting(self) -> bool:
-        return bool(self._queue)
-
-    def take(self) -> tuple[Any, Any]:
-        return self._queue.popleft()
-
-    def send_response(self, response: Any, answer: Any) -> None:
+    def send_response(self, response: Any, header: Any) -> None:
+        """`header` is of the request: it takes the response to who asked."""
         if not isinstance(response, self.srv_type.Response):
             raise TypeError
-        if self.is_destroyed:
-            raise InvalidHandle(DESTROYED)
-        answer(response)
+        with self.handle:
+            header(response)
+
+    @property
+    def service_name(self) -> str:
+        with self.handle:
+            return self.__service.name
+
+    @property
+    def handle(self) -> Any:
+        return self.__service
+
+    def configure_introspection(
+        self, clock: Any, service_event_qos_profile: Any, introspection_state: Any
+    ) -> None:
+        """Nobody outside could look on."""
 
     def destroy(self) -> None:
-        self.is_destroyed = True
-        graph.remove_service(self)
-
-    def __enter__(self) -> Service:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.destroy()
+        self.__service.destroy_when_not_in_use()
+        graph.remove_service(self.__service)

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import inspect
 from collections import deque
+from collections.abc import Callable
 from typing import Any
 
 from chatrobot.programs.inside import graph, robot
 from chatrobot.programs.inside.link import get_link
+from chatrobot.programs.names.rclpy._rclpy_pybind11 import Destroyable
 from chatrobot.programs.names.rclpy.qos import QoSProfile
 
 
@@ -15,79 +17,106 @@ class MessageInfo(dict[str, Any]):
     """What a callback with two arguments gets besides the message."""
 
 
+class SubscriptionHandle(Destroyable):
+    """What comes in on `name`, until an executor takes it: the last messages, as many as the depth."""
+
+    def __init__(self, wake: Callable[[], None], name: str) -> None:
+        super().__init__()
+        self.wake = wake
+        self.name = name
+        self.queue: deque[Any] = deque()
+        self.sensor = ""
+
+    @property
+    def is_waiting(self) -> bool:
+        return bool(self.queue)
+
+
 class Subscription:
-    """Keeps the last `depth` messages until an executor takes them."""
+    """Calls back with what the program or the robot's sensors say."""
 
     def __init__(
         self,
-        node: Any,
+        subscription_impl: SubscriptionHandle,
         msg_type: type[Any],
         topic: str,
         callback: Any,
-        qos_profile: QoSProfile,
         callback_group: Any,
+        qos_profile: QoSProfile,
         raw: bool,
+        event_callbacks: Any,
     ) -> None:
+        self.__subscription = impl = subscription_impl
         self.msg_type = msg_type
         self.topic = topic
-        self.topic_name = node.resolve_topic_name(topic)
         self.callback = callback
         self.callback_group = callback_group
         self.qos_profile = qos_profile
         self.raw = raw
-        self.is_destroyed = False
-        self._node = node
-        self._wants_info = _positional(callback) == 2
+        self.event_handlers: list[Any] = []
         depth = qos_profile.depth if qos_profile.depth > 0 else 10
-        self._queue: deque[Any] = deque(maxlen=depth)
-        sensor = robot.sensor_of(self.topic_name, msg_type)
-        self._sensor = sensor[0] if sensor is not None else ""
-        self._convert = sensor[1] if sensor is not None else None
-        get_link().send("topic", "listens", self.topic_name, msg_type._type_name)
-        if self._sensor:
-            get_link().listen(self._sensor, depth, self._hear)
+        impl.queue = deque(maxlen=depth)
+        get_link().send("topic", "listens", impl.name, msg_type._type_name)
+        found = robot.sensor_of(impl.name, msg_type)
+        if found is not None:
+            impl.sensor, self.__convert = found
+            get_link().listen(impl.sensor, depth, self.__hear)
         graph.add_subscription(self)
 
-    def _hear(self, values: list[Any]) -> None:
-        assert self._convert is not None
-        self.receive(self._convert(values))
+    def __hear(self, values: list[Any]) -> None:
+        self._receive(self.__convert(values))
 
-    def receive(self, message: Any) -> None:
-        self._queue.append(message)
-        self._node._wake_executor()
+    def _receive(self, message: Any) -> None:
+        self.__subscription.queue.append(message)
+        self.__subscription.wake()
 
-    @property
-    def is_waiting(self) -> bool:
-        return bool(self._queue)
-
-    def take(self) -> tuple[Any, ...]:
-        message = self._queue.popleft()
-        return (message, MessageInfo()) if self._wants_info else (message,)
+    def _take(self) -> tuple[Any, ...]:
+        message = self.__subscription.queue.popleft()
+        return (message, MessageInfo()) if self.__wants_info else (message,)
 
     def get_publisher_count(self) -> int:
-        get_link().look()
-        return graph.count_publishers(self.topic_name) + bool(self._sensor)
+        with self.handle:
+            get_link().look()
+            return graph.count_publishers(self.__subscription.name) + bool(self.__subscription.sensor)
+
+    @property
+    def topic_name(self) -> str:
+        with self.handle:
+            return self.__subscription.name
+
+    @property
+    def handle(self) -> Any:
+        return self.__subscription
+
+    @property
+    def callback(self) -> Any:
+        return self.__callback
+
+    @callback.setter
+    def callback(self, value: Any) -> None:
+        self.__callback = value
+        self.__wants_info = _wants_info(value)
 
     def destroy(self) -> None:
-        if not self.is_destroyed:
-            self.is_destroyed = True
+        impl = self.__subscription
+        if not impl.is_destroyed:
+            impl.destroy_when_not_in_use()
             graph.remove_subscription(self)
-            if self._sensor:
-                get_link().unlisten(self._sensor, self._hear)
-
-    def __enter__(self) -> Subscription:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.destroy()
+            if impl.sensor:
+                get_link().unlisten(impl.sensor, self.__hear)
 
 
-def _positional(callback: Any) -> int:
-    """How many arguments a callback needs; 1 where it does not say."""
-    try:
-        parameters = inspect.signature(callback).parameters.values()
-    except (TypeError, ValueError):
-        return 1
-    return sum(
-        p.default is p.empty and p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD) for p in parameters
+def _wants_info(callback: Any) -> bool:
+    """Whether it takes what is known of a message besides the message."""
+    for count in (1, 2):
+        try:
+            inspect.signature(callback).bind(*range(count))
+        except TypeError:
+            continue
+        except ValueError:  # a builtin does not say
+            return False
+        return count == 2
+    raise RuntimeError(
+        "Subscription.__init__(): callback should be either be callable with one argument"
+        "(to get only the message) or two (to get message and message info)"
     )

@@ -58,12 +58,6 @@ class Future:
         else:
             self._callbacks.append(callback)
 
-    def remove_done_callback(self, callback: Callable[[Any], Any]) -> bool:
-        if callback in self._callbacks:
-            self._callbacks.remove(callback)
-            return True
-        return False
-
     def _finish(self) -> None:
         self._done = True
         self._call_back()
@@ -84,13 +78,19 @@ class Task(Future):
         self._handler = handler
         self._args = args or ()
         self._kwargs = kwargs or {}
-        self.at_end: Callable[[], None] | None = None
+        self.__is_executing = False
+        self._at_end: Callable[[], None] | None = None
         """Called once, when it is over."""
+
+    def executing(self) -> bool:
+        """It runs, or waits for what it awaits."""
+        return self.__is_executing and not self._done
 
     def __call__(self) -> None:
         """Run it to its end, or to the next thing it awaits."""
         if self._done:
             return
+        self.__is_executing = True
         try:
             if not inspect.iscoroutine(self._handler):
                 result = self._handler(*self._args, **self._kwargs)
@@ -115,10 +115,10 @@ class Task(Future):
 
     def _go_on(self) -> None:
         if self._executor is not None:
-            self._executor.resume(self)
+            self._executor._resume(self)
 
     def _end(self, result: Any) -> None:
-        if self.at_end is not None:
-            self.at_end()
+        if self._at_end is not None:
+            self._at_end()
         self._result = result
         self._finish()

@@ -6,12 +6,39 @@ import threading
 from typing import Any
 
 from chatrobot.programs.inside.link import get_link
-from chatrobot.programs.names.rclpy._rclpy_pybind11 import DESTROYED, InvalidHandle, RCLError
+from chatrobot.programs.names.rclpy._rclpy_pybind11 import Destroyable, RCLError
 from chatrobot.programs.names.rclpy.exceptions import ROSInterruptException
 
 
+class TimerHandle(Destroyable):
+    """When a timer ticks: after every whole period, the first time after one; late ticks don't shift the later ones."""
+
+    def __init__(self, period_ns: int, *, is_canceled: bool) -> None:
+        super().__init__()
+        self.period_ns = period_ns
+        self.is_canceled = is_canceled
+        self.last_ns = get_link().now_ns()
+        self.next_ns = self.last_ns + period_ns
+        self.wake: Any = lambda: None
+
+    @property
+    def due_ns(self) -> int | None:
+        """When it ticks next; None where it does not."""
+        return None if self.is_canceled or self.is_destroyed else self.next_ns
+
+    def take(self) -> None:
+        """A tick is being called."""
+        now_ns = get_link().now_ns()
+        self.last_ns = now_ns
+        self.next_ns += self.period_ns
+        if self.next_ns < now_ns:
+            behind_ns = now_ns - self.next_ns
+            missed = 1 + (behind_ns - 1) // self.period_ns if self.period_ns else 0
+            self.next_ns = self.next_ns + missed * self.period_ns if self.period_ns else now_ns
+
+
 class Timer:
-    """Ticks after every whole period, the first time after one; late ticks don't shift the later ones."""
+    """Calls back once a period."""
 
     def __init__(
         self,
@@ -22,19 +49,23 @@ class Timer:
         *,
         context: Any = None,
         autostart: bool = True,
-        wake: Any = None,
     ) -> None:
+        if context is not None and not context._is_valid:
+            raise RCLError(
+                "failed to create timer: the given context is not valid, either rcl_init() was not called or "
+                "rcl_shutdown() was called."
+            )
         if timer_period_ns < 0:
             raise RCLError("failed to create timer: timer period must be non-negative")
+        self._context = context
+        self._clock = clock
+        self.__timer = TimerHandle(int(timer_period_ns), is_canceled=not autostart)
         self.callback = callback
         self.callback_group = callback_group
-        self._period_ns = int(timer_period_ns)
-        self._clock = clock
-        self._wake = wake or (lambda: None)
-        self._is_canceled = not autostart
-        self._is_destroyed = False
-        self._last_ns = get_link().now_ns()
-        self._next_ns = self._last_ns + self._period_ns
+
+    @property
+    def handle(self) -> Any:
+        return self.__timer
 
     @property
     def clock(self) -> Any:
@@ -42,69 +73,42 @@ class Timer:
 
     @property
     def timer_period_ns(self) -> int:
-        self._check()
-        return self._period_ns
+        with self.handle:
+            return self.__timer.period_ns
 
     @timer_period_ns.setter
     def timer_period_ns(self, value: int) -> None:
-        self._check()
-        self._period_ns = int(value)
-
-    @property
-    def due_ns(self) -> int | None:
-        """When it ticks next; None where it does not."""
-        return None if self._is_canceled or self._is_destroyed else self._next_ns
+        with self.handle:
+            self.__timer.period_ns = int(value)
 
     def is_ready(self) -> bool:
-        self._check()
-        return not self._is_canceled and get_link().look() >= self._next_ns
-
-    def take(self) -> None:
-        """A tick is being called."""
-        now_ns = get_link().now_ns()
-        self._last_ns = now_ns
-        self._next_ns += self._period_ns
-        if self._next_ns < now_ns:
-            behind_ns = now_ns - self._next_ns
-            missed = 1 + (behind_ns - 1) // self._period_ns if self._period_ns else 0
-            self._next_ns = self._next_ns + missed * self._period_ns if self._period_ns else now_ns
+        with self.handle:
+            return not self.__timer.is_canceled and get_link().look() >= self.__timer.next_ns
 
     def is_canceled(self) -> bool:
-        self._check()
-        return self._is_canceled
+        with self.handle:
+            return self.__timer.is_canceled
 
     def cancel(self) -> None:
-        self._check()
-        self._is_canceled = True
+        with self.handle:
+            self.__timer.is_canceled = True
 
     def reset(self) -> None:
-        self._check()
-        self._is_canceled = False
-        self._next_ns = get_link().now_ns() + self._period_ns
-        self._wake()
+        with self.handle:
+            self.__timer.is_canceled = False
+            self.__timer.next_ns = get_link().now_ns() + self.__timer.period_ns
+            self.__timer.wake()
 
     def time_since_last_call(self) -> int:
-        return get_link().look() - self._last_ns
+        with self.handle:
+            return get_link().look() - self.__timer.last_ns
 
     def time_until_next_call(self) -> int | None:
-        return None if self._is_canceled else self._next_ns - get_link().look()
+        with self.handle:
+            return None if self.__timer.is_canceled else self.__timer.next_ns - get_link().look()
 
     def destroy(self) -> None:
-        self._is_destroyed = True
-
-    @property
-    def is_destroyed(self) -> bool:
-        return self._is_destroyed
-
-    def _check(self) -> None:
-        if self._is_destroyed:
-            raise InvalidHandle(DESTROYED)
-
-    def __enter__(self) -> Timer:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.destroy()
+        self.__timer.destroy_when_not_in_use()
 
 
 class Rate:

@@ -28,7 +28,7 @@ def shutdown(*, context: Context | None = None) -> None:
 def try_shutdown(*, context: Context | None = None) -> None:
     if context is None:
         context = get_default_context()
-        if context.is_valid:
+        if context._is_valid:
             context = get_default_context(shutting_down=True)
     context.try_shutdown()
 

@@ -1,0 +1,87 @@
+"""Starts the robot's processes before the rest of a command is loaded, and shows what is waited for."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from chatrobot.core.motion_budget import MotionBudget
+from chatrobot.session.processes import SIMULATED, Processes
+
+if TYPE_CHECKING:
+    from chatrobot.robots.profile import RobotProfile
+
+COMMANDS = ("", "do")
+STDOUT = 1
+_CLEAR_LINE = "\r\x1b[K"
+
+
+class Early:
+    """The processes of a simulated robot in real time, None for any other; and a line that says what is waited for."""
+
+    def __init__(self, args: argparse.Namespace) -> None:
+        self.processes: Processes | None = None
+        self._is_shown = False
+        profile = self._checked(args)
+        if not args.json and os.isatty(STDOUT):
+            self._show(profile.title)
+
+    def _checked(self, args: argparse.Namespace) -> RobotProfile:
+        """The robot's profile. Where all that its processes are told can be used, they are started.
+
+        Raises:
+            InputError: a profile, world or option is wrong.
+        """
+        from chatrobot.cli.folders import profile_folders
+        from chatrobot.robots.load import load_profile, profile_argument
+
+        folders = profile_folders(args)
+        profile = load_profile(args.robot, folders)
+        if args.on in SIMULATED:
+            from chatrobot.sim.lies import SimLies
+            from chatrobot.sim.load import load_world
+
+            world = args.world or "home"
+            load_world(world)
+            SimLies.parse(args.sim)
+            budget = MotionBudget(args.max_distance, args.max_time)
+            self.processes = Processes.start(profile_argument(args.robot, folders), world, args.sim, budget)
+        return profile
+
+    def _show(self, title: str) -> None:
+        from chatrobot.cli.console.words import Words, language_of_environment
+
+        self._write(Words(language_of_environment()).say("starting", title=title))
+        self._is_shown = True
+
+    def ready(self) -> None:
+        """The robot can be told what to do: the line goes."""
+        if self._is_shown:
+            self._is_shown = False
+            is_plain = os.environ.get("TERM", "dumb") == "dumb" or "NO_COLOR" in os.environ
+            self._write("\n" if is_plain else _CLEAR_LINE)
+
+    def close(self) -> None:
+        """End what no session has taken."""
+        self.ready()
+        if self.processes is not None and not self.processes.is_taken:
+            self.processes.end()
+
+    @staticmethod
+    def _write(text: str) -> None:
+        os.write(STDOUT, text.encode("utf-8", errors="replace"))
+
+
+@contextmanager
+def started_early(args: argparse.Namespace) -> Iterator[None]:
+    """Within it `args.early` is there for a command that moves a robot in real time."""
+    early = Early(args) if args.command in COMMANDS and not args.fast else None
+    args.early = early
+    try:
+        yield
+    finally:
+        if early is not None:
+            early.close()

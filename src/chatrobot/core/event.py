@@ -1,0 +1,84 @@
+"""What every event is, and how it is written as JSON and read again. `chatrobot.core.events` has the events."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from chatrobot.core.geometry import Pose, Twist
+from chatrobot.core.proposal import Proposal
+from chatrobot.core.reason import Reason
+
+_TYPES: dict[str, type[Event]] = {}
+"""The events by their names."""
+
+
+@dataclass(frozen=True)
+class Event:
+    """Base of all events. `turn` counts the instructions of a session from 1; 0 belongs to none."""
+
+    turn: int
+    name: ClassVar[str] = ""
+
+    def __init_subclass__(cls) -> None:
+        _TYPES[cls.name] = cls
+
+    def to_json(self) -> dict[str, Any]:
+        return {
+            "event": self.name,
+            **{f.name: _plain(getattr(self, f.name)) for f in dataclasses.fields(self)},
+        }
+
+
+def _plain(value: Any) -> Any:
+    """JSON's own types: a Pose and a Twist become objects with their units in the keys."""
+    if isinstance(value, (Pose, Twist)):
+        return {key: round(number, 6) for key, number in zip(value._fields, value)}
+    if isinstance(value, float):
+        return round(value, 6)
+    if isinstance(value, (Reason, Event, Proposal)):
+        return value.to_json()
+    if isinstance(value, (tuple, list)):
+        return [_plain(item) for item in value]
+    return value
+
+
+def event_from_json(data: Mapping[str, Any]) -> Event:
+    """The event that `to_json` made `data` of.
+
+    Raises:
+        ValueError: no event of ours has that name or those fields.
+    """
+    kind = _TYPES.get(str(data.get("event")))
+    if kind is None:
+        raise ValueError(f"no such event: {data.get('event')!r}")
+    values = {key: value for key, value in data.items() if key != "event"}
+    annotations = {f.name: str(f.type) for f in dataclasses.fields(kind)}
+    try:
+        return kind(**{key: _READERS.get(annotations[key], _as_is)(value) for key, value in values.items()})
+    except (KeyError, TypeError) as error:
+        raise ValueError(f"not a {kind.name} event: {error}") from error
+
+
+def _as_is(value: Any) -> Any:
+    return value
+
+
+def _optional(read: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    return lambda value: None if value is None else read(value)
+
+
+_READERS: Mapping[str, Any] = {
+    "Pose": lambda value: Pose(**value),
+    "Twist": lambda value: Twist(**value),
+    "Reason": Reason.from_json,
+    "Reason | None": _optional(Reason.from_json),
+    "Proposal | None": _optional(Proposal.from_json),
+    "tuple[int, ...]": tuple,
+    "tuple[float | None, ...]": tuple,
+    "tuple[str, ...]": tuple,
+    "tuple[FindingSeen, ...]": lambda value: tuple(event_from_json(item) for item in value),
+    "tuple[tuple[float, float, float], ...]": lambda value: tuple(tuple(item) for item in value),
+}

@@ -1,0 +1,79 @@
+"""What can be done of a plan where one of its motions is blocked: all before it, and the free part of that one."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from chatrobot.core.geometry import Pose
+from chatrobot.plan.context import Impossible, LoweringContext
+from chatrobot.plan.core_motion import CoreMotion, RampedTwist
+from chatrobot.plan.known_world import Floats
+from chatrobot.plan.lowering import PlannedMotion
+from chatrobot.plan.split import Reached, split
+from chatrobot.plan.steps import Plan
+
+SPARE_M = 0.01
+"""What is offered ends so far before what is in the way, at least."""
+
+STEP_M = 0.05
+STEP_DEG = 5
+"""Free amounts are rounded down to multiples of these."""
+
+LEAST_M = 0.1
+LEAST_DEG = 10
+"""Less than this is not worth a question."""
+
+
+def free_part(
+    plan: Plan,
+    context: LoweringContext,
+    blocked: PlannedMotion,
+    motions_done: int,
+    step_start: Pose,
+    way: Floats,
+) -> tuple[Plan | None, dict[str, float]]:
+    """What can be done of `plan`, None where nothing is worth a question; and what is free of the blocked motion.
+
+    Args:
+        context: from where the plan begins.
+        motions_done: how many motions of the blocked step come before; the step begins at `step_start`.
+        way: [n, 4] of t_s, x_m, y_m, yaw_rad, from where the motion begins to where it is blocked.
+    """
+    share, row, free = _free_share(blocked.motion, way)
+    here = Pose(*(float(value) for value in way[row, 1:]))
+    if not free and here.distance_to(context.pose) < LEAST_M:
+        return None, {}
+    reached = Reached(blocked.number - 1, True, motions_done, share, step_start)
+    return split(plan.steps, reached, replace(context, pose=here)).executed, free
+
+
+def nearest_part(plan: Plan, context: LoweringContext, impossible: Impossible) -> Plan | None:
+    """All that comes before an impossible step, and what can be done instead of it; None where nothing can."""
+    if impossible.instead is None:
+        return None
+    before = split(plan.steps, Reached(impossible.number - 1), context).executed
+    try:
+        return Plan((*(before.steps if before is not None else ()), impossible.instead))
+    except ValueError:  # it would be too long
+        return None
+
+
+def _free_share(motion: CoreMotion | None, way: Floats) -> tuple[float, int, dict[str, float]]:
+    """The share of the motion that is free, the row of `way` where it ends, and the amount; 0 where it is too small."""
+    if isinstance(motion, RampedTwist) and motion.twist.speed_mps > 0.0:
+        driven_m = np.append(0.0, np.cumsum(np.hypot(*np.diff(way[:, 1:3], axis=0).T)))
+        steps = math.floor((float(driven_m[-1]) - SPARE_M) / STEP_M)
+        free_m = round(steps * STEP_M, 2)
+        if free_m >= LEAST_M:
+            share = min(1.0, free_m / (motion.twist.speed_mps * motion.hold_s))
+            return share, int(np.searchsorted(driven_m, free_m, side="right")) - 1, {"free_m": free_m}
+    elif isinstance(motion, RampedTwist):
+        turned_deg = np.degrees(np.abs(way[:, 3] - way[0, 3]))
+        free_deg = STEP_DEG * math.floor(float(turned_deg[-1]) / STEP_DEG)
+        if free_deg >= LEAST_DEG:
+            share = min(1.0, math.radians(free_deg) / (abs(motion.twist.wz_radps) * motion.hold_s))
+            return share, int(np.searchsorted(turned_deg, free_deg, side="right")) - 1, {"free_deg": free_deg}
+    return 0.0, 0, {}

@@ -1,0 +1,245 @@
+"""Motion's accounts of the motion budget: what each text may drive, and what it has driven so far.
+
+The budget comes from the profile and from the command line. While Motion runs, only the person at the local console
+changes it. What an envelope, a plan, a model or a program says lowers it at most.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import OrderedDict
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from chatrobot.core.geometry import ZERO_TWIST, Twist
+from chatrobot.core.motion_budget import MotionBudget, read_limit
+from chatrobot.core.reason import Reason
+from chatrobot.execution.sensors import Sensors
+from chatrobot.governor.priority import RELEASERS, Priority, priority_of
+from chatrobot.governor.tick import TICK_S
+from chatrobot.robots.profile import Limits
+
+EXCEEDED = frozenset({"over_max_distance", "over_max_time"})
+"""The refusals of what is known to exceed its budget."""
+
+REACHED = frozenset({"max_distance_reached", "max_time_reached", "endless_program_stopped"})
+"""The reasons of a motion that was stopped at its budget."""
+
+KEPT_ACCOUNTS = 64
+"""More turns than can be open at once."""
+
+BRAKING_TICKS = 3
+"""From the tick that asks for braking to the one that shows it."""
+
+MEASURED_M, MEASURED_S = 0.01, 1.0
+"""By how much more, besides that share, what was driven already may exceed what was planned for it."""
+
+OLDEST_NEWS_S = 0.5
+"""Odometry that is older ends the run."""
+
+ROUNDING_M, ROUNDING_S = 1e-3, 1e-2
+"""A rehearsed length that is longer by less is not longer."""
+
+TOLERANCE_SHARE, TOLERANCE_M, TOLERANCE_S = 0.02, 0.1, 5.0
+"""How much more than it was rehearsed for a motion may drive and take: its rehearsal said that it fits."""
+
+
+@dataclass(frozen=True)
+class Extent:
+    """How far and how long something drives, as far as that is certain; while it waits it does not drive."""
+
+    length_m: float = 0.0
+    driving_s: float = 0.0
+
+    @property
+    def planned(self) -> Extent:
+        """What a plan for it was at least: odometry counts every correction, and each pause costs two ramps."""
+        share = 1.0 - TOLERANCE_SHARE
+        return Extent(
+            max(0.0, share * self.length_m - MEASURED_M), max(0.0, share * self.driving_s - MEASURED_S)
+        )
+
+    def plus(self, other: Extent) -> Extent:
+        return Extent(self.length_m + other.length_m, self.driving_s + other.driving_s)
+
+
+class Account:
+    """What one text has driven: every run of its turn is booked here."""
+
+    def __init__(self, budget: Callable[[], MotionBudget] = MotionBudget) -> None:
+        self._budget = budget
+        self.driven = Extent()
+
+    @property
+    def budget(self) -> MotionBudget:
+        """What holds now."""
+        return self._budget()
+
+    def book(self, run: Extent) -> None:
+        """Add what a run has driven."""
+        self.driven = self.driven.plus(run)
+
+    def renew(self) -> None:
+        """A person has ordered more: what was driven before counts no longer."""
+        self.driven = Extent()
+
+    def refusal(self, extent: Extent) -> Reason | None:
+        """Why `extent` may not be driven on top of what has been driven."""
+        total, budget = self.driven.planned.plus(extent), self.budget
+        if total.length_m > budget.distance_m + ROUNDING_M:
+            return Reason("over_max_distance", {"distance_m": total.length_m, "max_m": budget.distance_m})
+        if total.driving_s > budget.time_s + ROUNDING_S:
+            return Reason("over_max_time", {"driving_s": total.driving_s, "max_s": budget.time_s})
+        return None
+
+    def notice(self, is_endless: bool) -> Reason | None:
+        """What a person should know before it runs: when a program without an end will be stopped."""
+        max_s = self.budget.endless_program_s
+        if not is_endless or math.isinf(max_s):
+            return None
+        return Reason("endless_program_limit", {"max_s": max_s})
+
+    def end(self, extent: Extent) -> Reason | None:
+        """As `refusal`, for what comes after a part that is driven already."""
+        if self.refusal(extent) is None:
+            return None
+        return self.distance_reached() if self._is_too_far(extent) else self.time_reached()
+
+    def _is_too_far(self, extent: Extent) -> bool:
+        return self.driven.planned.plus(extent).length_m > self.budget.distance_m + ROUNDING_M
+
+    def distance_reached(self) -> Reason:
+        return Reason("max_distance_reached", {"max_m": self.budget.distance_m})
+
+    def time_reached(self) -> Reason:
+        return Reason("max_time_reached", {"max_s": self.budget.time_s})
+
+
+class Meter:
+    """Measures one run, and says when it has to brake so that its text stays within the budget.
+
+    Args:
+        known: what the run is certain to drive, asked each time: parts may be added. Empty where it is unknown.
+        is_endless: it is a program whose rehearsal did not end.
+    """
+
+    def __init__(
+        self,
+        account: Account,
+        known: Callable[[], Extent],
+        sensors: Sensors,
+        limits: Limits,
+        now_s: float,
+        *,
+        is_endless: bool = False,
+    ) -> None:
+        self._account = account
+        self._known = known
+        self._sensors = sensors
+        self._slowing_mps2 = min(limits.acceleration_mps2, limits.deceleration_mps2)
+        self._latency_s = limits.latency_s + BRAKING_TICKS * TICK_S
+        self._is_endless = is_endless
+        self._began_s = self._now_s = now_s
+        self._driving_s = 0.0
+        self._start_path_m = self._path_m
+        self._sent = ZERO_TWIST
+        self._sent_m = 0.0
+        self._has_told = False
+
+    @property
+    def _path_m(self) -> float:
+        return self._sensors.estimate.path_m if self._sensors.estimate is not None else 0.0
+
+    @property
+    def extent(self) -> Extent:
+        """How far and how long this run has driven: as measured, or as sent where nothing is measured."""
+        driven_m = self._path_m - self._start_path_m if self._sensors.has_odometry else self._sent_m
+        return Extent(driven_m, self._driving_s)
+
+    def note(self, sent: Twist, now_s: float) -> None:
+        """Take in what was sent now."""
+        elapsed_s = max(0.0, now_s - self._now_s)
+        self._sent_m += self._sent.speed_mps * elapsed_s
+        self._driving_s += 0.0 if self._sent.is_zero else elapsed_s
+        self._sent, self._now_s = sent, now_s
+
+    def over(self) -> Reason | None:
+        """Why the robot has to brake now; told once."""
+        reason = None if self._has_told else self._over()
+        self._has_told = self._has_told or reason is not None
+        return reason
+
+    def _over(self) -> Reason | None:
+        account, budget = self._account, self._account.budget
+        driven, known = account.driven.plus(self.extent), account.driven.planned.plus(self._known())
+        estimate = self._sensors.estimate
+        seen_mps = estimate.twist.speed_mps if estimate is not None else 0.0
+        speed_mps = max(seen_mps, self._sent.speed_mps)
+        braking_s = speed_mps / self._slowing_mps2
+        unseen_s = min(self._sensors.odometry_age_s(), OLDEST_NEWS_S) if self._sensors.has_odometry else 0.0
+        braking_m = speed_mps * (unseen_s + self._latency_s + braking_s / 2.0)
+        most_m = _with_tolerance(budget.distance_m + ROUNDING_M, known.length_m, TOLERANCE_M)
+        most_s = _with_tolerance(budget.time_s + ROUNDING_S, known.driving_s, TOLERANCE_S)
+        if driven.length_m + braking_m > most_m:
+            return account.distance_reached()
+        if self._is_endless and self._now_s - self._began_s + braking_s > budget.endless_program_s:
+            return Reason("endless_program_stopped", {"max_s": budget.endless_program_s})
+        if driven.driving_s + braking_s > most_s:
+            return account.time_reached()
+        return None
+
+    def close(self) -> None:
+        """The run is over: book it."""
+        self._account.book(self.extent)
+
+
+def _with_tolerance(limit: float, known: float, tolerance: float) -> float:
+    """`limit`, with what a motion that was rehearsed to fit into it may need besides."""
+    return limit if known > limit else max(limit, known * (1.0 + TOLERANCE_SHARE) + tolerance)
+
+
+class Budgets:
+    """The budget that holds, and the accounts of the texts. Belongs to the control thread."""
+
+    def __init__(self, budget: MotionBudget) -> None:
+        self.current = budget
+        self._accounts: OrderedDict[tuple[str, int], Account] = OrderedDict()
+
+    def account_of(self, source: str, lease: str, turn: int) -> Account:
+        """The account of that turn. Who is no person has one for all turns: only a person orders more."""
+        priority = priority_of(source)
+        if priority == Priority.FOREIGN and turn == 0:
+            return Account(lambda: self.current)  # a line of text without a sender, and without a turn
+        key = (lease, turn if priority >= Priority.PLAN else 0)
+        account = self._accounts.setdefault(key, Account(lambda: self.current))
+        self._accounts.move_to_end(key)
+        while len(self._accounts) > KEPT_ACCOUNTS:
+            self._accounts.popitem(last=False)
+        return account
+
+    def change(self, source: str, payload: Mapping[str, Any]) -> Iterator[Reason]:
+        """Do what a `limit` envelope asks; what is to be told. Without a limit in it it only asks what holds."""
+        choice = MotionBudget(*(_chosen(payload, name) for name in ("max_distance_m", "max_time_s")))
+        if payload and source not in RELEASERS:
+            yield Reason("limit_refused", {"source": source})
+            return
+        self.current = self.current.changed(choice)
+        yield from said(self.current)
+
+
+def said(budget: MotionBudget) -> Iterator[Reason]:
+    """The budget in reasons, one for each of its two limits."""
+    if math.isinf(budget.distance_m):
+        yield Reason("limit_no_distance")
+    else:
+        yield Reason("limit_distance", {"max_m": budget.distance_m})
+    if math.isinf(budget.time_s):
+        yield Reason("limit_no_time")
+    else:
+        values = {"max_s": budget.time_s, "endless_s": budget.endless_program_s}
+        yield Reason("limit_time", values)
+
+
+def _chosen(payload: Mapping[str, Any], name: str) -> float | None:
+    return read_limit(payload[name]) if name in payload else None

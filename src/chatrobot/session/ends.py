@@ -1,0 +1,36 @@
+"""The ends of turns, told in the order they came: those after a motion whose robot does not stand yet wait for it."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+
+from chatrobot.core.events import Event, Finished
+
+
+class Ends:
+    """Belongs to the control thread. An end is made when it is told, so that it says what was measured by then."""
+
+    def __init__(self, emit: Callable[[Event], None]) -> None:
+        self._emit = emit
+        self._untold: deque[Callable[[], Finished]] = deque()
+
+    @property
+    def are_told(self) -> bool:
+        return not self._untold
+
+    def tell(self, end: Callable[[], Finished]) -> None:
+        """Tell it now, or after those that wait."""
+        if self._untold:
+            self._untold.append(end)
+        else:
+            self._emit(end())
+
+    def tell_later(self, end: Callable[[], Finished]) -> None:
+        """Tell it once the robot stands."""
+        self._untold.append(end)
+
+    def tell_all(self) -> None:
+        """The robot stands, or nobody sees whether it does."""
+        while self._untold:
+            self._emit(self._untold.popleft()())

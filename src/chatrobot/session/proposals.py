@@ -1,0 +1,60 @@
+"""The plan that the last reply offered: a yes as the very next text runs it, anything else drops it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import NamedTuple
+
+from chatrobot.core.events import Event, Result, Started
+from chatrobot.core.proposal import Proposal
+from chatrobot.language.consent import read_consent
+from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.phrases import render_reason, say
+from chatrobot.plan.text import parse_plan
+from chatrobot.session.approval import Approval
+from chatrobot.session.said import Said
+from chatrobot.session.understanding import Understanding
+
+
+class _Offered(NamedTuple):
+    """`turn` offered the plan; `approval` says until when, and from where, a yes counts."""
+
+    turn: int
+    proposal: Proposal
+    approval: Approval
+
+
+class Proposals:
+    """Keeps the plan that waits for an answer. Belongs to the pumping thread.
+
+    Args:
+        is_void_turn: whether a stop came after that turn was said.
+    """
+
+    def __init__(self, understanding: Understanding, is_void_turn: Callable[[int], bool]) -> None:
+        self._understanding = understanding
+        self._is_void_turn = is_void_turn
+        self._offered: _Offered | None = None
+
+    def hear(self, event: Event) -> None:
+        """A result may offer a plan; a motion makes an earlier offer void."""
+        if isinstance(event, Result) and event.proposal is not None:
+            approval = Approval(time.monotonic(), event.pose)
+            self._offered = _Offered(event.turn, event.proposal, approval)
+        elif isinstance(event, Started):
+            self._offered = None
+
+    def answered(self, said: Said) -> Interpretation | None:
+        """What `said` means as the answer to the offer; None where it is none. The offer is over in any case."""
+        offered, self._offered = self._offered, None
+        yes = read_consent(said.text) if said.kind == "text" else None
+        if offered is None or yes is None or self._is_void_turn(offered.turn):
+            return None
+        language = self._understanding.language
+        if not yes:
+            return Interpretation("answered", say(language, "offer_declined"), language)
+        lapse = offered.approval.lapsed(said.at_s, self._understanding.pose)
+        if lapse is not None:
+            return Interpretation("refused", render_reason(lapse, language), language)
+        return self._understanding.accept(parse_plan(offered.proposal.plan_text))

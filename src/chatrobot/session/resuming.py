@@ -1,0 +1,59 @@
+"""What may be gone on with: the plan that is paused, or what is left of the one that was stopped last.
+
+Motion keeps a paused plan and goes on with it on a word; the rest of a stopped one is offered as a plan of its own.
+"""
+
+from __future__ import annotations
+
+from chatrobot.core.events import Event, Finished, Paused
+from chatrobot.core.proposal import Proposal
+from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.phrases import describe_text, say
+from chatrobot.session.understanding import Understanding
+
+
+class Resuming:
+    """Belongs to the pumping thread; `paused` may be read from any. It hears the events of its own turns."""
+
+    def __init__(self, understanding: Understanding) -> None:
+        self._understanding = understanding
+        self._rest = ""
+        self._was_stopped = False
+        self.paused: Paused | None = None
+        """The plan that is paused, until it is gone on with or has ended."""
+
+    def hear(self, event: Event) -> None:
+        if isinstance(event, Paused):
+            self.paused = event
+        elif isinstance(event, Finished):
+            if self.paused is not None and self.paused.turn == event.turn:
+                self.paused = None
+            self._was_stopped = event.outcome == "stopped"
+            self._rest = event.remaining if event.outcome == "stopped" else ""
+
+    @property
+    def is_about_this(self) -> bool:
+        """To go on would be to go on with what was paused or stopped, be anything left of it or not."""
+        return self.paused is not None or self._was_stopped
+
+    def take_paused(self) -> Paused | None:
+        """The plan that is paused: from now on it is Motion's again."""
+        paused, self.paused = self.paused, None
+        return paused
+
+    def offer(self) -> Interpretation | None:
+        """The question whether to drive what is left of the plan that was stopped last; None where nothing is."""
+        if not self._rest:
+            return None
+        language = self._understanding.language
+        rest = describe_text(self._rest, language)
+        ask = say(language, "ask_rest", plan=rest)
+        reply = f"{say(language, 'was_stopped')} {ask}"
+        return Interpretation("unclear", reply, language, code="ask_rest", proposal=Proposal(self._rest, ask))
+
+    def told(self, paused: Paused | None, code: str) -> str:
+        """What is left of a paused plan, in the phrase of that code; that it stands, where nothing is paused."""
+        language = self._understanding.language
+        if paused is None:
+            return say(language, "stopped_now")
+        return say(language, code, plan=describe_text(paused.plan_text, language))

@@ -1,0 +1,91 @@
+"""What the lidar has seen, for rehearsals: measured with the governor's own footprint and margin.
+
+A plan that passes here keeps every seen point at the distance that the governor demands along the whole path.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from chatrobot.core.geometry import Pose
+from chatrobot.governor.contact import Floats, Footprint
+from chatrobot.governor.obstacles import MARGIN_M, NEARER_M
+from chatrobot.plan import rehearsal
+from chatrobot.plan.known_world import Contact
+from chatrobot.robots.profile import RobotProfile
+
+APART_M = 0.01
+"""Poses of a path that are nearer to each other than this are looked at once."""
+
+CHUNK = 200
+POINT_RADIUS_M = 0.03
+"""What was seen is at least so large: the gaps between beams are nothing to drive through."""
+
+
+class SeenPoints:
+    """Points [n, 2] in odom, as they were at one moment. Implements `SeenWorld`."""
+
+    def __init__(self, profile: RobotProfile, points: Floats) -> None:
+        self._footprint = Footprint(profile.footprint)
+        self._corners = np.array(profile.footprint)
+        self._points = points
+
+    def free_ahead_m(self, pose: Pose, direction_rad: float) -> float:
+        """How far the strip that the footprint sweeps straight on is free; infinite where nothing was seen in it."""
+        forward = np.array([math.cos(direction_rad), math.sin(direction_rad)])
+        front_m = (self._corners @ forward).max()
+        sides_m = self._corners @ np.array([-forward[1], forward[0]])
+        heading_rad = pose.yaw_rad + direction_rad
+        cos, sin = math.cos(heading_rad), math.sin(heading_rad)
+        x, y = self._points[:, 0] - pose.x_m, self._points[:, 1] - pose.y_m
+        ahead_m, side_m = cos * x + sin * y - front_m, cos * y - sin * x
+        inside = (side_m > sides_m.min() - POINT_RADIUS_M) & (side_m < sides_m.max() + POINT_RADIUS_M)
+        return float(ahead_m[inside & (ahead_m > 0.0)].min(initial=math.inf))
+
+    def first_contact(self, poses: Floats) -> Contact | None:
+        """The first of [n, 3] poses, from where the robot stands, that comes nearer to a seen point than is allowed.
+
+        Where the robot is nearer than the margin of a rehearsal already, the governor's own counts; where it is in
+        contact, it may come no nearer than it was.
+        """
+        rows = _apart(poses, self._footprint.radius_m)
+        most_m = -math.inf
+        for begin in range(0, len(rows), CHUNK):
+            chunk = rows[begin : begin + CHUNK]
+            near = self._points[self._near(poses[chunk])]
+            clearance = self._clearance_m(poses[chunk], near)
+            least = clearance.min(axis=1, initial=math.inf)
+            most = np.maximum(np.maximum.accumulate(least), most_m)
+            most_m = float(most[-1])
+            hits = np.flatnonzero(least < _needed_m(most))
+            if len(hits):
+                x_m, y_m = near[int(clearance[hits[0]].argmin())]
+                return Contact(int(chunk[hits[0]]), float(x_m), float(y_m))
+        return None
+
+    def _near(self, poses: Floats) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
+        """The points that the footprint may come near to on these poses."""
+        reach_m = self._footprint.radius_m + 2.0 * rehearsal.MARGIN_M
+        low, high = poses[:, :2].min(axis=0) - reach_m, poses[:, :2].max(axis=0) + reach_m
+        return np.flatnonzero(((self._points >= low) & (self._points <= high)).all(axis=1))
+
+    def _clearance_m(self, poses: Floats, points: Floats) -> Floats:
+        """[poses, points]: of each point from the footprint at each pose."""
+        cos, sin = np.cos(poses[:, 2:3]), np.sin(poses[:, 2:3])
+        x, y = points[:, 0] - poses[:, 0:1], points[:, 1] - poses[:, 1:2]
+        return self._footprint.clearance_m(cos * x + sin * y, cos * y - sin * x)
+
+
+def _needed_m(most: Floats) -> Floats:
+    """What a robot has to keep that has been so far from everything, at most, since the path began."""
+    in_contact = np.where(most <= MARGIN_M, most - NEARER_M, MARGIN_M)
+    return np.where(most <= rehearsal.MARGIN_M, in_contact, rehearsal.MARGIN_M)
+
+
+def _apart(poses: Floats, radius_m: float) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
+    """The rows where some point of the footprint has moved `APART_M` since the row before them, and the last."""
+    moved = np.hypot(*np.diff(poses[:, :2], axis=0).T) + radius_m * np.abs(np.diff(poses[:, 2]))
+    square = np.floor(np.append(0.0, np.cumsum(moved)) / APART_M)
+    return np.unique(np.append(np.flatnonzero(np.diff(square, prepend=-1.0)), len(poses) - 1))

@@ -1,0 +1,117 @@
+"""What a person makes of a program or a plan at the question is shown and asked about: nothing edited runs unasked."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from chatrobot.programs.library import Library
+from tests.console.terminal import Terminal
+from tests.programs.scripted_model import program
+
+NEW = ("program", "new", "drive forward 0.6 m at 0.3 m/s", "--name", "dash", "--fast", "--world", "empty")
+QUESTION = r"\[y/N\]"
+
+
+def command(folder: Path, editor: str | None, *arguments: str) -> Terminal:
+    environment = {"VISUAL": "", "EDITOR": editor or "", "PATH": "/usr/bin:/bin"}
+    if editor is None:
+        environment["PATH"] = str(folder)  # and no `vi` in it
+    return Terminal(
+        [sys.executable, "-m", "chatrobot", *arguments, "--config-dir", str(folder)],
+        environment=environment,
+        rows=120,
+    )
+
+
+def test_an_edited_program_is_the_next_version_and_is_asked_about_again(tmp_path: Path) -> None:
+    with command(tmp_path, "sed -i s/linear_x=0.3/linear_x=0.2/", *NEW) as terminal:
+        terminal.wait_for(QUESTION)
+        assert "version 1:" in terminal.text
+        terminal.enter("e")
+        terminal.wait_for(QUESTION, times=2)
+        assert "version 2:" in terminal.text
+        assert "linear_x=0.2" in terminal.text.split("version 2:")[1]
+        assert "written by a person" in terminal.text
+        assert "drove" not in terminal.text
+        terminal.enter("n")
+        assert terminal.wait_for_end() == 4
+    kept = Library(tmp_path).get("dash")
+    assert "linear_x=0.2" in kept.source
+    assert (kept.provenance.versions, kept.runs) == (2, ())
+
+
+@pytest.mark.parametrize(
+    ("editor", "sentence"),
+    [
+        ("true", ""),
+        ("false", "ended with exit code 1"),
+        ("no-such-editor", "no-such-editor' cannot be started"),
+        (None, "'vi' cannot be started"),
+        ("'unclosed", "cannot be read"),
+    ],
+)
+def test_an_editor_that_changes_nothing_or_fails_leads_back_to_the_question(
+    tmp_path: Path, editor: str | None, sentence: str
+) -> None:
+    with command(tmp_path, editor, *NEW) as terminal:
+        terminal.wait_for(QUESTION)
+        terminal.enter("e")
+        terminal.wait_for(QUESTION, times=2)
+        assert sentence in " ".join(terminal.text.split())
+        assert "version 2" not in terminal.text
+        assert "drove" not in terminal.text
+        terminal.enter("yes, do it")
+        assert terminal.wait_for_end() == 0
+        assert "drove 0.60 m" in terminal.text
+
+
+def test_a_program_that_was_emptied_is_not_done(tmp_path: Path) -> None:
+    with command(tmp_path, "truncate -s 0", *NEW) as terminal:
+        terminal.wait_for(QUESTION)
+        terminal.enter("e")
+        assert terminal.wait_for_end() == 4
+        assert "drove" not in terminal.text
+    assert Library(tmp_path).get("dash").provenance.versions == 1
+
+
+def test_an_edited_file_is_kept_under_its_name_and_stays_as_it_is(tmp_path: Path) -> None:
+    """It is asked about again though nothing is found in it any more."""
+    file = tmp_path / "rude.py"
+    file.write_text(program("self.drive(0.2, 0.0, 0.5)\nreturn"), encoding="utf-8")
+    run = ("program", "run", str(file), "--fast", "--world", "empty")
+    with command(tmp_path, "sed -i 's/0.5)/0.8)/;s/return$/pass/'", *run) as terminal:
+        terminal.wait_for(QUESTION)
+        terminal.enter("e")
+        terminal.wait_for(QUESTION, times=2)
+        assert "without stopping" not in terminal.text.split("version 2")[1]
+        assert "drove" not in terminal.text
+        terminal.enter("y")
+        assert terminal.wait_for_end() == 0
+    assert "0.5)" in file.read_text(encoding="utf-8")
+    assert "0.8)" in Library(tmp_path).get("rude").source
+
+
+def test_a_kept_program_has_its_version(tmp_path: Path) -> None:
+    test_an_edited_program_is_the_next_version_and_is_asked_about_again(tmp_path)
+    with command(
+        tmp_path, "true", "do", "run the dash", "--approve", "--fast", "--world", "empty"
+    ) as terminal:
+        terminal.wait_for(QUESTION)
+        assert "version 2:" in terminal.text
+        terminal.enter("e")
+        terminal.wait_for(QUESTION, times=2)
+        terminal.enter("n")
+        assert terminal.wait_for_end() == 4
+
+
+@pytest.mark.parametrize("editor", ["true", "no-such-editor"])
+def test_a_plan_that_was_not_changed_is_asked_about_again(tmp_path: Path, editor: str) -> None:
+    with command(tmp_path, editor, "do", "forward 1 m", "--approve", "--fast") as terminal:
+        terminal.wait_for(QUESTION)
+        terminal.enter("e")
+        terminal.wait_for(QUESTION, times=2)
+        terminal.enter("go ahead")
+        assert terminal.wait_for_end() == 0
