@@ -21,7 +21,7 @@ from chatrobot.cli.eval.ideal import ideal
 from chatrobot.cli.eval.judge_plan import misfit
 from chatrobot.cli.eval.measure import Measured
 from chatrobot.plan.base import Step
-from chatrobot.plan.steps import Plan
+from chatrobot.plan.steps import Plan, Say, Wait
 from chatrobot.plan.text import format_plan
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
 from tests.language.dialogue_runner import Conversation
@@ -115,7 +115,7 @@ def _verdict(text: Text, steps: list[Step], *, declined: bool) -> str:
     if meant is None:
         return "-"
     if meant.still:
-        return "wrong" if steps else "correct"
+        return "wrong" if any(not isinstance(step, (Say, Wait)) for step in steps) else "correct"
     numbers = ideal(steps, PROFILE)
     if numbers is not None and not misfit(meant, _measured(numbers), PROFILE):
         return "correct"

@@ -2,8 +2,10 @@
 
 The line through the package, from text to plan:
 
-    text    normalise → rephrase                                    one plain form
-    atoms   tokens (words from lexicon) → quantities → asides       what each word means
+    text    normalise                                               lower case, one form of each character
+    acts    signs (clauses and labelled words) → acts               which clauses order something; talk is left out
+    text    rephrase                                                one plain form
+    atoms   tokens (words from lexicon) → quantities                what each word means
     atoms   chatter, conditions, corrections, order, tidy           what was not meant left out, the rest in order
     frames  clauses, joining                                        a bag of slots for each motion
     steps   dialogue (earlier turns) or writing (this utterance)    actions: driving, turning, arcs, shapes…

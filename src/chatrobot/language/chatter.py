@@ -1,8 +1,8 @@
-"""Leaves out what carries no motion: reasons, remarks about others, similes, manner adverbs, names.
+"""Leaves out what carries no motion within a clause: reasons, similes, adverbs of manner, names.
 
 The rule: only a stretch that cannot be an instruction may be passed over. It must have a shape that no
-instruction has (a subject with its own finite verb, a reason, an adverb of manner, a name set off by a comma)
-and hold no amount, direction, condition or place. An unknown word anywhere else is asked about.
+instruction has (a reason, an adverb of manner, a name set off by a comma) and hold no amount, direction, condition
+or place. An unknown word anywhere else is asked about. Whole clauses that are talk are left out before: `acts.py`.
 """
 
 from __future__ import annotations
@@ -11,13 +11,9 @@ from collections.abc import Sequence
 from functools import lru_cache
 
 from chatrobot.language.data_files import LANGUAGES, load_table
-from chatrobot.language.numbers import is_chinese
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 
-_CONTENT = frozenset(
-    {"q", "number", "dir", "rot", "shape", "place", "defined", "condition", "refuse", "role", "scale"}
-)
 _BEFORE_MANNER = ("verb", "dir", "rot", "q", "sep", "conn", "filler", "pace", "shape")
 _WAYS = frozenset({"q", "number", "dir", "rot", "shape", "place", "defined", "again"})
 
@@ -32,7 +28,7 @@ def _words() -> dict[str, frozenset[str]]:
 
 
 def without_chatter(atoms: Sequence[Atom]) -> list[Atom]:
-    """The atoms without remarks and reasons; whatever could be part of an instruction stays.
+    """The atoms without reasons and the like; whatever could be part of an instruction stays.
 
     Raises:
         Unclear: for a reason that has an amount or a condition in it.
@@ -60,8 +56,6 @@ def _clauses(atoms: list[Atom]) -> list[tuple[list[Atom], Atom | None]]:
 
 
 def _of_clause(clause: list[Atom]) -> list[Atom]:
-    if _is_remark(clause):
-        return []
     at = next((i for i, a in enumerate(clause) if a.kind == "reason"), None)
     if at is None:
         return _without_beneficiary(_without_simile(clause))
@@ -75,33 +69,6 @@ def _of_clause(clause: list[Atom]) -> list[Atom]:
     if reason[0].text.startswith("to ") and before and not any(a.kind in _WAYS for a in before):
         raise Unclear("unknown_part", " ".join(a.text for a in reason))
     return before
-
-
-def _is_remark(clause: list[Atom]) -> bool:
-    """`the baby is asleep`, `my friends are watching`: somebody else, and a verb of their own."""
-    words = _words()
-    others = any(a.kind == "verb" and a.text.endswith("ing") for a in clause)
-    if not (others or any(a.kind == "unknown" for a in clause)) or any(is_chinese(a.text) for a in clause):
-        return False
-    start = 0
-    while start < len(clause) and clause[start].kind in ("filler", "sep"):
-        if clause[start].text.split()[0] in words["requests"]:
-            return False
-        start += 1
-    rest = clause[start:]
-    if not rest or any(a.kind in _CONTENT or a.value in words["flags"] for a in rest):
-        return False
-    finite = [i for i, a in enumerate(rest) if a.text.split()[-1] in words["finite"]]
-    first = rest[0].text.split()[0]
-    named = start > 0 and finite[:1] == [0]
-    subject = first in words["subjects"] or named or (rest[0].kind == "unknown" and finite[:1] == [1])
-    if not subject or not finite:
-        return False
-    if any(a.kind == "negation" for a in rest) and any(a.kind == "verb" for a in rest):
-        return False
-    if first in words["addressed"]:
-        return not any(a.kind in ("verb", "pace", "negation") for a in rest)
-    return True
 
 
 def _without_manner(atoms: Sequence[Atom], i: int) -> Atom:

@@ -7,7 +7,6 @@ from dataclasses import replace
 
 from chatrobot import reflex
 from chatrobot.language import questions
-from chatrobot.language.asides import check_finished, is_choice
 from chatrobot.language.corrections import MEANT
 from chatrobot.language.frames import GO, STILL, TURN, Frame
 from chatrobot.language.heeded import check_heeded
@@ -18,7 +17,7 @@ from chatrobot.language.reading import Reading, frames_of
 from chatrobot.language.sounds import mended
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
-from chatrobot.language.unfinished import breaks_off
+from chatrobot.language.unfinished import breaks_off, check_finished, is_choice
 from chatrobot.language.until import UntilObstacle, read_until
 from chatrobot.plan.steps import Drive, ObstacleWithin, Step
 
@@ -83,10 +82,6 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
         return answered
     if _is_stop(plain, reading):
         return stopped(language)
-    if questions.asks_about_motion(plain, language):
-        raise Unclear("question_beside", plain[:60].rstrip(" ?"))
-    if questions.tells_of_the_speaker(plain, language):
-        raise Unclear("unknown_part", plain[:60].rstrip(" ."))
     asks = questions.is_question(plain, language)
     _check_whole(plain, atoms, reading, asks=asks)
     until = read_until(plain, language)
@@ -172,8 +167,7 @@ def _question(plain: str, atoms: list[Atom], ability: bool, reading: Reading) ->
         steps = reading.steps(frames)
         steps = [] if is_choice(plain, language) else steps
         plain_question = questions.is_plain_question(plain, language)
-        asked = questions.asks_about_motion(plain, language)
-        if steps and not asked and any(f.has_extent or (f.moves and not plain_question) for f in frames):
+        if steps and any(f.has_extent or (f.moves and not plain_question) for f in frames):
             return None
     except Unclear:
         ways = any(a.kind in ("dir", "rot", "shape") for a in atoms)

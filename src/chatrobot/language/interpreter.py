@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 from functools import lru_cache
 
 from chatrobot import reflex
 from chatrobot.core.proposal import Proposal
 from chatrobot.language import forms, questions
+from chatrobot.language.acts import orders, without_requests, without_talk
 from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
 from chatrobot.language.context import Context
@@ -15,7 +17,7 @@ from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import defined_unit, with_known_counts, with_measured_things
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
 from chatrobot.language.lexicon import lexicon
-from chatrobot.language.names import misspelt_place
+from chatrobot.language.names import misspelt_place, names_in
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.program_request import read_program_request
@@ -25,9 +27,9 @@ from chatrobot.language.rephrase import is_item, rephrased
 from chatrobot.language.sides import is_side, with_side
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import tokenise
-from chatrobot.language.told import check_not_told, tells
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
+from chatrobot.language.unfinished import check_consistent
 from chatrobot.plan.text import format_plan
 from chatrobot.robots.profile import RobotProfile
 
@@ -48,13 +50,38 @@ class OfflineInterpreter:
             reply = say(language, "too_long", characters=len(text))
             return Interpretation("unclear", reply, language, code="too_long")
         try:
-            return self._interpreted(text, language, context)
+            return self._ordered(text, language, context)
         except Unclear as problem:
             reading = Reading(language, context, self._profile)
             return _did_you_mean(problem, text, reading) or asked_back(problem, language)
 
+    def _ordered(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
+        """What is ordered. A plan that no clause orders is not driven; talk beside an order is passed over.
+
+        Raises:
+            Unclear: where nothing is ordered, or what is ordered is not understood.
+        """
+        plain = normalise(text)
+        names = names_in(context)
+        rest = without_talk(plain, names)
+        if rest:
+            with contextlib.suppress(Unclear):
+                return self._interpreted(rest, language, context)
+        try:
+            meant = self._interpreted(text, language, context)
+        except Unclear as problem:
+            asked = "" if problem.refused else without_requests(rest or plain, names)
+            if not asked:
+                raise
+            with contextlib.suppress(Unclear):
+                return self._interpreted(asked, language, context)
+            raise
+        if meant.outcome == "plan" and not (orders(plain, names) or read_twists(plain)):
+            raise Unclear("nothing_to_do")
+        return meant
+
     def _interpreted(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
-        check_not_told(normalise(text), language)
+        check_consistent(normalise(text), language)
         plain = with_known_counts(without_compass(rephrased(normalise(text), language), language))
         rest, facing_rad = split_convention(plain, language)
         plain = rest or plain
@@ -120,7 +147,7 @@ def _defined(definition: forms.Definition, reading: Reading) -> Interpretation:
 def _did_you_mean(problem: Unclear, text: str, reading: Reading) -> Interpretation | None:
     """The question whether a place was misspelt, if it looks so and the rest is understood; it offers the plan."""
     language = reading.language
-    if problem.code != "unknown_part":
+    if problem.code != "unknown_part" or not orders(normalise(text), names_in(reading.context)):
         return None
     meant = misspelt_place(rephrased(normalise(text), language), problem.part, reading.context)
     if meant is None:
@@ -145,11 +172,7 @@ def _did_you_mean(problem: Unclear, text: str, reading: Reading) -> Interpretati
 def _pending(plain: str, reading: Reading) -> Interpretation | None:
     """A fragment answers what was asked back about the turn before."""
     pending = reading.context.dialogue.pending
-    if (
-        not pending
-        or len(pending) + len(plain) > MAX_CHARACTERS
-        or tells(normalise(pending), reading.language)
-    ):
+    if not pending or len(pending) + len(plain) > MAX_CHARACTERS or not orders(normalise(pending)):
         return None
     before = rephrased(normalise(pending), reading.language)
     atoms = tidy(reading.atoms(plain))

@@ -30,7 +30,6 @@ _NEVER_MEANT = frozenset(
         "filler",
         "glue",
         "reason",
-        "remark",
         "doubt",
         "condition",
         "negation",
@@ -144,7 +143,7 @@ def _guesses(words: dict[Key, Meaning]) -> dict[Key, Meaning]:
                 guesses[cut(written)] = words[cut(word)]
     sounds: dict[str, Any] = load_table("zh", "homophones")["characters"]
     for key, meaning in list(words.items()):
-        if not 2 <= len(key) <= 4 or meaning[0][0] in ("filler", "glue", "reason", "remark", "doubt", "conn"):
+        if not 2 <= len(key) <= 4 or meaning[0][0] in ("filler", "glue", "reason", "doubt", "conn"):
             continue
         for i, character in enumerate(key):
             for other in sounds.get(character, ""):

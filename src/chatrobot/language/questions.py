@@ -87,16 +87,6 @@ def asks_a_favour(text: str, language: str) -> bool:
     return _has("favour", text, language)
 
 
-def asks_about_motion(text: str, language: str) -> bool:
-    """`Did you turn left?`, `should I go forward?`: nothing is to be done."""
-    return _has("about_motion", text, language)
-
-
-def tells_of_the_speaker(text: str, language: str) -> bool:
-    """`I'll go forward 1 m`: a person does it."""
-    return _has("speaker", text, language)
-
-
 def _has(name: str, text: str, language: str) -> bool:
     """Whether that pattern is found, in a language that has it."""
     return name in load_table(language, "questions") and bool(_pattern(language, name).search(text))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from chatrobot.language.asides import without_asides
 from chatrobot.language.brackets import unrolled
 from chatrobot.language.chatter import without_chatter
 from chatrobot.language.clauses import read_frames
@@ -69,7 +68,7 @@ class Reading:
     def atoms(self, plain: str) -> list[Atom]:
         """The atoms of a normalised text."""
         atoms = tokenise(plain, lexicon(), names_in(self.context), by_ear=self.by_ear)
-        atoms = without_restated(with_multiples(read_quantities(without_asides(atoms, self.language))))
+        atoms = without_restated(with_multiples(read_quantities(atoms)))
         atoms = back_to_places(with_headings(atoms, self.facing_rad))
         atoms = with_words_counted(atoms, self.context.dialogue.words)
         if any(a.kind == "role" and a.value == "apart" for a in atoms):  # rows side by side, no garden work

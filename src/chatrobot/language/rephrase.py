@@ -14,8 +14,8 @@ from chatrobot.language.normalise import has_chinese, normalise
 
 @cache
 def _rules(language: str) -> tuple[tuple[re.Pattern[str], str], ...]:
-    tables = [load_table(language, name) for name in ("told", "rephrase")]
-    return tuple((re.compile(pattern), said) for table in tables for pattern, said in table.get("rules", ()))
+    rules = load_table(language, "rephrase").get("rules", ())
+    return tuple((re.compile(pattern), said) for pattern, said in rules)
 
 
 @cache

@@ -1,11 +1,19 @@
-"""Sentences that break off: `drive forward a distance of`. What was to come is not guessed."""
+"""Sentences that break off, leave a choice open or contradict themselves: `drive forward a distance of`.
+
+What was to come is not guessed.
+"""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from functools import cache
 
-from chatrobot.language.data_files import load_table
+from chatrobot.language.data_files import LANGUAGES, load_table
+from chatrobot.language.tokens import Atom
+from chatrobot.language.unclear import Unclear
+
+_SHOWN = 60
 
 
 @cache
@@ -19,3 +27,45 @@ def breaks_off(text: str, language: str) -> str:
     if found is None or _pattern(language, "complete").search(text):
         return ""
     return found.group().strip(" .…,!-")
+
+
+def check_consistent(text: str, language: str) -> None:
+    """Ask back where a normalised text says two things at once.
+
+    Raises:
+        Unclear: for such a text.
+    """
+    patterns = load_table(language, "unfinished").get("contradicts", ())
+    if any(re.search(pattern, text) for pattern in patterns):
+        raise Unclear("contradiction", text[:_SHOWN])
+
+
+@cache
+def _clue(language: str, name: str) -> re.Pattern[str] | None:
+    pattern = load_table(language, "asides").get("clues", {}).get(name)
+    return re.compile(pattern) if pattern else None
+
+
+@cache
+def _unfinished() -> frozenset[str]:
+    tables = [load_table(language, "asides").get("clues", {}) for language in LANGUAGES]
+    return frozenset(word for table in tables for word in table.get("unfinished", ()))
+
+
+def is_choice(text: str, language: str) -> bool:
+    """Whether `text` leaves a choice open: `left or right?`."""
+    pattern = _clue(language, "choice")
+    return pattern is not None and pattern.search(text) is not None
+
+
+def check_finished(atoms: Sequence[Atom]) -> None:
+    """A sentence that ends on a word which must be followed by something is not acted on.
+
+    Raises:
+        Unclear: for a sentence that breaks off.
+    """
+    left = [a for a in atoms if a.kind != "sep"]
+    while left and left[-1].kind == "filler" and left[-1].text not in _unfinished():
+        left.pop()
+    if len(left) > 1 and left[-1].text in _unfinished():
+        raise Unclear("unknown_part", f"{left[-1].text}…")

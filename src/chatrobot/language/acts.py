@@ -1,0 +1,167 @@
+"""Which clauses of a text order something. Everything else is talk: it may answer, remark, ask, but moves nothing.
+
+A log-linear reader: each clause has signs (evidence, requests, words of motion) in an order, with marks and neighbours;
+runs of one to three of them, and the words themselves, each weigh something for or against an order. The weights are
+fitted by scripts/fit_acts.py and kept in `data/acts.bin`, one byte a slot; a feature's slot is its checksum.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+import zlib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+from chatrobot.language.data_files import DATA
+from chatrobot.language.signs import Clause, Names, Sign, clauses_of, is_strong
+
+SLOTS = 1 << 16
+ORDER = 0.5
+"""A text with lower odds than that orders nothing. Sources that were left out chose it: `fit_acts --check`."""
+TALK, TALK_OF_MOTION = -2.0, -3.0
+"""A clause with lower odds than that may be passed over beside an order; with a word of motion in it, the second."""
+SURE_ORDER = 1.0
+"""Of a clause with higher odds the request that opens it may be left out."""
+_MEASURES = frozenset({"UNIT", "COUNTER"})
+_AMOUNTS = _MEASURES | {"NUMBER", "SCALE", "FRACTION"}
+_LOOKS_BACK = 3
+SCALE = 24.0
+"""A weight of one is this much in a byte."""
+
+
+@dataclass(frozen=True)
+class Read:
+    """A clause and the odds that it orders something, as a logarithm."""
+
+    clause: Clause
+    log_odds: float
+
+    @property
+    def probability(self) -> float:
+        return 1.0 / (1.0 + math.exp(-max(min(self.log_odds, 60.0), -60.0)))
+
+
+def read_acts(text: str, names: Names = ()) -> list[Read]:
+    """Each clause of a normalised text with its odds."""
+    weights = _weights()
+    clauses = clauses_of(text, names)
+    return [
+        Read(clause, sum(weights[slot_of(name)] for name in features(clauses, i)) / SCALE)
+        for i, clause in enumerate(clauses)
+    ]
+
+
+def order_log_odds(reads: Sequence[Read]) -> float:
+    """The odds that any clause orders something; only those with a word of motion are asked, if there are any."""
+    moving = [read.log_odds for read in reads if read.clause.moves] or [read.log_odds for read in reads]
+    return max(moving, default=-60.0)
+
+
+def orders(text: str, names: Names = ()) -> bool:
+    """Whether a normalised text orders anything at all."""
+    return order_log_odds(read_acts(text, names)) >= ORDER
+
+
+def without_talk(text: str, names: Names = ()) -> str:
+    """A normalised text without the clauses that are only talk; an empty string where there is nothing to leave out."""
+    reads = read_acts(text, names)
+    talk = [read for read in reads if _is_talk(read)]
+    if not talk or len(talk) == len(reads) or order_log_odds(reads) < ORDER:
+        return ""
+    kept = [read.clause for read in reads if not _is_talk(read)]
+    return " ".join(text[clause.start : clause.stop].strip() for clause in kept).strip(" ,;:")
+
+
+def without_requests(text: str, names: Names = ()) -> str:
+    """A normalised text whose orders begin with what is to be done; an empty string where no request opens one."""
+    parts, found = [], False
+    for read in read_acts(text, names):
+        clause = read.clause
+        start = clause.order_start if read.log_odds >= SURE_ORDER else clause.start
+        found |= start > clause.start
+        parts.append(text[start : clause.stop].strip())
+    return " ".join(parts) if found else ""
+
+
+def _is_talk(read: Read) -> bool:
+    clause = read.clause
+    limit = TALK_OF_MOTION if clause.moves else TALK
+    return clause.talks and not clause.binds and read.log_odds < limit
+
+
+def slot_of(name: str) -> int:
+    """Where the weight of a feature is kept."""
+    return zlib.crc32(name.encode()) & (SLOTS - 1)
+
+
+def features(clauses: Sequence[Clause], i: int) -> Iterator[str]:
+    """The features of one clause among its neighbours."""
+    clause = clauses[i]
+    end = f"${_mark(clause)}"
+    told = list(_told(clause.signs))
+    labels = ["^", *(label for label, _ in told), end]
+    texts = ["^", *(text for _, text in told), end]
+    yield "bias"
+    for at in range(1, len(labels)):
+        yield f"1{labels[at]}"
+        yield f"2{labels[at - 1]} {labels[at]}"
+        if at > 1:
+            yield f"3{labels[at - 2]} {labels[at - 1]} {labels[at]}"
+        if texts[at] != labels[at]:
+            yield f"w{texts[at]}"
+        yield f"b{texts[at - 1]} {texts[at]}"
+        if labels[at][0].isupper() and texts[at].isascii():
+            yield f"s{labels[at]} {texts[at][-2:]}"
+    kinds = [label for label in labels[1:-1] if label[0].isupper()]
+    yield f"k{' '.join(kinds[:4])}"
+    yield f"n{min(len(kinds), 4)} {min(len(labels) - 2 - len(kinds), 6)}"
+    yield from _around(clauses, i)
+
+
+def _mark(clause: Clause) -> str:
+    """The mark after a clause. How a sentence ends that is no question tells nothing."""
+    return "." if clause.end != "?" and is_strong(clause.end) else clause.end
+
+
+def _told(signs: Sequence[Sign]) -> Iterator[tuple[str, str]]:
+    """(label, text) of each sign, an amount being one: which it is and how it is put together tells nothing."""
+    for is_amount, group in itertools.groupby(signs, lambda sign: sign.label in _AMOUNTS):
+        run = list(group)
+        if is_amount:
+            label = "AMOUNT" if any(sign.label in _MEASURES for sign in run) else "NUMBER"
+            yield label, label
+        else:
+            yield from ((sign.label, sign.text) for sign in run)
+
+
+def _around(clauses: Sequence[Clause], i: int) -> Iterator[str]:
+    """What stands before and after it, and how its sentence ends."""
+    last = next(k for k in range(i, len(clauses)) if is_strong(clauses[k].end) or k + 1 == len(clauses))
+    first = i
+    while first > 0 and not is_strong(clauses[first - 1].end):
+        first -= 1
+    head = clauses[i].signs[0].label
+    yield f"q{_mark(clauses[last])} {head}"
+    yield f"e{_mark(clauses[last])}"
+    for side, k in (("p", i - 1), ("f", i + 1)):
+        if not 0 <= k < len(clauses):
+            yield f"{side}none"
+            continue
+        same = "same" if first <= k <= last else "other"
+        yield f"{side}{same}"
+        yield f"{side}{same}{clauses[k].moves}"
+        if same == "same":
+            yield f"{side}h{clauses[k].signs[0].label}"
+            for label in {sign.label for sign in clauses[k].signs}:
+                yield f"{side}l{label}"
+                yield f"{side}m{_mark(clauses[k])}{label}"
+    for label in {sign.label for clause in clauses[max(i - _LOOKS_BACK, 0) : i] for sign in clause.signs}:
+        yield f"a{label}"
+
+
+@lru_cache(maxsize=1)
+def _weights() -> tuple[int, ...]:
+    data = (DATA / "acts.bin").read_bytes()
+    return tuple(byte - 256 if byte > 127 else byte for byte in data)

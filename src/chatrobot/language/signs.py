@@ -1,0 +1,175 @@
+"""A text cut into sentences and clauses, and each word of it labelled: evidence of an act, or a word of motion.
+
+Labels come from data (`acts.toml` of each language, and the lexicon): what they are worth is fitted, see `acts.py`.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
+
+from chatrobot.language.data_files import LANGUAGES, expand, load_table
+from chatrobot.language.lexicon import UNIT, Key, lexicon
+
+_STRONG, _WEAK = frozenset(".!?;。…\n"), frozenset(",:、—~")
+_NO_CONTENT = frozenset(
+    {"filler", "glue", "sep", "conn", "doubt", "reason", "negation", "condition", "correction", "num",
+     "operator", "unknown", "refuse"}
+)  # fmt: skip
+_IDLE = frozenset({"VERB", "DIR", "PLACE", "COUNTER"})
+_OPENING = frozenset({"request", "please", "opening", "robot"})
+_JOINT = "joint"
+"""The label of words that begin a clause of their own."""
+_QUOTES = frozenset('"“”「」『』')
+_UNITS = "unit_"
+_EVIDENCE_KINDS = {"num": "NUMBER", "negation": "not", "condition": "condition", "correction": "correction"}
+"""Kinds of the lexicon that move nothing, and their labels here."""
+BINDING = frozenset(
+    {"not", "condition", "correction", "hypothetical", "question", "ask", "request", "please"}
+)
+"""Labels of words that bear on what stands beside them, or ask for something: a clause with one of them is never
+passed over."""
+TALKING = frozenset(
+    {"social", "praise", "complaint", "verdict", "mine", "did", "does", "earlier", "kin", "thing"}
+)
+"""Labels of words that an order to do something else would hardly begin with."""
+
+
+Names = Collection[Key]
+Unit = tuple[str, int]
+"""What is written, and where it stands in the text."""
+_NO_NAMES: Names = ()
+
+
+class Sign(NamedTuple):
+    """One word or phrase. `label` is its class, or the kind of motion word it is, or the word itself.
+
+    `start` is where it stands in the text.
+    """
+
+    label: str
+    text: str
+    moves: bool
+    start: int
+
+
+@dataclass(frozen=True)
+class Clause:
+    """What stands between two marks. `end` is the mark after it; `start` and `stop` are where it stands in the text."""
+
+    signs: tuple[Sign, ...]
+    end: str
+    start: int
+    stop: int
+
+    @property
+    def binds(self) -> bool:
+        """Whether it bears on what stands beside it: a condition, a negation, a correction."""
+        return self.end == "?" or any(sign.label in BINDING or sign.label in _QUOTES for sign in self.signs)
+
+    @property
+    def order_start(self) -> int:
+        """Where what is to be done begins, after the words that ask for it; `start` where none do."""
+        opened = list(itertools.takewhile(lambda sign: sign.label in _OPENING and not sign.moves, self.signs))
+        rest = self.signs[len(opened) :]
+        is_request = any(sign.label == "request" for sign in opened)
+        return rest[0].start if is_request and rest and rest[0].moves else self.start
+
+    @property
+    def talks(self) -> bool:
+        """Whether it has evidence of talk and no amount or shape that could be meant for what stands beside it."""
+        told = any(sign.moves and sign.label.isupper() and sign.label not in _IDLE for sign in self.signs)
+        return not told and any(sign.label in TALKING for sign in self.signs)
+
+    @property
+    def moves(self) -> bool:
+        """Whether any word of it is one of motion."""
+        return any(sign.moves for sign in self.signs)
+
+
+def clauses_of(text: str, names: Names = _NO_NAMES) -> list[Clause]:
+    """The clauses of a normalised text, in order; none is empty. `names` are words of this dialogue that move."""
+    found: list[Clause] = []
+    units: list[Unit] = []
+    start = 0
+    for match in UNIT.finditer(text):
+        unit = match.group()
+        if unit in _STRONG or unit in _WEAK:
+            if units:
+                found += _parted(list(_signs(units, names)), unit, start, match.end())
+                units = []
+            elif found and unit in _STRONG:
+                last = found[-1]
+                found[-1] = Clause(last.signs, unit if unit != "\n" else last.end, last.start, match.end())
+            start = match.end()
+        else:
+            if not units:
+                start = match.start()
+            units.append((unit, match.start()))
+    if units:
+        found += _parted(list(_signs(units, names)), "", start, len(text))
+    return found
+
+
+def _parted(signs: list[Sign], end: str, start: int, stop: int) -> Iterator[Clause]:
+    """What stands between two marks, parted before words such as `because`."""
+    begins = [0, *(i for i, sign in enumerate(signs) if i and sign.label == _JOINT)]
+    for begin, after in zip(begins, [*begins[1:], len(signs)]):
+        is_last = after == len(signs)
+        until = stop if is_last else signs[after].start
+        yield Clause(tuple(signs[begin:after]), end if is_last else ",", start, until)
+        start = until
+
+
+def is_strong(mark: str) -> bool:
+    """Whether a mark ends a sentence."""
+    return mark == "" or mark in _STRONG
+
+
+def _signs(units: list[Unit], names: Names) -> Iterator[Sign]:
+    table, longest = _table()
+    named = max(map(len, names), default=0)
+    at, count = 0, len(units)
+    while at < count:
+        unit, start = units[at]
+        for length in range(min(max(longest.get(unit, 0), named), count - at), 0, -1):
+            key = tuple(written for written, _ in units[at : at + length])
+            label = ("VERB", True) if key in names else table.get(key)
+            if label is not None:
+                yield Sign(label[0], "_".join(key), label[1], start)
+                at += length
+                break
+        else:
+            number = unit[0].isdecimal() or (unit[0] == "." and len(unit) > 1)
+            yield Sign("NUMBER" if number else unit, unit, number, start)
+            at += 1
+
+
+@lru_cache(maxsize=1)
+def _table() -> tuple[dict[Key, tuple[str, bool]], dict[str, int]]:
+    """(label and whether it is a word of motion, by written form; the longest form, by its first unit)."""
+    words = lexicon()
+    table: dict[Key, tuple[str, bool]] = {}
+    for key, meaning in words.words.items():
+        kind = meaning[0][0]
+        if kind not in _NO_CONTENT:
+            table[key] = (kind.upper() if not kind.startswith(_UNITS) else "UNIT", True)
+        elif kind in _EVIDENCE_KINDS:
+            table[key] = (_EVIDENCE_KINDS[kind], False)
+    listed: dict[Key, tuple[str, bool]] = {}
+    for language in LANGUAGES:
+        for label, phrases in load_table(language, "acts").items():
+            for phrase in phrases:
+                for written in expand(phrase):
+                    key = tuple(UNIT.findall(written))
+                    was = table.get(key, ("", False))
+                    if was[0] not in _EVIDENCE_KINDS.values():
+                        listed.setdefault(key, (label, was[1]))
+    table |= listed
+    longest: dict[str, int] = {}
+    for key in table:
+        longest[key[0]] = max(longest.get(key[0], 0), len(key))
+    return table, longest
