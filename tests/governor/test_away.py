@@ -188,6 +188,12 @@ def test_what_passes_a_corner_comes_nearest_between_two_looks() -> None:
     assert BODY.kept_m(outwards, 0.0 * outwards).ravel() == pytest.approx([0.02, 0.04])
 
 
+def test_what_does_not_move_keeps_its_clearance() -> None:
+    lopsided = Footprint(((0.3, -0.1), (0.1, 0.2), (-0.2, 0.05)))
+    x, y = np.array([[0.3, -0.3, 0.1, 0.0]] * 2), np.array([[0.2, 0.1, -0.4, 0.5]] * 2)
+    assert lopsided.kept_m(x, y)[0] == pytest.approx(lopsided.clearance_m(x[0], y[0]))
+
+
 def test_what_lies_beyond_the_circle_counts_beside_a_corner() -> None:
     """The half planes say 0.017 m, the corner is farther away, and the turn brings it nearer all the same."""
     corners = load_profile("wheeltec_mini_diff").footprint

@@ -44,7 +44,7 @@ def test_a_longer_word_is_no_stop(text: str) -> None:
     "text",
     [
         "stop for now",
-        "stop for now and turn left later",
+        "halt for now and turn left later",
         "stop for a second, then left",
         "stop it for god's sake",
     ],
