@@ -350,3 +350,33 @@ def test_what_the_running_plan_may_teach_is_understood_after_it() -> None:
     turn = talk.session.say("go to the nook")
     talk.pump_until(lambda: turn in talk.results())
     assert talk.results()[turn].outcome == "completed"
+
+
+@pytest.mark.parametrize("word", ["no", "no!", "nope", "不"])
+def test_a_no_to_a_motion_stops_it(word: str) -> None:
+    talk = Talk()
+    talk.session.say("forward 1 m")
+    talk.pump_until_moving()
+    turn = talk.session.say(word)
+    talk.pump_until(lambda: {1, turn} <= set(talk.results()))
+    assert talk.results()[1].outcome == "stopped"
+    assert talk.results()[1].path_m < 0.3
+
+
+def test_a_correction_that_fits_nothing_stops_what_it_corrects() -> None:
+    talk = Talk(options=Options(while_moving="replace"))
+    talk.session.say("forward 1 m")
+    talk.pump_until_moving()
+    turn = talk.session.say("no, I meant left")
+    talk.pump_until(lambda: {1, turn} <= set(talk.results()))
+    assert talk.results()[1].outcome == "stopped"
+    assert talk.results()[turn].outcome == "unclear"
+
+
+@pytest.mark.parametrize("word", ["continue", "resume", "继续"])
+def test_where_nothing_is_left_continue_moves_nothing(word: str) -> None:
+    talk = Talk()
+    turn = talk.session.say(word)
+    talk.pump_until(lambda: turn in talk.results())
+    assert talk.results()[turn].outcome == "answered"
+    assert talk.results()[turn].path_m == 0.0

@@ -230,7 +230,7 @@ def test_a_robot_that_only_stood_has_nothing_to_undo(rig: UndoRig) -> None:
     for said in ("undo", "wait 1 s", "undo"):
         result = rig.do(said)
     assert result.outcome == "unclear"
-    assert "nothing as yet" in result.reply
+    assert "nothing that I could undo" in result.reply
 
 
 # --- like any plan ---

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import re
+from dataclasses import replace
 from functools import lru_cache
 
 from chatrobot import reflex
@@ -17,6 +18,7 @@ from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import defined_unit, with_known_counts, with_measured_things
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
 from chatrobot.language.lexicon import lexicon
+from chatrobot.language.meant import says_meant
 from chatrobot.language.names import misspelt_place, names_in
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
 from chatrobot.language.phrases import describe_plan, say
@@ -53,7 +55,8 @@ class OfflineInterpreter:
             return self._ordered(text, language, context)
         except Unclear as problem:
             reading = Reading(language, context, self._profile)
-            return _did_you_mean(problem, text, reading) or asked_back(problem, language)
+            asked = _did_you_mean(problem, text, reading) or asked_back(problem, language)
+            return replace(asked, corrects=says_meant(text))
 
     def _ordered(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         """What is ordered. A plan that no clause orders is not driven; talk beside an order is passed over.

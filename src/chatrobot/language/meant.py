@@ -93,11 +93,12 @@ def _net(steps: list[Step]) -> list[Step]:
 
 def is_correction(record: TurnRecord | None) -> bool:
     """Whether a turn put the one before right: what it did is then not what was meant by it."""
-    return record is not None and _says_meant(record.text)
+    return record is not None and says_meant(record.text)
 
 
 @lru_cache(maxsize=128)
-def _says_meant(text: str) -> bool:
+def says_meant(text: str) -> bool:
+    """Whether `text` says what was meant instead, be it understood or not."""
     try:
         atoms: Sequence[Atom] = corrected(read_quantities(tokenise(normalise(text), lexicon(), {})))
     except Unclear:

@@ -87,8 +87,8 @@ class Dispatch:
             self._book.conclude(said.turn, "stopped", reply)
 
     def _goes_on(self, text: str) -> bool:
-        """Whether it asks to go on with what was paused or stopped."""
-        return wants_to_resume(text) and self._resuming.is_about_this
+        """Whether it asks to go on with what was paused or stopped, be there anything or not."""
+        return wants_to_resume(text, may_mean_more=self._resuming.is_about_this)
 
     def _go_on(self, said: Said) -> None:
         """Go on with what is paused; what is left of a plan that was stopped is offered."""

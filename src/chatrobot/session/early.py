@@ -36,7 +36,12 @@ class EarlyAnswers:
             meant = self._look_at(said)
             if meant is None or _teaches(meant):
                 return None
-            if meant.outcome == "unclear" and meant.code in NOT_UNDERSTOOD and meant.proposal is None:
+            if (
+                meant.outcome == "unclear"
+                and meant.code in NOT_UNDERSTOOD
+                and not meant.proposal
+                and not meant.corrects
+            ):
                 return said
         return None
 

@@ -37,6 +37,11 @@ class Proposals:
         self._is_void_turn = is_void_turn
         self._offered: _Offered | None = None
 
+    @property
+    def is_open(self) -> bool:
+        """An offer waits for its answer. From any thread."""
+        return self._offered is not None
+
     def hear(self, event: Event) -> None:
         """A result may offer a plan; a motion makes an earlier offer void."""
         if isinstance(event, Result) and event.proposal is not None:

@@ -11,6 +11,7 @@ from typing import Any
 from chatrobot.core.errors import JointError
 from chatrobot.core.events import Event, Finished, Remembered, Result, Telemetry
 from chatrobot.core.reason import Reason
+from chatrobot.language.consent import read_consent
 from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.session.authoring import Authoring
@@ -123,12 +124,16 @@ class Session:
         if is_emergency_stop(text):
             self.emergency_stop(text.strip()[:80])
             kind: Kind = "emergency_stop"
-        elif leads_with_stop(text) if self.is_moving else is_stop(text):
+        elif (leads_with_stop(text) or self._declines_motion(text)) if self.is_moving else is_stop(text):
             kind = "pause" if is_pause(text) else "stop"
             (self.pause if kind == "pause" else self.stop)(text.strip()[:80])
         else:
             kind = "text"
         return self._take_in(text, kind)
+
+    def _declines_motion(self, text: str) -> bool:
+        """Whether `text` says no to what moves, and not to a question."""
+        return not (self.is_paused or self._proposals.is_open) and read_consent(text) is False
 
     def say_plan(self, plan_text: str) -> int:
         """Take in a plan that a person or a program wrote itself; the number of its turn."""

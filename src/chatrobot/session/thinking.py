@@ -157,7 +157,7 @@ class Thinking:
             return meant
         if connects_to_the_robot(text):
             return replace(meant, outcome="answered", reply=say(meant.language, "tutorial_without_model"))
-        if self._interpreter == "offline":
+        if self._interpreter == "offline" or meant.code == "nothing_to_undo":
             return meant
         return replace(meant, reply=f"{meant.reply} {say(meant.language, 'no_model_hint')}")
 

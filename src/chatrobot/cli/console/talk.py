@@ -177,6 +177,7 @@ class Talk:
         self._leaving = True
         if self.session.is_paused:
             self.stop("end of input")  # nobody is left to go on with it
+            return
         if self._question.turn is not None:
             self.attempt(lambda: self._question.answer(self.session, False))
             return
