@@ -40,6 +40,12 @@ def _then(atoms: Sequence[Atom], i: int) -> Atom:
     return Atom("conn", "then", atoms[i].text)
 
 
+def _second(atoms: Sequence[Atom], i: int) -> Atom:
+    """`30 degrees for second`: how fast, or for how long?"""
+    loose = is_kind(atoms, i - 1, "glue", "x") and atoms[i - 1].text == "for" and is_kind(atoms, i - 2, "q")
+    return Atom("unknown", atoms[i].text, f"for {atoms[i].text}") if loose else _then(atoms, i)
+
+
 def _ordinal(atoms: Sequence[Atom], i: int) -> Atom:
     return _then(atoms, i) if atoms[i].text == "third" else atoms[i]
 
@@ -133,7 +139,7 @@ def _unit_of_angle(atoms: Sequence[Atom], i: int) -> Atom:
 
 _SETTLED: dict[str, Callable[[Sequence[Atom], int], Atom]] = {
     "verb": _verb, "dir": _direction, "num": _leftover_number, "filler": _pause, "unit_length": _unit_of_length,
-    "second": _then, "fraction": _ordinal, "letter": _letter, "counter": _counter, "unit_times": _times,
+    "second": _second, "fraction": _ordinal, "letter": _letter, "counter": _counter, "unit_times": _times,
     "per": _glue, "unit_turn": _full_turn, "role": _role, "flag": _flag, "unit_percent": _percent,
     "glue": _glue_word, "unit_angle": _unit_of_angle,
 }  # fmt: skip
