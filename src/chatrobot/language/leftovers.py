@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 
 from chatrobot.language.numbers import is_chinese, is_kind
 from chatrobot.language.tokens import Atom, quantity
+
+_WHOLE = ("full ", "complete ", "whole ", "entire ", "整")
+"""Beginnings of words that say that all of a circle is meant."""
 
 
 def settled_word(atoms: Sequence[Atom], i: int) -> Atom:
@@ -98,6 +102,8 @@ def _times(atoms: Sequence[Atom], i: int) -> Atom:
 
 
 def _full_turn(atoms: Sequence[Atom], i: int) -> Atom:
+    if atoms[i].text.startswith(_WHOLE):  # `full circle clockwise, radius 75 cm`
+        return quantity("turns", 2.0 * math.pi, atoms[i].text)
     measured = is_kind(atoms, i + 1, "role")  # 每个圈半径三十厘米
     return _glue(atoms, i) if measured else Atom("verb", "turn", atoms[i].text)
 
