@@ -184,7 +184,7 @@ def _shared(frames: list[Frame]) -> list[Frame]:
         for other in kept:
             if other.verb in STILL or is_times_only(other) or other.flags & {"between", "after_each"}:
                 continue
-            if frame.verb in TURN and (other.verb in GO or "length" in other.q):
+            if frame.verb in TURN and not other.shape and (other.verb in GO or "length" in other.q):
                 continue  # 转90度再走50厘米，都往右转: of the turns
             if not (other.direction or other.rot):
                 other.direction, other.rot = frame.direction, frame.rot

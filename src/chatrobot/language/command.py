@@ -15,6 +15,7 @@ from chatrobot.language.names import names_in
 from chatrobot.language.phrases import say
 from chatrobot.language.reading import Reading, frames_of
 from chatrobot.language.sounds import mended
+from chatrobot.language.starting import check_start
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.unfinished import breaks_off, check_finished, is_choice
@@ -88,6 +89,7 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     if until is not None:
         return _until(until, reading)
     frames = frames_of(atoms)
+    check_start(frames, reading.context.dialogue)
     default = _default(frames, reading)
     if default is not None:
         return default

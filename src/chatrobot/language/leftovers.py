@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 
 from chatrobot.language.numbers import is_chinese, is_kind
 from chatrobot.language.tokens import Atom, quantity
+
+_WHOLE = ("full ", "complete ", "whole ", "entire ", "整")
+"""Beginnings of words that say that all of a circle is meant."""
 
 
 def settled_word(atoms: Sequence[Atom], i: int) -> Atom:
@@ -38,6 +42,12 @@ def _glue(atoms: Sequence[Atom], i: int) -> Atom:
 
 def _then(atoms: Sequence[Atom], i: int) -> Atom:
     return Atom("conn", "then", atoms[i].text)
+
+
+def _second(atoms: Sequence[Atom], i: int) -> Atom:
+    """`30 degrees for second`: how fast, or for how long?"""
+    loose = is_kind(atoms, i - 1, "glue", "x") and atoms[i - 1].text == "for" and is_kind(atoms, i - 2, "q")
+    return Atom("unknown", atoms[i].text, f"for {atoms[i].text}") if loose else _then(atoms, i)
 
 
 def _ordinal(atoms: Sequence[Atom], i: int) -> Atom:
@@ -92,6 +102,8 @@ def _times(atoms: Sequence[Atom], i: int) -> Atom:
 
 
 def _full_turn(atoms: Sequence[Atom], i: int) -> Atom:
+    if atoms[i].text.startswith(_WHOLE):  # `full circle clockwise, radius 75 cm`
+        return quantity("turns", 2.0 * math.pi, atoms[i].text)
     measured = is_kind(atoms, i + 1, "role")  # 每个圈半径三十厘米
     return _glue(atoms, i) if measured else Atom("verb", "turn", atoms[i].text)
 
@@ -133,7 +145,7 @@ def _unit_of_angle(atoms: Sequence[Atom], i: int) -> Atom:
 
 _SETTLED: dict[str, Callable[[Sequence[Atom], int], Atom]] = {
     "verb": _verb, "dir": _direction, "num": _leftover_number, "filler": _pause, "unit_length": _unit_of_length,
-    "second": _then, "fraction": _ordinal, "letter": _letter, "counter": _counter, "unit_times": _times,
+    "second": _second, "fraction": _ordinal, "letter": _letter, "counter": _counter, "unit_times": _times,
     "per": _glue, "unit_turn": _full_turn, "role": _role, "flag": _flag, "unit_percent": _percent,
     "glue": _glue_word, "unit_angle": _unit_of_angle,
 }  # fmt: skip

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from chatrobot.language.announced import with_announced
 from chatrobot.language.brackets import unrolled
 from chatrobot.language.chatter import without_chatter
 from chatrobot.language.clauses import read_frames
@@ -41,7 +42,7 @@ def frames_of(atoms: Sequence[Atom]) -> list[Frame]:
     Raises:
         Unclear: for a word that nothing accounts for.
     """
-    settled = settle_condition(with_defined_units(without_chatter(unrolled(atoms))))
+    settled = settle_condition(with_defined_units(without_chatter(with_announced(unrolled(atoms)))))
     return read_frames(tidy(without_negated(in_order(corrected(settled)))))
 
 

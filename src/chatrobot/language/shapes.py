@@ -8,6 +8,7 @@ from chatrobot.language.ellipsis import State
 from chatrobot.language.frames import GO, SIDES, STILL, TURN, Frame
 from chatrobot.language.manner import Pace
 from chatrobot.language.measures import measured, whole_number
+from chatrobot.language.shape_sides import tells_side
 from chatrobot.plan.steps import Step
 
 _TITLES = frozenset({"letter_l", "letter_u", "letter_z", "stairs", "plus", "zigzag", "square", "rectangle"})
@@ -21,7 +22,7 @@ def draw(frames: list[Frame], i: int, pace: Pace) -> tuple[int, list[Step]]:
         Unclear: where a measure is missing or the shape is none this module can draw.
     """
     end = i + 1
-    while end < len(frames) and _is_part(frames[i], frames[end]):
+    while end < len(frames) and (tells_side(frames[i:end], frames[end:]) or _is_part(frames[i], frames[end])):
         end += 1
     parts = frames[i:end]
     spelt = _spelt_out(parts, pace) if parts[0].shape in _TITLES else None

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 
 from chatrobot.language.arrange import arranged
-from chatrobot.language.frames import SIDES, STILL, Frame
+from chatrobot.language.frames import SIDES, STILL, TURN, Frame
 from chatrobot.language.joining import is_times_only, merged
 from chatrobot.language.manner import Pace
 from chatrobot.language.pauses import insert, insert_at, insert_halfway, paced_legs
@@ -66,13 +66,24 @@ def _check_amounts(frames: list[Frame]) -> None:
     """走直线，八十厘米，倒着走: a way said right after an amount may be how, or what comes next.
 
     Raises:
-        Unclear: for a drive without an amount that is only set off by a comma from one that has it.
+        Unclear: for a drive without an amount that is only set off by a comma from one that has it; for a turn
+            with two angles.
     """
     for last, frame in itertools.pairwise(frames):
+        if _is_second_angle(last, frame):
+            raise Unclear("contradiction", f"{last.text} {frame.text}")
         bare = not (frame.q or frame.shape or frame.place or frame.rot or frame.words or frame.flags)
         plain = frame.verb in ("", "go") and bool(frame.direction) and frame.direction not in SIDES
         if bare and plain and frame.joined == "weak" and "length" in last.q and last.verb in ("", "go"):
             raise Unclear("unclear_motion", f"{last.text} {frame.text}")
+
+
+def _is_second_angle(last: Frame, frame: Frame) -> bool:
+    """`turn right 90 degrees, 30 degrees`: an angle beside that of the same turn, and no motion of its own."""
+    loose = frame.joined in ("weak", "none") and not (
+        frame.moves or frame.words or frame.flags or frame.roles
+    )
+    return loose and last.verb in TURN and "angle" in last.q and "angle" in frame.q and not last.shape
 
 
 def _check_opener(frames: list[Frame]) -> None:

@@ -1,0 +1,27 @@
+"""A bare `go` after a turn that was not done: it means what was said in that turn, and no motion of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from chatrobot.language.context import Dialogue
+from chatrobot.language.frames import GO, Frame
+from chatrobot.language.unclear import Unclear
+
+
+def check_start(frames: Sequence[Frame], dialogue: Dialogue) -> None:
+    """Ask back where nothing but `go` is said, and the turn it means was not understood or not done.
+
+    Raises:
+        Unclear: naming what was said in that turn; answers in between are passed over.
+    """
+    last = next((turn for turn in reversed(dialogue.turns) if turn.outcome != "answered"), None)
+    not_done = last is not None and last.outcome in ("unclear", "refused")
+    if last is not None and not_done and frames and all(_is_bare(frame) for frame in frames):
+        raise Unclear("not_done_before", last.text[:60])
+
+
+def _is_bare(frame: Frame) -> bool:
+    """Neither a direction nor an amount: `go`, `drive slowly`."""
+    told = frame.direction or frame.rot or frame.q or frame.shape or frame.place or frame.words or frame.flags
+    return not told and frame.verb in ("", "make", *GO)
