@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 import threading
 from collections.abc import Mapping
 from dataclasses import replace
@@ -47,6 +49,29 @@ def test_callbacks_come_on_the_thread_that_polls_and_in_order() -> None:
     assert heard == []
     wire.poll(0.0)
     assert heard == [(1.0, threading.current_thread()), (2.0, threading.current_thread())]
+
+
+POLLS_UNDER_SIGNALS = """
+import signal, time
+from chatrobot.sim.marshalled import MarshalledWire
+from chatrobot.wire.memory import MemoryHub
+
+def dawdle(_number, _frame):
+    ends_s = time.monotonic() + 0.004
+    while time.monotonic() < ends_s:
+        pass
+
+signal.signal(signal.SIGALRM, dawdle)
+signal.setitimer(signal.ITIMER_REAL, 0.013, 0.0131)
+wire = MarshalledWire(MemoryHub().connect())
+for _ in range(200):
+    wire.poll(0.002)
+signal.setitimer(signal.ITIMER_REAL, 0.0)
+"""
+
+
+def test_a_signal_in_the_last_moment_of_a_wait_does_not_make_it_wait_for_ever() -> None:
+    subprocess.run([sys.executable, "-c", POLLS_UNDER_SIGNALS], check=True, timeout=20.0)
 
 
 def test_a_robot_lives_on_while_its_network_is_gone() -> None:

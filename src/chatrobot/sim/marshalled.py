@@ -24,7 +24,8 @@ class MarshalledWire:
     ) -> None:
         self._wire = wire
         self._after_publishing = after_publishing
-        self._waiting: queue.SimpleQueue[tuple[Callable[[Any], None], Any]] = queue.SimpleQueue()
+        # Not a SimpleQueue: where a signal comes in the last moment of its timeout, it waits for ever.
+        self._waiting: queue.Queue[tuple[Callable[[Any], None], Any]] = queue.Queue()
 
     def publish(self, topic: str, message: Message) -> None:
         with contextlib.suppress(WireError):  # a robot lives on while its network is gone
