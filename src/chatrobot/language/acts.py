@@ -8,7 +8,6 @@ fitted by scripts/fit_acts.py and kept in `data/acts.bin`, one byte a slot; a fe
 from __future__ import annotations
 
 import itertools
-import math
 import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -37,10 +36,6 @@ class Read:
 
     clause: Clause
     log_odds: float
-
-    @property
-    def probability(self) -> float:
-        return 1.0 / (1.0 + math.exp(-max(min(self.log_odds, 60.0), -60.0)))
 
 
 def read_acts(text: str, names: Names = ()) -> list[Read]:
