@@ -141,6 +141,9 @@ def _map(talk: Talk, argument: str) -> None:
     if argument.casefold() in ("big", "大"):
         talk.face.print(big_map(talk.ride, talk.connection.world, talk.face.width))
         return
+    if argument:
+        talk.tell("no_such_map", size=argument)
+        return
     talk.strip.shows_map = not talk.strip.shows_map
     talk.tell("map_on" if talk.strip.shows_map else "map_off")
 

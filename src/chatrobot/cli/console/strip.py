@@ -10,6 +10,7 @@ from chatrobot.cli.console.ride import XY, Ride
 from chatrobot.cli.console.words import Words
 from chatrobot.cli.drawing.extent import extent_around
 from chatrobot.cli.drawing.map_text import MapLines, MapText
+from chatrobot.cli.drawing.orientation import Orientation
 from chatrobot.sim.world import World
 
 Fragments = list[tuple[str, str]]
@@ -116,7 +117,7 @@ class Strip:
         """The map of this plan; its still part is drawn once a plan, so that it does not jump while it is driven."""
         ride = self._ride
         if self._map is None or self._map_of is not ride.path:
-            points = (*ride.path, *ride.trail[:1])
+            points = Orientation(self._world).points((*ride.path, *ride.trail[:1]))
             extent = extent_around(points, margin_m=0.5, least_m=2.5)
             self._map = MapText(self._world, extent, columns=MAP_COLUMNS, rows=MAP_ROWS, path=ride.path)
             self._map_of = ride.path
