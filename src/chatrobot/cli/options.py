@@ -20,7 +20,7 @@ SHOWN: dict[str, tuple[str, ...]] = {
     "plan": ("on", "robot", *_MODEL_OPTIONS, *_BUDGET_OPTIONS, "json", "world", "config_dir"),
     "stop": (),
     "schema": (),
-    "calibrate": ("on", "robot", "sim", "world", "config_dir"),
+    "calibrate": ("on", "robot", "sim", "world", "fast", "config_dir"),
     "doctor": ("on", "robot", "world", "model", "json", "config_dir"),
     "sim": ("on", "robot", "sim", "world", "config_dir"),
     "node": ("on", "robot", *_MODEL_OPTIONS, *_BUDGET_OPTIONS, "world", "config_dir", "parameters"),
@@ -97,7 +97,9 @@ def options_of(shown: Sequence[str] | None = None) -> Parser:
         metavar="KEY=VALUE,…",
         help="how the simulated robot lies: slip=0.03,latency_s=0.05,noise=on,seed=1",
     )
-    add("--world", metavar="WORLD", help="empty, home or a world file (default: home; eval: empty)")
+    add(
+        "--world", metavar="WORLD", help="empty, home or a world file (default: home; eval, calibrate: empty)"
+    )
     add(
         "--max-distance",
         type=limit,
