@@ -41,7 +41,15 @@ from chatrobot.session.stop_socket import remove_stop_socket, serve_stop
 from chatrobot.session.stops import PAUSED
 from chatrobot.session.topics import STOP, USER_INPUT
 from chatrobot.sim.load import load_world
-from chatrobot.wire.connect import Connect, Knowing, clock_of, connect_wire, is_on_this_machine, resolved
+from chatrobot.wire.connect import (
+    Connect,
+    Knowing,
+    clock_of,
+    connect_wire,
+    is_on_this_machine,
+    namespace_of,
+    resolved,
+)
 from chatrobot.wire.messages import Flag, Text
 from chatrobot.wire.wire import Wire
 
@@ -93,7 +101,12 @@ class MotionRunner:
         self._wake = threading.Event()
         self._plans: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self.programs = ProgramHost(self.profile, is_in_step=False)
-        self._guard = GuardProcess(address, _as_others_name_it(self.wire, self.profile.wiring), RealClock())
+        self._guard = GuardProcess(
+            address,
+            _as_others_name_it(self.wire, self.profile.wiring),
+            RealClock(),
+            is_near=on_robot or is_on_this_machine(address),
+        )
         self.motion = Motion(
             self.profile,
             self.wire,
@@ -235,6 +248,7 @@ def _settle_memory() -> None:
 
 
 def _as_others_name_it(wire: Wire, wiring: Wiring) -> Wiring:
-    """The guard is another end of the wire, which knows nothing of our namespace and remappings."""
+    """The guard is another end of the wire, which is told our namespace, and the topics as our remappings have them."""
     cmd_vel_topic, odom_topic = resolved(wire, wiring.cmd_vel_topic), resolved(wire, wiring.odom_topic)
-    return replace(wiring, cmd_vel_topic=cmd_vel_topic, odom_topic=odom_topic)
+    namespace = namespace_of(wire) or wiring.namespace
+    return replace(wiring, cmd_vel_topic=cmd_vel_topic, odom_topic=odom_topic, namespace=namespace)

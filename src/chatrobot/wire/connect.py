@@ -139,6 +139,19 @@ def resolved(wire: Wire, topic: str) -> str:
 
 
 @runtime_checkable
+class Namespaced(Protocol):
+    """A wire where we are a node in a namespace."""
+
+    @property
+    def namespace(self) -> str: ...
+
+
+def namespace_of(wire: Wire) -> str:
+    """The namespace of our node, without slashes around it; empty for none, and where the wire has no nodes."""
+    return wire.namespace if isinstance(wire, Namespaced) else ""
+
+
+@runtime_checkable
 class Timed(Protocol):
     """A wire that may keep a time of its own: that of a simulation."""
 
