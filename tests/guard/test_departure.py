@@ -109,10 +109,11 @@ def test_beyond_a_network_a_robot_that_is_not_listed_may_still_drive() -> None:
 def test_a_robot_that_is_listed_again_is_there_again() -> None:
     domain = Domain()
     departure = Departure(domain, "cmd_vel", "odom", is_near=True)
-    assert departure.for_s(1.0) == 0.0
-    assert departure.for_s(1.2) == pytest.approx(0.2)
+    assert not departure.is_over(1.0)
+    assert not departure.is_over(1.2)
+    assert departure.is_over(1.4)
     domain.ends = BASE, DRIVER
-    assert departure.for_s(1.3) == 0.0
+    assert not departure.is_over(1.5)
     domain.ends = ()
-    assert departure.for_s(1.4) == 0.0
-    assert departure.for_s(1.5) == pytest.approx(0.1)
+    assert not departure.is_over(1.6)
+    assert departure.is_over(2.0)

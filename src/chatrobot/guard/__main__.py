@@ -26,9 +26,6 @@ from chatrobot.wire.wire import Wire
 STANDING_S = 1.0
 """A robot whose Motion is dead has been seen standing this long: the guard's work is done."""
 
-GONE_S = 0.3
-"""A robot whose process has left the wire for this long hears no zero any more, and drives no motor over it."""
-
 GIVE_UP_S = 30.0
 """Without odometry nobody can see it standing; after this long of zeros nobody is left to serve."""
 
@@ -99,7 +96,7 @@ class Guard:
         return (
             halted_s > GIVE_UP_S
             or (halted_s > STANDING_S and self._standing.for_s(now_s) > STANDING_S)
-            or (halted_s > GONE_S and self._departure.for_s(now_s) > GONE_S)
+            or self._departure.is_over(now_s)
         )
 
     def _hear_odometry(self) -> None:

@@ -7,6 +7,9 @@ from chatrobot.wire.wire import Wire
 
 LOOK_S = 0.05
 
+GONE_S = 0.3
+"""A robot whose process has left the wire for this long hears no zero any more, and drives no motor over it."""
+
 
 class Departure:
     """Since when the wire has listed no robot: nobody takes velocities, or nobody publishes the odometry.
@@ -29,12 +32,12 @@ class Departure:
         self._since_s: float | None = None
         self._next_look_s = 0.0
 
-    def for_s(self, now_s: float) -> float:
-        """How long the robot has been gone; 0 while it is there, or where that cannot be known."""
+    def is_over(self, now_s: float) -> bool:
+        """The robot has been gone for `GONE_S`, as far as it was looked for; False where that cannot be known."""
         if now_s >= self._next_look_s:
             self._next_look_s = now_s + LOOK_S
             self._look(now_s)
-        return 0.0 if self._since_s is None else now_s - self._since_s
+        return self._since_s is not None and now_s - self._since_s > GONE_S
 
     def _look(self, now_s: float) -> None:
         if self._wire is None or self._is_there(self._wire):

@@ -91,7 +91,7 @@ class ControlNode:
         self._runner.wire.subscribe(CHATGPT_NODE, Text, self._hear)
 
     def run(self, is_leaving: Callable[[], bool]) -> None:
-        """Until `is_leaving`, and then until the robot stands; in a simulation that stands still not for ever."""
+        """Until `is_leaving`, and then until the robot stands or is gone; where time stands still not for ever."""
         leaving_since_s: float | None = None
 
         def has_left() -> bool:
@@ -100,7 +100,9 @@ class ControlNode:
                 return False
             now_s = time.monotonic()
             leaving_since_s = now_s if leaving_since_s is None else leaving_since_s
-            return not self._runner.motion.is_busy or now_s - leaving_since_s > LEAVE_S
+            if not self._runner.motion.is_busy or self._runner.robot_has_left:
+                return True
+            return now_s - leaving_since_s > LEAVE_S
 
         self._runner.run(has_left, self._each_tick)
 

@@ -25,6 +25,7 @@ from chatrobot.core.scheduling import wake_promptly
 from chatrobot.core.wiring import Wiring
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.governor.tick import TICK_S
+from chatrobot.guard.departure import Departure
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import load_profile
@@ -101,12 +102,10 @@ class MotionRunner:
         self._wake = threading.Event()
         self._plans: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self.programs = ProgramHost(self.profile, is_in_step=False)
-        self._guard = GuardProcess(
-            address,
-            _as_others_name_it(self.wire, self.profile.wiring),
-            RealClock(),
-            is_near=on_robot or is_on_this_machine(address),
-        )
+        is_near = on_robot or is_on_this_machine(address)
+        wiring = _as_others_name_it(self.wire, self.profile.wiring)
+        self._guard = GuardProcess(address, wiring, RealClock(), is_near=is_near)
+        self._departure = Departure(self.wire, wiring.cmd_vel_topic, wiring.odom_topic, is_near=is_near)
         self.motion = Motion(
             self.profile,
             self.wire,
@@ -168,6 +167,11 @@ class MotionRunner:
         finally:
             self.programs.close()
             remove_stop_socket()
+
+    @property
+    def robot_has_left(self) -> bool:
+        """The robot's process is seen to be gone; for who waits for the robot to stand. On the control thread."""
+        return self._departure.is_over(time.monotonic())
 
     # --- from any thread ---
 
