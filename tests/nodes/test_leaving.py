@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import contextlib
 import time
 from pathlib import Path
 
-import psutil
 import pytest
+from scripts.faults import has_ended
 
 from chatrobot.wire.messages import TwistMessage
 from tests.nodes.node_rig import NodeRig, running
@@ -16,13 +15,6 @@ pytestmark = [pytest.mark.realtime, pytest.mark.alone]
 
 PROMISE_S, GUARD_GONE_S = 0.25, 1.0
 ASKED_TO_END = {"control": 5, "base": 5, "input": 5}
-
-
-def has_ended(process: psutil.Process) -> bool:
-    """It may wait for whoever has adopted it to look after it."""
-    with contextlib.suppress(psutil.NoSuchProcess):
-        return bool(process.status() == psutil.STATUS_ZOMBIE)
-    return True
 
 
 def end_the_launch(rig: NodeRig) -> float:
