@@ -76,13 +76,7 @@ class Citizen:
 
     def log(self, severity: Severity, text: str) -> None:
         """Into ROS's log (a `chatrobot.nodes.log.Write`)."""
-        logger = self.node.handle.get_logger()
-        if severity == "info":  # on lines of their own: rclpy keeps one severity for each line that calls it
-            logger.info(text)
-        elif severity == "warn":
-            logger.warning(text)
-        else:
-            logger.error(text)
+        self.node.log(severity, text)
 
     def serve(self, name: str, act: Callable[[], tuple[bool, str]]) -> None:
         """Offer a std_srvs/Trigger. `act` gives success and a sentence; it runs on the node's thread."""

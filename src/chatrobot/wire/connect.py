@@ -14,13 +14,16 @@ import os
 import re
 from collections.abc import Callable, Sequence
 from importlib.util import find_spec
-from typing import Literal, NamedTuple, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol, runtime_checkable
 
 from chatrobot.core.clock import Clock, RealClock
 from chatrobot.core.errors import UsageError
 from chatrobot.core.wiring import Wiring
 from chatrobot.wire.messages import Message
 from chatrobot.wire.wire import Wire
+
+if TYPE_CHECKING:
+    from chatrobot.wire.ros.wire import RosWire
 
 ADDRESSES = "local:PATH, dds: or ros:, dds://DOMAIN[/NAMESPACE] or rosbridge:ws://HOST:9090[#NAMESPACE]"
 _DOMAIN = re.compile(
@@ -231,7 +234,7 @@ def _connect_dds(address: str, wiring: Wiring, node_name: str) -> Wire:
     )
 
 
-def connect_ros(address: str, wiring: Wiring, node_name: str, ros_args: Sequence[str] = ()) -> Wire:
+def connect_ros(address: str, wiring: Wiring, node_name: str, ros_args: Sequence[str] = ()) -> RosWire:
     """A ROS node of its own; `ros_args` is what stood behind `--ros-args`.
 
     Raises:

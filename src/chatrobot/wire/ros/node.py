@@ -96,6 +96,16 @@ class RosNode:
             time.sleep(0.02)
         return True
 
+    def log(self, severity: str, text: str) -> None:
+        """Into ROS's log: `severity` is info, warn or error."""
+        logger = self.handle.get_logger()
+        if severity == "info":  # on lines of their own: rclpy keeps one severity for each line that calls it
+            logger.info(text)
+        elif severity == "warn":
+            logger.warning(text)
+        else:
+            logger.error(text)
+
     def close(self) -> None:
         """Leave; from any thread, its own too. Closing twice does no harm."""
         if not self._closed:
