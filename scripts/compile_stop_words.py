@@ -26,7 +26,7 @@ def compiled(source: Path) -> str:
     """
     table = tomllib.loads(source.read_text(encoding="utf-8"))
     parse(table)
-    return json.dumps(table, ensure_ascii=False, indent=0) + "\n"
+    return json.dumps(table, ensure_ascii=False) + "\n"
 
 
 def main(arguments: list[str]) -> int:
