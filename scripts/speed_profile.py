@@ -1,4 +1,4 @@
-"""Draws docs/images/speed-profile.svg: what the tutorial's line for one second sends, sampled from executor and governor.
+"""Draws docs/images/speed-profile.svg: what the tutorial's line for a second sends, as executor and governor send it.
 
 python -m scripts.speed_profile     (`make pictures` does it, too; a test compares)
 """

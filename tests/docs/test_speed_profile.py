@@ -9,7 +9,6 @@ from scripts import speed_profile
 
 from chatrobot.governor.tick import TICK_S
 
-
 NUMBER = re.compile(r"[0-9]+(?:\.[0-9]+)?")
 
 
