@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -207,6 +208,13 @@ class Session:
     def is_moving(self) -> bool:
         """True while a plan of ours runs, or is on its way to."""
         return self._book.is_any_with_motion or self._thinking.is_moving
+
+    @property
+    def thinking_s(self) -> float | None:
+        """For how long a model has been asked by now, for a plan or a program; None where none is."""
+        writing_at_s = self.authoring.asked_at_s if self.authoring is not None else None
+        asked_at_s = writing_at_s if writing_at_s is not None else self._thinking.asked_at_s
+        return time.monotonic() - asked_at_s if asked_at_s is not None else None
 
     @property
     def is_paused(self) -> bool:

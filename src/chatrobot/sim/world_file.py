@@ -47,6 +47,7 @@ def parse_world(text: str, source: str, default_name: str = "world") -> World:
         places=places,
         aliases=aliases,
         allowed_area=_polygon(area).seen_from(start) if area else None,
+        start_yaw_rad=start.yaw_rad,
     )
 
 
