@@ -57,6 +57,14 @@ def _run(arguments: Sequence[str]) -> int:
         from chatrobot.cli import stop
 
         return stop.run()
+    if list(arguments[:3]) == [
+        "completion",
+        "words",
+        "--",
+    ]:  # what follows is half a command line: nothing to parse
+        from chatrobot.cli import completion
+
+        return completion.print_words(arguments[3:])
     from importlib import import_module
 
     from chatrobot.cli.arguments import parse
