@@ -174,7 +174,8 @@ def _do(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--keep-going",
         action="store_true",
-        help="do the rest, too, after a turn that was refused, stopped, failed or not understood",
+        help="do the rest, too, after a turn that was refused, stopped, failed or not understood; "
+        "the exit code is then that of the first of these",
     )
 
 
