@@ -79,6 +79,13 @@ def test_ctrl_c_twice_leaves(chat):
     assert "Bye." in chat.text
 
 
+def test_a_goodbye_in_words_is_answered_once(chat):
+    chat.enter("bye")
+    assert chat.wait_for_end() == 0
+    assert "Goodbye." in chat.text
+    assert "Bye." not in chat.text
+
+
 def test_ctrl_d_lets_the_robot_finish_first(chat):
     chat.enter("forward 0.4 m")
     chat.wait_for(MOVING)

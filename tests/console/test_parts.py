@@ -294,11 +294,17 @@ def test_a_plan_is_numbered_with_its_length_duration_and_findings():
 
 
 def test_a_long_plan_is_shown_in_part_and_whole_on_demand():
-    narrator, plan_text = Narrator(Words()), "\n".join(["drive 1 m"] * 40)
+    narrator, plan_text = Narrator(Words()), "\n".join(f"drive {n} m" for n in range(1, 41))
     text = told(narrator, Interpreted(1, "offline", plan_text, ""), REHEARSED)
-    assert text.count("drive 1 m") == PLAN_LINES - 1
+    assert text.count("drive ") == PLAN_LINES - 1
     assert "… 25 more lines" in text
-    assert printed(*narrator.plan(plan_text, REHEARSED)).count("drive 1 m") == 40
+    assert printed(*narrator.plan(plan_text, REHEARSED)).count("drive ") == 40
+
+
+def test_what_a_plan_does_several_times_is_counted_and_numbered_where_it_begins():
+    plan_text = "\n".join(["drive 0.5 m"] * 54 + ["wait 1 s"])
+    text = told(Narrator(Words()), Interpreted(1, "offline", plan_text, ""), REHEARSED)
+    assert re.search(r"\n +1  54 × drive 0\.5 m\n +55  wait 1 s\n", text)
 
 
 def test_the_refusal_that_is_the_result_is_not_told_twice():

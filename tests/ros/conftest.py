@@ -27,7 +27,14 @@ TESTS = {
         "colcon build, every `ros2 run` of the tutorial, ros2 topic/node/param/service, diagnostics, Ctrl-C",
     ),
     "test_death_on_ros.py": (ROS, "nodes that die or freeze on ROS, its latencies, the console --on ros"),
-    "test_launch.py": ((*ROS, "launch_ros"), "ros2 launch of the simulated robot with its nodes"),
+    "test_launch.py": (
+        (*ROS, "launch_ros"),
+        "ros2 launch of the simulated robot with its nodes, of an exported program; Ctrl-C once and twice",
+    ),
+    "test_good_manners.py": (
+        (*ROS, "launch_ros"),
+        "namespaces, /rosout, quiet topics, /tf_static, exit codes of ros2 run",
+    ),
     "test_turtlesim.py": (
         (*ROS, "launch_ros", "turtlesim"),
         "turtlesim drives a square; DDS without ROS drives it, either started first, LOCALHOST and SUBNET",

@@ -8,16 +8,17 @@ from chatrobot.cli.approver import Approver
 from chatrobot.cli.choices import setup_from
 from chatrobot.cli.console.pasted import goes_on_after, quoted
 from chatrobot.cli.conversation import Conversation
-from chatrobot.cli.keyboard import Keyboard, has_keyboard
+from chatrobot.cli.keyboard import Keyboard
+from chatrobot.cli.lines import has_keyboard
 from chatrobot.cli.plan_file import read_plan_file
 from chatrobot.cli.printer import printer_for
-from chatrobot.core.events import Notice, Result
+from chatrobot.core.events import EXIT_CODES, Notice, Result
 from chatrobot.core.reason import Reason
 from chatrobot.language.consent import read_consent
 
 
 def run(args: argparse.Namespace) -> int:
-    """The exit code of the last turn that was taken.
+    """The exit code of the last turn that was taken; with `--keep-going` of the first that was not done.
 
     Raises:
         UsageError: the plan's file cannot be used.
@@ -45,6 +46,9 @@ def run(args: argparse.Namespace) -> int:
             if len(args.texts) > 1 or plan_text:
                 printer.turn(text)
             results.append(conversation.do(text))
+    undone = [result for result in results if not goes_on_after(result.outcome)]
+    if args.keep_going and undone and not conversation.is_leaving:
+        return EXIT_CODES[undone[0].outcome]
     return conversation.exit_code
 
 

@@ -28,8 +28,10 @@ def read_world(path: Path) -> World:
     """
     try:
         text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise WorldError("cannot be read", where=str(path), allowed=str(error)) from error
+    except OSError as error:
+        raise WorldError(f"cannot be read ({error.strerror})", where=str(path)) from error
+    except UnicodeDecodeError as error:
+        raise WorldError("cannot be read", where=str(path), allowed="YAML in UTF-8") from error
     return parse_world(text, str(path), default_name=path.stem)
 
 

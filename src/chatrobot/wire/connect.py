@@ -14,13 +14,16 @@ import os
 import re
 from collections.abc import Callable, Sequence
 from importlib.util import find_spec
-from typing import Literal, NamedTuple, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol, runtime_checkable
 
 from chatrobot.core.clock import Clock, RealClock
 from chatrobot.core.errors import UsageError
 from chatrobot.core.wiring import Wiring
 from chatrobot.wire.messages import Message
 from chatrobot.wire.wire import Wire
+
+if TYPE_CHECKING:
+    from chatrobot.wire.ros.wire import RosWire
 
 ADDRESSES = "local:PATH, dds: or ros:, dds://DOMAIN[/NAMESPACE] or rosbridge:ws://HOST:9090[#NAMESPACE]"
 _DOMAIN = re.compile(
@@ -152,6 +155,19 @@ def resolved(wire: Wire, topic: str) -> str:
 
 
 @runtime_checkable
+class Namespaced(Protocol):
+    """A wire where we are a node in a namespace."""
+
+    @property
+    def namespace(self) -> str: ...
+
+
+def namespace_of(wire: Wire) -> str:
+    """The namespace of our node, without slashes around it; empty for none, and where the wire has no nodes."""
+    return wire.namespace if isinstance(wire, Namespaced) else ""
+
+
+@runtime_checkable
 class Timed(Protocol):
     """A wire that may keep a time of its own: that of a simulation."""
 
@@ -231,7 +247,7 @@ def _connect_dds(address: str, wiring: Wiring, node_name: str) -> Wire:
     )
 
 
-def connect_ros(address: str, wiring: Wiring, node_name: str, ros_args: Sequence[str] = ()) -> Wire:
+def connect_ros(address: str, wiring: Wiring, node_name: str, ros_args: Sequence[str] = ()) -> RosWire:
     """A ROS node of its own; `ros_args` is what stood behind `--ros-args`.
 
     Raises:

@@ -55,7 +55,7 @@ class Chat:
         self._hang_up = hang_up
         self._loop: asyncio.AbstractEventLoop | None = None
         self._code = 0
-        self._is_editing = False
+        self._is_editing = self._has_left = False
         self._proxy = StdoutProxy(sleep_between_writes=BUNDLE_S, raw=True)
         self._console = Console(
             file=cast(TextIO, self._proxy), force_terminal=True, highlight=False, markup=False, emoji=False
@@ -104,7 +104,7 @@ class Chat:
         self._talk.pump.start()
         counting = asyncio.create_task(self._count_seconds())
         try:
-            await self._prompt.prompt_async(handle_sigint=False)
+            await self._prompt.prompt_async(handle_sigint=False, pre_run=self._leave_if_told)
         finally:
             counting.cancel()
             await asyncio.to_thread(self._talk.pump.stop)
@@ -140,7 +140,7 @@ class Chat:
         self._soon(lambda: self._begin_editing(plan_text))
 
     def leave(self, code: int) -> None:
-        self._code = max(self._code, code)
+        self._code, self._has_left = max(self._code, code), True
         self._soon(self._exit)
 
     def _soon(self, act: Callable[[], None]) -> None:
@@ -151,6 +151,11 @@ class Chat:
     def _exit(self) -> None:
         if self._prompt.app.is_running and not self._prompt.app.is_done:
             self._prompt.app.exit(result="")
+
+    def _leave_if_told(self) -> None:
+        """It may have been told before there was a prompt to leave."""
+        if self._has_left:
+            self._soon(self._exit)
 
     # --- typing ---
 

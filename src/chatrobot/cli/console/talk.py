@@ -68,6 +68,8 @@ class Talk:
         self.narrator = Narrator(words)
         self.pump = Pump(self.session, self.lose, lambda: self.face.leave(1))
         self.latched = False
+        self.has_parted = False
+        """The person said goodbye in words, and was answered."""
         self._release_is_due = False
         self._clock = clock
         self._question = Question()
@@ -168,7 +170,7 @@ class Talk:
             self.face.leave(0)
             return
         self._interrupted_s = now_s
-        self._leaving = False
+        self._leaving = self.has_parted = False
         self.tell("interrupted")
 
     def leave(self) -> None:
@@ -274,7 +276,7 @@ class Talk:
             if (
                 isinstance(event, Interpreted)
                 and event.by == "reflex"
-                and (self.ride.is_moving or self._said_stopped or self.session.is_paused)
+                and (self.ride.is_moving or self._said_stopped or self.session.is_plan_paused)
             ):
                 self._muted.add(event.turn)  # what was moving says how it ended
             if isinstance(event, Result):
@@ -284,6 +286,7 @@ class Talk:
         if isinstance(event, Result):
             self._go_on_after(event)
             if is_parting(event):
+                self.has_parted = True
                 self.leave()
             if self._leaving and self._has_nothing_to_do:
                 self.face.leave(0)
