@@ -114,6 +114,10 @@ def test_the_commands_show_robot_world_and_plan(chat, tmp_path):
     chat.enter(f"/save-plan {tmp_path / 'mine.plan'}")
     chat.wait_for("The plan is in")
     assert (tmp_path / "mine.plan").read_text() == "turn left 20 deg\n"
+    chat.enter(f"/run-plan {tmp_path / 'mine.plan'}")
+    chat.wait_for(r"now at .* (39|4[01])°")
+    chat.enter("/run-plan")
+    chat.wait_for("Which plan? /run-plan FILE")
 
 
 def test_after_an_emergency_stop_nothing_moves_until_it_is_released(chat):

@@ -72,6 +72,10 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     parsed = commands_parser().parse_args(list(arguments))
     parsed.command = parsed.command or ""
     if parsed.command == "do":
+        if not (parsed.texts or parsed.plan):
+            raise UsageError(
+                "nothing to do is given", allowed='chatrobot do "forward 1 m", or chatrobot do --plan FILE'
+            )
         _expect_words(parsed.texts, "do")
         _expect_quotes(parsed.texts)
     elif parsed.command == "plan":
@@ -169,8 +173,12 @@ def commands_parser() -> Parser:
 
 def _do(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "texts", nargs="+", metavar="TEXT", help="what to do; several are turns of one dialogue"
+        "texts", nargs="*", metavar="TEXT", help="what to do; several are turns of one dialogue"
     )
+    plan = parser.add_argument(
+        "--plan", metavar="FILE", help="drive a saved plan, rehearsed anew; texts are the turns after it"
+    )
+    offer(plan, "files")
     parser.add_argument(
         "--keep-going",
         action="store_true",

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -209,9 +210,16 @@ class Session:
         return self._book.is_any_with_motion or self._thinking.is_moving
 
     @property
+    def thinking_s(self) -> float | None:
+        """For how long a model has been asked by now, for a plan or a program; None where none is."""
+        writing_at_s = self.authoring.asked_at_s if self.authoring is not None else None
+        asked_at_s = writing_at_s if writing_at_s is not None else self._thinking.asked_at_s
+        return time.monotonic() - asked_at_s if asked_at_s is not None else None
+
+    @property
     def is_paused(self) -> bool:
         """A plan of ours is paused, or what was said and had not begun."""
-        return self.is_plan_paused or (self._said.keeps_unbegun and bool(self._said.held))
+        return self.is_plan_paused or self._said.is_unbegun_held
 
     @property
     def is_plan_paused(self) -> bool:
@@ -289,10 +297,9 @@ class Session:
 
     def _drop_held(self) -> None:
         """Drop what waits behind a pause where nothing is paused any more, or something new is done instead."""
-        said = self._said
-        is_under_way = self._book.is_any_with_motion or self._thinking.is_busy
-        if said.is_holding and (is_under_way if said.keeps_unbegun and said.held else not self.is_moving):
-            said.drop_held()
+        is_new = self._book.is_any_with_motion or self._thinking.is_busy
+        if self._said.is_holding and (is_new if self._said.is_unbegun_held else not self.is_moving):
+            self._said.drop_held()
 
     # --- what Motion and the model tell ---
 

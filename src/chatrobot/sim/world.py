@@ -47,6 +47,7 @@ class World:
     say (English or Chinese, casefolded; the main names too) to a main name. `allowed_area` is the polygon the
     robot is to stay in, if the world has one; it is a rule, not a wall: neither lidar nor collisions know it.
     `without_heading` are the main names of places whose file says nothing of how a robot looks there.
+    `start_yaw_rad` is the heading of the start in the world's own axes, those of its file: maps are drawn along them.
     """
 
     name: str
@@ -55,6 +56,7 @@ class World:
     aliases: Mapping[str, str] = field(default_factory=dict)
     allowed_area: Polygon | None = None
     without_heading: frozenset[str] = frozenset()
+    start_yaw_rad: float = 0.0
 
     @property
     def is_empty(self) -> bool:

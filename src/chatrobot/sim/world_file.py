@@ -50,6 +50,7 @@ def parse_world(text: str, source: str, default_name: str = "world") -> World:
         aliases=aliases,
         allowed_area=_polygon(area).seen_from(start) if area else None,
         without_heading=without_heading,
+        start_yaw_rad=start.yaw_rad,
     )
 
 

@@ -35,6 +35,9 @@ from chatrobot.cli.console.talk import Talk
 BUNDLE_S = 0.02
 """Output that comes within this time is written at once, so that the prompt is not repainted line by line."""
 
+COUNTED_EVERY_S = 0.25
+"""How often the seconds that a model thinks are looked at."""
+
 HANGUP_CODE = 129
 _LEAVING_SIGNALS = (signal.SIGHUP, signal.SIGTERM)
 
@@ -102,11 +105,23 @@ class Chat:
         self._loop.add_signal_handler(signal.SIGINT, self._interrupt)
         self._loop.add_signal_handler(signal.SIGTSTP, self._suspend)
         self._talk.pump.start()
+        counting = asyncio.create_task(self._count_seconds())
         try:
             await self._prompt.prompt_async(handle_sigint=False, pre_run=self._leave_if_told)
         finally:
+            counting.cancel()
             await asyncio.to_thread(self._talk.pump.stop)
             self._loop = None
+
+    async def _count_seconds(self) -> None:
+        """Have the strip drawn anew while a model thinks: no event of the robot's does, and it may be long."""
+        was_thinking = False
+        while True:
+            await asyncio.sleep(COUNTED_EVERY_S)
+            is_thinking = self._talk.session.thinking_s is not None
+            if is_thinking or was_thinking:
+                self.refresh()
+            was_thinking = is_thinking
 
     # --- what the face does for the talk ---
 
@@ -151,7 +166,8 @@ class Chat:
         return FormattedText([("class:prompt", "plan› " if self._is_editing else "› ")])
 
     def _strip(self) -> FormattedText:
-        return FormattedText(self._talk.strip.fragments(self.width, self._talk.latched))
+        talk = self._talk
+        return FormattedText(talk.strip.fragments(self.width, talk.latched, talk.session.thinking_s))
 
     def _accept(self, buffer: Buffer) -> bool:
         """Enter. False clears the line."""

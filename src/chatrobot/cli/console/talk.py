@@ -93,7 +93,7 @@ class Talk:
         elif len(texts) == 1:
             self._enter_one(texts[0])
         elif is_plan(cleaned):
-            self._say_plan(cleaned.strip(), cleaned.strip())
+            self.say_plan(cleaned.strip(), cleaned.strip())
         elif texts:
             self._enter_all(texts)
 
@@ -146,18 +146,20 @@ class Talk:
         if len(edited) > (LONGEST_CHARS if program is None else MAX_SOURCE_CHARS):
             self.tell("line_too_long", limit=LONGEST_CHARS)
         elif text and program is None:
-            self._say_plan(text, self.words.say("edited"), is_edited=True)
+            self.say_plan(text, self.words.say("edited"), is_edited=True)
         elif text and program is not None:
             with self._order:
                 self.attempt(lambda: self.session.say_source(program.program, f"{text}\n"))
                 self._echo(self.words.say("edited"))
 
-    def _say_plan(self, plan_text: str, shown: str, *, is_edited: bool = False) -> None:
+    def say_plan(self, plan_text: str, shown: str = "", *, is_edited: bool = False) -> None:
+        """Have a plan driven that is there as text; `shown` is what its line looks like, if it has not been shown."""
         say = self.session.say_edited_plan if is_edited else self.session.say_plan
         with self._order:
             undone = self._pasted.drop()
             self.attempt(lambda: say(plan_text))
-            self._echo(shown)
+            if shown:
+                self._echo(shown)
         self._tell_undone(undone)
 
     def interrupt(self) -> None:
