@@ -32,7 +32,7 @@ class Conversation:
         self._setup = setup
         self._printer = printer
         self._approver = approver
-        self._posted: queue.SimpleQueue[Callable[[], object]] = queue.SimpleQueue()
+        self._posted: queue.Queue[Callable[[], object]] = queue.Queue()
         self._watch = SignalWatch(self.stop)
         self._is_cut_off = False
         self._last_turn = 0

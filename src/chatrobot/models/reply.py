@@ -58,7 +58,7 @@ class StreamedReply:
         self._prompt_chars = prompt_chars
         self._price = price
         self._on_end = on_end
-        self._items: queue.SimpleQueue[str | ModelError | None] = queue.SimpleQueue()
+        self._items: queue.Queue[str | ModelError | None] = queue.Queue()
         self._asked_s = time.monotonic()
         self._began_s: float | None = None
         self._has_piece = False

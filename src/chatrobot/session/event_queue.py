@@ -11,7 +11,8 @@ class EventQueue:
     """Events in order, from any thread; a joint is one of these that knows where they come from."""
 
     def __init__(self) -> None:
-        self._events: queue.SimpleQueue[Event | None] = queue.SimpleQueue()
+        # Not a SimpleQueue: where a signal comes in the last moment of its timeout, it waits for ever.
+        self._events: queue.Queue[Event | None] = queue.Queue()
 
     def next_event(self, timeout_s: float) -> Event | None:
         """The next event; None after so long, or when `wake` was called."""

@@ -104,7 +104,7 @@ class RosbridgeWire:
         self._refused: dict[str, str] = {}
         self._has_null_ranges = False
         self._rosapi = RosApi(self._call)
-        self._answers: dict[str, queue.SimpleQueue[dict[str, Any]]] = {}
+        self._answers: dict[str, queue.Queue[dict[str, Any]]] = {}
         self._calls = itertools.count(1)
         self._ended = threading.Event()
         self._connection: ClientConnection | None = None
@@ -179,7 +179,7 @@ class RosbridgeWire:
     def _call(self, service: str, arguments: dict[str, Any]) -> dict[str, Any] | None:
         """What a service of the robot answers; None where there is none, or no answer."""
         number = f"call:{next(self._calls)}"
-        answer = self._answers[number] = queue.SimpleQueue()
+        answer = self._answers[number] = queue.Queue()
         try:
             self._send({"op": "call_service", "id": number, "service": service, "args": arguments})
             return answer.get(timeout=ANSWER_S)
