@@ -12,6 +12,7 @@ import queue
 import re
 import sys
 import time
+from collections import deque
 from collections.abc import Callable, Iterator
 from enum import Enum
 from importlib.machinery import ModuleSpec
@@ -112,9 +113,26 @@ class Publisher:
             subscription.take(copy.deepcopy(message))
 
 
+class Handle:
+    """What is below a subscription: messages that wait to be taken."""
+
+    def __init__(self) -> None:
+        self.waiting: deque[Any] = deque()
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, *_: object) -> None:
+        pass
+
+    def take_message(self, _kind: type, _raw: bool) -> tuple[Any, dict[str, int]] | None:
+        return (self.waiting.popleft(), {}) if self.waiting else None
+
+
 class Subscription:
     def __init__(self, node: Node, kind: type, topic: str, callback: Any, qos: Any) -> None:
         self.node, self.kind, self.topic, self.callback, self.qos = node, kind, topic, callback, qos
+        self.msg_type, self.raw, self.handle = kind, False, Handle()
 
     def hears(self, publisher: Publisher) -> bool:
         reliable = publisher.qos.reliability is Option.RELIABLE
@@ -130,7 +148,14 @@ class Subscription:
         return getattr(self.qos, "durability", Option.VOLATILE) is Option.TRANSIENT_LOCAL
 
     def take(self, message: Any) -> None:
-        self.node.inbox.put(lambda: self.callback(message))
+        self.handle.waiting.append(message)
+        self.node.inbox.put(self._execute)
+
+    def _execute(self) -> None:
+        """As the executor does it once for each turn: nothing where the callback has taken it before."""
+        taken = self.handle.take_message(self.msg_type, self.raw)
+        if taken is not None:
+            self.callback(taken[0])
 
 
 class Node:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -68,9 +69,9 @@ class Planned:
         """Nobody knows before how far and how long it drives: its length and duration are those of its rehearsal."""
         return self.is_endless or bool(self._unknown_lengths_m)
 
-    @property
+    @cached_property
     def certain(self) -> Extent:
-        """What it drives at least."""
+        """What it drives at least. Asked with every tick."""
         if self.is_endless:
             return Extent()
         length_m = max(0.0, self.length_m - sum(self._unknown_lengths_m))
