@@ -2,7 +2,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: help setup run test lint bench pictures lock clean faults fuzz soak undos coverage mutants try-llamacpp
+.PHONY: help setup run test lint bench pictures lock clean faults busy fuzz soak undos coverage mutants try-llamacpp
 
 help:
 	@echo "make setup   .venv with everything in it        make run    talk to the simulated robot"
@@ -10,6 +10,7 @@ help:
 	@echo "make bench   how fast it is, measured           make lock   write requirements.lock anew"
 	@echo "make pictures   draw docs/images anew, from the real program"
 	@echo "make faults  kill and freeze each process 20 times; worst time to zero"
+	@echo "make busy    200 motions beside 8 busy processes, and kills and freezes: BUSY='--motions 40 --busy 4'"
 	@echo "make fuzz    a million sequences of 50 nasty commands at the governor: FUZZ='--sequences 1000 --seed 2'"
 	@echo "make soak    100 sessions of 30 turns in two worlds: is the told pose the true one? SOAK='--real --busy 2 --seeds 10'"
 	@echo "make undos   stop 20 plans at 20 moments each, undo them: how far from where each turn began?"
@@ -46,6 +47,10 @@ bench: setup
 # Twenty blows of each kind in real time: about three quarters of an hour.
 faults: setup
 	$(BIN)/python -m scripts.faults
+
+# About a quarter of an hour.
+busy: setup
+	$(BIN)/python -m scripts.busy $(BUSY)
 
 # A million sequences take about twenty minutes on two cores.
 fuzz: setup

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
+import subprocess
+import time
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from chatrobot.core import process
 from chatrobot.core.wiring import Wiring
-from chatrobot.governor.lease import LOCAL_TERM_S, TERM_S
+from chatrobot.governor.lease import LOCAL_TERM_S, LONGEST_S, TERM_S
 from chatrobot.nodes.input import InputNode
 from chatrobot.nodes.operator import CLAIMED_WITHIN_S, OperatorBeat, Operators
 from chatrobot.session.topics import OPERATOR, USER_INPUT
@@ -18,14 +23,17 @@ from chatrobot.wire.messages import Text
 
 
 class Room:
-    """A base that listens, on a clock of its own, and two people at `input`."""
+    """A base that listens, on a clock of its own, and three people at `input`: Cat's process can be seen from here."""
 
     def __init__(self) -> None:
         hub = MemoryHub()
         self.now_s, self.is_idle, self.stops = 50.0, True, 0
         self.operators = Operators(lambda: self.is_idle, self._stop, lambda: self.now_s)
         hub.connect().subscribe(OPERATOR, Text, self.operators.hear_beat)
-        self.ann, self.bob = (OperatorBeat(hub.connect(), is_on_this_machine=here) for here in (True, False))
+        self.ann, self.bob, self.cat = (
+            OperatorBeat(hub.connect(), is_on_this_machine=here) for here in (True, False, True)
+        )
+        self.ann._process = self.bob._process = ""
 
     def _stop(self) -> None:
         self.stops += 1
@@ -66,6 +74,40 @@ def test_time_in_which_we_did_not_listen_is_nobodys_silence(room: Room) -> None:
     assert room.stops == 0
     room.wait(LOCAL_TERM_S + 0.1)
     assert room.stops == 1
+
+
+def test_who_is_late_on_a_busy_machine_stops_nothing_and_our_own_beat_says_how_late(room: Room) -> None:
+    room.says(room.cat, "forward 5 m")
+    room.wait(1.0, room.cat)
+    assert room.operators.age_s() == 0.0
+    room.wait(0.06)
+    assert room.operators.age_s() == 0.0, "that is no more than two beats"
+    room.wait(0.34)
+    assert room.operators.age_s() == pytest.approx(0.4)
+    assert room.stops == 0
+    room.wait(0.1, room.cat)
+    assert room.operators.age_s() == 0.0
+    room.wait(LONGEST_S + 0.04)
+    assert room.stops == 1
+
+
+@pytest.mark.parametrize("state", ["stopped", "gone"])
+def test_whose_process_is_stopped_or_gone_stops_the_robot_as_soon_as_the_beat_is_late(
+    room: Room, monkeypatch: pytest.MonkeyPatch, state: str
+) -> None:
+    with subprocess.Popen(["sleep", "60"]) as child:
+        monkeypatch.setattr(os, "getpid", lambda: child.pid)
+        room.cat._process = process.own_identity()
+        monkeypatch.undo()
+        room.says(room.cat, "forward 5 m")
+        room.wait(1.0, room.cat)
+        child.send_signal(signal.SIGSTOP if state == "stopped" else signal.SIGKILL)
+        time.sleep(0.05)
+        room.wait(0.12)
+        assert room.stops == 0
+        room.wait(0.04)
+        assert room.stops == 1
+        child.kill()
 
 
 def test_over_a_slower_wire_they_have_a_little_longer(room: Room) -> None:

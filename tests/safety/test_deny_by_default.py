@@ -20,8 +20,8 @@ from chatrobot.session.envelope import MODES, PAYLOADS, WORDS, Envelope
 from tests.session.joint_rigs import SimulatedRig, finished, send_plan
 
 GOOD: dict[str, dict[str, Any]] = {
-    "hello": {"term_s": 0.3},
-    "beat": {"term_s": 0.3},
+    "hello": {"term_s": 0.3, "process": "boot pid:[1] 2 3"},
+    "beat": {"term_s": 0.3, "process": "boot pid:[1] 2 3", "age_s": 0.1},
     "plan": {
         "plan_text": "drive 1 m",
         "mode": "queue",
@@ -62,6 +62,8 @@ VALUES: list[Any] = [
 ALLOWED: dict[str, list[Any]] = {
     "term_s": [1, 10**400, 0.5],
     "longest_s": [1, 10**400, 0.5],
+    "age_s": [0, 1, 10**400, 0.5],
+    "process": ["", "x", "queue", "now"],
     "plan_text": ["", "x", "queue", "now"],
     "code": ["", "x", "queue", "now"],
     "name": ["", "x", "queue", "now"],

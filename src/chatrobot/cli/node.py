@@ -12,6 +12,7 @@ from chatrobot.cli.parameters import parameters_in, read_parameters
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.core.motion_budget import MotionBudget
+from chatrobot.core.scheduling import wake_promptly
 from chatrobot.wire.connect import Connect, connect_wire
 
 if TYPE_CHECKING:
@@ -25,6 +26,7 @@ def run(args: argparse.Namespace) -> int:
     """0 where its input has ended; where it was asked to end 5, and 0 as a node of ROS, which has no other way to."""
     if args.fast or args.trace or args.sim:
         raise UsageError("a node drives a robot on a wire", allowed="leave out --fast, --trace and --sim")
+    wake_promptly()  # before there are threads, which take after this one
     args.approval = "all" if args.approve else "none" if args.yes else "profile"
     ros_args = [*args.ros_args, *(word for given in args.parameters for word in ("-p", given))]
     if _address(args).startswith("ros:"):

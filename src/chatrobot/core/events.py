@@ -268,6 +268,9 @@ class Finished(Event):
     `executed` and `remaining` are plan text: the part of the plan that was driven, as odometry measured it, and the
     part that was not. Driving one after the other is driving the whole plan. Both are empty for a program and where
     nothing measures; `remaining` also where the plan was completed or refused.
+
+    `late_s` is how late the heartbeat of whoever gave the order was at most, where that slowed the robot: the machine
+    was too busy.
     """
 
     name: ClassVar[str] = "finished"
@@ -288,6 +291,7 @@ class Finished(Event):
     executed: str = ""
     remaining: str = ""
     open_ended: bool = False
+    late_s: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ from chatrobot.execution.lookahead import must_brake
 from chatrobot.execution.mending import AT_THE_END, BETWEEN_STEPS, MEND_TRIES, Tolerance, mend
 from chatrobot.execution.sensors import Sensors
 from chatrobot.execution.tally import Tally
-from chatrobot.execution.tracking import feedback
+from chatrobot.execution.tracking import corrected, without_reverse
 from chatrobot.plan.context import Impossible
 from chatrobot.plan.core_motion import CoreMotion, Emit, Pause
 from chatrobot.plan.lowering import NotYet, Walk
@@ -50,6 +50,9 @@ LAGS = frozenset({"does_not_move", "does_not_follow"})
 RAMP_RULES = frozenset({"", "speed", "acceleration"})
 """What the governor does to any motion: no reason to wait."""
 
+CAUGHT_UP_SHARE = 0.9
+"""A robot that was slowed has its speed again where it is sent this share of it."""
+
 
 class Executor:
     """One run of one plan. `start`, then `tick` at 50 Hz until `is_done`."""
@@ -72,6 +75,11 @@ class Executor:
         self._settle_since_s: float | None = None
         self._mends_left = MEND_TRIES
         self._is_mending = False
+        self._timed: Twist | None = None
+        self._asked = ZERO_TWIST
+        self._withheld = 0.0
+        """What share of the last request was not sent: for so long the reference waits."""
+        self._noted_s = 0.0
         self._first_tick = False
         self._ending: Reason | None = None
         self._barred_since_s: float | None = None
@@ -116,17 +124,19 @@ class Executor:
     def note(self, rule: str, reason: Reason | None, sent: Twist, now_s: float) -> None:
         """What the governor made of the last request.
 
-        Where a rule slows the robot the reference waits for it; a way that stays barred ends the plan.
+        Where a rule slows the robot the reference waits for it, until it has its speed again; a way that stays barred
+        ends the plan.
         """
-        segment = self._course.segment
-        if rule in RAMP_RULES or segment is None:
+        is_slowed = rule not in RAMP_RULES
+        is_held_back = self._course.segment is not None and (is_slowed or self._withheld > 0.0)
+        self._withheld, self._noted_s = 0.0, now_s
+        if not is_held_back:
             self._barred_since_s = None
             return
-        full = segment.at(now_s - self._course.began_s + TICK_S / 2.0)[1]
-        asked = full.speed_mps + abs(full.wz_radps)
-        share = min(1.0, (sent.speed_mps + abs(sent.wz_radps)) / asked) if asked > 0.0 else 0.0
-        self._course.wait((1.0 - share) * TICK_S)
-        if not sent.is_zero:
+        asked = self._asked.speed_mps + abs(self._asked.wz_radps)
+        share = min(1.0, (sent.speed_mps + abs(sent.wz_radps)) / asked) if asked > 0.0 else 1.0
+        self._withheld = 1.0 - share if is_slowed or share < CAUGHT_UP_SHARE else 0.0
+        if not (is_slowed and sent.is_zero):
             self._barred_since_s = None
         elif self._barred_since_s is None:
             self._barred_since_s = now_s
@@ -144,6 +154,9 @@ class Executor:
         fault = sensor_fault(self._sensors)
         if fault is not None:
             return self._end("failed", fault)
+        if self._withheld > 0.0:
+            self._course.wait(self._withheld * (now_s - self._noted_s))
+            self._noted_s = now_s
         while not self.is_done:
             if self._course.segment is not None:
                 asked = self._drive(self._course.segment, now_s)
@@ -156,6 +169,7 @@ class Executor:
                     return ZERO_TWIST
                 continue
             if asked is not None:
+                self._asked = asked
                 return asked
         return ZERO_TWIST
 
@@ -220,8 +234,7 @@ class Executor:
         fault = self._tracking_fault(segment, reference, estimate)
         if fault is not None:
             return self._end("failed", fault)
-        more = feedback(self._profile, segment, reference.relative_to(estimate.pose))
-        return Twist(twist.vx_mps + more.vx_mps, twist.vy_mps + more.vy_mps, twist.wz_radps + more.wz_radps)
+        return corrected(self._profile, segment, twist, reference.relative_to(estimate.pose))
 
     def _reference_at(self, estimate: Estimate) -> Pose:
         """Where the robot should be when it is seen as in `estimate`, as late as it does what it is told."""
@@ -267,6 +280,7 @@ class Executor:
             is_cut_short = segment.ramp.hold_s < segment.motion.hold_s
             if self._ending is None or not is_cut_short:
                 self._tally.end(segment.ramp.hold_s)
+            self._timed = segment.motion.twist if segment.motion.is_timed else None
             self._walk.ended_at(self._course.reference)
             self._mends_left = MEND_TRIES
         self._is_mending = False
@@ -303,6 +317,9 @@ class Executor:
         if estimate is None or not self._sensors.has_odometry or self._mends_left == 0:
             return False
         rest = self._reference_at(estimate).relative_to(estimate.pose)
+        if self._timed is not None:  # it was to last so long: that it went too far is told, not driven back
+            rest = Pose(*without_reverse(rest, self._timed))
+            rest = rest if self._timed.speed_mps > 0.0 else Pose(0.0, 0.0, rest.yaw_rad)
         motion = mend(self._profile, rest, tolerance)
         if motion is None:
             return False

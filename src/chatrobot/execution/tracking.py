@@ -23,6 +23,24 @@ HEADING_HOLD_RADPS = 0.12
 """The most that holding a heading may turn a robot that drives straight."""
 
 
+def corrected(profile: RobotProfile, segment: Segment, twist: Twist, error: Pose) -> Twist:
+    """The reference's `twist` with feedback, in the robot's frame. Near the end of a ramp, where the reference hardly
+    moves any more, feedback may bring a robot that is ahead to stand; it never drives it back."""
+    more = feedback(profile, segment, error)
+    total = Twist(twist.vx_mps + more.vx_mps, twist.vy_mps + more.vy_mps, twist.wz_radps + more.wz_radps)
+    return Twist(*without_reverse(total, segment.motion.twist))
+
+
+def without_reverse(motion: tuple[float, float, float], driven: Twist) -> tuple[float, float, float]:
+    """`motion` (forward, to the left, counter-clockwise) without what goes against `driven`."""
+    x, y, turn = motion
+    speed = driven.speed_mps
+    along = (x * driven.vx_mps + y * driven.vy_mps) / speed if speed > 0.0 else 0.0
+    if along < 0.0:
+        x, y = x - along * driven.vx_mps / speed, y - along * driven.vy_mps / speed
+    return x, y, 0.0 if turn * driven.wz_radps < 0.0 else turn
+
+
 def feedback(profile: RobotProfile, segment: Segment, error: Pose) -> Twist:
     """The twist to add, in the robot's frame.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
@@ -33,6 +33,9 @@ LATE_RADPS = 0.1
 
 FARTHEST = 1e6
 """In metres and radians: a pose beyond it (or one of no numbers) is as good as none."""
+
+LATE_BEAT = "late_beat"
+"""The rule in whose name a source whose heartbeat is late is slowed."""
 
 VOID_EPOCH = -1
 """No stop epoch has this number: what carries it is never sent."""
@@ -157,8 +160,22 @@ class Governor:
     ) -> Verdict:
         """What may be sent at `now_s` for `asked` under that lease, by a robot at `pose` (of `odom`, if known).
 
-        After a stop, or after a pause, ramps begin at zero again.
+        After a stop, or after a pause, ramps begin at zero again. With a heartbeat that is late it goes slower.
         """
+        share = self.leases.share(lease_id, now_s)
+        may_ask = asked.scaled(share) if 0.0 < share < 1.0 else asked
+        verdict = self._judge(may_ask, lease_id, now_s, pose, sensed)
+        if share == 1.0 or verdict.action == "refused":
+            return verdict
+        late = self.leases.lateness(lease_id, now_s)
+        if share == 0.0:  # at once, as where the lease is over
+            epoch = verdict.sent.epoch
+            return self._verdict("limited", LATE_BEAT, asked, ZERO_TWIST, ZERO_TWIST, epoch, now_s, late)
+        if verdict.reason is not None:  # a rule that allows even less
+            return verdict
+        return replace(verdict, action="limited", rule=LATE_BEAT, asked=asked, reason=late)
+
+    def _judge(self, asked: Twist, lease_id: str, now_s: float, pose: Pose | None, sensed: Sensed) -> Verdict:
         epoch = self._epoch.value
         refusal = self._refusal(asked, lease_id, now_s)
         if refusal == "outranked":

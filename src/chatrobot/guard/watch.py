@@ -11,8 +11,9 @@ from typing import Literal
 BEAT_S = 0.02
 """Motion beats with every tick of its control loop."""
 
-MISSED_S = 0.14
-"""This long without a beat is a trip: seven ticks, and leaves 100 ms of the promised 250 ms for everything else."""
+MISSED_S = 0.17
+"""This long without a beat is a trip: a tick may come 0.11 s after the last where three times as many threads as there
+are processors want to run, and 80 ms of the promised 250 ms are left for everything else."""
 
 ECHO_LOST_S = 0.15
 """Motion takes a guard that does not echo for this long as dead, and does not move without one."""

@@ -111,7 +111,12 @@ class BaseNode:
         understanding = Understanding(profile, world, options.folder)
         understanding.interpret("forward 1 m")  # reads the tables now, not with the first instruction
         self._wire = connect(options.wire, profile.wiring, NODE)
-        self._joint = TopicJoint(self._wire, "base", is_on_this_machine=is_on_this_machine(options.wire))
+        self._joint = TopicJoint(
+            self._wire,
+            "base",
+            is_on_this_machine=is_on_this_machine(options.wire),
+            age_s=lambda: self._operators.age_s(),
+        )
         self._next_look_s = 0.0
         self._has_twin = False
         self._question = Question()

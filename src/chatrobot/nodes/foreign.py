@@ -10,11 +10,13 @@ import threading
 from collections.abc import Callable
 
 from chatrobot.core.errors import PlanTextError
+from chatrobot.core.process import own_identity
 from chatrobot.core.reason import Reason
 from chatrobot.governor.lease import LOCAL_TERM_S
 from chatrobot.plan.steps import Plan, RawTwist
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.plan.tutorial_form import ImpossibleTwistError, read_tutorial_line
+from chatrobot.session.envelope import Envelope
 from chatrobot.session.joint import Sender
 from chatrobot.session.motion_runner import MotionRunner
 from chatrobot.session.topics import CHATGPT_NODE
@@ -38,6 +40,7 @@ class Foreign:
         self._runner = runner
         self._is_busy = is_busy
         self._sender = Sender(CHATGPT_NODE)
+        self._process = own_identity()
         self._lock = threading.Lock()
         self._waiting = 0
 
@@ -54,7 +57,10 @@ class Foreign:
     def beat(self) -> None:
         """With every tick of the control loop: if that freezes, the guard halts the robot."""
         if self.has_work:
-            self._runner.receive(self._sender.envelope("beat", term_s=LOCAL_TERM_S))
+            self._runner.receive(self._beat_envelope())
+
+    def _beat_envelope(self) -> Envelope:
+        return self._sender.envelope("beat", term_s=LOCAL_TERM_S, process=self._process)
 
     def note_finished(self) -> None:
         with self._lock:
@@ -76,7 +82,7 @@ class Foreign:
         elif stops == self._runner.motion.stops:
             with self._lock:
                 self._waiting += 1
-            self._runner.receive(self._sender.envelope("beat", term_s=LOCAL_TERM_S))
+            self._runner.receive(self._beat_envelope())
             plan = {"plan_text": plan_text, "mode": "queue", "longest_s": LONGEST_S}
             self._runner.receive(self._sender.envelope("plan", TURN, **plan), said_in=stops)
 

@@ -14,7 +14,9 @@ import uuid
 from collections.abc import Callable
 
 from chatrobot.core.errors import WireError
-from chatrobot.governor.lease import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S
+from chatrobot.core.process import own_identity, watch_process
+from chatrobot.core.scheduling import wake_promptly
+from chatrobot.governor.lease import BEAT_HZ, LATE_S, LOCAL_BEAT_HZ, LOCAL_TERM_S, LONGEST_S, TERM_S, Lease
 from chatrobot.session.topics import OPERATOR
 from chatrobot.wire.connect import advertise
 from chatrobot.wire.messages import Text
@@ -24,7 +26,7 @@ LOOK_S = 0.02
 CLAIMED_WITHIN_S = 1.0
 """A beat and the text that it claims come on two topics, in any order."""
 
-LONGEST_TERM_S = 1.0
+LONGEST_TERM_S = LONGEST_S
 _CLAIMED = 200
 """Characters of a text that a beat repeats."""
 
@@ -35,6 +37,7 @@ class OperatorBeat:
     def __init__(self, wire: Wire, *, is_on_this_machine: bool) -> None:
         self._wire = wire
         self._id = uuid.uuid4().hex
+        self._process = own_identity()
         self._period_s = 1.0 / (LOCAL_BEAT_HZ if is_on_this_machine else BEAT_HZ)
         self._term_s = LOCAL_TERM_S if is_on_this_machine else TERM_S
         self._said, self._count = "", 0
@@ -55,12 +58,14 @@ class OperatorBeat:
         self._publish(leaves=True)
 
     def _beat(self) -> None:
+        wake_promptly()
         while not self._closed.wait(self._period_s):
             self._publish(leaves=False)
 
     def _publish(self, *, leaves: bool) -> None:
         about = {
             "id": self._id, "said": self._said, "count": self._count, "term_s": self._term_s, "leaves": leaves,
+            "process": self._process,
         }  # fmt: skip
         with contextlib.suppress(WireError):
             self._wire.publish(OPERATOR, Text(json.dumps(about, separators=(",", ":"))))
@@ -86,7 +91,7 @@ class Operators:
         self._lock = threading.Lock()
         self._texts: dict[str, float] = {}
         self._claims: dict[str, tuple[int, str, float]] = {}
-        self._silent_at_s: dict[str, float] = {}
+        self._beats: dict[str, Lease] = {}
         self._bound: set[str] = set()
         self._looked_s = now_s()
 
@@ -113,7 +118,7 @@ class Operators:
             about = json.loads(message.data)
             operator, said, count = str(about["id"]), str(about["said"]), int(about["count"])
             term_s = min(max(float(about["term_s"]), 0.0), LONGEST_TERM_S)
-            leaves = about["leaves"] is True
+            leaves, process = about["leaves"] is True, str(about.get("process", ""))
         except (ValueError, TypeError, KeyError, OverflowError, RecursionError):
             return
         now_s = self._now_s()
@@ -121,31 +126,43 @@ class Operators:
             if leaves:
                 self._bound.discard(operator)
                 self._claims.pop(operator, None)
-                self._silent_at_s.pop(operator, None)
+                self._beats.pop(operator, None)
                 return
-            self._silent_at_s[operator] = now_s + term_s
+            beats = self._beats.get(operator)
+            if beats is None:
+                self._beats[operator] = Lease(operator, term_s, now_s, watch_process(process))
+            else:
+                beats.last_beat_s = now_s
             known = self._claims.get(operator)
             if known is None or known[0] != count:
                 self._claims[operator] = (count, said, now_s)
                 self._bind(operator, said, now_s, now_s)
 
     def look(self) -> None:
-        """Stop, once, where somebody bound has fallen silent.
+        """Stop, once, where somebody bound has fallen silent, is stopped or is gone.
 
         Where this process was held up (it may be loading a library) it is we who did not listen: that time does not
-        count. Motion sees by our own beats whether we are there.
+        count. Motion sees by our own beats whether we are there. A beat that is only late is Motion's affair, too: our
+        own beat tells it how late (`age_s`).
         """
         now_s = self._now_s()
         with self._lock:
             late_s, self._looked_s = now_s - self._looked_s - 2.0 * LOOK_S, now_s
             if late_s > 0.0:
-                self._silent_at_s = {name: at_s + late_s for name, at_s in self._silent_at_s.items()}
-            gone = {operator for operator in self._bound if now_s > self._silent_at_s.get(operator, 0.0)}
+                for beats in self._beats.values():
+                    beats.last_beat_s += late_s
+            gone = {operator for operator in self._bound if _is_gone(self._beats.get(operator), now_s)}
             self._bound -= gone
             for operator in gone:
                 self._claims.pop(operator, None)
         if gone and not self._is_idle():
             self._stop()
+
+    def age_s(self) -> float:
+        """How old the last beat is of those whose words are being done; 0 where it is not late. From any thread."""
+        now_s = self._now_s()
+        bound = filter(None, (self._beats.get(operator) for operator in tuple(self._bound)))
+        return max((_late_age_s(beats, now_s) for beats in bound), default=0.0)
 
     def _bind(self, operator: str, said: str, claimed_at_s: float, now_s: float) -> None:
         if said in self._texts and now_s - claimed_at_s < CLAIMED_WITHIN_S:
@@ -155,3 +172,17 @@ class Operators:
         while True:
             time.sleep(LOOK_S)
             self.look()
+
+
+def _is_gone(beats: Lease | None, now_s: float) -> bool:
+    if beats is None:
+        return True
+    age_s = now_s - beats.last_beat_s
+    if beats.is_stopped is None:
+        return age_s > beats.term_s
+    return age_s > LONGEST_S or (age_s > beats.term_s - LATE_S and beats.is_stopped())
+
+
+def _late_age_s(beats: Lease, now_s: float) -> float:
+    age_s = now_s - beats.last_beat_s
+    return age_s if beats.is_stopped is not None and age_s > beats.term_s - 2.0 * LATE_S else 0.0

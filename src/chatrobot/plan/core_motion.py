@@ -21,7 +21,8 @@ class RampedTwist:
 
     All three components share one ramp, so the curvature is the same from the first tick to the last.
     `ramp_per_s` is how much of the twist a second of ramp adds (see `trajectory.Ramp`). `until` ends it early.
-    `asked` is what the plan said where the limits scaled it down, else None.
+    `asked` is what the plan said where the limits scaled it down, else None. `is_timed`: the plan said how long, not
+    how far.
     """
 
     twist: Twist
@@ -29,6 +30,7 @@ class RampedTwist:
     ramp_per_s: float
     until: Condition | None = None
     asked: Twist | None = None
+    is_timed: bool = False
 
     @classmethod
     def within(
@@ -39,9 +41,10 @@ class RampedTwist:
         *,
         until: Condition | None = None,
         asked: Twist | None = None,
+        is_timed: bool = False,
     ) -> RampedTwist:
         """With the steepest ramp that keeps to both accelerations of `limits`. The twist must not be zero."""
-        return cls(twist, hold_s, ramp_rate(limits, twist), until, asked)
+        return cls(twist, hold_s, ramp_rate(limits, twist), until, asked, is_timed)
 
     def end(self, start: Pose) -> Pose:
         """The ideal pose at the end, in the frame of `start`."""

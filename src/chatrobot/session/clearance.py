@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from chatrobot.core.process import is_machine_busy
 from chatrobot.core.reason import Reason
 from chatrobot.governor.governor import Governor
 from chatrobot.session.guard_link import GuardLink
@@ -26,7 +27,13 @@ class Clearance:
 
     def barrier_for(self, lease: str, now_s: float) -> Reason | None:
         """Why what asks under that lease may not move."""
-        barrier = self.barrier()
-        if barrier is None and not self._governor.leases.is_valid(lease, now_s):
-            return Reason("lease_lapsed", {"source": self._governor.leases.source_of(lease)})
-        return barrier
+        barrier, leases = self.barrier(), self._governor.leases
+        if barrier is not None:
+            return barrier
+        is_late = leases.is_late(lease, now_s)
+        is_stopped = is_late and leases.is_stopped(lease)
+        if leases.is_valid(lease, now_s) and not is_stopped:
+            return None
+        if is_late and not is_stopped and is_machine_busy():
+            return leases.lateness(lease, now_s)
+        return Reason("lease_lapsed", {"source": leases.source_of(lease)})

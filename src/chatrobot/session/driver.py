@@ -24,7 +24,9 @@ from chatrobot.session.program_run import LiveProgram, ProgramRun
 from chatrobot.session.run import Run
 from chatrobot.session.stops import Stops
 
-FAILURES = frozenset({"guard_lost", "bumped", "motion_froze", "beats_missed", "wire_gone"})
+FAILURES = frozenset(
+    {"guard_lost", "bumped", "motion_froze", "motion_late", "beats_missed", "beat_late", "wire_gone"}
+)
 """A stop for one of these is no wish of anybody's: what ran has failed."""
 
 

@@ -12,8 +12,12 @@ from chatrobot.core.motion_budget import read_limit
 from chatrobot.programs.ros_args import MOST_ARGS, MOST_CHARS
 
 Word = Literal[
-    "hello",  # opens the lease: {"term_s": …}
-    "beat",  # keeps it; any word that names its term opens it for a Motion that came after the hello
+    # {"term_s", "process"}: opens the lease. `process` (core/process.py) is who beats, so that a beat which a busy
+    # machine keeps back is told from a process that is stopped
+    "hello",
+    # {…, "age_s"}: keeps it; any word that names its term opens it for a Motion that came after the hello. `age_s`: how
+    # long ago whoever gave the order was heard, where that is somebody else
+    "beat",
     "plan",  # {"plan_text", "mode", "more": bool, "approve": bool, "rehearse_only": bool, "longest_s": …}
     "look",  # asks for a `looked` event of this turn
     # {"code", "name", "remap": {from: to}, "args": [text], "mode", "approve", "ask_findings", "strict",
@@ -56,12 +60,21 @@ def _is_term(value: object) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool) and 0.0 < value < math.inf
 
 
+def _is_age(value: object) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and 0.0 <= value < math.inf
+
+
+def _is_process(value: object) -> bool:
+    return isinstance(value, str) and len(value) <= _MAX_PROCESS_CHARS
+
+
 QUEUE_LIMIT = 10
 """What may wait while the robot moves, on either side; one more is refused rather than done in an hour."""
 
 MAX_CODE_CHARS = 60_000
 """Of a program in an envelope: a thousand lines and more, and it still fits into one packet."""
 _MAX_NAME_CHARS = 60
+_MAX_PROCESS_CHARS = 200
 _MAX_REMAPS, _MAX_TOPIC_CHARS = 8, 200
 
 
@@ -94,8 +107,8 @@ def _is_args(value: object) -> bool:
 
 
 PAYLOADS: Mapping[str, Mapping[str, Callable[[object], bool]]] = {
-    "hello": {"term_s": _is_term},
-    "beat": {"term_s": _is_term},
+    "hello": {"term_s": _is_term, "process": _is_process},
+    "beat": {"term_s": _is_term, "process": _is_process, "age_s": _is_age},
     "plan": {
         "plan_text": _is_text,
         "mode": lambda value: value in MODES,

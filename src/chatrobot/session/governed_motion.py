@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from chatrobot.core.events import Finished, Limited, Outcome
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
-from chatrobot.governor.governor import Verdict
+from chatrobot.governor.governor import LATE_BEAT, Verdict
 from chatrobot.session.budgets import Meter
 from chatrobot.session.governed_robot import GovernedRobot
 from chatrobot.session.job import Job
@@ -59,6 +59,7 @@ class GovernedMotion:
         self._robot = robot
         self._sensors = sensors = robot.sensors
         self._stopwatch = Stopwatch(now_s)
+        self._late_s = 0.0
         self._start_path_m = sensors.estimate.path_m if sensors.estimate is not None else 0.0
         is_endless = job.planned is not None and job.planned.is_endless
         limits = robot.profile.limits
@@ -68,6 +69,8 @@ class GovernedMotion:
         """Send what the governor allows of `asked`."""
         verdict = self._robot.govern(asked, self._job.lease, now_s)
         self._robot.send(verdict)
+        if verdict.rule == LATE_BEAT and verdict.reason is not None and is_cut_short(verdict):
+            self._late_s = max(self._late_s, float(verdict.reason.values["late_s"]))
         self._stopwatch.count(verdict.sent.twist.is_zero, now_s)
         self._meter.note(verdict.sent.twist, now_s)
         return verdict
@@ -128,4 +131,5 @@ class GovernedMotion:
             executed=executed,
             remaining=remaining,
             open_ended=open_ended,
+            late_s=self._late_s,
         )

@@ -131,6 +131,12 @@ class Motion:
         """Stop now: the zero is out before this returns. What runs and what is queued ends as `stopped`."""
         self._stops.halt(why)
 
+    def thaw(self) -> None:
+        """This process was stopped by a signal (SIGSTOP) and goes on: what drove does not. For a signal handler."""
+        why = self._freeze.thaw(self._clock.now_s())
+        if why is not None:
+            self._stops.void(why)
+
     def post(self, action: Callable[[], None]) -> None:
         """Have `action` done on the control thread with the next tick."""
         self._inbox.post(action)
@@ -149,7 +155,8 @@ class Motion:
         # What was said before a stop must not run after it, however late it is handled.
         epoch = self._stops.count if said_in is None else said_in
         emergency = self._emergency
-        self.post(lambda: self._handle(envelope, epoch, emergency))
+        came_s = self._clock.now_s()
+        self.post(lambda: self._handle(envelope, epoch, emergency, came_s))
 
     def _heed_stop(self, envelope: Envelope) -> None:
         keeps = envelope.word == "stop" and envelope.payload.get("keep") is True
@@ -218,11 +225,12 @@ class Motion:
     def tick(self) -> None:
         """One period of the control loop."""
         now_s = self._clock.now_s()
-        self._freeze.tick(
+        late_s = self._freeze.tick(
             now_s,
             is_driven=self._driver.is_driving or self._relay.is_driving or self._joystick.is_driving,
             is_engaged=self._jobs.current is not None,
         )
+        self._governor.leases.note_held_up(late_s)
         self._robot.look()
         self._book_stop()
         while (action := self._inbox.take()) is not None:
@@ -239,7 +247,9 @@ class Motion:
         self._pausing.watch(now_s, is_standing=not self.zeroing.is_watched)
         self._relay.tick(now_s, self._is_free)
         self._begin_next(now_s)
-        self._guard.beat()  # after the velocity: it wakes the guard, which may take this processor
+        self._freeze.beat(
+            self._clock.now_s()
+        )  # after the velocity: it wakes the guard, which may take this processor
         self._telling.tick(now_s)
 
     def _book_stop(self) -> None:
@@ -273,8 +283,8 @@ class Motion:
 
     # --- what was said ---------------------------------------------------------------------------------------
 
-    def _handle(self, envelope: Envelope, epoch: int, emergency: Envelope | None) -> None:
-        """One envelope, received in that stop epoch, after that emergency stop.
+    def _handle(self, envelope: Envelope, epoch: int, emergency: Envelope | None, came_s: float) -> None:
+        """One envelope, received at `came_s` in that stop epoch, after that emergency stop.
 
         Stops have been heard already; here they are only booked.
         """
@@ -284,7 +294,7 @@ class Motion:
             if envelope.word in ("plan", "program"):
                 self._jobs.void(envelope, epoch)
             return
-        self._sources.hear(envelope, now_s)
+        self._sources.hear(envelope, came_s)
         if envelope.word in ("plan", "program"):
             self._accept(envelope, epoch)
             self._begin_next(now_s)

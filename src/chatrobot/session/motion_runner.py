@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import gc
 import queue
+import signal
 import sys
 import threading
 import time
@@ -150,6 +151,8 @@ class MotionRunner:
         Raises:
             WireError: the wire is closed for good. What was under way has been told to have failed.
         """
+        if threading.current_thread() is threading.main_thread():
+            signal.signal(signal.SIGCONT, lambda *_: self.motion.thaw())
         for target in (self._plan, self._serve_stop, self._lookout.watch):
             threading.Thread(target=target, daemon=True).start()
         _settle_memory()

@@ -31,12 +31,18 @@ def describe_end(finished: Finished, language: str, steps: Sequence[Step] = ()) 
     moved = _measured(finished, language)
     if finished.outcome == "completed":
         done = say(language, "done", moved=moved) if moved else _done_standing(steps, language)
-        return " ".join(filter(None, (done, _heading_there(finished, steps, language))))
+        heading, slowed = _heading_there(finished, steps, language), _slowed(finished, language)
+        return " ".join(filter(None, (done, heading, slowed)))
     reason = render_reason(finished.reason, language) if finished.reason is not None else ""
     if finished.outcome == "refused":
         return " ".join(filter(None, (reason, _free(finished.reason, language))))
     code = "stopped_after" if finished.outcome == "stopped" else "failed_after"
     return _ended_once(say(language, code, moved=moved or say(language, "nothing_moved"), reason=reason))
+
+
+def _slowed(finished: Finished, language: str) -> str:
+    """That it was slowed because the machine was too busy."""
+    return say(language, "was_slowed", late_s=finished.late_s) if finished.late_s else ""
 
 
 def _done_standing(steps: Sequence[Step], language: str) -> str:

@@ -12,6 +12,8 @@ from typing import Any
 
 from chatrobot.core.errors import JointError
 from chatrobot.core.events import event_from_json
+from chatrobot.core.process import own_identity
+from chatrobot.core.scheduling import wake_promptly
 from chatrobot.governor.lease import LOCAL_BEAT_HZ, LOCAL_TERM_S
 from chatrobot.session.envelope import READY, Word
 from chatrobot.session.event_queue import EventQueue
@@ -53,7 +55,7 @@ class SocketJoint(EventQueue):
             self.process.kill()
             raise JointError("Motion did not start")
         self._line.settimeout(None)
-        self.send("hello", term_s=LOCAL_TERM_S)
+        self.send("hello", term_s=LOCAL_TERM_S, process=own_identity())
         threading.Thread(target=self._beat, name="beat", daemon=True).start()
         threading.Thread(target=self._read, name="joint", daemon=True).start()
 
@@ -80,6 +82,7 @@ class SocketJoint(EventQueue):
         self._line.close()
 
     def _beat(self) -> None:
+        wake_promptly()
         period_s = 1.0 / LOCAL_BEAT_HZ
         next_s = time.monotonic()
         while not self._closed.wait(max(0.0, next_s - time.monotonic())):

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from itertools import islice
 
+from chatrobot.core.process import watch_process
 from chatrobot.governor.lease import LOCAL_TERM_S, Leases
 from chatrobot.session.envelope import Envelope, seconds
 
@@ -62,15 +64,20 @@ class Sources:
         return not is_there and not self._is_engaged(lease)
 
     def hear(self, envelope: Envelope, now_s: float) -> None:
-        """Whatever a source says keeps its lease; a hello opens it."""
-        self._leases.beat(envelope.lease, now_s)
+        """Whatever a source says keeps its lease; a hello opens it.
+
+        Args:
+            now_s: when the envelope came.
+        """
+        self._leases.beat(envelope.lease, now_s - seconds(envelope.payload.get("age_s", 0.0), math.inf))
         if self.has_left(envelope.lease):
             return
         if len(self._known) >= MOST_SOURCES and not self._leases.is_known(envelope.lease):
             return
         if envelope.word == "hello" or self._was_there_before_us(envelope):
             term_s = min(seconds(envelope.payload.get("term_s"), LOCAL_TERM_S), LONGEST_TERM_S)
-            self._leases.open(envelope.lease, envelope.source, term_s, now_s)
+            is_stopped = watch_process(str(envelope.payload.get("process", "")))
+            self._leases.open(envelope.lease, envelope.source, term_s, now_s, is_stopped)
 
     def leave(self, lease: str) -> None:
         """A goodbye: what is queued is still done, without beats."""

@@ -31,12 +31,23 @@ class Stops:
 
     def halt(self, why: Reason) -> None:
         """Stop now: the zero is out before this returns. It takes no lock and waits for nothing."""
+        self._ask(why)
+        self._transport.halt()
+
+    def void(self, why: Reason) -> None:
+        """What has been minted is worth nothing from now on; the zero goes out with the next tick.
+
+        For a signal handler: it may have interrupted what sends in this very thread.
+        """
+        self._ask(why)
+        self._epoch.stop()
+
+    def _ask(self, why: Reason) -> None:
         self.last_reason = why
         if why.code != PAUSED:
             self._clear_reason = why
             self._cleared = object()
         self._asked = object()
-        self._transport.halt()
 
     @property
     def count(self) -> int:

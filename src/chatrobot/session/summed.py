@@ -22,6 +22,7 @@ def summed(total: Finished, run: Finished) -> Finished:
         steps=total.steps + run.steps,
         measured=total.measured and run.measured,
         open_ended=total.open_ended or run.open_ended,
+        late_s=max(total.late_s, run.late_s),
         executed="\n".join(filter(None, (total.executed, run.executed))),
     )
 

@@ -7,6 +7,7 @@ import contextlib
 import json
 import threading
 import time
+from collections.abc import Callable
 from typing import Any
 
 from chatrobot.core.errors import JointError, WireError
@@ -20,7 +21,9 @@ from chatrobot.core.events import (
     event_from_json,
 )
 from chatrobot.core.geometry import ORIGIN, Pose
+from chatrobot.core.process import own_identity
 from chatrobot.core.reason import Reason
+from chatrobot.core.scheduling import wake_promptly
 from chatrobot.governor.lease import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S
 from chatrobot.session.envelope import Envelope, Word
 from chatrobot.session.event_queue import EventQueue
@@ -49,11 +52,21 @@ class TopicJoint(EventQueue):
 
     Args:
         wire: the robot's.
-        is_on_this_machine: beats come at 25 Hz and a lease lapses after 0.18 s; else 10 Hz and 0.3 s.
+        is_on_this_machine: beats come at 25 Hz and a lease's term is 0.18 s; else 10 Hz and 0.3 s.
+        age_s: how long ago whoever gave the order was heard, where that is another process.
     """
 
-    def __init__(self, wire: Wire, source: str, *, is_on_this_machine: bool) -> None:
+    def __init__(
+        self,
+        wire: Wire,
+        source: str,
+        *,
+        is_on_this_machine: bool,
+        age_s: Callable[[], float] = lambda: 0.0,
+    ) -> None:
         super().__init__()
+        self._age_s = age_s
+        self._process = own_identity()
         self._wire = wire
         self._sender = Sender(source)
         self._period_s = 1.0 / (LOCAL_BEAT_HZ if is_on_this_machine else BEAT_HZ)
@@ -72,7 +85,7 @@ class TopicJoint(EventQueue):
         self._wire.subscribe(CONTROL, Text, self._hear_control)
         self._wire.subscribe(TELEMETRY, Text, self._hear_event)  # first: older than an end that comes with it
         self._wire.subscribe(EVENTS, Text, self._hear_event)
-        self.send("hello", term_s=self._term_s)
+        self.send("hello", term_s=self._term_s, process=self._process)
         threading.Thread(target=self._beat, name="beat", daemon=True).start()
 
     @property
@@ -141,13 +154,14 @@ class TopicJoint(EventQueue):
     # --- our own beats ---
 
     def _beat(self) -> None:
+        wake_promptly()
         next_s = last_s = time.monotonic()
         while not self._closed.wait(max(0.0, next_s - time.monotonic())):
             now_s = time.monotonic()
             next_s = max(next_s + self._period_s, now_s)
             if self.beats:
                 with contextlib.suppress(JointError):
-                    self.send("beat", term_s=self._term_s)
+                    self.send("beat", term_s=self._term_s, process=self._process, age_s=self._age_s())
             if now_s - last_s > FROZEN_S:
                 self._controls = dict.fromkeys(self._controls, now_s)
             last_s = now_s

@@ -134,7 +134,8 @@ class DrivePrimitive(Primitive[Drive]):
             hold_s = step.duration_s
         else:
             hold_s = (step.distance_m if step.distance_m is not None else UNTIL_AT_MOST_M) / speed
-        return [RampedTwist.within(profile.limits, twist, hold_s, until=step.until)]
+        is_timed = step.duration_s is not None
+        return [RampedTwist.within(profile.limits, twist, hold_s, until=step.until, is_timed=is_timed)]
 
     def divide(self, step: Drive, share: float, context: LoweringContext) -> StepParts:  # noqa: ARG002
         timed = step.duration_s

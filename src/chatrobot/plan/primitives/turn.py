@@ -69,7 +69,8 @@ class TurnPrimitive(Primitive[Turn]):
         refused = refuse_turn_on_the_spot(context.profile, sign * rate * hold_s)
         if refused is not None:
             return refused
-        return [RampedTwist.within(context.profile.limits, Twist(0.0, 0.0, sign * rate), hold_s)]
+        twist, is_timed = Twist(0.0, 0.0, sign * rate), step.duration_s is not None
+        return [RampedTwist.within(context.profile.limits, twist, hold_s, is_timed=is_timed)]
 
     def divide(self, step: Turn, share: float, context: LoweringContext) -> StepParts:  # noqa: ARG002
         if step.angle_rad is not None:

@@ -63,7 +63,7 @@ class TwistPrimitive(Primitive[RawTwist]):
         limits = context.profile.limits
         twist = scale_into_limits(limits, asked)
         scaled = None if twist == asked else asked
-        return [RampedTwist.within(limits, twist, step.duration_s, asked=scaled)]
+        return [RampedTwist.within(limits, twist, step.duration_s, asked=scaled, is_timed=True)]
 
     def divide(self, step: RawTwist, share: float, context: LoweringContext) -> StepParts:  # noqa: ARG002
         times = divide_extent(step.duration_s, share)
