@@ -78,8 +78,8 @@ class ExternalShutdownException(Exception): ...
 
 
 def main():
-    print('drives', flush=True)
     try:
+        print('drives', flush=True)
         time.sleep(20.0)
     finally:
         time.sleep(0.5)
