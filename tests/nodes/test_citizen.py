@@ -6,6 +6,8 @@ import ast
 import json
 import math
 import re
+import signal
+import subprocess
 import sys
 import threading
 import time
@@ -436,6 +438,66 @@ def test_ros2_run_starts_what_the_command_line_starts(
     monkeypatch.setattr(sys, "argv", ["/ws/lib/chatrobot/it", "--ros-args", "-r", "a:=b"])
     assert executable() == 7
     assert started == [[*command_line, "--on", "ros", "--ros-args", "-r", "a:=b"]]
+
+
+INTERRUPTED = """
+import signal, sys, time
+from chatrobot.cli import ros_run
+from chatrobot.cli.entry import STOPPED
+
+def starting(_arguments):
+    try:
+        print("starts", flush=True)
+        while True:
+            time.sleep(0.01)
+    except KeyboardInterrupt:
+        time.sleep(0.4)
+        return STOPPED
+
+ros_run.main = starting
+code = ros_run.control_node()
+time.sleep(0.4)
+sys.exit(code)
+"""
+
+
+def test_while_a_node_starts_the_first_of_two_ctrl_c_counts_and_the_second_breaks_off_nothing() -> None:
+    process = subprocess.Popen(
+        [sys.executable, "-c", INTERRUPTED], text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
+    assert process.stdout is not None
+    assert process.stdout.readline() == "starts\n"
+    for _ in range(3):  # the last one comes as it leaves
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.25)
+    _, said = process.communicate(timeout=20.0)
+    assert (process.returncode, said) == (0, "")
+
+
+SWALLOWED = """
+import sys, time
+from chatrobot.cli import ros_run
+
+def starting(_arguments):
+    try:
+        print("starts", flush=True)
+        while True:
+            time.sleep(0.01)
+    except KeyboardInterrupt:
+        time.sleep(20.0)
+    return 1
+
+ros_run.main, ros_run.UNWIND_S = starting, 0.3
+sys.exit(ros_run.control_node())
+"""
+
+
+def test_a_ctrl_c_that_a_library_swallows_while_a_node_starts_ends_it_all_the_same() -> None:
+    process = subprocess.Popen([sys.executable, "-c", SWALLOWED], text=True, stdout=subprocess.PIPE)
+    assert process.stdout is not None
+    assert process.stdout.readline() == "starts\n"
+    process.send_signal(signal.SIGINT)
+    assert process.wait(PATIENCE_S) == 0
 
 
 def test_ros_s_arguments_end_at_two_dashes() -> None:

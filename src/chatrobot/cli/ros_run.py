@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import sys
+import threading
+from types import FrameType
 
 from chatrobot.cli.entry import STOPPED, main
+
+UNWIND_S = 3.0
+"""So long a Ctrl-C while a node starts may take; nothing has been driven yet."""
 
 
 def input_node() -> int:
@@ -24,5 +31,27 @@ def simulated_robot() -> int:
 
 
 def _run(*command: str) -> int:
-    code = main([*command, "--on", "ros", *sys.argv[1:]])
-    return 0 if code == STOPPED else code
+    """Of two Ctrl-C, which `ros2 launch` sends, the first counts, also while this process starts or ends."""
+    watch = _StartWatch()
+    if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
+        signal.signal(signal.SIGINT, watch.interrupt)
+    try:
+        code = main([*command, "--on", "ros", *sys.argv[1:]])
+    finally:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+    return 0 if code == STOPPED or watch.is_interrupted else code
+
+
+class _StartWatch:
+    """Hears Ctrl-C until a node is there, whose own watch stops the robot first."""
+
+    is_interrupted = False
+
+    def interrupt(self, _signal: int, _frame: FrameType | None) -> None:
+        if not self.is_interrupted:
+            self.is_interrupted = True
+            # An import that is broken off may swallow it, or leave a library that never ends.
+            timer = threading.Timer(UNWIND_S, os._exit, (0,))
+            timer.daemon = True
+            timer.start()
+            raise KeyboardInterrupt

@@ -211,8 +211,9 @@ class Motion:
         self._jobs.fail_all(why)
 
     def leave(self) -> None:
-        """Goodbye to the guard; where the robot is out of sight no word is said, so that it goes on sending zeros."""
-        if not self.zeroing.has_lost_sight:
+        """Goodbye to the guard; where the robot is out of sight, and may move, no word is said, so that it goes on
+        sending zeros."""
+        if not (self.zeroing.has_lost_sight and self._robot.may_move):
             self._guard.goodbye()
 
     def tick(self) -> None:
@@ -234,6 +235,8 @@ class Motion:
         self._jobs.expire_approval(now_s)
         if not self._driver.is_driving:
             self.zeroing.tick(now_s)
+            if self.zeroing.is_at_rest:
+                self._robot.may_move = False
         if not self.zeroing.is_watched:
             self._ends.tell_all()
         self._pausing.watch(now_s, is_standing=not self.zeroing.is_watched)

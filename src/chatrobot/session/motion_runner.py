@@ -121,7 +121,11 @@ class MotionRunner:
         self._lookout = Lookout(
             self.wire, self._rivals, self.motion, self.notice, accept_others=accept_others
         )
-        self._open(said)
+        try:
+            self._open(said)
+        except BaseException:  # Ctrl-C, too: nothing has been driven that a guard would have to halt
+            self._guard.goodbye()
+            raise
 
     def _open(self, said: list[Reason]) -> None:
         """Begin to listen, once the guard is there; what a person should know of the robot is told first."""
