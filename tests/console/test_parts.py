@@ -13,14 +13,15 @@ from rich.cells import cell_len
 from rich.console import Console
 from rich.text import Text
 
+import chatrobot
 from chatrobot.cli.console import commands
 from chatrobot.cli.console.clean import clean
-from chatrobot.cli.console.completion import ChatCompleter
+from chatrobot.cli.console.completion import COMMON, ChatCompleter
 from chatrobot.cli.console.lines import wrapped
 from chatrobot.cli.console.narrator import PLAN_LINES, Narrator
 from chatrobot.cli.console.ride import Ride
 from chatrobot.cli.console.strip import MAP_ROWS, Strip
-from chatrobot.cli.console.tables import example_place, place_in
+from chatrobot.cli.console.tables import example_place, place_in, places_table
 from chatrobot.cli.console.words import Words, language_of_environment
 from chatrobot.core.events import (
     FindingSeen,
@@ -35,10 +36,11 @@ from chatrobot.core.events import (
 )
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.reason import Reason
-from chatrobot.language.context import Context
+from chatrobot.language.context import Context, Place
 from chatrobot.language.data_files import load_table
 from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.robots.load import load_profile
+from chatrobot.session.understanding import Understanding
 from chatrobot.sim.load import load_world
 from chatrobot.sim.world import EMPTY_WORLD
 
@@ -161,8 +163,11 @@ def test_what_must_not_wait_is_done_where_it_is_typed():
 # --- completion ---
 
 
-def completions(text, by_tab=True):
-    completer = ChatCompleter(Words(), lambda: ["kitchen", "living room", "厨房"])
+UNDERSTANDING = Understanding(load_profile("wheeltec_mini_mec"), HOME, None)
+
+
+def completions(text, by_tab=True, language="en"):
+    completer = ChatCompleter(Words(language), UNDERSTANDING.place_names, UNDERSTANDING.can_do)
     event = CompleteEvent(completion_requested=by_tab, text_inserted=not by_tab)
     return [(c.text, c.start_position) for c in completer.get_completions(Document(text), event)]
 
@@ -176,6 +181,71 @@ def test_words_complete_on_tab_alone():
     assert completions("go to the kit", by_tab=False) == []
     assert ("forward", -3) in completions("for")
     assert completions("去厨") == [("厨房", -1)]
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+@pytest.mark.parametrize("text", ["", "f", "c", "go to the ", "去", "go to the c", "forward 1 m, then t"])
+def test_tab_offers_each_thing_once(language, text):
+    offered = [name for name, _ in completions(text, language=language)]
+    assert len({name.casefold() for name in offered}) == len(offered) > 0
+    places = [HOME.aliases[name.casefold()] for name in offered if name.casefold() in HOME.aliases]
+    assert len(set(places)) == len(places)
+
+
+def test_places_are_offered_in_the_language_of_what_is_typed():
+    mains = list(HOME.places)
+    assert [name for name, _ in completions("go to the ")] == mains
+    assert [name for name, _ in completions("去")] == [place_in("zh", HOME, name) for name in mains]
+    assert completions("go to the living r") == [("living room", -8)]
+    assert completions("refr") == [("refrigerator", -4)]
+    assert completions("go to the TV") == []
+
+
+@pytest.mark.parametrize(
+    "text", ["go to the s", "drive to t", "forward 1 m, then t", "前进一米，然后左", "xyz "]
+)
+def test_within_a_sentence_only_what_is_understood_is_offered(text):
+    for name, start in completions(text):
+        assert UNDERSTANDING.can_do(f"{text[: len(text) + start]}{name}"), name
+    assert "stop" not in [name for name, _ in completions(text)]
+    assert "turn left" not in [name for name, _ in completions("drive to t")]
+
+
+@pytest.mark.parametrize("phrase", [phrase for phrases in COMMON.values() for phrase in phrases])
+def test_every_phrase_that_tab_offers_is_understood(phrase):
+    names = {"go to the": "kitchen", "去": "厨房", "remember this place as": "base", "记住这里叫": "基地"}
+    with chatrobot.connect(fast=True) as robot:
+        robot.do("forward 20 cm")
+        if phrase in ("redo", "重做"):
+            robot.do("undo")
+        outcome = robot.do(f"{phrase} {names.get(phrase, '')}".strip()).outcome
+    assert outcome in ("completed", "answered") or (phrase in ("stop", "停") and outcome == "stopped")
+
+
+def test_what_a_command_takes_is_completed(tmp_path):
+    (tmp_path / "square.plan").touch()
+    assert completions(f"/save-plan {tmp_path}/squ") == [("are.plan", 0)]
+    assert completions("/map b") == [("big", -1)]
+    assert completions("/limit n") == [("none", -1)]
+    assert completions("/stop x") == completions("/nonsense x") == []
+
+
+def test_a_place_of_an_earlier_run_is_not_offered(tmp_path):
+    before = Understanding(load_profile("wheeltec_mini_mec"), HOME, tmp_path)
+    before.places.add("base", Pose())
+    assert ("base",) in before.place_names()
+    assert ("base",) not in Understanding(load_profile("wheeltec_mini_mec"), HOME, tmp_path).place_names()
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_places_are_listed_once_each_in_the_askers_language(language):
+    lines = printed(places_table(Words(language), HOME, {"TV": Place(Pose())}), width=200).splitlines()[1:]
+    names = [re.split(r"\s{2,}", line.strip())[0] for line in lines]
+    assert names == ["TV", *(place_in(language, HOME, name) for name in HOME.places if name != "TV")]
+    text = {"en": "what places do you know?", "zh": "你记住了哪些地方？"}[language]
+    reply = UNDERSTANDING.interpret(text).reply
+    listed = re.split(", |，", reply.partition(": " if language == "en" else "：")[2].rstrip(".。"))
+    assert listed == [place_in(language, HOME, name) for name in HOME.places]
 
 
 # --- ride and strip ---
@@ -214,8 +284,9 @@ def test_the_end_of_another_turn_does_not_end_the_ride():
     assert ride.pose == Pose(1.0)
 
 
-def strip_text(ride, width=100, world=HOME, latched=False, language="en"):
-    return "".join(text for _, text in Strip(ride, Words(language), world).fragments(width, latched))
+def strip_text(ride, width=100, world=HOME, latched=False, language="en", thinking_s=None):
+    strip = Strip(ride, Words(language), world)
+    return "".join(text for _, text in strip.fragments(width, latched, thinking_s))
 
 
 def test_the_strip_shows_no_share_of_what_has_no_known_end():
@@ -256,6 +327,16 @@ def test_a_standing_robot_has_a_line_and_a_latched_one_an_alarm():
     assert "EMERGENCY STOP" in strip_text(moving_ride(), latched=True)
 
 
+def test_the_strip_says_for_how_long_a_model_thinks_whether_the_robot_moves_or_not():
+    assert "the model is thinking, 7 s" in strip_text(Ride(), thinking_s=7.9)
+    assert "模型正在思考，0 秒" in strip_text(Ride(), thinking_s=0.1, language="zh")
+    assert "the model is thinking, 7 s" in strip_text(moving_ride(), thinking_s=7.9)
+    assert "thinking" not in strip_text(Ride()) + strip_text(moving_ride())
+    for width in range(1, 120):
+        assert max(map(len, strip_text(moving_ride(), width=width, thinking_s=7.9).split("\n"))) <= width
+        assert len(strip_text(Ride(), width=width, thinking_s=7.9)) <= width
+
+
 def test_a_strip_shows_whole_hints_and_the_whole_percentage():
     assert strip_text(Ride(), width=60).rstrip().endswith("Ctrl-C stops")
     assert strip_text(Ride(), width=100).rstrip().endswith("Ctrl-D leaves")
@@ -283,11 +364,17 @@ def test_a_plan_is_numbered_with_its_length_duration_and_findings():
 
 
 def test_a_long_plan_is_shown_in_part_and_whole_on_demand():
-    narrator, plan_text = Narrator(Words()), "\n".join(["drive 1 m"] * 40)
+    narrator, plan_text = Narrator(Words()), "\n".join(f"drive {n} m" for n in range(1, 41))
     text = told(narrator, Interpreted(1, "offline", plan_text, ""), REHEARSED)
-    assert text.count("drive 1 m") == PLAN_LINES - 1
+    assert text.count("drive ") == PLAN_LINES - 1
     assert "… 25 more lines" in text
-    assert printed(*narrator.plan(plan_text, REHEARSED)).count("drive 1 m") == 40
+    assert printed(*narrator.plan(plan_text, REHEARSED)).count("drive ") == 40
+
+
+def test_what_a_plan_does_several_times_is_counted_and_numbered_where_it_begins():
+    plan_text = "\n".join(["drive 0.5 m"] * 54 + ["wait 1 s"])
+    text = told(Narrator(Words()), Interpreted(1, "offline", plan_text, ""), REHEARSED)
+    assert re.search(r"\n +1  54 × drive 0\.5 m\n +55  wait 1 s\n", text)
 
 
 def test_the_refusal_that_is_the_result_is_not_told_twice():

@@ -19,7 +19,7 @@ ROS = ("rclpy", "ros2cli", "colcon_core")
 TESTS = {
     "test_ros_wire.py": (ROS, "the contract of wires over rclpy"),
     "test_real_rosbridge.py": (
-        ("rclpy", "ros2cli", "rosbridge_server", "rosbridge_library", "websockets"),
+        ("rclpy", "ros2cli", "rosbridge_server", "rosbridge_library", "websockets", "cbor2"),
         "the contract of wires over the real rosbridge_server, and a robot driven over it",
     ),
     "test_tutorial_lines.py": (

@@ -119,7 +119,12 @@ class MotionRunner:
         )
         self._rivals = Rivals(self.wire, node, self.profile.wiring.cmd_vel_topic)
         self._lookout = Lookout(
-            self.wire, self._rivals, self.motion, self.notice, accept_others=accept_others
+            self.wire,
+            self._rivals,
+            self.motion,
+            self.notice,
+            blind_mps=self.profile.safety.blind_speed_mps,
+            accept_others=accept_others,
         )
         try:
             self._open(said)

@@ -113,6 +113,19 @@ class Returning(Protocol):
     def is_connected(self) -> bool: ...
 
 
+@runtime_checkable
+class Nulling(Protocol):
+    """A wire whose scans may hold null: for infinity (open space) and for NaN (nothing measured) alike."""
+
+    @property
+    def has_null_ranges(self) -> bool: ...
+
+
+def has_null_ranges(wire: Wire) -> bool:
+    """Whether open space cannot be told from a range that was not measured, as far as scans have come."""
+    return wire.has_null_ranges if isinstance(wire, Nulling) else False
+
+
 def advertise(wire: Wire, topic: str, kind: type[Message]) -> None:
     """Let listeners find us before the first message, where the wire needs it: a first zero must not be lost."""
     if isinstance(wire, Discovering):
