@@ -264,7 +264,10 @@ def test_asked_to_end_a_node_of_ros_gives_zero(
     assert codes == [0]
     monkeypatch.setattr(ros_run, "main", lambda _: STOPPED)
     monkeypatch.setattr(sys, "argv", ["control"])
+    before = signal.getsignal(signal.SIGINT)
     assert ros_run.control_node() == 0, "Ctrl-C while it starts"
+    assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN, "a second one would break off its end"
+    signal.signal(signal.SIGINT, before)
     assert guards
 
 
@@ -436,7 +439,9 @@ def test_ros2_run_starts_what_the_command_line_starts(
     started: list[list[str]] = []
     monkeypatch.setattr(ros_run, "main", lambda arguments: started.append(arguments) or 7)
     monkeypatch.setattr(sys, "argv", ["/ws/lib/chatrobot/it", "--ros-args", "-r", "a:=b"])
+    before = signal.getsignal(signal.SIGINT)
     assert executable() == 7
+    assert signal.getsignal(signal.SIGINT) is before
     assert started == [[*command_line, "--on", "ros", "--ros-args", "-r", "a:=b"]]
 
 

@@ -32,14 +32,16 @@ def simulated_robot() -> int:
 
 def _run(*command: str) -> int:
     """Of two Ctrl-C, which `ros2 launch` sends, the first counts, also while this process starts or ends."""
-    watch = _StartWatch()
-    if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
+    watch, before = _StartWatch(), signal.getsignal(signal.SIGINT)
+    if before is not signal.SIG_IGN:
         signal.signal(signal.SIGINT, watch.interrupt)
-    try:
-        code = main([*command, "--on", "ros", *sys.argv[1:]])
-    finally:
+    code = main([*command, "--on", "ros", *sys.argv[1:]])
+    was_asked = code == STOPPED or watch.is_interrupted
+    if was_asked or signal.getsignal(signal.SIGINT) != watch.interrupt:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
-    return 0 if code == STOPPED or watch.is_interrupted else code
+    else:
+        signal.signal(signal.SIGINT, before)
+    return 0 if was_asked else code
 
 
 class _StartWatch:
