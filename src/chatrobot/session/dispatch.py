@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from chatrobot.core.errors import PlanTextError
-from chatrobot.core.events import Event, Interpreted
+from chatrobot.core.events import Event, Interpreted, Notice, Paused
 from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.resuming import wants_to_resume
+from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.session.draft import Draft
 from chatrobot.session.joint import Joint
@@ -65,7 +67,7 @@ class Dispatch:
 
     def take(self, said: Said) -> None:
         if self._said.is_void(said):
-            self._book.conclude(said.turn, "stopped", self._understanding.say("dropped_by_stop", said.text))
+            self._drop(said)
             return
         answer = self._proposals.answered(said)
         if answer is not None:
@@ -82,9 +84,26 @@ class Dispatch:
             code = "stopped_now" if said.kind != "emergency_stop" else "emergency_stopped"
             reply = self._understanding.say(code, said.text)
             if said.kind == "pause":
-                reply = self._resuming.told(self._resuming.paused, "paused_now")
+                reply = self._told(self._resuming.paused, "paused_now")
             self._emit(Interpreted(said.turn, "reflex", "", ""))
             self._book.conclude(said.turn, "stopped", reply)
+
+    def texts_behind(self, turn: int) -> tuple[str, ...]:
+        """What is done after that turn, which is paused: what Motion has already, and what waits here."""
+        return (*self._book.texts_but(turn), *self._said.held)
+
+    def _told(self, paused: Paused | None, code: str) -> str:
+        """What is left now of what is paused, in the phrase of that code."""
+        if paused is not None:
+            paused = replace(paused, waiting=self.texts_behind(paused.turn))
+        return self._resuming.told(paused, code)
+
+    def _drop(self, said: Said) -> None:
+        """End a turn that waited for what was stopped, or paused and not gone on with."""
+        why = self._said.why_void(said.turn)
+        code = "dropped_behind_pause" if self._said.waited_behind_pause(said.turn) else "dropped_by_stop"
+        reply = self._understanding.say_because(code, said.text, why)
+        self._book.conclude(said.turn, "stopped", reply, reason=why)
 
     def _goes_on(self, text: str) -> bool:
         """Whether it asks to go on with what was paused or stopped, be there anything or not."""
@@ -100,9 +119,9 @@ class Dispatch:
             reply = self._understanding.say("nothing_paused", said.text)
             self._act_on(said, meant or Interpretation("answered", reply, self._understanding.language))
             return
+        reply = self._told(paused, "goes_on")
         self._orders.resume(paused.turn)
         self._said.release()
-        reply = self._resuming.told(paused, "goes_on")
         self._emit(Interpreted(paused.turn, "offline", paused.plan_text, ""))
         self._emit(Interpreted(said.turn, "offline", "", reply))
         self._book.conclude(said.turn, "answered", reply)
@@ -125,12 +144,28 @@ class Dispatch:
         if is_any_under_way and meant.is_about_turn_before:
             self._end_turn_before(said)
             return
+        if self._runs_programs_again(said, meant):
+            return
+        if meant.outcome == "plan" and meant.walk is None and wants_to_resume(said.text):
+            meant = self._resuming.more(meant, is_under_way=self._book.is_any_with_motion)
         if self._understanding.misses_robot(meant) and self._hears_robot_soon():
             meant = self._understanding.interpret(said.text)
         if parting(meant) is None and self._thinking.wants(said.text, meant):
             self._ask_model(said, meant)
             return
         self._act_on(said, self._thinking.without_model(said.text, meant))
+
+    def _runs_programs_again(self, said: Said, meant: Interpretation) -> bool:
+        """Whether `meant` does a program again that was undone: it is run, or refused where it was not alone."""
+        entry = self._understanding.undone_programs(meant)
+        if entry is None or self._programs is None:
+            return False
+        if entry.turns == 1:
+            self._programs.run_again(said.turn, said.text, entry.programs[0])
+        else:
+            reply = self._understanding.say("redo_has_program", said.text)
+            self._act_on(said, Interpretation("refused", reply, self._understanding.language))
+        return True
 
     def _end_turn_before(self, said: Said) -> None:
         """Stop what is under way, because `said` is about it; read `said` again once that has ended."""
@@ -141,6 +176,9 @@ class Dispatch:
 
     def _act_on(self, said: Said, meant: Interpretation) -> None:
         """Do what was understood without a model."""
+        paused = self._resuming.paused
+        if paused is not None and self._understanding.tells_it_stands(meant):
+            meant = replace(meant, reply=self._told(paused, "paused_now"))
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         interpreted = Interpreted(said.turn, "offline", plan_text, meant.reply)
         if meant.outcome == "plan":
@@ -176,7 +214,7 @@ class Dispatch:
 
     def _read_plan(self, said: Said) -> None:
         try:
-            plan = parse_plan(said.text)
+            plan = self._plan_in(said)
         except PlanTextError as error:
             self._emit(Interpreted(said.turn, "offline", "", ""))
             self._book.conclude(
@@ -187,6 +225,21 @@ class Dispatch:
         plan_text = format_plan(plan)
         self._emit(Interpreted(said.turn, "offline", plan_text, ""))
         self._send_plan(said, meant, plan_text)
+
+    def _plan_in(self, said: Said) -> Plan:
+        """The plan that was said; for an edit that cannot be read the one that it was made of, and a word about it.
+
+        Raises:
+            PlanTextError: neither can be read.
+        """
+        try:
+            return parse_plan(said.text)
+        except PlanTextError as error:
+            if not said.about:
+                raise
+            before = parse_plan(str(said.about))
+            self._emit(Notice(said.turn, Reason("edit_unreadable", {"problem": str(error)})))
+            return before
 
     def _send_plan(self, said: Said, meant: Interpretation, plan_text: str) -> None:
         mode = "append" if meant.append else self._orders.mode

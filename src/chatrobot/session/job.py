@@ -136,10 +136,17 @@ class Job:
                 0.0,
                 0.0,
                 0.0,
+                planned_m=self._left_m,
                 possible=possible,
                 remaining=remaining,
             )
         )
+
+    @property
+    def _left_m(self) -> float:
+        """The way that was still to be driven, where a part of it was driven before a pause."""
+        so_far = self.so_far
+        return max(0.0, so_far.planned_m - so_far.path_m) if so_far is not None else 0.0
 
     def whole(self, finished: Finished) -> Finished:
         """Its end, together with what was done before it was paused."""

@@ -17,7 +17,7 @@ from chatrobot.session.governed_robot import GovernedRobot
 from chatrobot.session.inbox import Inbox
 from chatrobot.session.intake import Intake
 from chatrobot.session.job import Job
-from chatrobot.session.paused import PausedJob, Pausing
+from chatrobot.session.paused import PausedJob, Pausing, is_foreign, why_not_kept
 from chatrobot.session.planner import Planned, Planner, refused
 from chatrobot.session.program_box import ProgramBox
 from chatrobot.session.program_job import ProgramJob, job_of, needs_approval
@@ -246,15 +246,13 @@ class Jobs:
             return  # it waits already
         measure = self._break_off(job, why) if job is not None else None
         if job is None or measure is None:
-            is_program = isinstance(job, ProgramJob)
-            self.end_stopped(Reason("program_not_paused") if is_program else why)
+            self.end_stopped(why_not_kept(job, self._robot) or why)
         else:
             self._pausing.begin(PausedJob(job, measure, now_s))
 
     def _break_off(self, job: Job, why: Reason) -> Callable[[], Finished] | None:
         """What tells how far it has come; None for what nobody could go on with."""
-        is_foreign = self._robot.governor.leases.priority_of(job.lease) <= Priority.FOREIGN
-        if isinstance(job, ProgramJob) or job.rehearse_only or is_foreign:
+        if job.rehearse_only or isinstance(job, ProgramJob) or is_foreign(job, self._robot):
             return None
         if self._preparing is None:
             return self._driver.break_off(why)

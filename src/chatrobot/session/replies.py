@@ -7,19 +7,16 @@ import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from chatrobot.core.events import Finished
+from chatrobot.core.events import LEAST_M, LEAST_RAD, Finished, Paused
 from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
 from chatrobot.core.shown import fixed
-from chatrobot.language.phrases import describe_plan, render_reason, say
+from chatrobot.language.phrases import describe_plan, describe_text, render_reason, say
 from chatrobot.plan.steps import Face, Go, Step
 from chatrobot.plan.text import parse_plan
 
 if TYPE_CHECKING:
     from chatrobot.session.model_terms import Ended
-
-LEAST_DISTANCE_M = 0.005
-LEAST_ANGLE_RAD = math.radians(0.5)
 
 _STOPPED_TWICE = re.compile(r"([.?!。？！])[.。]")
 """A reason that is a sentence of its own has its full stop, or its question mark, already."""
@@ -32,7 +29,12 @@ def describe_end(finished: Finished, language: str, steps: Sequence[Step] = ()) 
         return say(language, "done", moved=moved) if moved else _done_standing(steps, language)
     reason = render_reason(finished.reason, language) if finished.reason is not None else ""
     if finished.outcome == "refused":
-        return " ".join(filter(None, (reason, _free(finished.reason, language))))
+        refused = " ".join(filter(None, (reason, _free(finished.reason, language))))
+        return (
+            say(language, "model_so_far", reason=refused, moved=moved)
+            if moved and finished.path_m
+            else refused
+        )
     code = "stopped_after" if finished.outcome == "stopped" else "failed_after"
     return _ended_once(say(language, code, moved=moved or say(language, "nothing_moved"), reason=reason))
 
@@ -43,6 +45,15 @@ def _done_standing(steps: Sequence[Step], language: str) -> str:
     if isinstance(only, Go):
         return say(language, "there_already" if only.place else "there_already_unnamed", place=only.place)
     return say(language, "already_facing" if isinstance(only, Face) else "done_standing")
+
+
+def describe_left(paused: Paused, language: str) -> str:
+    """What is left of a paused plan in a few words, and the texts that wait behind it."""
+    plan = describe_text(paused.plan_text, language)
+    if not paused.waiting:
+        return plan
+    shown = (say(language, "quoted", text=text[:80]) for text in paused.waiting)
+    return say(language, "left_and_waiting", plan=plan, texts=say(language, "list_comma").join(shown))
 
 
 def offered(finished: Finished, language: str) -> Proposal | None:
@@ -85,11 +96,11 @@ def describe_model_end(ended: Ended, language: str) -> str:
 
 def _measured(finished: Finished, language: str) -> str:
     parts = []
-    if finished.planned_m > LEAST_DISTANCE_M or (finished.open_ended and finished.path_m > LEAST_DISTANCE_M):
+    if finished.planned_m > LEAST_M or (finished.open_ended and finished.path_m > LEAST_M):
         code = "drove_open" if finished.open_ended else "drove"
         code = code if finished.measured else f"{code}_unmeasured"
         parts.append(say(language, code, drove_m=f"{finished.path_m:.2f}", of_m=f"{finished.planned_m:.2f}"))
-    if abs(finished.planned_turn_rad) > LEAST_ANGLE_RAD or abs(finished.turned_rad) > math.radians(3.0):
+    if abs(finished.planned_turn_rad) > LEAST_RAD or abs(finished.turned_rad) > math.radians(3.0):
         parts.append(_turned(math.degrees(finished.turned_rad), language))
     return say(language, "list_comma").join(parts)
 

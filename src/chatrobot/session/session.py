@@ -6,10 +6,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 from chatrobot.core.errors import JointError
-from chatrobot.core.events import Event, Finished, Remembered, Result, Telemetry
+from chatrobot.core.events import Event, Finished, Paused, Remembered, Result, Telemetry
 from chatrobot.core.reason import Reason
 from chatrobot.language.consent import read_consent
 from chatrobot.plan.text import format_plan
@@ -139,9 +140,12 @@ class Session:
         """Take in a plan that a person or a program wrote itself; the number of its turn."""
         return self._take_in(plan_text, "plan")
 
-    def say_edited_plan(self, plan_text: str) -> int:
-        """Take in what a person made of a plan that waited for a yes: it is asked about anew, whatever the options."""
-        return self._take_in(plan_text, "edited_plan")
+    def say_edited_plan(self, plan_text: str, instead_of: str = "") -> int:
+        """Take in what a person made of a plan that waited for a yes: it is asked about anew, whatever the options.
+
+        Where it cannot be read that plan, `instead_of`, is asked about again.
+        """
+        return self._take_in(plan_text, "edited_plan", instead_of)
 
     def say_program(self, text: str, name: str = "") -> int:
         """Take in what a program is to do, asked for as one; the number of its turn."""
@@ -276,7 +280,7 @@ class Session:
             # Who said one too many hears so now, not when the ten before it are done.
             self._book.conclude(said.turn, "refused", self.understanding.say("queue_full", said.text))
         if self._said.is_holding and not self.is_moving:
-            self._said.drop_held()  # nothing is paused that it could wait for
+            self._said.drop_held(self._resuming.ended_by)  # nothing is paused that it could wait for
         while (found := self._find_next()) is not None:
             self._orders.pauses = self._said.pauses
             if (taken := self._said.take(found)) is not None:
@@ -305,10 +309,15 @@ class Session:
             self.understanding.note_telemetry(event, is_ours=is_ours)
         elif isinstance(event, Remembered):
             self.understanding.note_place(event)
+        elif isinstance(event, Paused) and self._book.has(event.turn):
+            event = replace(event, waiting=self._dispatch.texts_behind(event.turn))
         self._emit(event)
         if self._book.has(event.turn) or self._thinking.has(event.turn):
+            was_paused = self.is_paused
             self._resuming.hear(event)
             self._orders.is_paused = self.is_paused
+            if was_paused and not self.is_paused:
+                self._said.drop_held(self._resuming.ended_by)
         if self._programs is not None and self._programs.hear(event):
             return  # the next version of a program is on its way
         self._thinking.hear(event)
@@ -321,9 +330,11 @@ class Session:
         if instruction is None:
             return
         text, meant, _ = instruction
-        reply = self.understanding.note_finished(text, meant, event, self.options.rehearse_only)
-        if self._programs is not None:
-            reply = self._programs.ending(event.turn, reply)
+        programs, rehearse_only = self._programs, self.options.rehearse_only
+        program = event.turn if programs is not None and programs.has_run(event.turn) else 0
+        reply = self.understanding.note_finished(text, meant, event, rehearse_only, program)
+        if programs is not None:
+            reply = programs.ending(event.turn, reply)
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         self._thinking.note(text, plan_text, f"{event.outcome}: {measured(event)}")
         proposal = offered(event, meant.language) if not self.options.rehearse_only else None
