@@ -66,12 +66,14 @@ class Resuming:
         """
         if is_under_way:
             return Interpretation("answered", say(meant.language, "is_going_on"), meant.language)
-        last, asked = self._understanding.last_done, meant.plan.steps if meant.plan is not None else ()
-        if not isinstance(last, Drive) or not all(isinstance(step, Drive) for step in asked):
+        asked = meant.plan.steps if meant.plan is not None else ()
+        last, drives = self._understanding.last_done, [step for step in asked if isinstance(step, Drive)]
+        if not isinstance(last, Drive) or len(drives) < len(asked):
             reply = say(meant.language, "how_to_go_on")
             return Interpretation("unclear", reply, meant.language, code="how_to_go_on")
-        as_before = {"direction_rad": last.direction_rad, "speed_mps": last.speed_mps}
-        return planned([replace(step, **as_before) for step in asked], meant.language)
+        direction_rad, speed_mps = last.direction_rad, last.speed_mps
+        steps = [replace(step, direction_rad=direction_rad, speed_mps=speed_mps) for step in drives]
+        return planned([*steps], meant.language)
 
     def told(self, paused: Paused | None, code: str) -> str:
         """What is left of a paused plan, in the phrase of that code; that it stands, where nothing is paused."""
