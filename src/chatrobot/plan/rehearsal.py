@@ -25,7 +25,7 @@ from chatrobot.plan.context import (
 )
 from chatrobot.plan.core_motion import Pause, RampedTwist
 from chatrobot.plan.findings import Finding, Severity
-from chatrobot.plan.free_part import free_part, nearest_part
+from chatrobot.plan.free_part import ANY_WAY, Most, free_part, nearest_part
 from chatrobot.plan.governed_path import TICK_S, GovernorCheck, pose_of
 from chatrobot.plan.known_world import Contact, Floats, GovernorKernel, KnownWorld, SeenWorld
 from chatrobot.plan.lowering import CoreWalk, PlannedMotion, iterate_core
@@ -59,7 +59,8 @@ class Rehearsal:
 
     `plan` is the one to run (corners may have been rounded for a base that steers). `path` is [n, 4] of t_s, x_m,
     y_m, yaw_rad in the odom frame, at most 50 ms apart, up to the end or to the first step that cannot be done.
-    `possible` is what can be done of a plan that is refused, where that is worth a question.
+    `possible` is what can be done of a plan that is refused, or else drives more than it may, where that is worth a
+    question.
     """
 
     plan: Plan
@@ -103,6 +104,7 @@ def rehearse(
     plan_start: Pose | None = None,
     route_planner: RoutePlanner | None = None,
     seen: SeenWorld | None = None,
+    most: Most = ANY_WAY,
 ) -> Rehearsal:
     """Rehearse `plan` from `start_pose` (odom frame).
 
@@ -112,6 +114,7 @@ def rehearse(
         plan_start: what the frame `start` means, if the plan is the continuation of one that began elsewhere.
         route_planner: for `go`; by default a grid search in `world`.
         seen: what the lidar has seen; None where there is none.
+        most: how far and how long a plan may drive; what is `possible` of one that drives more is told.
     """
     planner = route_planner
     if planner is None and world is not None and not world.is_empty:
@@ -122,7 +125,7 @@ def rehearse(
         profile, start_pose, plan_start if plan_start is not None else start_pose, planner
     )
     rounded = round_corners(plan, profile)
-    run = _Run(rounded.plan, context, world, governor, seen)
+    run = _Run(rounded.plan, context, world, governor, seen, most)
     run.findings += [
         Finding(note.severity, note.reason, note.index, 0.0, start_pose) for note in rounded.notes
     ]
@@ -149,12 +152,14 @@ class _Run:
         world: KnownWorld | None,
         governor: GovernorKernel,
         seen: SeenWorld | None,
+        most: Most,
     ) -> None:
         self.plan = plan
         self.context = context
         self.world = world if world is not None and not world.is_empty else None
         self.area = world.allowed_area if world is not None else None
         self.seen = seen
+        self.most = most
         self.governor = GovernorCheck(governor)
         self.findings: list[Finding] = []
         self.legs: list[_Leg] = []
@@ -275,33 +280,55 @@ class _Run:
             for fence in fences
         ]
         self._block(rows, "leaves_area", left)
+        row = self.most.first_row_over(rows)
+        if row < len(rows) and not any(finding.severity == "refuse" for finding in self.findings):
+            self.possible, _ = self._part_up_to(rows, row, self.most.length_m)
 
     def _block(self, rows: Floats, code: str, contacts: Sequence[Contact | None]) -> None:
         """Refuse the plan for the first of the contacts, if there is one."""
         contact = min((found for found in contacts if found is not None), key=lambda c: c.row, default=None)
         if contact is None:
             return
-        ends = np.cumsum([len(leg.rows) for leg in self.legs])
-        leg = self.legs[int(np.searchsorted(ends, contact.row, side="right"))]
-        item, row = leg.item, rows[contact.row]
+        leg, first_row = self._leg_at(contact.row)
         driven = np.hypot(*np.diff(rows[: contact.row + 1, 1:3], axis=0).T)
-        first_row = int(ends[self.legs.index(leg)]) - len(leg.rows)
         values: dict[str, float | int | str] = {
             "distance_m": float(driven[first_row:].sum()),
             "total_m": float(driven.sum()),
         }
         if contact.row < self._blocked_row:
             self._blocked_row = contact.row
-            of_step = [found.item for found in self.legs if found.item.number == item.number]
-            way = rows[first_row : contact.row + 1]
-            self.possible, free = free_part(
-                self.plan, self.context, item, of_step.index(item), of_step[0].start, way
-            )
+            self.possible, free = self._part_up_to(rows, contact.row)
             values.update(free)
-        name = self._name_of(contact) if code == "would_collide" else ""
-        if name:
-            values["obstacle"] = name
-        self._find("refuse", Reason(code, values), item.index, pose_of(row), float(row[0]))
+        if code == "would_collide":
+            values["margin_m"] = MARGIN_M
+            name = self._name_of(contact)
+            values.update({"obstacle": name} if name else {})
+        row = rows[contact.row]
+        self._find("refuse", Reason(code, values), leg.item.index, pose_of(row), float(row[0]))
+
+    def _leg_at(self, row: int) -> tuple[_Leg, int]:
+        """The leg that this row of the path belongs to, and the first row of it."""
+        ends = np.cumsum([len(leg.rows) for leg in self.legs])
+        number = int(np.searchsorted(ends, row, side="right"))
+        leg = self.legs[number]
+        return leg, int(ends[number]) - len(leg.rows)
+
+    def _part_up_to(
+        self, rows: Floats, row: int, most_m: float = math.inf
+    ) -> tuple[Plan | None, dict[str, float]]:
+        """What can be done of the plan up to this row, and how much of the motion there; `most_m`: of the whole."""
+        leg, first_row = self._leg_at(row)
+        driven_m = float(np.hypot(*np.diff(rows[: first_row + 1, 1:3], axis=0).T).sum())
+        of_step = [found.item for found in self.legs if found.item.number == leg.item.number]
+        return free_part(
+            self.plan,
+            self.context,
+            leg.item,
+            of_step.index(leg.item),
+            of_step[0].start,
+            rows[first_row : row + 1],
+            most_m - driven_m,
+        )
 
     def _name_of(self, contact: Contact) -> str:
         """What stands there, if it is known."""

@@ -9,6 +9,7 @@ from chatrobot.core.events import Finished, Outcome
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.core.reason import Reason
 from chatrobot.plan.base import Step
+from chatrobot.plan.free_part import Most
 from chatrobot.plan.lowering import Walk
 from chatrobot.plan.rehearsal import Rehearsal
 from chatrobot.session.approval import Approval
@@ -81,6 +82,11 @@ class Job:
         if self.stream is not None:
             return self.stream.certain
         return self.planned.certain if self.planned is not None else Extent()
+
+    @property
+    def left(self) -> Most:
+        """What its budget leaves for what comes next."""
+        return self.account.left(self.stream.certain if self.stream is not None else Extent())
 
     @property
     def length_m(self) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from chatrobot.core.errors import BoxError
 from chatrobot.core.reason import Reason
+from chatrobot.plan.known_world import Floats
 from chatrobot.programs.boxed import BoxedProgram, warm_server
 from chatrobot.programs.events import LATEST_S
 from chatrobot.programs.settings import ProgramSettings, robot_topics
@@ -34,7 +35,7 @@ class ProgramHost:
     def attach(self, wire: Wire) -> None:
         self._senses.attach(wire, self._profile.wiring)
 
-    def rehearse(self, job: ProgramJob, planner: Planner) -> Planned:
+    def rehearse(self, job: ProgramJob, planner: Planner, seen_points: Floats) -> Planned:
         try:
             self._warm()
             rehearsal = rehearse_program(
@@ -46,10 +47,11 @@ class ProgramHost:
                 name=_file_name(job.name),
                 remaps=job.remap,
                 args=job.args,
+                seen_points=seen_points,
             )
         except BoxError as error:
             return Planned(job.turn, None, error.reason)
-        return PlannedProgram(job.turn, None, None, rehearsal, job.name, job.strict)
+        return PlannedProgram(job.turn, None, program=rehearsal, name=job.name, strict=job.strict)
 
     def launch(self, job: ProgramJob) -> LiveProgram | Reason:
         settings = ProgramSettings(

@@ -56,12 +56,14 @@ def describe_left(paused: Paused, language: str) -> str:
     return say(language, "left_and_waiting", plan=plan, texts=say(language, "list_comma").join(shown))
 
 
-def offered(finished: Finished, language: str) -> Proposal | None:
+def offered(finished: Finished | None, language: str) -> Proposal | None:
     """The question whether to do what is possible of a plan that was refused."""
-    if not finished.possible:
+    if finished is None or not finished.possible:
         return None
     text = describe_plan(parse_plan(finished.possible), language)
-    return Proposal(finished.possible, say(language, "offer", text=text))
+    values = finished.reason.values if finished.reason is not None else {}
+    limits = [say(language, code, **values) for code in ("limit_m", "limit_s") if code in values]
+    return Proposal(finished.possible, " ".join([*limits, say(language, "offer", text=text)]))
 
 
 def _free(reason: Reason | None, language: str) -> str:
@@ -84,6 +86,8 @@ def describe_model_end(ended: Ended, language: str) -> str:
     if ended.outcome == "completed":
         return describe_end(finished, language, ended.steps) if finished else say(language, "done_standing")
     why = render_reason(reason, language) if reason is not None else ""
+    if ended.outcome == "refused":
+        why = " ".join(filter(None, (why, _free(reason, language))))
     moved = _measured(finished, language) if finished is not None else ""
     if ended.outcome == "stopped":
         return say(language, "stopped_after", moved=moved or say(language, "nothing_moved"), reason=why)

@@ -6,6 +6,7 @@ A plan that passes here keeps every seen point at the distance that the governor
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,13 +16,37 @@ from chatrobot.governor.obstacles import MARGIN_M, NEARER_M
 from chatrobot.plan import rehearsal
 from chatrobot.plan.known_world import Contact
 from chatrobot.robots.profile import RobotProfile
+from chatrobot.sim.shapes import Circle
+from chatrobot.sim.world import Obstacle, World
 
 APART_M = 0.01
 """Poses of a path that are nearer to each other than this are looked at once."""
 
+APART_IN_WORLD_M = 0.02
+"""As near to each other as obstacles are that stand for seen points."""
+
 CHUNK = 200
 POINT_RADIUS_M = 0.03
 """What was seen is at least so large: the gaps between beams are nothing to drive through."""
+
+
+TOUCHES_M = 0.02
+"""A point that is no farther from the footprint than this may be of what the robot stands at."""
+
+
+def with_seen(world: World, points: Floats) -> World:
+    """The world with small obstacles where points [n, 2] were seen that it does not know."""
+    unknown = seen_but_unknown(world, points)
+    cells = np.unique(np.rint(unknown / APART_IN_WORLD_M), axis=0) * APART_IN_WORLD_M
+    added = (Obstacle("", Circle(x, y, TOUCHES_M / 2.0)) for x, y in cells.tolist())
+    return replace(world, obstacles=(*world.obstacles, *added)) if len(cells) else world
+
+
+def seen_but_unknown(world: World, points: Floats) -> Floats:
+    """Those of the seen points [n, 2] that are no obstacle of the map."""
+    if world.is_empty or not len(points):
+        return points
+    return points[world.clearance_m(points) >= rehearsal.KNOWN_WITHIN_M]
 
 
 class SeenPoints:
@@ -64,6 +89,12 @@ class SeenPoints:
                 x_m, y_m = near[int(clearance[hits[0]].argmin())]
                 return Contact(int(chunk[hits[0]]), float(x_m), float(y_m))
         return None
+
+    def clear_of(self, pose: Pose) -> Floats:
+        """The points [n, 2] that a robot at `pose` does not touch."""
+        clearance = self._clearance_m(np.array([pose]), self._points)[0]
+        found: Floats = self._points[clearance > TOUCHES_M]
+        return found
 
     def _near(self, poses: Floats) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
         """The points that the footprint may come near to on these poses."""

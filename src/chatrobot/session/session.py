@@ -301,7 +301,10 @@ class Session:
 
     def _conclude_model_turn(self, turn: int, text: str, ended: Ended) -> None:
         reply = self.understanding.note_model_turn(text, ended, self.options.rehearse_only)
-        self._book.conclude(turn, ended.outcome, reply, ended.finished, ended.reason)
+        refused = ended.finished if ended.outcome == "refused" and not self.options.rehearse_only else None
+        proposal = offered(refused, self.understanding.language)
+        reply = f"{reply} {proposal.say}" if proposal is not None else reply
+        self._book.conclude(turn, ended.outcome, reply, ended.finished, ended.reason, proposal)
 
     def _hear(self, event: Event) -> None:
         if isinstance(event, Telemetry):
@@ -337,6 +340,6 @@ class Session:
             reply = programs.ending(event.turn, reply)
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         self._thinking.note(text, plan_text, f"{event.outcome}: {measured(event)}")
-        proposal = offered(event, meant.language) if not self.options.rehearse_only else None
+        proposal = offered(event if not rehearse_only else None, meant.language)
         reply = f"{reply} {proposal.say}" if proposal is not None else reply
         self._book.conclude(event.turn, event.outcome, reply, event, proposal=proposal)
