@@ -1,6 +1,6 @@
 """A plan that was edited so that nobody can read it is asked about as it was, and what was typed is there again."""
 
-from chatrobot.core.events import Finished, Interpreted, Notice, Paused, Result
+from chatrobot.core.events import Finished, Interpreted, Notice, Paused, Result, Started
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from tests.console.fakes import ask, shown, told
@@ -44,14 +44,26 @@ def test_what_was_driven_before_the_edit_is_told(talk, log):
     assert "So far: drove 0.60 m" in shown(log)
 
 
-def test_a_second_pause_says_what_is_left(talk, log):
-    paused = Paused(1, Pose(), "drive 1 m")
-    for turn in (2, 3):
+def test_a_second_pause_says_what_is_left_and_a_stop_is_told_once(talk, log):
+    for turn, said in ((2, "pause"), (3, "puase"), (4, "stop")):
         log.clear()
-        talk.enter("pause")
+        talk.enter(said)
         if turn == 2:
             talk.session.is_paused = True
-            talk.hear(paused)
+            talk.hear(Paused(1, Pose(), "drive 1 m"))
         talk.hear(Interpreted(turn, "reflex", "", ""))
-        talk.hear(Result(turn, "stopped", "Paused. Left: drive forward 1 m."))
-        assert shown(log).count("Paused. Left: drive forward 1 m.") == 1, "told once"
+        talk.hear(Result(turn, "stopped", "Stopped." if turn == 4 else "Paused. Left: drive forward 1 m."))
+        assert shown(log).count("Paused. Left: drive forward 1 m.") == (turn < 4), "told once"
+        assert "Stopped." not in shown(log), "the plan tells its own end"
+
+
+def test_the_strip_says_that_a_plan_is_paused(talk):
+    def strip():
+        return "".join(text for _, text in talk.strip.fragments(100))
+
+    assert "standing" in strip()
+    talk.hear(Started(1, Pose()))
+    talk.hear(Paused(1, Pose(), "drive 1 m"))
+    assert "paused" in strip()
+    talk.hear(Finished(1, "stopped", None, Pose(), Pose(), 0.0, 0.0, 0.0, 0.0))
+    assert "standing" in strip()

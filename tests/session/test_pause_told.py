@@ -10,7 +10,7 @@ from tests.session.test_pause import pause, run_s
 from tests.session.test_session import Talk
 from tests.session.test_stream import wait_s
 
-from chatrobot.core.events import Event, Finished, Interpreted, Paused, Progress
+from chatrobot.core.events import Event, Finished, Interpreted, Notice, Paused, Progress
 from chatrobot.core.events import event_from_json as read
 from chatrobot.session.options import Options
 
@@ -47,6 +47,7 @@ def test_what_was_said_to_come_after_it_is_named_too() -> None:
     talk.session.say("then turn left 90 degrees")
     run_s(talk, 0.5)
     assert "turn left" not in talk.results()[2].reply
+    assert [e.reason.code for e in talk.events if isinstance(e, Notice)] == ["waits_behind_pause"]
     assert "waiting: “then turn left 90 degrees”" in talk.session.do("pause").reply
 
 

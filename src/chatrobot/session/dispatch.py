@@ -245,5 +245,7 @@ class Dispatch:
         mode = "append" if meant.append else self._orders.mode
         if mode == "replace":
             self._thinking.replace()
+        if mode == "append" and self._resuming.paused is not None:
+            self._emit(Notice(said.turn, Reason("waits_behind_pause")))
         self._book.track(said.turn, said.text, meant)
         self._orders.plan(said.turn, plan_text, mode, asks=said.kind == "edited_plan")

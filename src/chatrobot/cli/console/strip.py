@@ -65,7 +65,8 @@ class Strip:
         return joined
 
     def _standing(self, width: int) -> Fragments:
-        words = f" {self._words.say('standing')} · {self._words.pose(self._ride.pose)}"
+        state = self._words.say("paused" if self._ride.is_paused else "standing")
+        words = f" {state} · {self._words.pose(self._ride.pose)}"
         hints = self._words.say("strip_idle").split("  ")
         while hints and cell_len(f"{words}   {'  '.join(hints)}") > width:
             hints.pop()

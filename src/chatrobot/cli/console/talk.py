@@ -35,10 +35,10 @@ from chatrobot.cli.lines import texts_in
 from chatrobot.compose import Connection
 from chatrobot.core.clock import Clock
 from chatrobot.core.errors import JointError
-from chatrobot.core.events import Event, Interpreted, Notice, Paused, Result, Started, Telemetry
+from chatrobot.core.events import Event, Interpreted, Notice, Result, Started, Telemetry
 from chatrobot.language.consent import read_consent, wants_to_edit
 from chatrobot.programs.check import MAX_SOURCE_CHARS
-from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
+from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.session.parting import is_parting
 from chatrobot.session.question import Question
 
@@ -78,14 +78,14 @@ class Talk:
         self._leaving = False
         self._interrupted_s = float("-inf")
         self._said_stopped = False
-        self._told_paused = False
+        self._pauses_again = False
         self._order = threading.Lock()  # a line is printed before what it brings about
 
     # --- what a person does ---
 
     def enter(self, raw: str) -> None:
         """A line was sent, or several that came at once. A stop in it has gone out before this returns."""
-        self._said_stopped = self._told_paused = False
+        self._said_stopped = False
         cleaned = clean(raw)
         texts = texts_in(cleaned)
         if len(raw) > LONGEST_CHARS:  # it may have been cut: never do a part of it
@@ -206,6 +206,7 @@ class Talk:
     def _say(self, text: str) -> None:
         """What was typed takes the place of all that runs and waits."""
         self.words.follow(text)
+        self._pauses_again = is_pause(text) and self.session.is_paused
         if self._is_stop(
             text
         ):  # it waits for no lock: the other thread may hang in a terminal that was halted
@@ -276,12 +277,12 @@ class Talk:
             if (
                 isinstance(event, Interpreted)
                 and event.by == "reflex"
-                and (self.ride.is_moving or self._said_stopped or self._told_paused)
+                and (self.ride.is_moving or self._said_stopped or self.session.is_paused)
+                and not self._pauses_again
             ):
                 self._muted.add(event.turn)  # what was moving says how it ended
             if isinstance(event, Result):
                 self._said_stopped = event.outcome == "stopped"
-            self._told_paused = self._told_paused or isinstance(event, Paused)
             if lines and not self._is_muted(event):
                 self.face.print(*lines)
         if isinstance(event, Result):
