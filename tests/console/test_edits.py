@@ -49,7 +49,7 @@ def test_a_second_pause_says_what_is_left_and_a_stop_is_told_once(talk, log):
         log.clear()
         talk.enter(said)
         if turn == 2:
-            talk.session.is_paused = True
+            talk.session.is_plan_paused = True
             talk.hear(Paused(1, Pose(), "drive 1 m"))
         talk.hear(Interpreted(turn, "reflex", "", ""))
         talk.hear(Result(turn, "stopped", "Stopped." if turn == 4 else "Paused. Left: drive forward 1 m."))

@@ -67,7 +67,7 @@ def wall(x_m: float, low_m: float, high_m: float) -> list[tuple[float, float]]:
 
 
 def planned(points: list[tuple[float, float]], text: str, world: World = EMPTY_WORLD) -> planner.Planned:
-    return Planner(MECANUM, world).plan(1, text, ORIGIN, seen_points=np.array(points))
+    return Planner(MECANUM, world).plan(1, text, ORIGIN, seen=SeenPoints(MECANUM, np.array(points)))
 
 
 def test_where_what_was_seen_leaves_no_way_it_says_what_is_in_it() -> None:

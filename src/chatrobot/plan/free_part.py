@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -52,6 +53,33 @@ class Most(NamedTuple):
 
 
 ANY_WAY = Most()
+
+
+@dataclass(frozen=True)
+class Leg:
+    """Rows [n, 4] of a path that belong to one motion of one step."""
+
+    item: PlannedMotion
+    rows: Floats
+
+
+def leg_at(legs: Sequence[Leg], row: int) -> tuple[Leg, int]:
+    """The leg that this row of the whole path belongs to, and the first row of it."""
+    ends = np.cumsum([len(leg.rows) for leg in legs])
+    number = int(np.searchsorted(ends, row, side="right"))
+    return legs[number], int(ends[number]) - len(legs[number].rows)
+
+
+def part_up_to(
+    plan: Plan, context: LoweringContext, legs: Sequence[Leg], row: int, most_m: float = math.inf
+) -> tuple[Plan | None, dict[str, float]]:
+    """What can be done of `plan` up to a row of its path, and how much of the motion there; `most_m`: of the whole."""
+    leg, first_row = leg_at(legs, row)
+    rows = np.concatenate([leg.rows for leg in legs])[: row + 1]
+    driven_m = float(np.hypot(*np.diff(rows[: first_row + 1, 1:3], axis=0).T).sum())
+    of_step = [found.item for found in legs if found.item.number == leg.item.number]
+    done = of_step.index(leg.item)
+    return free_part(plan, context, leg.item, done, of_step[0].start, rows[first_row:], most_m - driven_m)
 
 
 def free_part(

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from chatrobot.plan.context import (
 )
 from chatrobot.plan.core_motion import Pause, RampedTwist
 from chatrobot.plan.findings import Finding, Severity
-from chatrobot.plan.free_part import ANY_WAY, Most, free_part, nearest_part
+from chatrobot.plan.free_part import ANY_WAY, Leg, Most, leg_at, nearest_part, part_up_to
 from chatrobot.plan.governed_path import TICK_S, GovernorCheck, pose_of
 from chatrobot.plan.known_world import Contact, Floats, GovernorKernel, KnownWorld, SeenWorld
 from chatrobot.plan.lowering import CoreWalk, PlannedMotion, iterate_core
@@ -134,14 +134,6 @@ def rehearse(
     return run.result()
 
 
-@dataclass(frozen=True)
-class _Leg:
-    """Rows of the path that belong to one motion of one step."""
-
-    item: PlannedMotion
-    rows: Floats
-
-
 class _Run:
     """One rehearsal: walks the plan, collects rows and findings, then sweeps the footprint along all of it."""
 
@@ -162,7 +154,7 @@ class _Run:
         self.most = most
         self.governor = GovernorCheck(governor)
         self.findings: list[Finding] = []
-        self.legs: list[_Leg] = []
+        self.legs: list[Leg] = []
         self.steps: list[StepEnd] = []
         self.t_s = 0.0
         self.possible: Plan | None = None
@@ -219,7 +211,7 @@ class _Run:
         return True
 
     def _add(self, item: PlannedMotion, rows: Floats) -> None:
-        self.legs.append(_Leg(item, rows))
+        self.legs.append(Leg(item, rows))
         self.t_s = float(rows[-1, 0])
 
     def _move(self, walk: CoreWalk, item: PlannedMotion, motion: RampedTwist) -> None:
@@ -227,6 +219,7 @@ class _Run:
         if motion.until is not None:
             segment = self._until(segment, motion.until.distance_m, item)
             walk.ended_at(segment.end_pose)
+        segment = self._slowed(segment)
         if motion.asked is not None:
             self._find("note", _limited(motion.asked, motion.twist), item.index, item.start)
         changed = self.governor.changed(segment)
@@ -239,6 +232,17 @@ class _Run:
             rows = np.column_stack((times, sample_poses(segment, sample_ramp(segment.ramp, times)[0])))
         rows[:, 0] += self.t_s
         self._add(item, rows)
+
+    def _slowed(self, segment: Segment) -> Segment:
+        """The segment as slowly as the governor will let the robot go where its lidar does not see; the same path."""
+        motion, share = segment.motion, 1.0
+        if self.seen is not None:
+            share = self.seen.allowed_share(motion.twist, segment.start)
+        if not 0.0 < share < 1.0:
+            return segment
+        twist, hold_s = motion.twist.scaled(share), segment.ramp.hold_s / share
+        slower = replace(motion, twist=twist, hold_s=hold_s, ramp_per_s=motion.ramp_per_s / share)
+        return Segment(slower, segment.start)
 
     def _until(self, segment: Segment, distance_m: float, item: PlannedMotion) -> Segment:
         """The segment as it will be if the lidar sees what is known and what it saw, and nothing else."""
@@ -282,14 +286,14 @@ class _Run:
         self._block(rows, "leaves_area", left)
         row = self.most.first_row_over(rows)
         if row < len(rows) and not any(finding.severity == "refuse" for finding in self.findings):
-            self.possible, _ = self._part_up_to(rows, row, self.most.length_m)
+            self.possible, _ = part_up_to(self.plan, self.context, self.legs, row, self.most.length_m)
 
     def _block(self, rows: Floats, code: str, contacts: Sequence[Contact | None]) -> None:
         """Refuse the plan for the first of the contacts, if there is one."""
         contact = min((found for found in contacts if found is not None), key=lambda c: c.row, default=None)
         if contact is None:
             return
-        leg, first_row = self._leg_at(contact.row)
+        leg, first_row = leg_at(self.legs, contact.row)
         driven = np.hypot(*np.diff(rows[: contact.row + 1, 1:3], axis=0).T)
         values: dict[str, float | int | str] = {
             "distance_m": float(driven[first_row:].sum()),
@@ -297,7 +301,7 @@ class _Run:
         }
         if contact.row < self._blocked_row:
             self._blocked_row = contact.row
-            self.possible, free = self._part_up_to(rows, contact.row)
+            self.possible, free = part_up_to(self.plan, self.context, self.legs, contact.row)
             values.update(free)
         if code == "would_collide":
             values["margin_m"] = MARGIN_M
@@ -305,30 +309,6 @@ class _Run:
             values.update({"obstacle": name} if name else {})
         row = rows[contact.row]
         self._find("refuse", Reason(code, values), leg.item.index, pose_of(row), float(row[0]))
-
-    def _leg_at(self, row: int) -> tuple[_Leg, int]:
-        """The leg that this row of the path belongs to, and the first row of it."""
-        ends = np.cumsum([len(leg.rows) for leg in self.legs])
-        number = int(np.searchsorted(ends, row, side="right"))
-        leg = self.legs[number]
-        return leg, int(ends[number]) - len(leg.rows)
-
-    def _part_up_to(
-        self, rows: Floats, row: int, most_m: float = math.inf
-    ) -> tuple[Plan | None, dict[str, float]]:
-        """What can be done of the plan up to this row, and how much of the motion there; `most_m`: of the whole."""
-        leg, first_row = self._leg_at(row)
-        driven_m = float(np.hypot(*np.diff(rows[: first_row + 1, 1:3], axis=0).T).sum())
-        of_step = [found.item for found in self.legs if found.item.number == leg.item.number]
-        return free_part(
-            self.plan,
-            self.context,
-            leg.item,
-            of_step.index(leg.item),
-            of_step[0].start,
-            rows[first_row : row + 1],
-            most_m - driven_m,
-        )
 
     def _name_of(self, contact: Contact) -> str:
         """What stands there, if it is known."""

@@ -9,6 +9,7 @@ from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Event, Interpreted, Notice, Paused
 from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.phrases import say
 from chatrobot.language.resuming import wants_to_resume
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
@@ -18,6 +19,7 @@ from chatrobot.session.orders import Orders
 from chatrobot.session.parting import parting
 from chatrobot.session.program_turns import ProgramTurns
 from chatrobot.session.proposals import Proposals
+from chatrobot.session.replies import describe_waiting
 from chatrobot.session.resuming import Resuming
 from chatrobot.session.said import Said, SaidTexts
 from chatrobot.session.thinking import Thinking
@@ -84,19 +86,13 @@ class Dispatch:
             code = "stopped_now" if said.kind != "emergency_stop" else "emergency_stopped"
             reply = self._understanding.say(code, said.text)
             if said.kind == "pause":
-                reply = self._told(self._resuming.paused, "paused_now")
+                reply = self._told("paused_now", self._resuming.paused)
             self._emit(Interpreted(said.turn, "reflex", "", ""))
             self._book.conclude(said.turn, "stopped", reply)
 
     def texts_behind(self, turn: int) -> tuple[str, ...]:
         """What is done after that turn, which is paused: what Motion has already, and what waits here."""
-        return (*self._book.texts_but(turn), *self._said.held)
-
-    def _told(self, paused: Paused | None, code: str) -> str:
-        """What is left now of what is paused, in the phrase of that code."""
-        if paused is not None:
-            paused = replace(paused, waiting=self.texts_behind(paused.turn))
-        return self._resuming.told(paused, code)
+        return (*self._book.texts_but(turn), *(said.text for said in self._said.held))
 
     def _drop(self, said: Said) -> None:
         """End a turn that waited for what was stopped, or paused and not gone on with."""
@@ -107,19 +103,35 @@ class Dispatch:
 
     def _goes_on(self, text: str) -> bool:
         """Whether it asks to go on with what was paused or stopped, be there anything or not."""
-        return wants_to_resume(text, may_mean_more=self._resuming.is_about_this)
+        return wants_to_resume(text, may_mean_more=self._resuming.is_about_this or bool(self._said.held))
+
+    def _told(self, code: str, paused: Paused | None) -> str:
+        """What is left of a paused plan, or else of what was said and had not begun, in the phrase of that code."""
+        held = tuple(said.text for said in self._said.held)
+        if paused is None and held:
+            language = self._understanding.language
+            return say(language, code, plan=describe_waiting(held, language))
+        if paused is not None:
+            paused = replace(paused, waiting=self.texts_behind(paused.turn))
+        return self._resuming.told(paused, code)
 
     def _go_on(self, said: Said) -> None:
         """Go on with what is paused; what is left of a plan that was stopped is offered."""
         self._understanding.hear_language(said.text)
         paused = self._resuming.take_paused()
         self._orders.is_paused = False
+        if paused is None and self._said.held:
+            reply = self._told("goes_on", None)
+            self._said.release()
+            self._emit(Interpreted(said.turn, "offline", "", reply))
+            self._book.conclude(said.turn, "answered", reply)
+            return
         if paused is None:
             meant = self._resuming.offer()
             reply = self._understanding.say("nothing_paused", said.text)
             self._act_on(said, meant or Interpretation("answered", reply, self._understanding.language))
             return
-        reply = self._told(paused, "goes_on")
+        reply = self._told("goes_on", paused)  # before what waits is released
         self._orders.resume(paused.turn)
         self._said.release()
         self._emit(Interpreted(paused.turn, "offline", paused.plan_text, ""))
@@ -178,7 +190,7 @@ class Dispatch:
         """Do what was understood without a model."""
         paused = self._resuming.paused
         if paused is not None and self._understanding.tells_it_stands(meant):
-            meant = replace(meant, reply=self._told(paused, "paused_now"))
+            meant = replace(meant, reply=self._told("paused_now", paused))
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         interpreted = Interpreted(said.turn, "offline", plan_text, meant.reply)
         if meant.outcome == "plan":

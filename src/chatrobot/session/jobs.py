@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Finished, Notice, Outcome
+from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import Priority
 from chatrobot.session.approval import Approval
@@ -160,14 +162,9 @@ class Jobs:
             return
         self._preparing = job = jobs.popleft()
         job.start = self._robot.pose
-
-        seen_points, left = self._robot.governor.seen_points, job.left
-
-        def rehearse() -> Planned:
-            if isinstance(job, ProgramJob):
-                return self._programs.rehearse(job, self._planner, seen_points)
-            return self._planner.plan(job.turn, job.plan_text, job.start, job.plan_start, seen_points, left)
-
+        rehearse: Callable[[], Planned] = self._planning(job, job.plan_text, job.start, job.plan_start)
+        if isinstance(job, ProgramJob):
+            rehearse = partial(self._programs.rehearse, job, self._planner, self._robot.seen())
         self._inbox.fetch(rehearse, lambda planned: self._take_rehearsed(job, planned))
 
     def _is_waiting_for_odometry(self, job: Job, now_s: float) -> bool:
@@ -221,12 +218,15 @@ class Jobs:
             return
         plan_text, start = stream.take(), stream.walk.end
         if plan_text is not None:
-            text, seen_points, left = plan_text, self._robot.governor.seen_points, job.left
-            plan_start = job.plan_start or job.start
-            self._inbox.fetch(
-                lambda: self._planner.plan(job.turn, text, start, plan_start, seen_points, left),
-                lambda planned: self._take_part(job, stream, planned),
-            )
+            rehearse = self._planning(job, plan_text, start, job.plan_start or job.start)
+            self._inbox.fetch(rehearse, lambda planned: self._take_part(job, stream, planned))
+
+    def _planning(
+        self, job: Job, plan_text: str, start: Pose, plan_start: Pose | None
+    ) -> Callable[[], Planned]:
+        """Rehearses that text of the job among what is seen now, for the background."""
+        seen, left = self._robot.seen(), job.left
+        return lambda: self._planner.plan(job.turn, plan_text, start, plan_start, seen, left)
 
     def _take_part(self, job: Job, stream: Stream, planned: Planned) -> None:
         if not self._driver.drives(job):

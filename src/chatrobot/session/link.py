@@ -16,6 +16,7 @@ from chatrobot.wire.connect import (
     Surveying,
     advertise,
     comes_back,
+    has_null_ranges,
     publishers_of,
     resolved,
 )
@@ -58,6 +59,10 @@ class PatientWire:
     @property
     def is_connected(self) -> bool:
         return is_up(self._wire)
+
+    @property
+    def has_null_ranges(self) -> bool:
+        return has_null_ranges(self._wire)
 
     def resolve(self, topic: str) -> str:
         return resolved(self._wire, topic)

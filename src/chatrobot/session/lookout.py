@@ -11,6 +11,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.session.link import is_up
 from chatrobot.session.motion import Motion
 from chatrobot.session.rivals import BEAT_S, Rivals
+from chatrobot.wire.connect import has_null_ranges
 from chatrobot.wire.wire import Wire
 
 LOOK_EVERY = 5
@@ -22,6 +23,7 @@ class Lookout:
 
     Args:
         notice: tells people something that ends nothing.
+        blind_mps: how fast the robot goes where its lidar sees nothing.
         accept_others: drive though another Motion is on the same robot.
     """
 
@@ -32,13 +34,16 @@ class Lookout:
         motion: Motion,
         notice: Callable[[Reason], None],
         *,
+        blind_mps: float,
         accept_others: bool,
     ) -> None:
         self._wire = wire
         self._rivals = rivals
         self._motion = motion
         self._notice = notice
+        self._blind_mps = blind_mps
         self._accept_others = accept_others
+        self._told_of_nulls = False
         self._was_up = True
         self._seen: list[str] = []
         self._named: list[str] = []
@@ -57,7 +62,10 @@ class Lookout:
             time.sleep(BEAT_S)
 
     def look_around(self) -> None:
-        """See who else drives."""
+        """See who else drives, and whether scans come whole."""
+        if not self._told_of_nulls and has_null_ranges(self._wire):
+            self._told_of_nulls = True
+            self._notice(Reason("open_space_unknown", {"speed_mps": self._blind_mps}))
         motions = self._rivals.motions()
         others = sorted({*motions, *self._rivals.others()})
         is_settled, self._seen = others == self._seen, others  # a name from discovery alone soon gets better

@@ -203,21 +203,20 @@ class Planner:
         plan_text: str,
         start: Pose,
         plan_start: Pose | None = None,
-        seen_points: Floats | None = None,
+        seen: SeenPoints | None = None,
         left: Most = ANY_WAY,
     ) -> Planned:
         """Read and rehearse `plan_text` from `start` (odom frame). Never raises for what a person or model wrote.
 
         Args:
             plan_start: where the whole began that this is a part of, if it did not begin here.
-            seen_points: [n, 2] in odom, what the governor knows of by its lidar.
+            seen: what the governor knows by its lidar.
             left: of the motion budget: what is offered instead of a refused plan drives no more.
         """
         try:
             plan = parse_plan(plan_text)
         except PlanTextError as error:
             return Planned(turn, None, Reason("plan_text", {"problem": str(error)}))
-        seen = seen_points if seen_points is not None and len(seen_points) else None
         rehearsing = partial(
             rehearse,
             profile=self._profile,
@@ -225,16 +224,16 @@ class Planner:
             start_pose=start,
             governor=self._kernel,
             route_planner=self._routes if seen is None else self._around(seen),
-            seen=SeenPoints(self._profile, seen) if seen is not None else None,
+            seen=seen,
         )
         rehearsal = rehearsing(plan, plan_start=plan_start)
         if rehearsal.possible is None:
             return Planned(turn, rehearsal)
         return Planned(turn, rehearsal, offer=_offer(rehearsal.possible, rehearsing, left))
 
-    def _around(self, seen: Floats) -> RoutePlanner | None:
+    def _around(self, seen: SeenPoints) -> RoutePlanner | None:
         """Finds ways around what was seen, too."""
-        unknown = seen_but_unknown(self._world, seen)
+        unknown = seen_but_unknown(self._world, seen.points)
         if not len(unknown):
             return self._routes
         return RoutesAroundSeen(self._profile, self._world, unknown, self._routes)

@@ -8,10 +8,10 @@ from __future__ import annotations
 from typing import Protocol
 
 from chatrobot.core.reason import Reason
-from chatrobot.plan.known_world import Floats
 from chatrobot.session.planner import Planned, Planner
 from chatrobot.session.program_job import ProgramJob
 from chatrobot.session.program_run import LiveProgram
+from chatrobot.session.seen_world import SeenPoints
 from chatrobot.wire.wire import Wire
 
 
@@ -22,7 +22,7 @@ class ProgramBox(Protocol):
         """Hear the robot's sensors, for programs that listen to them."""
         ...
 
-    def rehearse(self, job: ProgramJob, planner: Planner, seen_points: Floats) -> Planned:
+    def rehearse(self, job: ProgramJob, planner: Planner, seen: SeenPoints | None) -> Planned:
         """Run it on virtual time, among what is known and what the lidar has seen, from where the job starts."""
         ...
 
@@ -37,7 +37,7 @@ class NoBox:
     def attach(self, wire: Wire) -> None:
         """There is nothing to hear for."""
 
-    def rehearse(self, job: ProgramJob, planner: Planner, seen_points: Floats) -> Planned:  # noqa: ARG002
+    def rehearse(self, job: ProgramJob, planner: Planner, seen: SeenPoints | None) -> Planned:  # noqa: ARG002
         return Planned(job.turn, None, Reason("no_programs_here"))
 
     def launch(self, job: ProgramJob) -> LiveProgram | Reason:  # noqa: ARG002

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from chatrobot.core.errors import BoxError
 from chatrobot.core.reason import Reason
-from chatrobot.plan.known_world import Floats
 from chatrobot.programs.boxed import BoxedProgram, warm_server
 from chatrobot.programs.events import LATEST_S
 from chatrobot.programs.settings import ProgramSettings, robot_topics
@@ -16,6 +15,7 @@ from chatrobot.session.program_job import ProgramJob
 from chatrobot.session.program_rehearsal import rehearse_program
 from chatrobot.session.program_run import LiveProgram
 from chatrobot.session.program_senses import Senses
+from chatrobot.session.seen_world import SeenPoints
 from chatrobot.wire.wire import Wire
 
 
@@ -35,7 +35,7 @@ class ProgramHost:
     def attach(self, wire: Wire) -> None:
         self._senses.attach(wire, self._profile.wiring)
 
-    def rehearse(self, job: ProgramJob, planner: Planner, seen_points: Floats) -> Planned:
+    def rehearse(self, job: ProgramJob, planner: Planner, seen: SeenPoints | None) -> Planned:
         try:
             self._warm()
             rehearsal = rehearse_program(
@@ -47,7 +47,7 @@ class ProgramHost:
                 name=_file_name(job.name),
                 remaps=job.remap,
                 args=job.args,
-                seen_points=seen_points,
+                seen=seen,
             )
         except BoxError as error:
             return Planned(job.turn, None, error.reason)

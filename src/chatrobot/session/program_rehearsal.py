@@ -31,7 +31,6 @@ from chatrobot.session.seen_world import SeenPoints, with_seen
 from chatrobot.sim.world import EMPTY_WORLD, World
 
 HORIZON_S = 60.0
-NO_POINTS: Floats = np.empty((0, 2))
 WALL_LIMIT_S = 10.0
 LIMITS = BoxLimits(cpu_s=10)
 _HARMLESS = ("box_tried_files", "box_tried_memory", "box_tried_threads")
@@ -99,11 +98,11 @@ def rehearse_program(
     remaps: Mapping[str, str] | None = None,
     args: tuple[str, ...] = (),
     wall_limit_s: float = WALL_LIMIT_S,
-    seen_points: Floats = NO_POINTS,
+    seen: SeenPoints | None = None,
 ) -> ProgramRehearsal:
     """Rehearse `source` from `start` (odom frame), at most to `horizon_s` of its own time. Raises BoxError.
 
-    `seen_points` [n, 2] in odom is what the lidar has seen: the program sees it, too.
+    `seen` is what the lidar has seen: the program sees it, too.
     """
     settings = ProgramSettings(
         source,
@@ -114,8 +113,9 @@ def rehearse_program(
         horizon_s=horizon_s,
     )
     area = world.allowed_area.points if world.allowed_area is not None else None
-    seen = SeenPoints(profile, seen_points)
-    stage = ProgramStage(profile, with_seen(world, seen.clear_of(start)), start)
+    stage = ProgramStage(
+        profile, with_seen(world, seen.clear_of(start)) if seen is not None else world, start
+    )
     played = play(BoxedProgram(server, settings, LIMITS), stage, wall_limit_s)
     stage.finish()
     path = np.array(stage.path)
@@ -204,7 +204,7 @@ def _about_topics(played: Played, settings: ProgramSettings) -> Iterator[Finding
 
 
 def _about_the_way(
-    path: Floats, profile: RobotProfile, world: World, area: Any, seen: SeenPoints
+    path: Floats, profile: RobotProfile, world: World, area: Any, seen: SeenPoints | None
 ) -> Iterator[Finding]:
     poses, footprint = path[:, 1:], profile.footprint
     if not world.is_empty:
@@ -214,7 +214,7 @@ def _about_the_way(
             yield _contact(
                 "would_collide", path, known, margin_m=MARGIN_M, **({"obstacle": name} if name else {})
             )
-    unknown = seen.first_contact(poses)
+    unknown = seen.first_contact(poses) if seen is not None else None
     if unknown is not None:
         yield _contact("would_collide", path, unknown, margin_m=MARGIN_M)
     if area is not None:

@@ -14,9 +14,13 @@ from chatrobot.core.shown import fixed
 from chatrobot.language.phrases import describe_plan, describe_text, render_reason, say
 from chatrobot.plan.steps import Face, Go, Step
 from chatrobot.plan.text import parse_plan
+from chatrobot.session.quoting import one_line
 
 if TYPE_CHECKING:
     from chatrobot.session.model_terms import Ended
+
+SHOWN_CHARS = 60
+"""A text that is quoted is shortened to this."""
 
 _STOPPED_TWICE = re.compile(r"([.?!。？！])[.。]")
 """A reason that is a sentence of its own has its full stop, or its question mark, already."""
@@ -52,13 +56,24 @@ def describe_left(paused: Paused, language: str) -> str:
     plan = describe_text(paused.plan_text, language)
     if not paused.waiting:
         return plan
-    shown = (say(language, "quoted", text=text[:80]) for text in paused.waiting)
-    return say(language, "left_and_waiting", plan=plan, texts=say(language, "list_comma").join(shown))
+    return say(language, "left_and_waiting", plan=plan, texts=describe_waiting(paused.waiting, language))
 
 
-def offered(finished: Finished | None, language: str) -> Proposal | None:
+def describe_waiting(texts: Sequence[str], language: str) -> str:
+    """Texts that wait, in quotation marks."""
+    shown = (say(language, "quoted", text=one_line(text, SHOWN_CHARS)) for text in texts)
+    return say(language, "list_comma").join(shown)
+
+
+def with_offer(reply: str, finished: Finished | None, language: str) -> tuple[str, Proposal | None]:
+    """The reply with the question whether to do what is possible of a plan that was refused, and what it offers."""
+    proposal = offered(finished, language) if finished is not None else None
+    return (f"{reply} {proposal.say}", proposal) if proposal is not None else (reply, None)
+
+
+def offered(finished: Finished, language: str) -> Proposal | None:
     """The question whether to do what is possible of a plan that was refused."""
-    if finished is None or not finished.possible:
+    if not finished.possible:
         return None
     text = describe_plan(parse_plan(finished.possible), language)
     values = finished.reason.values if finished.reason is not None else {}

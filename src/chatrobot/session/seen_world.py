@@ -10,12 +10,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from chatrobot.core.geometry import Pose
+from chatrobot.core.geometry import ORIGIN, Pose, Twist
+from chatrobot.governor.blind import BlindRule
 from chatrobot.governor.contact import Floats, Footprint
+from chatrobot.governor.looks import Look
 from chatrobot.governor.obstacles import MARGIN_M, NEARER_M
+from chatrobot.governor.rule import NOTHING_SENSED, Sensed, Situation
+from chatrobot.governor.seen import Seen
 from chatrobot.plan import rehearsal
 from chatrobot.plan.known_world import Contact
-from chatrobot.robots.profile import RobotProfile
+from chatrobot.robots.profile import Lidar, RobotProfile
 from chatrobot.sim.shapes import Circle
 from chatrobot.sim.world import Obstacle, World
 
@@ -34,28 +38,48 @@ TOUCHES_M = 0.02
 """A point that is no farther from the footprint than this may be of what the robot stands at."""
 
 
-def with_seen(world: World, points: Floats) -> World:
-    """The world with small obstacles where points [n, 2] were seen that it does not know."""
-    unknown = seen_but_unknown(world, points)
-    cells = np.unique(np.rint(unknown / APART_IN_WORLD_M), axis=0) * APART_IN_WORLD_M
-    added = (Obstacle("", Circle(x, y, TOUCHES_M / 2.0)) for x, y in cells.tolist())
-    return replace(world, obstacles=(*world.obstacles, *added)) if len(cells) else world
+class Sight:
+    """How much the governor allows where the lidar does not see, by its own rule.
 
 
-def seen_but_unknown(world: World, points: Floats) -> Floats:
-    """Those of the seen points [n, 2] that are no obstacle of the map."""
-    if world.is_empty or not len(points):
-        return points
-    return points[world.clearance_m(points) >= rehearsal.KNOWN_WITHIN_M]
+    Args:
+        look: where the lidar looked last; None where it shows nothing, not even that nothing is there.
+    """
+
+    def __init__(self, profile: RobotProfile, lidar: Lidar, look: Look | None) -> None:
+        self._mounting = Pose(lidar.x_m, lidar.y_m, lidar.yaw_rad)
+        self._look = look
+        self._seen = Seen(lidar)
+        self._seen.looks.note(
+            Look(ORIGIN, 0.0, math.tau, 1)
+        )  # all around: what it comes by has been seen before
+        self._rule = BlindRule(profile, self._seen)
+
+    def allowed_share(self, twist: Twist, pose: Pose) -> float:
+        """Of a twist at that pose, from where the lidar looks as it does now."""
+        sensed = NOTHING_SENSED
+        if self._look is not None:
+            self._seen.looks.latest = replace(self._look, lidar=pose.compose(self._mounting))
+            sensed = Sensed({"scan": 0.0})
+        return self._rule.judge(twist, Situation(pose, sensed)).factor
 
 
 class SeenPoints:
-    """Points [n, 2] in odom, as they were at one moment. Implements `SeenWorld`."""
+    """Points [n, 2] in odom, as they were at one moment, and how the lidar looked. Implements `SeenWorld`.
 
-    def __init__(self, profile: RobotProfile, points: Floats) -> None:
+    Args:
+        sight: None where the lidar looks all around.
+    """
+
+    def __init__(self, profile: RobotProfile, points: Floats, sight: Sight | None = None) -> None:
+        self._sight = sight
         self._footprint = Footprint(profile.footprint)
         self._corners = np.array(profile.footprint)
-        self._points = points
+        self.points = points
+
+    def allowed_share(self, twist: Twist, pose: Pose) -> float:
+        """How much the governor will allow of a twist at that pose."""
+        return self._sight.allowed_share(twist, pose) if self._sight is not None else 1.0
 
     def free_ahead_m(self, pose: Pose, direction_rad: float) -> float:
         """How far the strip that the footprint sweeps straight on is free; infinite where nothing was seen in it."""
@@ -64,7 +88,7 @@ class SeenPoints:
         sides_m = self._corners @ np.array([-forward[1], forward[0]])
         heading_rad = pose.yaw_rad + direction_rad
         cos, sin = math.cos(heading_rad), math.sin(heading_rad)
-        x, y = self._points[:, 0] - pose.x_m, self._points[:, 1] - pose.y_m
+        x, y = self.points[:, 0] - pose.x_m, self.points[:, 1] - pose.y_m
         ahead_m, side_m = cos * x + sin * y - front_m, cos * y - sin * x
         inside = (side_m > sides_m.min() - POINT_RADIUS_M) & (side_m < sides_m.max() + POINT_RADIUS_M)
         return float(ahead_m[inside & (ahead_m > 0.0)].min(initial=math.inf))
@@ -79,7 +103,7 @@ class SeenPoints:
         most_m = -math.inf
         for begin in range(0, len(rows), CHUNK):
             chunk = rows[begin : begin + CHUNK]
-            near = self._points[self._near(poses[chunk])]
+            near = self.points[self._near(poses[chunk])]
             clearance = self._clearance_m(poses[chunk], near)
             least = clearance.min(axis=1, initial=math.inf)
             most = np.maximum(np.maximum.accumulate(least), most_m)
@@ -92,15 +116,15 @@ class SeenPoints:
 
     def clear_of(self, pose: Pose) -> Floats:
         """The points [n, 2] that a robot at `pose` does not touch."""
-        clearance = self._clearance_m(np.array([pose]), self._points)[0]
-        found: Floats = self._points[clearance > TOUCHES_M]
+        clearance = self._clearance_m(np.array([pose]), self.points)[0]
+        found: Floats = self.points[clearance > TOUCHES_M]
         return found
 
     def _near(self, poses: Floats) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
         """The points that the footprint may come near to on these poses."""
         reach_m = self._footprint.radius_m + 2.0 * rehearsal.MARGIN_M
         low, high = poses[:, :2].min(axis=0) - reach_m, poses[:, :2].max(axis=0) + reach_m
-        return np.flatnonzero(((self._points >= low) & (self._points <= high)).all(axis=1))
+        return np.flatnonzero(((self.points >= low) & (self.points <= high)).all(axis=1))
 
     def _clearance_m(self, poses: Floats, points: Floats) -> Floats:
         """[poses, points]: of each point from the footprint at each pose."""
@@ -120,3 +144,18 @@ def _apart(poses: Floats, radius_m: float) -> np.ndarray[tuple[int], np.dtype[np
     moved = np.hypot(*np.diff(poses[:, :2], axis=0).T) + radius_m * np.abs(np.diff(poses[:, 2]))
     square = np.floor(np.append(0.0, np.cumsum(moved)) / APART_M)
     return np.unique(np.append(np.flatnonzero(np.diff(square, prepend=-1.0)), len(poses) - 1))
+
+
+def with_seen(world: World, points: Floats) -> World:
+    """The world with small obstacles where points [n, 2] were seen that it does not know."""
+    unknown = seen_but_unknown(world, points)
+    cells = np.unique(np.rint(unknown / APART_IN_WORLD_M), axis=0) * APART_IN_WORLD_M
+    added = (Obstacle("", Circle(x, y, TOUCHES_M / 2.0)) for x, y in cells.tolist())
+    return replace(world, obstacles=(*world.obstacles, *added)) if len(cells) else world
+
+
+def seen_but_unknown(world: World, points: Floats) -> Floats:
+    """Those of the seen points [n, 2] that are no obstacle of the map."""
+    if world.is_empty or not len(points):
+        return points
+    return points[world.clearance_m(points) >= rehearsal.KNOWN_WITHIN_M]

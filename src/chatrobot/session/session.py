@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -12,7 +13,6 @@ from typing import Any
 from chatrobot.core.errors import JointError
 from chatrobot.core.events import Event, Finished, Paused, Remembered, Result, Telemetry
 from chatrobot.core.reason import Reason
-from chatrobot.language.consent import read_consent
 from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.session.authoring import Authoring
@@ -27,7 +27,7 @@ from chatrobot.session.options import Options
 from chatrobot.session.orders import Orders
 from chatrobot.session.program_turns import ProgramTurns
 from chatrobot.session.proposals import Proposals
-from chatrobot.session.replies import offered
+from chatrobot.session.replies import with_offer
 from chatrobot.session.resuming import Resuming
 from chatrobot.session.said import Kind, Said, SaidTexts
 from chatrobot.session.thinking import Mind, Thinking
@@ -82,13 +82,12 @@ class Session:
             self._resuming,
             EarlyAnswers(understanding, self._thinking, self._book, authoring),
         )
-        self._programs = (
-            ProgramTurns(
-                authoring, understanding, self._book, self._orders, self._emit, self._said.is_void_turn
+        self._programs: ProgramTurns | None = None
+        if authoring is not None:
+            is_void = self._said.is_void_turn
+            self._programs = ProgramTurns(
+                authoring, understanding, self._book, self._orders, self._emit, is_void
             )
-            if authoring is not None
-            else None
-        )
         self._dispatch = Dispatch(
             joint,
             self._orders,
@@ -133,18 +132,14 @@ class Session:
         return self._take_in(text, kind)
 
     def _declines_motion(self, text: str) -> bool:
-        """Whether `text` says no to what moves, and not to a question."""
-        return not (self.is_paused or self._proposals.is_open) and read_consent(text) is False
+        return not self.is_paused and self._proposals.declines_motion(text)
 
     def say_plan(self, plan_text: str) -> int:
         """Take in a plan that a person or a program wrote itself; the number of its turn."""
         return self._take_in(plan_text, "plan")
 
     def say_edited_plan(self, plan_text: str, instead_of: str = "") -> int:
-        """Take in what a person made of a plan that waited for a yes: it is asked about anew, whatever the options.
-
-        Where it cannot be read that plan, `instead_of`, is asked about again.
-        """
+        """What a person made of a plan that waited for a yes: it, or `instead_of` if it is none, is asked about."""
         return self._take_in(plan_text, "edited_plan", instead_of)
 
     def say_program(self, text: str, name: str = "") -> int:
@@ -171,7 +166,7 @@ class Session:
 
     def pause(self, why: str = "") -> None:
         """Stop the robot as `stop` does, and keep what it was told; what cannot be kept ends as with a stop."""
-        self._said.hold()
+        self._said.hold(is_under_way=self.is_moving or self._thinking.is_busy)
         self._joint.send("stop", why=why, keep=True)
         self._thinking.cancel_unmoved(Reason("paused_by", {"why": why}))
         if self.authoring is not None:
@@ -213,8 +208,20 @@ class Session:
         return self._book.is_any_with_motion or self._thinking.is_moving
 
     @property
+    def thinking_s(self) -> float | None:
+        """For how long a model has been asked by now, for a plan or a program; None where none is."""
+        writing_at_s = self.authoring.asked_at_s if self.authoring is not None else None
+        asked_at_s = writing_at_s if writing_at_s is not None else self._thinking.asked_at_s
+        return time.monotonic() - asked_at_s if asked_at_s is not None else None
+
+    @property
     def is_paused(self) -> bool:
-        """A plan of ours is paused."""
+        """A plan of ours is paused, or what was said and had not begun."""
+        return self.is_plan_paused or (self._said.keeps_unbegun and bool(self._said.held))
+
+    @property
+    def is_plan_paused(self) -> bool:
+        """A plan of ours that had begun is paused."""
         return self._resuming.paused is not None
 
     @property
@@ -279,12 +286,12 @@ class Session:
         for said in self._said.take_too_many():
             # Who said one too many hears so now, not when the ten before it are done.
             self._book.conclude(said.turn, "refused", self.understanding.say("queue_full", said.text))
-        if self._said.is_holding and not self.is_moving:
-            self._said.drop_held(self._resuming.ended_by)  # nothing is paused that it could wait for
+        self._next.drop_held()
         while (found := self._find_next()) is not None:
             self._orders.pauses = self._said.pauses
             if (taken := self._said.take(found)) is not None:
                 self._dispatch.take(taken)
+                self._next.drop_held()
 
     # --- what Motion and the model tell ---
 
@@ -302,8 +309,7 @@ class Session:
     def _conclude_model_turn(self, turn: int, text: str, ended: Ended) -> None:
         reply = self.understanding.note_model_turn(text, ended, self.options.rehearse_only)
         refused = ended.finished if ended.outcome == "refused" and not self.options.rehearse_only else None
-        proposal = offered(refused, self.understanding.language)
-        reply = f"{reply} {proposal.say}" if proposal is not None else reply
+        reply, proposal = with_offer(reply, refused, self.understanding.language)
         self._book.conclude(turn, ended.outcome, reply, ended.finished, ended.reason, proposal)
 
     def _hear(self, event: Event) -> None:
@@ -316,10 +322,10 @@ class Session:
             event = replace(event, waiting=self._dispatch.texts_behind(event.turn))
         self._emit(event)
         if self._book.has(event.turn) or self._thinking.has(event.turn):
-            was_paused = self.is_paused
+            was_paused = self.is_plan_paused
             self._resuming.hear(event)
-            self._orders.is_paused = self.is_paused
-            if was_paused and not self.is_paused:
+            self._orders.is_paused = self.is_plan_paused
+            if was_paused and not self.is_plan_paused:
                 self._said.drop_held(self._resuming.ended_by)
         if self._programs is not None and self._programs.hear(event):
             return  # the next version of a program is on its way
@@ -340,6 +346,5 @@ class Session:
             reply = programs.ending(event.turn, reply)
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         self._thinking.note(text, plan_text, f"{event.outcome}: {measured(event)}")
-        proposal = offered(event if not rehearse_only else None, meant.language)
-        reply = f"{reply} {proposal.say}" if proposal is not None else reply
+        reply, proposal = with_offer(reply, event if not rehearse_only else None, meant.language)
         self._book.conclude(event.turn, event.outcome, reply, event, proposal=proposal)

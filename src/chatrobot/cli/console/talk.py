@@ -69,6 +69,8 @@ class Talk:
         self.narrator = Narrator(words)
         self.pump = Pump(self.session, self.lose, lambda: self.face.leave(1))
         self.latched = False
+        self.has_parted = False
+        """The person said goodbye in words, and was answered."""
         self._release_is_due = False
         self._clock = clock
         self._question = Question()
@@ -94,7 +96,7 @@ class Talk:
         elif len(texts) == 1:
             self._enter_one(texts[0])
         elif is_plan(cleaned):
-            self._say_plan(cleaned.strip(), cleaned.strip())
+            self.say_plan(cleaned.strip(), cleaned.strip())
         elif texts:
             self._enter_all(texts)
 
@@ -152,14 +154,16 @@ class Talk:
         else:
             self.tell("edited_away")
 
-    def _say_plan(self, plan_text: str, shown: str) -> None:
+    def say_plan(self, plan_text: str, shown: str = "") -> None:
+        """Have a plan driven that is there as text; `shown` is what its line looks like, if it has not been shown."""
         self._say_as_one(lambda: self.session.say_plan(plan_text), shown)
 
     def _say_as_one(self, say: Callable[[], object], shown: str) -> None:
         with self._order:
             undone = self._pasted.drop()
             self.attempt(say)
-            self._echo(shown)
+            if shown:
+                self._echo(shown)
         self._tell_undone(undone)
 
     def interrupt(self) -> None:
@@ -170,7 +174,7 @@ class Talk:
             self.face.leave(0)
             return
         self._interrupted_s = now_s
-        self._leaving = False
+        self._leaving = self.has_parted = False
         self.tell("interrupted")
 
     def leave(self) -> None:
@@ -206,7 +210,7 @@ class Talk:
     def _say(self, text: str) -> None:
         """What was typed takes the place of all that runs and waits."""
         self.words.follow(text)
-        self._pauses_again = is_pause(text) and self.session.is_paused
+        self._pauses_again = is_pause(text) and self.session.is_plan_paused
         if self._is_stop(
             text
         ):  # it waits for no lock: the other thread may hang in a terminal that was halted
@@ -277,7 +281,7 @@ class Talk:
             if (
                 isinstance(event, Interpreted)
                 and event.by == "reflex"
-                and (self.ride.is_moving or self._said_stopped or self.session.is_paused)
+                and (self.ride.is_moving or self._said_stopped or self.session.is_plan_paused)
                 and not self._pauses_again
             ):
                 self._muted.add(event.turn)  # what was moving says how it ended
@@ -288,6 +292,7 @@ class Talk:
         if isinstance(event, Result):
             self._go_on_after(event)
             if is_parting(event):
+                self.has_parted = True
                 self.leave()
             if self._leaving and self._has_nothing_to_do:
                 self.face.leave(0)
