@@ -128,7 +128,6 @@ def test_what_is_too_long_is_never_done_in_part(talk, log):
 
 def test_an_empty_line_is_nothing(talk, log):
     talk.enter("  \n")
-    talk.take_edited("\n")
     assert log == []
 
 
