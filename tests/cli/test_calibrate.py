@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -10,7 +13,7 @@ import pexpect
 import pytest
 
 from chatrobot.robots.load import load_profile
-from tests.cli.running import Command
+from tests.cli.running import Command, environment
 from tests.cli.test_terminal import Terminal, code
 
 SLIPS = ["--fast", "--sim", "slip=0.05,noise=on,seed=3"]
@@ -31,18 +34,15 @@ def seen(child: pexpect.spawn[str], pattern: str) -> float:
     return float(match[1])
 
 
-def test_a_metre_and_a_turn_correct_what_odometry_says(terminal: Terminal, tmp_path: Path) -> None:
+def test_a_simulated_robot_is_measured_by_the_simulation(terminal: Terminal, tmp_path: Path) -> None:
     child = terminal("calibrate", *SLIPS)
+    child.expect("there is no tape")
     child.expect("Drive one metre.*leave")
     child.sendline("y")
-    metre = seen(child, r"Odometry says ([\d.]+) m")
-    child.sendline("a lot")
-    child.expect("no length")
-    child.sendline(f"{metre * 95:.2f} cm")
+    assert seen(child, r"It really went ([\d.]+) m") == pytest.approx(0.95, abs=0.005)
     child.expect("Turn once.*leave")
     child.sendline("y")
-    turn = seen(child, r"It counted ([\d.]+)°")
-    child.sendline(f"{turn}")
+    assert seen(child, r"It really turned ([\d.]+)°") == pytest.approx(360.0, abs=2.0)
     child.expect("Saved in")
     assert code(child) == 0
     calibration = load_profile(str(tmp_path / PROFILE)).calibration
@@ -53,8 +53,56 @@ def test_a_metre_and_a_turn_correct_what_odometry_says(terminal: Terminal, tmp_p
     assert trace.named("pose")[-1]["x_m"] == pytest.approx(1.0, abs=0.01)
 
 
-def test_what_is_far_off_is_said_and_not_saved(terminal: Terminal, tmp_path: Path) -> None:
-    child = terminal("calibrate", "--fast")
+def test_a_correction_is_taken_back_and_the_built_in_profile_counts_again(tmp_path: Path) -> None:
+    chatrobot = Command(tmp_path)
+    assert "Saved in" in chatrobot("calibrate", *SLIPS, stdin="y\nskip\n").out
+    assert (tmp_path / PROFILE).exists()
+    reset = chatrobot("calibrate", "--reset")
+    assert (reset.code, "is taken back (distances 0.9" in reset.out) == (0, True)
+    assert not (tmp_path / PROFILE).exists()
+    again = chatrobot("calibrate", "--reset")
+    assert (again.code, "There is no correction of wheeltec_mini_mec to take back." in again.out) == (0, True)
+
+
+@pytest.fixture
+def wire(tmp_path: Path) -> Iterator[str]:
+    """Of a robot that no simulation of this command's knows: somebody measures it."""
+    robot = subprocess.Popen(
+        [sys.executable, "-m", "chatrobot", "sim", "--socket", str(tmp_path / "wire"), "--world", "empty"],
+        env=environment(tmp_path),
+        stdout=subprocess.DEVNULL,
+    )
+    while not (tmp_path / "wire").exists():
+        assert robot.poll() is None
+        time.sleep(0.02)
+    yield f"local:{tmp_path / 'wire'}"
+    robot.terminate()
+    robot.wait()
+
+
+@pytest.mark.realtime
+def test_of_any_other_robot_a_person_measures_what_it_did(
+    terminal: Terminal, tmp_path: Path, wire: str
+) -> None:
+    child = terminal("calibrate", "--on", wire)
+    child.expect("Mark where a wheel stands")
+    child.sendline("y")
+    metre = seen(child, r"Odometry says ([\d.]+) m")
+    child.sendline("a lot")
+    child.expect("no length")
+    child.sendline(f"{metre * 95:.2f} cm")
+    child.expect("Turn once.*leave")
+    child.sendline("skip")
+    child.expect("Saved in")
+    assert code(child) == 0
+    assert "no tape" not in (child.before or "")
+    calibration = load_profile(str(tmp_path / PROFILE)).calibration
+    assert calibration.distance_scale == pytest.approx(0.95, abs=0.002)
+
+
+@pytest.mark.realtime
+def test_what_is_far_off_is_said_and_not_saved(terminal: Terminal, tmp_path: Path, wire: str) -> None:
+    child = terminal("calibrate", "--on", wire)
     child.expect("Drive one metre.*leave")
     child.sendline("y")
     child.expect("How far")
@@ -99,4 +147,10 @@ def test_stop_stops_it_while_it_drives(terminal: Terminal, tmp_path: Path) -> No
 def test_it_needs_a_person(tmp_path: Path) -> None:
     done = Command(tmp_path)("calibrate", "--json")
     assert (done.code, "measure" in done.err) == (2, True)
-    assert "calibrate" in Command(tmp_path)("calibrate", "--help").out
+
+
+def test_its_help_says_what_happens_where_it_is_saved_and_how_to_take_it_back(tmp_path: Path) -> None:
+    shown = " ".join(Command(tmp_path)("calibrate", "--help").out.split())
+    for part in ("drives one metre, then turns once", '"robots" of the configuration folder', "--reset", "--fast",
+                 "skip", "exit codes"):  # fmt: skip
+        assert part in shown

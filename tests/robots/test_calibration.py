@@ -13,6 +13,7 @@ from chatrobot.robots.calibration import (
     Measured,
     corrected,
     read_measure,
+    reset_calibration,
     save_calibration,
 )
 from chatrobot.robots.load import load_profile
@@ -91,3 +92,21 @@ def test_a_scale_that_cannot_be_is_refused() -> None:
     text = file.read_text(encoding="utf-8")
     with pytest.raises(ProfileError, match="distance_scale"):
         parse_profile(f'{text}\n[calibration]\ndistance_scale = 9\nturn_scale = 1\nsource = "x"\n', "x")
+
+
+def test_a_correction_of_a_person_s_own_profile_goes_and_the_rest_stays(tmp_path: Path) -> None:
+    save_calibration("wheeltec_mini_mec", Calibration(0.97, 1.01, "me"), tmp_path)
+    file = tmp_path / "wheeltec_mini_mec.toml"
+    title = load_profile(str(file)).title
+    file.write_text(file.read_text().replace(title, "Mine"))
+    assert reset_calibration("wheeltec_mini_mec", tmp_path) == file
+    kept = load_profile(str(file))
+    assert (kept.calibration, kept.title) == (Calibration(), "Mine")
+    assert reset_calibration("wheeltec_mini_mec", tmp_path) is None
+
+
+def test_a_profile_that_is_a_file_is_reset_in_its_place(tmp_path: Path) -> None:
+    save_calibration("wheeltec_mini_mec", Calibration(0.97, 1.01, "me"), tmp_path)
+    file = (tmp_path / "wheeltec_mini_mec.toml").rename(tmp_path / "mine.toml")
+    assert reset_calibration(str(file), tmp_path / "elsewhere") == file
+    assert load_profile(str(file)).calibration == Calibration()

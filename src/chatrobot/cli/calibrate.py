@@ -1,4 +1,7 @@
-"""`chatrobot calibrate`: one metre and one turn; a person measures, and the profile gets the correction."""
+"""`chatrobot calibrate`: one metre and one turn; a person measures, and the profile gets the correction.
+
+In a simulation there is no tape: it tells itself how far the robot really went.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,7 @@ import math
 import os
 import queue
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 
 from chatrobot.cli.approver import Approver
@@ -16,11 +20,13 @@ from chatrobot.cli.conversation import Conversation
 from chatrobot.cli.entry import FAILED, STOPPED
 from chatrobot.cli.folders import profile_folders
 from chatrobot.cli.lines import LineReader
-from chatrobot.cli.printer import printer_for
+from chatrobot.cli.printer import Printer, printer_for
 from chatrobot.core.errors import UsageError
-from chatrobot.core.events import Result
+from chatrobot.core.events import Event, Result, TruePose
+from chatrobot.core.geometry import wrap_angle
 from chatrobot.language.consent import read_consent
 from chatrobot.language.data_files import load_table
+from chatrobot.language.interpretation import LanguageCode
 from chatrobot.reflex import is_stop
 from chatrobot.robots.calibration import (
     DEGREES,
@@ -28,24 +34,30 @@ from chatrobot.robots.calibration import (
     Measured,
     corrected,
     read_measure,
+    reset_calibration,
     save_calibration,
 )
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.options import Options
+from chatrobot.session.processes import SIMULATED
 
 _SKIP = ("skip", "跳过")
 
 
 def run(args: argparse.Namespace) -> int:
-    """0 where a correction was saved or none is needed, 1 where the robot or the measure is not right, 5 for a stop."""
+    """0 where a correction was saved, taken back or not needed, 1 where robot or measure is not right, 5 for a stop."""
     if args.json:
         raise UsageError("a person has to measure", where="--json", allowed="calibrate without it")
     folders = profile_folders(args)
     profile = load_profile(args.robot, folders)
+    if args.reset:
+        return _reset(profile, args.robot, folders[0])
     setup = replace(setup_from(args, options=Options(), world="empty"), yes=True)
-    with Conversation(setup, printer_for(args), Approver(can_ask=False)) as conversation:
-        dialogue = Dialogue(conversation)
+    truth = Truth(printer_for(args)) if setup.on in SIMULATED else None
+    setup = replace(setup, trace=truth is not None)
+    with Conversation(setup, truth or printer_for(args), Approver(can_ask=False)) as conversation:
+        dialogue = Dialogue(conversation, truth)
         try:
             return _calibrate(dialogue, profile, args.robot, folders[0])
         except Left:
@@ -61,6 +73,41 @@ class Left(Exception):  # noqa: N818
 
 class DoesNotFit(Exception):  # noqa: N818
     """The robot did not do what its profile says it can."""
+
+
+class Truth:
+    """A `Printer` that takes the true poses of a simulated robot for itself."""
+
+    def __init__(self, printer: Printer) -> None:
+        self._printer = printer
+        self._poses: list[TruePose] = []
+
+    @property
+    def is_broken(self) -> bool:
+        return self._printer.is_broken
+
+    def turn(self, text: str) -> None:
+        self._printer.turn(text)
+
+    def show(self, event: Event, language: LanguageCode) -> None:
+        if isinstance(event, TruePose):
+            self._poses.append(event)
+        else:
+            self._printer.show(event, language)
+
+    def begin(self) -> None:
+        """Measure from the latest pose on."""
+        del self._poses[:-1]
+
+    def gone_m(self) -> float:
+        """How far it is from where the measuring began."""
+        first, last = self._poses[0], self._poses[-1]
+        return math.hypot(last.x_m - first.x_m, last.y_m - first.y_m)
+
+    def turned_deg(self) -> float:
+        """How far it has turned since then, whole turns included."""
+        steps = (wrap_angle(after.yaw_rad - before.yaw_rad) for before, after in pairwise(self._poses))
+        return math.degrees(abs(sum(steps)))
 
 
 @dataclass(frozen=True)
@@ -79,8 +126,9 @@ TURN = Trial("turn", "turn left 360 deg", DEGREES)
 class Dialogue:
     """Asks, and hears the answers; a stop word stops the robot at once, whenever it comes."""
 
-    def __init__(self, conversation: Conversation) -> None:
+    def __init__(self, conversation: Conversation, truth: Truth | None) -> None:
         self.conversation = conversation
+        self.truth = truth
         self._phrases = load_table(_language(), "calibrate")
         self._lines: queue.SimpleQueue[str] = queue.SimpleQueue()
         self._reader = LineReader(self._hear)
@@ -123,6 +171,8 @@ class Dialogue:
 
 def _calibrate(dialogue: Dialogue, profile: RobotProfile, robot: str, folder: Path) -> int:
     dialogue.say("begin", robot=profile.title)
+    if dialogue.truth is not None:
+        dialogue.say("no_tape", profile=robot)
     metre = _measure(dialogue, METRE)
     turn = _measure(dialogue, TURN) if profile.can_turn_on_the_spot else None
     if turn is None and not profile.can_turn_on_the_spot:
@@ -148,20 +198,39 @@ def _calibrate(dialogue: Dialogue, profile: RobotProfile, robot: str, folder: Pa
 
 def _measure(dialogue: Dialogue, trial: Trial) -> Measured | None:
     """What the person measured, and what odometry saw; None where they skip it."""
-    answer = dialogue.ask(f"{trial.name}_ready")
+    truth = dialogue.truth
+    answer = dialogue.ask(f"{trial.name}_ready" if truth is None else f"{trial.name}_ready_simulated")
     if read_consent(answer) is not True:
         if answer in _SKIP:
             return None
         raise Left
+    if truth is not None:
+        truth.begin()
     result = dialogue.drive(trial.plan_text)
     if result.outcome != "completed":
         raise DoesNotFit
     seen = result.path_m if trial is METRE else math.degrees(abs(result.turned_rad))
+    if truth is not None:
+        gone = truth.gone_m() if trial is METRE else truth.turned_deg()
+        dialogue.say(f"{trial.name}_true", seen=seen, true=gone)
+        return Measured(gone, seen)
     while True:
         true = read_measure(dialogue.ask(f"{trial.name}_measure", seen=seen), trial.units)
         if true is not None and true > 0.0:
             return Measured(true, seen)
         dialogue.say("no_number")
+
+
+def _reset(profile: RobotProfile, robot: str, folder: Path) -> int:
+    """Take back what was saved."""
+    phrases = load_table(_language(), "calibrate")
+    before = profile.calibration
+    file = reset_calibration(robot, folder)
+    numbers = {"distance": before.distance_scale, "turn": before.turn_scale}
+    print(
+        phrases["reset" if file is not None else "not_calibrated"].format(robot=robot, file=file, **numbers)
+    )
+    return 0
 
 
 def _language() -> str:

@@ -218,7 +218,7 @@ OPTIONS = (
         is_repeated=True,
         helps={"node": "the tutorial's parameters: generate_code:=True (base), revChatGPT:=True"},
     ),
-    Option("--fast", "simulated time, as quick as it goes", _DRIVE, _SIMULATION, False),
+    Option("--fast", "simulated time, as quick as it goes", (*_DRIVE, "calibrate"), _SIMULATION, False),
     Option(
         "--sim",
         "how the simulated robot lies: slip=0.03,latency_s=0.05,noise=on,seed=1",

@@ -7,6 +7,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from chatrobot.core.errors import ProfileError
 from chatrobot.robots.load import list_profiles
 from chatrobot.robots.parse import parse_profile
 from chatrobot.robots.profile import Calibration
@@ -68,22 +69,60 @@ def save_calibration(profile: str, calibration: Calibration, folder: Path) -> Pa
         ProfileError: there is no such profile.
         OSError: it cannot be written.
     """
-    file = Path(profile) if profile.endswith(".toml") or "/" in profile else _file_of(profile, folder)
-    text = _TABLE.sub("", file.read_text(encoding="utf-8")).rstrip("\n")
-    text += (
-        "\n\n[calibration]\n"
+    file = Path(profile) if _is_file(profile) else _file_of(profile, (folder,))
+    if file is None:
+        raise ProfileError("there is no such profile", where=profile)
+    text = _without_table(file) + (
+        "\n[calibration]\n"
         f"distance_scale = {calibration.distance_scale!r}\n"
         f"turn_scale = {calibration.turn_scale!r}\n"
         f'source = "{calibration.source}"\n'
     )
     target = file if file == Path(profile) else folder / f"{profile}.toml"
     parse_profile(text, target.stem, str(target))
-    target.parent.mkdir(parents=True, exist_ok=True)
-    draft = target.with_suffix(".new")
-    draft.write_text(text, encoding="utf-8")
-    os.replace(draft, target)
+    _write(target, text)
     return target
 
 
-def _file_of(name: str, folder: Path) -> Path:
-    return next(entry.file for entry in list_profiles((folder,)) if entry.name == name)
+def reset_calibration(profile: str, folder: Path) -> Path | None:
+    """Take the correction out of the user's profile; the file it stood in, None where there is none.
+
+    A copy of a built-in profile that holds nothing else is removed: the built-in one counts again.
+
+    Args:
+        profile: by name, or a file.
+        folder: of the user's own profiles.
+
+    Raises:
+        OSError: it cannot be read or written.
+    """
+    file = Path(profile) if _is_file(profile) else folder / f"{profile}.toml"
+    if not file.exists() or not _TABLE.search(file.read_text(encoding="utf-8")):
+        return None
+    text = _without_table(file)
+    original = None if _is_file(profile) else _file_of(profile)
+    if original is not None and text == _without_table(original):
+        file.unlink()
+    else:
+        _write(file, text)
+    return file
+
+
+def _is_file(profile: str) -> bool:
+    return profile.endswith(".toml") or "/" in profile
+
+
+def _file_of(name: str, folders: tuple[Path, ...] = ()) -> Path | None:
+    return next((entry.file for entry in list_profiles(folders) if entry.name == name), None)
+
+
+def _without_table(file: Path) -> str:
+    return _TABLE.sub("", file.read_text(encoding="utf-8")).rstrip("\n") + "\n"
+
+
+def _write(file: Path, text: str) -> None:
+    """The whole of it or nothing."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    draft = file.with_suffix(".new")
+    draft.write_text(text, encoding="utf-8")
+    os.replace(draft, file)

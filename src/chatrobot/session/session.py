@@ -217,7 +217,7 @@ class Session:
     @property
     def is_paused(self) -> bool:
         """A plan of ours is paused, or what was said and had not begun."""
-        return self.is_plan_paused or (self._said.keeps_unbegun and bool(self._said.held))
+        return self.is_plan_paused or self._said.is_unbegun_held
 
     @property
     def is_plan_paused(self) -> bool:
