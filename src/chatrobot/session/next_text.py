@@ -66,8 +66,9 @@ class NextText:
         said, thinking = self._said, self._thinking
         has_begun = self._book.is_any_with_motion or thinking.is_busy
         is_moving = self._book.is_any_with_motion or thinking.is_moving
-        if said.is_holding and (has_begun if said.keeps_unbegun and said.held else not is_moving):
-            said.drop_held(Reason("replaced") if said.keeps_unbegun else self._resuming.ended_by)
+        is_unbegun = said.is_unbegun_held
+        if said.is_holding and (has_begun if is_unbegun else not is_moving):
+            said.drop_held(Reason("replaced") if is_unbegun else self._resuming.ended_by)
 
     def _overtakes(self, said: Said) -> bool:
         """It needs no model, and the one that is being asked says nothing."""

@@ -53,16 +53,6 @@ def _done_standing(steps: Sequence[Step], language: str) -> str:
     return say(language, "already_facing" if isinstance(only, Face) else "done_standing")
 
 
-def _heading_there(finished: Finished, steps: Sequence[Step], language: str) -> str:
-    """How it looks at a place that it was to face the heading of: measured, beside what was asked."""
-    last = steps[-1] if steps else None
-    if not (isinstance(last, Go) and last.place and last.yaw_rad is not None and finished.measured):
-        return ""
-    degrees = (fixed(math.degrees(wrap_angle(yaw)), 0) for yaw in (finished.pose.yaw_rad, last.yaw_rad))
-    deg, asked_deg = ("180" if each == "-180" else each for each in degrees)
-    return say(language, "at_heading", deg=deg, place=last.place, asked_deg=asked_deg)
-
-
 def describe_left(paused: Paused, language: str) -> str:
     """What is left of a paused plan in a few words, and the texts that wait behind it."""
     plan = describe_text(paused.plan_text, language)
@@ -81,6 +71,16 @@ def with_offer(reply: str, finished: Finished | None, language: str) -> tuple[st
     """The reply with the question whether to do what is possible of a plan that was refused, and what it offers."""
     proposal = offered(finished, language) if finished is not None else None
     return (f"{reply} {proposal.say}", proposal) if proposal is not None else (reply, None)
+
+
+def _heading_there(finished: Finished, steps: Sequence[Step], language: str) -> str:
+    """How it looks at a place that it was to face the heading of: measured, beside what was asked."""
+    last = steps[-1] if steps else None
+    if not (isinstance(last, Go) and last.place and last.yaw_rad is not None and finished.measured):
+        return ""
+    degrees = (fixed(math.degrees(wrap_angle(yaw)), 0) for yaw in (finished.pose.yaw_rad, last.yaw_rad))
+    deg, asked_deg = ("180" if each == "-180" else each for each in degrees)
+    return say(language, "at_heading", deg=deg, place=last.place, asked_deg=asked_deg)
 
 
 def offered(finished: Finished, language: str) -> Proposal | None:
