@@ -61,6 +61,7 @@ def test_robots_and_programs_of_the_persons_own_are_offered(tmp_path: Path) -> N
         (["eval", ""], [FILES]),
         (["eval", "a.yaml", ""], [FILES]),
         (["plan", "x", "--png", ""], [FILES]),
+        (["do", "--plan", ""], [FILES]),
         (["--config-dir", ""], [FOLDERS]),
         (["program", "run", "square", "--", ""], [FILES]),
         (["do", ""], []),

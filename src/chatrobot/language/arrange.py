@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from chatrobot.language.frames import EXTENTS, GO, SIDES, STILL, TURN, Frame
+from chatrobot.language.frames import EXTENTS, GO, PLACE_HEADING, SIDES, STILL, TURN, Frame
 from chatrobot.language.joining import is_times_only
 from chatrobot.language.unclear import Unclear
 
@@ -13,9 +13,21 @@ _LETTERS = frozenset({"letter_l", "letter_u", "letter_z"})
 
 def arranged(frames: list[Frame]) -> list[Frame]:
     """The frames that are motions of their own, in order."""
-    frames = _distributed(_without_calls(_shared(frames)))
+    frames = _distributed(_without_calls(_shared(_with_place_headings(frames))))
     frames = _without_announcements(_without_titles(_with_manners(frames)))
     return _shape_first(_in_said_units(frames))
+
+
+def _with_place_headings(frames: list[Frame]) -> list[Frame]:
+    """`Go to the desk and face its heading`: how to stand there belongs to the way there."""
+    out: list[Frame] = []
+    for frame in frames:
+        only = frame.flags == {PLACE_HEADING} and not (frame.moves or frame.q or frame.roles or frame.pace)
+        if only and out and out[-1].place:
+            out[-1].flags.add(PLACE_HEADING)
+        else:
+            out.append(frame)
+    return out
 
 
 def _in_said_units(frames: list[Frame]) -> list[Frame]:

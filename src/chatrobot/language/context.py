@@ -62,9 +62,12 @@ class RobotState:
 class Context:
     """All that an interpretation depends on besides the text.
 
-    `world_places` are names the world's map knows.
+    `world_places` are names the world's map knows, `place_names` the same put together, place by place;
+    `places_without_heading` are those of them that it gives no heading.
     """
 
     dialogue: Dialogue = field(default_factory=Dialogue)
     state: RobotState = field(default_factory=RobotState)
     world_places: Mapping[str, Pose] = field(default_factory=dict)
+    places_without_heading: frozenset[str] = frozenset()
+    place_names: tuple[tuple[str, ...], ...] = ()

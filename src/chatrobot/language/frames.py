@@ -13,6 +13,9 @@ TURN = frozenset({"turn", "spin"})
 
 STILL = frozenset({"wait", "halt"})
 
+PLACE_HEADING = "place_heading"
+"""The flag of `facing its heading`: the one that a place was given."""
+
 EXTENTS = ("length", "angle", "time", "turns", "clock")
 
 SIDES = ("left", "right")

@@ -158,6 +158,9 @@ def _step(step: Step, language: str) -> str:
     if isinstance(step, Go):
         code = "the_start" if step.frame == "start" else "the_point"
         point = spoken(code, x=number(step.x_m, 2), y=number(step.y_m, 2))
+        if step.place and step.yaw_rad is not None:
+            deg = number(math.degrees(step.yaw_rad), ANGLE_PLACES)
+            return spoken("step_go_facing", place=step.place, deg=deg)
         return spoken("step_go", place=step.place or point)
     if isinstance(step, Face):
         return spoken("step_face")

@@ -10,6 +10,7 @@ from chatrobot.core.geometry import Pose
 from chatrobot.core.shown import fixed
 from chatrobot.language.context import Context
 from chatrobot.language.data_files import load_table
+from chatrobot.language.names import by_language
 from chatrobot.language.phrases import say
 from chatrobot.robots.profile import RobotProfile
 
@@ -115,6 +116,14 @@ def _turned(pose: Pose, language: str) -> str:
     return say(language, "turned_to_left" if yaw_deg > 0.0 else "turned_to_right", deg=degrees.lstrip("-"))
 
 
+def _places(context: Context, language: str) -> list[str]:
+    """The person's own places, then those of the world, each once and by its name in that language."""
+    names = context.place_names or tuple((name,) for name in context.world_places)
+    return list(
+        dict.fromkeys((*context.dialogue.places, *(by_language(each, language)[0] for each in names)))
+    )
+
+
 def answer(topic: str, language: str, context: Context, profile: RobotProfile) -> str:
     """The answer in words; says so where something is not known."""
     state = context.state
@@ -128,7 +137,7 @@ def answer(topic: str, language: str, context: Context, profile: RobotProfile) -
         "max_rate_radps": profile.limits.max_rate_radps,
         "default_speed_mps": context.dialogue.default_speed_mps or profile.defaults.speed_mps,
         "title": profile.title,
-        "places": ", ".join(sorted({*context.dialogue.places, *context.world_places})) or "-",
+        "places": say(language, "join").join(_places(context, language)) or "-",
         "last": context.dialogue.turns[-1].text if context.dialogue.turns else "-",
     }
     if topic in _MEASURED and not state.has_said_so:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from chatrobot.language.announced import with_announced
 from chatrobot.language.brackets import unrolled
@@ -32,6 +32,7 @@ from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import Atom, tokenise
 from chatrobot.language.undo import Walked
 from chatrobot.language.writing import write
+from chatrobot.plan.base import rounded_angle
 from chatrobot.plan.steps import Go, Step
 from chatrobot.robots.profile import RobotProfile
 
@@ -107,10 +108,13 @@ class Reading:
 
     def _memory(self) -> Memory:
         dialogue = self.context.dialogue
-        places = {name: Go(p.x_m, p.y_m, place=name) for name, p in self.context.world_places.items()}
-        for name, place in dialogue.places.items():
-            if place.usable:
-                places[name] = Go(place.pose.x_m, place.pose.y_m, place=name)
+        context = self.context
+        poses = {**context.world_places, **{n: p.pose for n, p in dialogue.places.items() if p.usable}}
+        places = {
+            name: Go(p.x_m, p.y_m, rounded_angle(p.yaw_rad, 2), place=name) for name, p in poses.items()
+        }
+        for name in context.places_without_heading:
+            places[name] = replace(places[name], yaw_rad=None)
         words = {name: plan.steps for name, plan in dialogue.words.items()}
         return Memory(places, words, state_after(self.context))
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from chatrobot.language.actions import act
 from chatrobot.language.ellipsis import State
-from chatrobot.language.frames import Frame
+from chatrobot.language.frames import PLACE_HEADING, Frame
 from chatrobot.language.manner import Pace
 from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
@@ -134,5 +134,8 @@ def _known(frame: Frame, script: Script) -> list[Step]:
     go = script.memory.places.get(frame.place)
     if go is None:
         raise Unclear("place_unusable", frame.place)
+    faces = PLACE_HEADING in frame.flags
+    if faces and go.yaw_rad is None:
+        raise Unclear("place_has_no_heading", frame.place)
     script.state.last = "go"
-    return [replace(go, speed_mps=script.pace.speed(frame))]
+    return [replace(go, yaw_rad=go.yaw_rad if faces else None, speed_mps=script.pace.speed(frame))]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from chatrobot.language.frames import Frame
+from chatrobot.language.frames import PLACE_HEADING, Frame
 from chatrobot.language.unclear import Unclear
 
 _MAX_EXTENT = {"length": 1000.0, "angle": 200.0 * math.pi, "turns": 200.0 * math.pi, "time": 3600.0}
@@ -19,7 +19,7 @@ _SLOTS = {
 
 _REFERRING = frozenset({
     "halfway", "other_way", "short_of", "from_now_on", "same_way", "to_start", "original_heading",
-    "left_right", "right_left", "at_point", "from_heading",
+    "left_right", "right_left", "at_point", "from_heading", PLACE_HEADING,
 })  # fmt: skip
 """What points at another motion: none of it says what this one is."""
 

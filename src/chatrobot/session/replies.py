@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from chatrobot.core.events import Finished
+from chatrobot.core.geometry import wrap_angle
 from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
 from chatrobot.core.shown import fixed
@@ -29,7 +30,8 @@ def describe_end(finished: Finished, language: str, steps: Sequence[Step] = ()) 
     """What a plan of those steps came to: outcome, measured motion, and the reason if it did not complete."""
     moved = _measured(finished, language)
     if finished.outcome == "completed":
-        return say(language, "done", moved=moved) if moved else _done_standing(steps, language)
+        done = say(language, "done", moved=moved) if moved else _done_standing(steps, language)
+        return " ".join(filter(None, (done, _heading_there(finished, steps, language))))
     reason = render_reason(finished.reason, language) if finished.reason is not None else ""
     if finished.outcome == "refused":
         return " ".join(filter(None, (reason, _free(finished.reason, language))))
@@ -43,6 +45,16 @@ def _done_standing(steps: Sequence[Step], language: str) -> str:
     if isinstance(only, Go):
         return say(language, "there_already" if only.place else "there_already_unnamed", place=only.place)
     return say(language, "already_facing" if isinstance(only, Face) else "done_standing")
+
+
+def _heading_there(finished: Finished, steps: Sequence[Step], language: str) -> str:
+    """How it looks at a place that it was to face the heading of: measured, beside what was asked."""
+    last = steps[-1] if steps else None
+    if not (isinstance(last, Go) and last.place and last.yaw_rad is not None and finished.measured):
+        return ""
+    degrees = (fixed(math.degrees(wrap_angle(yaw)), 0) for yaw in (finished.pose.yaw_rad, last.yaw_rad))
+    deg, asked_deg = ("180" if each == "-180" else each for each in degrees)
+    return say(language, "at_heading", deg=deg, place=last.place, asked_deg=asked_deg)
 
 
 def offered(finished: Finished, language: str) -> Proposal | None:

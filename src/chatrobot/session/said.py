@@ -91,9 +91,9 @@ class SaidTexts:
         return self._hold is not self._released
 
     @property
-    def keeps_unbegun(self) -> bool:
-        """What is held waits for a word, not for a plan that is paused."""
-        return self.is_holding and self._hold.keeps_unbegun
+    def is_unbegun_held(self) -> bool:
+        """Something waits behind a pause for a word, not for a plan that is paused."""
+        return self.is_holding and self._hold.keeps_unbegun and bool(self.held)
 
     @property
     def held(self) -> tuple[Said, ...]:

@@ -219,7 +219,7 @@ class Session:
     @property
     def is_paused(self) -> bool:
         """A plan of ours is paused, or what was said and had not begun."""
-        return self.is_plan_paused or (self._said.keeps_unbegun and bool(self._said.held))
+        return self.is_plan_paused or self._said.is_unbegun_held
 
     @property
     def is_plan_paused(self) -> bool:
@@ -297,10 +297,9 @@ class Session:
 
     def _drop_held(self) -> None:
         """Drop what waits behind a pause where nothing is paused any more, or something new is done instead."""
-        said = self._said
-        is_under_way = self._book.is_any_with_motion or self._thinking.is_busy
-        if said.is_holding and (is_under_way if said.keeps_unbegun and said.held else not self.is_moving):
-            said.drop_held()
+        is_new = self._book.is_any_with_motion or self._thinking.is_busy
+        if self._said.is_holding and (is_new if self._said.is_unbegun_held else not self.is_moving):
+            self._said.drop_held()
 
     # --- what Motion and the model tell ---
 

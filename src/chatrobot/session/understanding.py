@@ -57,6 +57,10 @@ class Understanding:
         self._state = RobotState(has_said_so=False)
         self._world_places = {alias: world.places[main] for alias, main in world.aliases.items()}
         self._main_places = dict(world.places)
+        self._names = tuple(world.names_of(name) for name in world.places)
+        self._without_heading = frozenset(
+            alias for alias, main in world.aliases.items() if main in world.without_heading
+        )
         # The simulated robot's odometry begins anew with every session, as a real one's does at power-on.
         self._places = Places(folder, profile.name, uuid.uuid4().hex)
         self._rest = RestWatch()
@@ -100,11 +104,25 @@ class Understanding:
         """What `text` means now. Instructions that are under way are read as turns before."""
         turns = (*self._dialogue.turns, *map(self._as_if_done, under_way))
         dialogue = replace(self._dialogue, turns=turns, places=self._places.all())
-        meant = self._interpreter.interpret(text, Context(dialogue, self._state, self._world_places))
+        meant = self._interpreter.interpret(text, self._context(dialogue))
         self.language = meant.language
         if meant.remember_place and not self.hears_robot:  # nobody knows which place this is
             meant = Interpretation("refused", say(self.language, UNHEARD), self.language)
         return meant
+
+    def _context(self, dialogue: Dialogue) -> Context:
+        without_heading = self._without_heading - dialogue.places.keys()
+        return Context(dialogue, self._state, self._world_places, without_heading, self._names)
+
+    def can_do(self, text: str) -> bool:
+        """Whether `text` would be driven if it were said now. From any thread: nothing is noted."""
+        dialogue = replace(self._dialogue, places=self._places.all())
+        return self._interpreter.interpret(text, self._context(dialogue)).outcome == "plan"
+
+    def place_names(self) -> list[tuple[str, ...]]:
+        """The names of each place that can be gone to, the person's own first."""
+        own = self.usable_places
+        return [*((name,) for name in own), *(names for names in self._names if names[0] not in own)]
 
     @property
     def hears_robot(self) -> bool:

@@ -46,6 +46,7 @@ class World:
     `places` maps each place's main name to where a robot stands there. `aliases` maps every name a person may
     say (English or Chinese, casefolded; the main names too) to a main name. `allowed_area` is the polygon the
     robot is to stay in, if the world has one; it is a rule, not a wall: neither lidar nor collisions know it.
+    `without_heading` are the main names of places whose file says nothing of how a robot looks there.
     `start_yaw_rad` is the heading of the start in the world's own axes, those of its file: maps are drawn along them.
     """
 
@@ -54,6 +55,7 @@ class World:
     places: Mapping[str, Pose] = field(default_factory=dict)
     aliases: Mapping[str, str] = field(default_factory=dict)
     allowed_area: Polygon | None = None
+    without_heading: frozenset[str] = frozenset()
     start_yaw_rad: float = 0.0
 
     @property
@@ -65,6 +67,13 @@ class World:
         """The pose of a place by any of its names; None where nobody knows it."""
         main_name = self.aliases.get(name.strip().casefold(), name.strip())
         return self.places.get(main_name)
+
+    def names_of(self, name: str) -> tuple[str, ...]:
+        """The main name of a place, as it is written, and its other names."""
+        return (
+            name,
+            *(alias for alias, main in self.aliases.items() if main == name and alias != name.casefold()),
+        )
 
     def obstacle_name_at(self, x_m: float, y_m: float) -> str:
         """The name of the obstacle that is there, or nearest to there; empty in an empty world."""

@@ -41,7 +41,7 @@ def parse_world(text: str, source: str, default_name: str = "world") -> World:
     fields = root.mapping("start", "name", "obstacles", "places", "allowed_area")
     start = _start(fields["start"]) if "start" in fields else Pose()
     obstacles = fields["obstacles"].items() if "obstacles" in fields else []
-    places, aliases = _places(fields.get("places"), start)
+    places, aliases, without_heading = _places(fields.get("places"), start)
     area = fields.get("allowed_area")
     return World(
         name=fields["name"].text() if "name" in fields else default_name,
@@ -49,6 +49,7 @@ def parse_world(text: str, source: str, default_name: str = "world") -> World:
         places=places,
         aliases=aliases,
         allowed_area=_polygon(area).seen_from(start) if area else None,
+        without_heading=without_heading,
         start_yaw_rad=start.yaw_rad,
     )
 
@@ -200,18 +201,22 @@ def _wall(field: _Field) -> Polygon:
     return rectangle((ax + bx) / 2, (ay + by) / 2, length_m, thickness_m, math.atan2(by - ay, bx - ax))
 
 
-def _places(field: _Field | None, start: Pose) -> tuple[dict[str, Pose], dict[str, str]]:
+def _places(field: _Field | None, start: Pose) -> tuple[dict[str, Pose], dict[str, str], frozenset[str]]:
+    """The poses by main name, the main name of each name, and the main names without a heading."""
     places: dict[str, Pose] = {}
+    without_heading: set[str] = set()
     aliases: dict[str, str] = {}
     for item in field.items() if field else []:
         fields = item.mapping("name", "aliases", "x_m", "y_m", "yaw_deg", required=("name", "x_m", "y_m"))
         name = fields["name"].text()
         pose = Pose(fields["x_m"].number(), fields["y_m"].number(), _yaw(fields))
         places[name] = pose.relative_to(start)
+        if "yaw_deg" not in fields:
+            without_heading.add(name)
         others = fields["aliases"].items() if "aliases" in fields else []
         for alias_field in (fields["name"], *others):
             alias = alias_field.text().casefold()
             if alias in aliases:
                 raise alias_field.error(f"{alias} already names {aliases[alias]}")
             aliases[alias] = name
-    return places, aliases
+    return places, aliases, frozenset(without_heading)

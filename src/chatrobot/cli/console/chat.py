@@ -63,7 +63,10 @@ class Chat:
         self._prompt: PromptSession[str] = PromptSession(
             message=self._message,
             history=_history(history),
-            completer=ChatCompleter(talk.words, self._place_names),
+            completer=ChatCompleter(
+                talk.words, talk.session.understanding.place_names, talk.session.understanding.can_do
+            ),
+            complete_in_thread=True,  # a stop is typed while it looks for what may follow
             complete_while_typing=Condition(lambda: self._prompt.default_buffer.text.startswith("/")),
             reserve_space_for_menu=5,
             multiline=Condition(lambda: self._is_editing),
@@ -165,10 +168,6 @@ class Chat:
     def _strip(self) -> FormattedText:
         talk = self._talk
         return FormattedText(talk.strip.fragments(self.width, talk.latched, talk.session.thinking_s))
-
-    def _place_names(self) -> list[str]:
-        understanding = self._talk.session.understanding
-        return [*self._talk.connection.world.places, *understanding.world_places, *understanding.places.all()]
 
     def _accept(self, buffer: Buffer) -> bool:
         """Enter. False clears the line."""

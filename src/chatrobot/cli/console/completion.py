@@ -1,53 +1,64 @@
-"""What Tab completes: commands, places and the words one often begins with."""
+"""What Tab completes: commands, what they take, places and the words one often begins with."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
-from prompt_toolkit.completion import CompleteEvent, Completer, Completion
+from prompt_toolkit.completion import CompleteEvent, Completer, Completion, PathCompleter
 from prompt_toolkit.document import Document
 
-from chatrobot.cli.console.commands import COMMANDS
+from chatrobot.cli.console.commands import BY_NAME, COMMANDS
 from chatrobot.cli.console.words import Words
+from chatrobot.language.lexicon import cut, lexicon
+from chatrobot.language.names import by_language
+from chatrobot.language.normalise import has_chinese, normalise
 
 COMMON: Mapping[str, tuple[str, ...]] = {
     "en": (
         *("forward", "backward", "turn left", "turn right", "turn around", "go to the", "come back"),
         *("drive in a square of one metre", "draw a circle", "face the other way", "remember this place as"),
-        *("stop", "undo", "redo", "again", "faster", "slower"),
+        *("stop", "undo", "redo", "again", "do that again faster", "do that again slower"),
     ),
     "zh": (
         *("前进", "后退", "左转", "右转", "掉头", "去", "回来", "停", "再来一次", "撤销", "重做"),
         *("走一个正方形", "画一个圆", "记住这里叫"),
     ),
 }
-_HAN_TAIL = re.compile(r"[\u4e00-\u9fff]+$")
-_WORD_TAIL = re.compile(r"[^\s,;，；。、]+$")
+_OPEN_ENDED = ("go to the", "去", "remember this place as", "记住这里叫")
+"""What a name has to follow."""
+_WORD = re.compile(r"[\[|]([a-z]+)(?=[\]|])")
+_LONGEST_JOINT = 3
+"""Units of what joins two clauses."""
+_PATHS = PathCompleter(expanduser=True)
 
 
 class ChatCompleter(Completer):
-    """Completes the last word.
+    """Completes what the text ends with.
 
     Args:
-        place_names: every name of a place as of now.
+        places: the names of each place that can be gone to, as of now.
+        can_do: whether a text is an order that is understood; of what stands within a sentence only that is offered.
     """
 
-    def __init__(self, words: Words, place_names: Callable[[], Iterable[str]]) -> None:
+    def __init__(
+        self, words: Words, places: Callable[[], Iterable[Sequence[str]]], can_do: Callable[[str], bool]
+    ) -> None:
         self._words = words
-        self._place_names = place_names
+        self._places = places
+        self._can_do = can_do
 
     def get_completions(self, document: Document, complete_event: CompleteEvent) -> Iterable[Completion]:
         """Commands as they are typed; everything else only when Tab asks for it."""
         text = document.text_before_cursor
-        if text.startswith("/"):
+        if text.startswith("/") and " " not in text:
             yield from self._commands(text)
         elif complete_event.text_inserted:
             return
-        elif _HAN_TAIL.search(text):
-            yield from self._ending(text, ("zh",))
+        elif text.startswith("/"):
+            yield from self._arguments(text, complete_event)
         else:
-            yield from self._beginning(text)
+            yield from self._sayings(text)
 
     def _commands(self, text: str) -> Iterable[Completion]:
         for command in COMMANDS:
@@ -55,19 +66,67 @@ class ChatCompleter(Completer):
                 meta = self._words.say(command.help_code)
                 yield Completion(f"/{command.name}", -len(text), display_meta=meta)
 
-    def _beginning(self, text: str) -> Iterable[Completion]:
-        tail = _WORD_TAIL.search(text)
-        word = tail.group().casefold() if tail else ""
-        begins = not text[: len(text) - len(word)].strip()
-        phrases = (*COMMON["en"], *(COMMON["zh"] if not word else ())) if begins else COMMON["en"]
-        for phrase in (*phrases, *self._place_names()):
-            if phrase.casefold().startswith(word) and (word or begins):
-                yield Completion(phrase, -len(word))
+    def _arguments(self, text: str, event: CompleteEvent) -> Iterable[Completion]:
+        """What a command takes: a file, or one of the words that it lists."""
+        name, _, argument = text[1:].partition(" ")
+        takes = BY_NAME[name.casefold()].takes if name.casefold() in BY_NAME else ""
+        if takes == "FILE":
+            yield from _PATHS.get_completions(Document(argument), event)
+        else:
+            typed = argument.rpartition(" ")[2]
+            words = (word for word in _WORD.findall(takes) if word.startswith(typed.casefold()))
+            yield from (Completion(word, -len(typed)) for word in words)
 
-    def _ending(self, text: str, languages: tuple[str, ...]) -> Iterable[Completion]:
-        """Chinese has no spaces: whatever suffix of the text begins a phrase is completed."""
-        phrases = [phrase for language in languages for phrase in COMMON[language]]
-        for phrase in (*phrases, *(name for name in self._place_names() if not name.isascii())):
-            size = next((n for n in range(len(phrase) - 1, 0, -1) if text.endswith(phrase[:n])), 0)
-            if size:
-                yield Completion(phrase, -size)
+    def _sayings(self, text: str) -> Iterable[Completion]:
+        """What is begun; where nothing is, what may follow. Of a place with several names, one of them."""
+        is_empty = not text.strip()
+        language = "zh" if has_chinese(text) else self._words.language if is_empty else "en"
+        phrases = [(phrase,) for phrase in (COMMON[language] if is_empty else _EVERY_PHRASE)]
+        places = [by_language(names, language) for names in self._places()]
+        begun = [ending for names in (*phrases, *places) if (ending := _begun(text, names))]
+        is_within_word = text[-1:].isascii() and text[-1:].isalnum()
+        if not begun and not is_within_word:
+            begun = [(names[0], 0) for names in (*(phrases if is_empty else ()), *places)]
+        for name, size in begun:
+            if self._is_understood(text[: len(text) - size], name):
+                yield Completion(name, -size)
+
+    def _is_understood(self, before: str, name: str) -> bool:
+        """What begins a text is; within a sentence a phrase begins a clause, and the whole can be done."""
+        if not before.strip():
+            return True
+        if name in _EVERY_PHRASE and not ends_clause(before):
+            return False
+        place = next((names[0] for names in self._places()), "") if name in _OPEN_ENDED else ""
+        return self._can_do(f"{before}{name} {place}".strip())
+
+
+_EVERY_PHRASE = tuple(phrase for phrases in COMMON.values() for phrase in phrases)
+
+
+def _begun(text: str, names: Sequence[str]) -> tuple[str, int] | None:
+    """The first of these names whose beginning `text` ends with, and how much of it; None where one is there whole."""
+    if any(_size_of_beginning(text, f"{name} ") == len(name) for name in names):
+        return None
+    return next(((name, size) for name in names if (size := _size_of_beginning(text, name))), None)
+
+
+def ends_clause(text: str) -> bool:
+    """Whether another clause may begin behind it: `forward 1 m, then `."""
+    units = cut(normalise(text))
+    ends = (lexicon().words.get(units[-size:], ()) for size in range(1, _LONGEST_JOINT + 1))
+    return units[-1:] == (",",) or any(kind in ("conn", "sep") for end in ends for kind, _ in end)
+
+
+def _size_of_beginning(text: str, name: str) -> int:
+    """How many characters at the end of `text` are the beginning of `name`, from where a word may begin."""
+    typed, whole = text.casefold(), name.casefold()
+    if len(whole) != len(name):
+        return 0
+    return next((n for n in range(min(len(whole), len(typed)), 0, -1) if _begins(typed, whole, n)), 0)
+
+
+def _begins(typed: str, whole: str, size: int) -> bool:
+    at = len(typed) - size
+    within_word = at > 0 and typed[at - 1].isalnum() and typed[at - 1].isascii() and whole[0].isascii()
+    return not within_word and size < len(whole) and whole.startswith(typed[at:])

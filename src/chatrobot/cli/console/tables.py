@@ -14,6 +14,7 @@ from rich.text import Text
 from chatrobot.cli.console.lines import INDENT, indented
 from chatrobot.cli.console.words import Words
 from chatrobot.language.context import Place
+from chatrobot.language.names import by_language
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.world import World
 
@@ -28,16 +29,9 @@ def example_place(world: World) -> str:
     return "kitchen" if "kitchen" in world.places else next(iter(world.places), "")
 
 
-def also_called(world: World, name: str) -> list[str]:
-    """The other names of a place."""
-    return [alias for alias, main in world.aliases.items() if main == name and alias != name.casefold()]
-
-
 def place_in(language: str, world: World, name: str) -> str:
     """A place's name in that language, if it has one."""
-    if language != "zh":
-        return name
-    return next((alias for alias in also_called(world, name) if not alias.isascii()), name)
+    return by_language(world.names_of(name), language)[0]
 
 
 def help_table(words: Words, world: World, commands: Sequence[tuple[str, str]]) -> RenderableType:
@@ -107,8 +101,11 @@ def places_table(words: Words, world: World, remembered: Mapping[str, Place]) ->
         table.add_row(
             Text(name, "bold" if place.usable else "dim"), words.pose(place.pose), Text(note, "dim")
         )
-    for name, pose in world.places.items():
-        table.add_row(name, words.pose(pose), Text(", ".join(also_called(world, name)), "dim"))
+    own = {name for name, place in remembered.items() if place.usable}
+    for main, pose in world.places.items():
+        name, *others = by_language(world.names_of(main), words.language)
+        if main not in own:
+            table.add_row(name, words.pose(pose), Text(", ".join(others), "dim"))
     return Padding(table, (0, 0, 0, INDENT))
 
 
