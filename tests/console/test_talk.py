@@ -216,6 +216,20 @@ def test_a_command_that_takes_nothing_does_nothing_where_more_was_typed(talk, lo
     assert f"{typed.split()[0]} takes nothing behind it" in shown(log)
 
 
+def test_a_saved_plan_is_told_to_the_session_and_a_broken_one_is_not(talk, log, tmp_path):
+    act = commands.BY_NAME["run-plan"].act
+    (tmp_path / "my plan").write_text("drive 1 m\n")
+    (tmp_path / "bad").write_text("drive 1 m\nfly 2 m\n")
+    act(talk, f"{tmp_path / 'my plan'}")
+    assert told(log) == [("say_plan", "drive 1 m\n")]
+    act(talk, f"{tmp_path / 'bad'}")
+    act(talk, f"{tmp_path / 'none'}")
+    assert len(told(log)) == 1
+    assert "The plan is not driven: " in shown(log)
+    assert "bad: line 2: 'fly 2 m': no step begins like this (one of: arc, drive, " in shown(log)
+    assert "none: No such file or directory" in shown(log)
+
+
 def test_a_map_of_a_size_that_there_is_not_says_which_there_are(talk, log):
     commands.BY_NAME["map"].act(talk, "huge")
     assert "There is no map 'huge'. /map shows or hides the small one, /map big draws the big one." in shown(
