@@ -245,7 +245,7 @@ def _offer(plan: Plan, rehearsing: Callable[..., Rehearsal], left: Most) -> Offe
     if not whole.ok or left.allows(whole.path):
         return Offer(plan if whole.ok else None)
     is_too_far = not Most(left.length_m).allows(whole.path)
-    limits = {"limit_m": left.length_m} if is_too_far else {"limit_s": left.driving_s}
+    limits = {"limit_m": round(left.length_m, 2)} if is_too_far else {"limit_s": round(left.driving_s, 1)}
     part = whole.possible
     over_s = driving_s(rehearsing(part).path) - left.driving_s if part is not None else 0.0
     if over_s > 0.0:  # to stop earlier takes time, too
