@@ -56,6 +56,14 @@ def test_launch_brings_up_a_robot_in_a_namespace_and_ctrl_c_ends_it_standing(
         assert "Traceback" not in "\n".join(launch.lines)
 
 
+def test_without_the_vendor_s_bring_up_it_is_said_how_to_get_it(workspace: Workspace, tmp_path: Path) -> None:
+    with rig_of(workspace, tmp_path) as rig:
+        launch = rig.start("ros2", "launch", "chatrobot", "wheeltec.launch.py")
+        launch.wait_for_line("turn_on_wheeltec_robot is not here")
+        launch.wait_for_line("robot.launch.py robot:=wheeltec_mini_mec on_robot:=true")
+        launch.end()
+
+
 def test_the_vendor_s_bring_up_is_included(workspace: Workspace, tmp_path: Path) -> None:
     """In place of Wheeltec's image: a package of that name whose launch file starts the simulated robot."""
     vendor = tmp_path / "vendor"

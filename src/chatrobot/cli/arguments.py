@@ -8,7 +8,15 @@ from collections.abc import Sequence
 from typing import Any
 
 from chatrobot import __version__
-from chatrobot.cli.options import DEFAULT_ROBOT, SHOWN, SHOWN_OF_PROGRAMS, Parser, options_of, port
+from chatrobot.cli.options import (
+    DEFAULT_ROBOT,
+    NO_ODOMETRY,
+    SHOWN,
+    SHOWN_OF_PROGRAMS,
+    Parser,
+    options_of,
+    port,
+)
 from chatrobot.core.errors import UsageError
 
 COMMANDS = {
@@ -30,7 +38,7 @@ DEFAULTS: dict[str, Any] = {
     "on": "auto", "robot": DEFAULT_ROBOT, "interpreter": "auto", "model": "", "fast": False, "json": False,
     "trace": False, "sim": "", "world": "", "approve": False, "yes": False, "config_dir": None,
     "rounds": 6, "budget_tokens": 20_000, "budget_s": 600.0, "parameters": [],
-    "max_distance": None, "max_time": None, "keep_going": False,
+    "max_distance": None, "max_time": None, "open_loop": False, "keep_going": False,
 }  # fmt: skip
 
 _NODES = ("node", "sim")
@@ -89,6 +97,9 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         )
     parsed.program_args = program_args
     parsed.ros_args = ros_args
+    parsed.names_robot = hasattr(parsed, "robot")
+    if not parsed.names_robot and getattr(parsed, "open_loop", False):
+        parsed.robot = NO_ODOMETRY
     for name, value in DEFAULTS.items():
         if not hasattr(parsed, name):
             setattr(parsed, name, value)
@@ -172,7 +183,7 @@ def _parsers() -> tuple[Parser, Parser]:
             name,
             help=text,
             description=f"{text[0].upper()}{text[1:]}.",
-            parents=[options_of(SHOWN.get(name))],
+            parents=[options_of(SHOWN.get(name), name)],
             allow_abbrev=False,
         )
         _ARGUMENTS.get(name, _no_arguments)(command)

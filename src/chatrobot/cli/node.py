@@ -49,6 +49,7 @@ def _run_control(args: argparse.Namespace, citizen: Citizen | None, connect: Con
             args.accept_others,
             args.on_robot,
             MotionBudget(args.max_distance, args.max_time),
+            args.open_loop,
         ),
         connect,
     )
@@ -88,6 +89,7 @@ def _run_base(args: argparse.Namespace, citizen: Citizen | None, connect: Connec
             model_from(args, server_held=args.revChatGPT),
             ModelOptions(rounds=args.rounds, budget_tokens=args.budget_tokens, budget_s=args.budget_s),
             args.approval,
+            args.open_loop,
         ),
         _say,
         connect,

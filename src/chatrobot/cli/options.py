@@ -13,9 +13,11 @@ Number = TypeVar("Number", int, float)
 DEFAULT_ROBOT = "wheeltec_mini_mec"
 """The same as `robots.load.DEFAULT_PROFILE` (a test compares); importing that would read TOML for a help text."""
 
+NO_ODOMETRY = "no_odometry"
+"""The same as `robots.open_loop.NO_ODOMETRY`: the robot of who asks for open loop and names none."""
 
 _MODEL_OPTIONS = ("interpreter", "model", "rounds", "budget_tokens", "budget_s")
-_BUDGET_OPTIONS = ("max_distance", "max_time")
+_BUDGET_OPTIONS = ("max_distance", "max_time", "open_loop")
 SHOWN: dict[str, tuple[str, ...]] = {
     "plan": ("on", "robot", *_MODEL_OPTIONS, *_BUDGET_OPTIONS, "json", "world", "config_dir"),
     "stop": (),
@@ -48,17 +50,33 @@ class Parser(argparse.ArgumentParser):
         raise UsageError(scrub(message, None), allowed=f"see {self.prog} --help")
 
 
-def options_of(shown: Sequence[str] | None = None) -> Parser:
+_HELP_OF_NODES = {
+    "on": "which wire: dds (the default) or ros[://DOMAIN[/NAMESPACE]], rosbridge[:ws://HOST:9090] or local:PATH",
+    "world": "what is known of the surroundings: empty, home or a world file (default: empty)",
+}
+_HELP_OF = {
+    "node": _HELP_OF_NODES,
+    "sim": {
+        "on": "where: on this machine alone (the default), dds or ros[://DOMAIN[/NAMESPACE]]; under ros2 run ros",
+        "world": "where it is: empty, home or a world file (default: home)",
+    },
+}
+"""What `--help` of a command says in place of the general words, where its defaults are others."""
+
+
+def options_of(shown: Sequence[str] | None = None, command: str = "") -> Parser:
     """Good before and after the command: hence no defaults here, the one would undo the other.
 
     Args:
         shown: the options that the help lists, by their names in the namespace; None for all.
+        command: whose help it is.
     """
     parser = Parser(add_help=False, argument_default=argparse.SUPPRESS, allow_abbrev=False)
     group = parser.add_argument_group("options")
 
     def add(*names: str, **how: Any) -> None:
         action = group.add_argument(*names, **how)
+        action.help = _HELP_OF.get(command, {}).get(action.dest, action.help)
         if shown is not None and action.dest not in shown:
             action.help = argparse.SUPPRESS
 
@@ -109,6 +127,12 @@ def options_of(shown: Sequence[str] | None = None) -> Parser:
         type=limit,
         metavar="S|none",
         help="seconds that one text or program may drive (default: 600; a program without an end runs 60)",
+    )
+    add(
+        "--open-loop",
+        action="store_true",
+        help="drive a robot without odometry: nothing is measured; 0.2 m/s, 0.5 rad/s and 10 s a text at most"
+        f" (robot: {NO_ODOMETRY}, unless you name one)",
     )
     add("--approve", action="store_true", help="ask before each plan")
     add("--yes", action="store_true", help="do each plan without asking")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 
 from chatrobot.cli.entry import main
+from chatrobot.cli.ros_help import asks_for_help, show
 
 
 def input_node() -> int:
@@ -24,4 +25,6 @@ def simulated_robot() -> int:
 
 
 def _run(*command: str) -> int:
+    if command[0] == "node" and asks_for_help(sys.argv[1:]):
+        return show(command[1])
     return main([*command, "--on", "ros", *sys.argv[1:]])

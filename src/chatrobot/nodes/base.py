@@ -24,6 +24,7 @@ from chatrobot.core.events import (
     Result,
     Said,
 )
+from chatrobot.core.motion_budget import NOT_CHOSEN
 from chatrobot.language.consent import read_consent
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.models.seam import Model
@@ -33,6 +34,7 @@ from chatrobot.plan.route import GridRoutePlanner
 from chatrobot.programs.library import Library
 from chatrobot.reflex import is_release
 from chatrobot.robots.load import load_profile
+from chatrobot.robots.open_loop import as_chosen
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.approval import LAPSES_AFTER_S
 from chatrobot.session.authoring import Authoring
@@ -74,7 +76,7 @@ Approval = Literal["profile", "all", "none"]
 class BaseOptions:
     """`folder` is where places live; None for nowhere. The two flags are the tutorial's parameters. `model`
     is asked what is not understood without one. `approval`: what waits for a person's yes: each plan, none, or what a
-    model wrote, where the robot's profile asks for approval."""
+    model wrote, where the robot's profile asks for approval. `open_loop`: control drives a robot without odometry."""
 
     wire: str
     profile: str
@@ -86,6 +88,7 @@ class BaseOptions:
     model: Model | None = None
     model_options: ModelOptions = field(default_factory=ModelOptions)
     approval: Approval = "profile"
+    open_loop: bool = False
 
 
 class BaseNode:
@@ -105,7 +108,7 @@ class BaseNode:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         self._options = options
         self._show = show
-        profile = load_profile(options.profile)
+        profile = as_chosen(load_profile(options.profile), NOT_CHOSEN, open_loop=options.open_loop)
         world = load_world(options.world)
         understanding = Understanding(profile, world, options.folder)
         understanding.interpret("forward 1 m")  # reads the tables now, not with the first instruction
@@ -243,8 +246,11 @@ class BaseNode:
         language = self._session.understanding.language
         if isinstance(event, (Interpreted, ProgramWritten, Result)):
             self._publish(EVENTS, json.dumps(event.to_json(), separators=(",", ":"), ensure_ascii=False))
-        if (isinstance(event, Interpreted) and event.plan_text) or isinstance(event, Result):
+        if isinstance(event, Interpreted) and event.plan_text:
             self._say(event.reply)
+        elif isinstance(event, Result):
+            if not (self._session.is_moving and event.reply in _bare_stops(language)):
+                self._say(event.reply)  # else the end of what was stopped tells it, once the robot stands
         elif isinstance(event, Said):
             self._say(event.text)
         elif isinstance(event, Notice):
@@ -287,6 +293,11 @@ class BaseNode:
     def _publish(self, topic: str, text: str) -> None:
         with contextlib.suppress(WireError):  # gone: the joint tells
             self._wire.publish(topic, Text(text))
+
+
+def _bare_stops(language: str) -> tuple[str, ...]:
+    """What is said of a stop that tells no more than that it came."""
+    return tuple(say(language, code) for code in ("stopped_now", "stopped_now_unmeasured"))
 
 
 def _sentences(findings: Iterable[FindingSeen], language: str) -> list[str]:

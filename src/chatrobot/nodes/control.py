@@ -40,7 +40,7 @@ ODOMETRY_LATE_S = 1.0
 
 @dataclass(frozen=True)
 class ControlOptions:
-    """`release`: an emergency stop may be released over ROS. `accept_others`, `on_robot`, `budget`: see
+    """`release`: an emergency stop may be released over ROS. The rest after it: see
     `MotionRunner`."""
 
     wire: str
@@ -50,6 +50,7 @@ class ControlOptions:
     accept_others: bool = False
     on_robot: bool = False
     budget: MotionBudget = NOT_CHOSEN
+    open_loop: bool = False
 
 
 class ControlNode:
@@ -75,6 +76,7 @@ class ControlNode:
             on_robot=options.on_robot,
             releasers=RELEASERS | {BASE} if options.release else RELEASERS,
             budget=options.budget,
+            open_loop=options.open_loop,
             connect=connect,
         )
         self._foreign = Foreign(self._runner, lambda: bool(self._ours))
@@ -147,6 +149,8 @@ class ControlNode:
             return Diagnosis("error" if motion.latched else "warn", barred.code, {**values, **barred.values})
         if motion.sensors.has_odometry and motion.sensors.odometry_age_s() > ODOMETRY_LATE_S:
             return Diagnosis("warn", "no_odometry", values)
+        if self._options.open_loop:
+            return Diagnosis("warn", "open_loop", values)
         return Diagnosis("ok", "driving" if motion.is_busy else "ready", values)
 
     def _hear(self, message: Text) -> None:
@@ -200,7 +204,8 @@ def _log(event: Event) -> None:
     if isinstance(event, Started):
         line = f"turn {event.turn}: started"
     elif isinstance(event, Finished):
-        line = f"turn {event.turn}: {event.outcome}{_why(event.reason)}, {event.path_m:.2f} m"
+        way = f"{event.path_m:.2f} m" if event.measured else "not measured"
+        line = f"turn {event.turn}: {event.outcome}{_why(event.reason)}, {way}"
     elif isinstance(event, ProgramLog):
         line = f"turn {event.turn}: | {event.text}"
     elif isinstance(event, Notice):

@@ -9,12 +9,13 @@ from collections.abc import Callable
 from typing import Any
 
 from chatrobot.core.errors import JointError
-from chatrobot.core.events import Event, Finished, Remembered, Result, Telemetry
+from chatrobot.core.events import Event, Finished, Notice, Remembered, Result, Telemetry
 from chatrobot.core.reason import Reason
 from chatrobot.language.consent import read_consent
 from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.session.authoring import Authoring
+from chatrobot.session.budgets import OPEN_LOOP
 from chatrobot.session.dispatch import Dispatch
 from chatrobot.session.draft import Draft
 from chatrobot.session.early import EarlyAnswers
@@ -305,6 +306,8 @@ class Session:
             self.understanding.note_telemetry(event, is_ours=is_ours)
         elif isinstance(event, Remembered):
             self.understanding.note_place(event)
+        elif isinstance(event, Notice) and event.reason.code == OPEN_LOOP:
+            self.understanding.note_open_loop()
         self._emit(event)
         if self._book.has(event.turn) or self._thinking.has(event.turn):
             self._resuming.hear(event)

@@ -54,7 +54,7 @@ class Understanding:
     def __init__(self, profile: RobotProfile, world: World, folder: Path | None) -> None:
         self._interpreter = OfflineInterpreter(profile)
         self._dialogue = Dialogue()
-        self._state = RobotState(has_said_so=False)
+        self._state = RobotState(has_said_so=False, is_measured=profile.has_odometry)
         self._world_places = {alias: world.places[main] for alias, main in world.aliases.items()}
         self._main_places = dict(world.places)
         # The simulated robot's odometry begins anew with every session, as a real one's does at power-on.
@@ -103,8 +103,18 @@ class Understanding:
         meant = self._interpreter.interpret(text, Context(dialogue, self._state, self._world_places))
         self.language = meant.language
         if meant.remember_place and not self.hears_robot:  # nobody knows which place this is
-            meant = Interpretation("refused", say(self.language, UNHEARD), self.language)
+            code = UNHEARD if self.is_measured else "answer_unmeasured"
+            meant = Interpretation("refused", say(self.language, code), self.language)
         return meant
+
+    @property
+    def is_measured(self) -> bool:
+        """The robot has odometry, as far as is known."""
+        return self._state.is_measured
+
+    def note_open_loop(self) -> None:
+        """Motion has said that it drives without odometry, whatever our profile says."""
+        self._state = replace(self._state, is_measured=False)
 
     @property
     def hears_robot(self) -> bool:
