@@ -54,7 +54,7 @@ class Strip:
             return [("class:strip.alarm", f" {self._words.say('latched')} ")]
         if not self._ride.is_moving:
             return self._standing(width)
-        has_map = self.shows_map and width >= LEAST_WIDTH
+        has_map = self.shows_map and self._ride.is_measured and width >= LEAST_WIDTH
         room = width - MAP_COLUMNS - 2 if has_map else width
         lines = [_cut(line, room) for line in self._words_beside(room)]
         if has_map:
@@ -65,7 +65,8 @@ class Strip:
         return joined
 
     def _standing(self, width: int) -> Fragments:
-        words = f" {self._words.say('standing')} · {self._words.pose(self._ride.pose)}"
+        where = f"{self._words.say('standing')} · {self._words.pose(self._ride.pose)}"
+        words = f" {where if self._ride.is_measured else self._words.say('not_measured')}"
         hints = self._words.say("strip_idle").split("  ")
         while hints and cell_len(f"{words}   {'  '.join(hints)}") > width:
             hints.pop()
@@ -77,6 +78,8 @@ class Strip:
             say("at_pose", pose=self._words.pose(ride.pose)),
             say("speed", speed=f"{ride.twist.speed_mps:.2f}"),
         ]
+        if not ride.is_measured:
+            facts = [say("not_measured")]
         if abs(ride.twist.wz_radps) > math.radians(1.0):
             facts.append(say("rate", rate=f"{math.degrees(ride.twist.wz_radps):+.0f}"))
         more = [say("nearest", distance=f"{ride.nearest_m:.2f}")] if ride.nearest_m is not None else []
