@@ -325,6 +325,17 @@ def test_a_stop_of_what_never_moved_says_that_nothing_was_commanded() -> None:
     assert rig.session.results[turn].reply.startswith("Nothing was commanded")
 
 
+def test_a_motion_that_was_broken_off_at_its_very_beginning_was_commanded() -> None:
+    rig = talk()
+    turn = rig.session.say("forward 1 m")
+    while not any(event.name == "started" for event in rig.events):
+        rig.session._joint.step()  # type: ignore[attr-defined]
+        rig.session.pump(0.0)
+    rig.session.say("stop")
+    rig.live(3.0)
+    assert rig.session.results[turn].reply.startswith("Stop sent")
+
+
 def test_no_event_carries_a_number_that_nobody_measured() -> None:
     rig = talk()
     for said in ("forward 0.3 m", "what can you do?", "undo", "forward 1 km"):

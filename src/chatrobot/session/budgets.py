@@ -168,6 +168,11 @@ class Meter:
         driven_m = self._path_m - self._start_path_m if self._sensors.has_odometry else self.sent_m
         return Extent(driven_m, self._driving_s)
 
+    @property
+    def least_s(self) -> float:
+        """How long it was told to move at least: what was sent is held until something else is."""
+        return 0.0 if self._sent.is_zero else TICK_S
+
     def note(self, sent: Twist, now_s: float) -> None:
         """Take in what was sent now."""
         elapsed_s = max(0.0, now_s - self._now_s)

@@ -119,7 +119,7 @@ class GovernedMotion:
             pose=estimate.pose if estimate is not None else start,
             turned_rad=self.turned_rad(),
             path_m=self.path_m,
-            duration_s=self._stopwatch.moving_s,
+            duration_s=self._stopwatch.moving_s or (0.0 if measured else self._meter.least_s),
             paused_s=self._stopwatch.paused_s,
             planned_m=planned_m if measured else self._meter.sent_m,
             planned_turn_rad=planned_turn_rad if measured else self._meter.sent_rad,
