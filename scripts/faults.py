@@ -29,6 +29,8 @@ PROMISE_S = 0.25
 UNDER_WAY_S = 0.3
 TRIES = 5
 PATIENCE_S = 5.0
+GUARD_GONE_S = 1.0
+"""After the launch of a simulated robot has ended, nobody of it may be on the graph for longer."""
 FROZEN_S = 0.5
 """How long a robot's end, or a Motion, is frozen before it thaws."""
 
@@ -82,12 +84,12 @@ class LocalRig:
 
 
 class DdsRig:
-    """The three nodes and a robot on DDS."""
+    """The three nodes and a robot on DDS, in a namespace or in none."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, namespace: str = "") -> None:
         from tests.nodes.node_rig import NodeRig
 
-        self.rig = NodeRig(folder)
+        self.rig = NodeRig(folder, namespace=namespace)
 
     def drive(self) -> None:
         for _ in range(TRIES):
@@ -110,6 +112,13 @@ class DdsRig:
         return self.rig.seconds_to_zero(since_s)
 
 
+def has_ended(process: psutil.Process) -> bool:
+    """It may wait for whoever has adopted it to look after it."""
+    with contextlib.suppress(psutil.NoSuchProcess):
+        return bool(process.status() == psutil.STATUS_ZOMBIE)
+    return True
+
+
 def descendants(pid: int, module: str) -> list[int]:
     """The processes that `pid` started with that module in their command."""
     return [child.pid for child in psutil.Process(pid).children(recursive=True) if module in child.cmdline()]
@@ -127,14 +136,18 @@ def local(folder: Path) -> Iterator[LocalRig]:
 
 
 @contextlib.contextmanager
-def dds(folder: Path) -> Iterator[DdsRig]:
-    rig = DdsRig(folder)
+def dds(folder: Path, namespace: str = "") -> Iterator[DdsRig]:
+    rig = DdsRig(folder, namespace)
     ours = [*rig.pids("guard"), *rig.pids("robot's end")]
     try:
         yield rig
     finally:
         rig.rig.close()
         end(ours)
+
+
+def namespaced(folder: Path) -> contextlib.AbstractContextManager[DdsRig]:
+    return dds(folder, "robot1")
 
 
 def end(pids: list[int]) -> None:
@@ -214,6 +227,22 @@ def signalled(name: str, *victims: str) -> Callable[[Rig], float]:
     return lambda rig: strike(rig, name, *victims)
 
 
+def end_launch(rig: DdsRig) -> float:
+    """Ctrl-C for the nodes and the robot's end at once, twice, as a launch hands it on; then nobody may be left."""
+    guard = rig.rig.guard()
+    rig.drive()
+    took_s = rig.seconds_to_zero(rig.rig.interrupt_all())
+    for node in (rig.rig.robot, *rig.rig.nodes.values()):
+        node.process.wait(PATIENCE_S)
+    gone_by_s = time.monotonic() + GUARD_GONE_S
+    while not has_ended(guard):
+        assert time.monotonic() < gone_by_s, (
+            f"the guard is there {GUARD_GONE_S:g} s after the launch has ended"
+        )
+        time.sleep(0.01)
+    return took_s
+
+
 def cut_rosbridge() -> float:
     from scripts.faults_rosbridge import cut
 
@@ -241,6 +270,13 @@ BLOWS = [
         for whom in NODES
         for kind, name in KINDS.items()
     ),
+    *(
+        Blow(f"{kind} {whom} in a namespace, DDS", blow_on(namespaced, signalled(name, whom)))
+        for whom in ("control", "guard")
+        for kind, name in KINDS.items()
+    ),
+    Blow("Ctrl-C of a launch, DDS", blow_on(dds, end_launch)),  # type: ignore[arg-type]
+    Blow("Ctrl-C of a launch in a namespace, DDS", blow_on(namespaced, end_launch)),  # type: ignore[arg-type]
     Blow("rosbridge connections cut", cut_rosbridge),
     Blow("stale velocity after a thaw of Motion", blow_on(local, leak), promised=False),  # type: ignore[arg-type]
 ]

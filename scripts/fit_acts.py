@@ -38,9 +38,10 @@ from chatrobot.language.signs import clauses_of
 from chatrobot.reflex import is_stop
 
 CORPUS = Path(__file__).parents[1] / "tests" / "corpus"
-FRAMES_EACH = 7
+FRAMES_EACH = 16
 """So many motions are put into each frame."""
-REAL_WEIGHT, FRAME_WEIGHT = 4.0, 1.0
+REAL_WEIGHT, FRAME_WEIGHT = 4.0, 2.3
+"""What a real sentence counts, and a frame with all its motions."""
 TALK_TESTS = ("test_a_report_and_a_question_move_nothing", "test_a_question_about_a_motion_orders_none")
 """Tests whose strings all order nothing."""
 PENALTY = 0.6
@@ -68,7 +69,7 @@ def frames(language: str) -> Iterator[Example]:
             talk = tuple(normalise(part) for part in re.findall(r"\[(.*?)\]", frame))
             for text in sorted(filled):
                 plain = text.replace("[", "").replace("]", "")
-                weight = FRAME_WEIGHT * FRAMES_EACH / len(filled) / 3
+                weight = FRAME_WEIGHT / len(filled)
                 yield Example(plain, orders, weight, f"frames {language}", talk)
 
 

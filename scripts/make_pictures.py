@@ -1,4 +1,4 @@
-"""Makes the pictures of the README from the real program: `make pictures`."""
+"""Makes the pictures of README and docs from the real program: `make pictures`."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT), str(ROOT / "scripts")]
 
+from speed_profile import FILE as SPEED_PROFILE  # noqa: E402
+from speed_profile import draw as draw_speed_profile  # noqa: E402
 from terminal_picture import draw_screen, replay  # noqa: E402
 from tests.console.terminal import Terminal, console  # noqa: E402
 
@@ -29,6 +31,7 @@ TALKS: dict[str, tuple[dict[str, str], str, str]] = {
 def main() -> None:
     """Every picture, anew."""
     IMAGES.mkdir(parents=True, exist_ok=True)
+    SPEED_PROFILE.write_text(draw_speed_profile(), encoding="utf-8")
     with tempfile.TemporaryDirectory() as folder:
         for name, (text, world) in PLANS.items():
             command = [sys.executable, "-m", "chatrobot", "plan", text, "--world", world]

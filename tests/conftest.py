@@ -5,12 +5,15 @@ from __future__ import annotations
 import os
 import signal
 
-from hypothesis import settings
-
-settings.register_profile("chatrobot", deadline=None)
-settings.load_profile("chatrobot")
-# For `make mutants`: a thousand runs with few examples each, the same ones every time.
-settings.register_profile("mutants", deadline=None, max_examples=30, derandomize=True, database=None)
+try:
+    from hypothesis import settings
+except ImportError:
+    pass  # tests/ros runs beside ROS with nothing else installed, and needs none
+else:
+    settings.register_profile("chatrobot", deadline=None)
+    settings.load_profile("chatrobot")
+    # For `make mutants`: a thousand runs with few examples each, the same ones every time.
+    settings.register_profile("mutants", deadline=None, max_examples=30, derandomize=True, database=None)
 
 # Under `nohup`, or in the background of a script, these are ignored, and stay so in every process that a test starts.
 for number in (signal.SIGHUP, signal.SIGINT):

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import chatrobot
-from chatrobot.core.errors import PlanTextError, ProfileError, UsageError
+from chatrobot.core.errors import PlanTextError, ProfileError, UsageError, WorldError
 from chatrobot.core.events import Event, Paused, Progress
 from chatrobot.plan.steps import Drive, Plan
 from tests.session.scripted_model import ScriptedModel
@@ -59,6 +59,44 @@ def test_every_option_is_checked() -> None:
         fast(robot="r2d2")
     with pytest.raises(UsageError, match="--on"):
         fast(on="moon")
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        ({"on": 3}, "on: 3 cannot be used (it takes 'sim', 'dds', 'ros' or 'rosbridge')"),
+        ({"robot": 5}, "robot: 5 cannot be used"),
+        ({"world": None}, "world: None cannot be used (it takes 'empty', 'home' or a file)"),
+        ({"sim": 0.03}, "sim: 0.03 cannot be used"),
+        ({"fast": "yes"}, "fast: 'yes' cannot be used (it takes True or False)"),
+        ({"interpreter": "best"}, "it takes 'auto' or 'offline' or 'model'"),
+        ({"interpreter": "model"}, "interpreter: no language model is given"),
+        ({"model": "clippy:95"}, "model: “clippy:95” is no model I know."),
+        ({"model": 3}, "model: 3 cannot be used"),
+        ({"camera": 3}, "camera: 3 cannot be used"),
+        ({"config_dir": __file__}, "it takes a folder"),
+    ],
+)
+def test_a_wrong_argument_is_refused_with_what_is_allowed(options: dict[str, object], told: str) -> None:
+    with pytest.raises(UsageError) as raised:
+        chatrobot.connect(**{"fast": True, "world": "empty", **options})  # type: ignore[arg-type]
+    assert told in str(raised.value)
+
+
+def test_a_profile_and_a_world_may_be_paths(tmp_path: Path) -> None:
+    with pytest.raises(ProfileError, match=r"nope\.toml: No such file"):
+        fast(robot=tmp_path / "nope.toml")
+    with pytest.raises(WorldError, match=r"nope\.yaml: cannot be read \(No such file"):
+        chatrobot.connect(fast=True, world=tmp_path / "nope.yaml")
+
+
+@pytest.mark.parametrize("wrong", [None, 5, b"forward 1 m", ["forward 1 m"]])
+def test_what_is_neither_text_nor_plan_is_refused_and_breaks_nothing(wrong: object) -> None:
+    with fast() as robot:
+        for call in (robot.do, robot.run, robot.on_event):
+            with pytest.raises(UsageError, match="cannot be used"):
+                call(wrong)  # type: ignore[operator]
+        assert robot.do("forward 0.2 m").outcome == "completed"
 
 
 def test_events_are_heard_in_their_order() -> None:

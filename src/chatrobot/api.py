@@ -12,13 +12,15 @@ import threading
 from collections.abc import Callable
 from pathlib import Path
 from types import TracebackType
+from typing import get_args
 
 from chatrobot.compose import Connection, Setup
 from chatrobot.compose import connect as compose_connect
-from chatrobot.core.errors import ChatRobotError
+from chatrobot.core.errors import ChatRobotError, UsageError
 from chatrobot.core.events import Event, Result, Telemetry
 from chatrobot.core.geometry import ORIGIN, Pose
-from chatrobot.models.seam import Model
+from chatrobot.language.phrases import render_reason
+from chatrobot.models.seam import Model, ModelError
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.robots.load import DEFAULT_PROFILE
@@ -35,8 +37,8 @@ Listener = Callable[[Event], None]
 def connect(
     *,
     on: str = "auto",
-    robot: str = "",
-    world: str = "",
+    robot: str | Path = "",
+    world: str | Path = "",
     sim: str = "",
     fast: bool = False,
     trace: bool = False,
@@ -49,6 +51,7 @@ def connect(
     """Connect to a robot; by default to the simulated one, in a furnished flat. The options of the command line.
 
     Args:
+        on: `sim`, `dds…`, `ros…` or `rosbridge…`, as for `--on`.
         robot: a robot profile, by name or as the path of a .toml file; "" is the one of the command line.
         world: `empty`, `home` or the path of a world file; "" is what fits the robot.
         sim: how the simulated robot lies, such as `slip=0.03,noise=on`.
@@ -66,10 +69,20 @@ def connect(
     Raises:
         InputError: an option cannot be used; it says what is allowed.
         JointError: the robot's processes do not start.
-        ModelError: there is no provider of that name.
     """
-    folder = Path(config_dir) if config_dir is not None else None
-    chosen = chosen_model(model, folder) if isinstance(model, str) else model
+    on, robot = (
+        _text_of("on", on, "'sim', 'dds', 'ros' or 'rosbridge'"),
+        _text_of("robot", robot, "a name or a file"),
+    )
+    world, sim = _text_of("world", world, "'empty', 'home' or a file"), _text_of("sim", sim, "'KEY=VALUE,…'")
+    for name, value in {"fast": fast, "trace": trace}.items():
+        _refuse_unless(isinstance(value, bool), name, value, "True or False")
+    _refuse_unless(interpreter in get_args(Interpreter), "interpreter", interpreter, _listed(Interpreter))
+    _refuse_unless(camera is None or callable(camera), "camera", camera, "a function that returns a picture")
+    folder = _folder_of(config_dir)
+    chosen = _model_of(model, folder)
+    if interpreter == "model" and chosen is None:
+        raise UsageError("no language model is given", where="interpreter", allowed="model='PROVIDER:NAME'")
     options = Options(interpreter=interpreter)
     return Robot(
         Setup(
@@ -77,6 +90,45 @@ def connect(
             trace=trace, folder=folder, model=chosen, options=options, camera=camera, open_loop=open_loop,
         )
     )  # fmt: skip
+
+
+def _refuse_unless(is_right: bool, name: str, value: object, allowed: str) -> None:
+    """Refuse an argument of a call.
+
+    Raises:
+        UsageError: which, what it was, and what is allowed.
+    """
+    if not is_right:
+        raise UsageError(f"{value!r} cannot be used", where=name, allowed=f"it takes {allowed}")
+
+
+def _listed(choices: object) -> str:
+    return " or ".join(map(repr, get_args(choices)))
+
+
+def _text_of(name: str, value: object, allowed: str) -> str:
+    _refuse_unless(isinstance(value, (str, Path)), name, value, allowed)
+    return str(value)
+
+
+def _folder_of(config_dir: Path | str | None) -> Path | None:
+    if config_dir is None:
+        return None
+    allowed = "a folder, made if need be"
+    folder = Path(_text_of("config_dir", config_dir, allowed)).expanduser()
+    _refuse_unless(folder.is_dir() or not folder.exists(), "config_dir", config_dir, allowed)
+    return folder
+
+
+def _model_of(model: Model | str | None, folder: Path | None) -> Model | None:
+    if not isinstance(model, str):
+        has_methods = model is None or callable(getattr(model, "ask", None))
+        _refuse_unless(has_methods, "model", model, "'PROVIDER:NAME', or what has the methods of Model")
+        return model
+    try:
+        return chosen_model(model, folder)
+    except ModelError as error:
+        raise UsageError(render_reason(error.reason, "en"), where="model") from error
 
 
 class Robot:
@@ -104,8 +156,10 @@ class Robot:
         """Say it and wait for what comes of it: a value, whatever the outcome. Ctrl-C stops the robot first.
 
         Raises:
+            UsageError: `text` is no text.
             ChatRobotError: something broke.
         """
+        _refuse_unless(isinstance(text, str), "text", text, "what to do, such as 'forward 1 m'")
         return self._see_through(self._session.say(text))
 
     def run(self, plan: Plan | str) -> Result:
@@ -113,8 +167,12 @@ class Robot:
 
         Raises:
             PlanTextError: the text is no plan; it names the line.
+            UsageError: `plan` is neither a plan nor a text.
             ChatRobotError: something broke.
         """
+        _refuse_unless(
+            isinstance(plan, (Plan, str)), "plan", plan, "a Plan, or plan text such as 'drive 1 m'"
+        )
         text = format_plan(parse_plan(plan) if isinstance(plan, str) else plan)
         return self._see_through(self._session.say_plan(text))
 
@@ -137,6 +195,7 @@ class Robot:
 
     def on_event(self, callback: Listener) -> None:
         """Have `callback` called with every event from now on. What it raises comes out of `do` or `run`."""
+        _refuse_unless(callable(callback), "callback", callback, "a function that takes an event")
         self._listeners.append(callback)
 
     def close(self) -> None:

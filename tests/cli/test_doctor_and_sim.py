@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import signal
 import subprocess
 import sys
@@ -10,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from chatrobot.cli.doctor import Check, _told_once
+from chatrobot.robots.load import list_profiles
 from chatrobot.wire.local import LocalWire
 from tests.cli.running import PATIENCE_S, Command, environment
 
@@ -31,6 +34,30 @@ def test_doctor_fails_where_something_has_to_be_mended(chatrobot: Command, tmp_p
     done = chatrobot("doctor", "--config-dir", str(file))
     assert done.code == 1
     assert "✗ settings folder" in done.out
+
+
+def test_doctor_tells_an_error_once_and_looks_at_the_rest(chatrobot: Command) -> None:
+    done = chatrobot("doctor", "--robot", "r2d2", "--model", "clippy:95")
+    assert done.code == 1
+    assert (done.out + done.err).count("no robot profile is called 'r2d2'") == 1
+    assert "✓ simulated robot" in done.out
+    assert done.out.count("clippy:95") == 1
+
+
+def test_doctor_knows_a_profile_of_ones_own(chatrobot: Command, tmp_path: Path) -> None:
+    (tmp_path / "robots").mkdir()
+    built_in = next(entry.file for entry in list_profiles() if entry.name == "turtlebot4")
+    shutil.copy(built_in, tmp_path / "robots" / "mine.toml")
+    done = chatrobot("doctor", "--robot", "mine", "--config-dir", str(tmp_path))
+    assert "✓ robot profile     mine: TurtleBot 4" in done.out
+    assert "✓ in real time" in done.out
+
+
+def test_what_two_checks_find_is_told_by_the_first() -> None:
+    first = Check("simulated robot", "missing", "it is broken")
+    second = Check("in real time", "missing", "it is broken")
+    assert _told_once(second, [first]) == "as above: simulated robot"
+    assert _told_once(first, []) == "it is broken"
 
 
 def test_sim_serves_a_robot_until_ctrl_c(tmp_path: Path) -> None:

@@ -79,9 +79,45 @@ def test_help_lists_what_a_command_takes(capsys: pytest.CaptureFixture[str]) -> 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_every_option_may_stand_before_every_command(command: str) -> None:
     words = {"do": ["x"], "plan": ["x"], "eval": ["x"], "node": ["input"], "fake-model": ["x"]}
+    words["completion"] = ["bash"]
     after = ["list"] if command == "program" else words.get(command, [])
     assert parse(["--robot", "turtlesim", command, *after]).robot == "turtlesim"
     assert parse([command, *after, "--robot", "turtlesim"]).robot == "turtlesim"
+
+
+def test_help_is_in_groups_and_the_common_options_come_first(capsys: pytest.CaptureFixture[str]) -> None:
+    text = help_of(capsys, "do")
+    marks = [
+        "options:",
+        "--on WHERE",
+        "--yes",
+        "simulation:",
+        "--fast",
+        "language model:",
+        "--rounds",
+        "limits of",
+    ]
+    assert sorted(marks, key=text.index) == marks
+    assert text.startswith("usage: chatrobot do [options] TEXT [TEXT ...]")
+
+
+@pytest.mark.parametrize(
+    ("command", "strange"),
+    [
+        ("doctor", "--on"), ("node", "--fast"), ("eval", "--yes"), ("sim", "--model"), ("program", "--robot"),
+        ("robots", "--world"), ("worlds", "--robot"), ("do", "(base)"), ("do", "text in, events out"),
+    ],
+)  # fmt: skip
+def test_help_lists_nothing_that_does_not_apply(
+    command: str, strange: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert strange not in help_of(capsys, command)
+
+
+def test_the_version_has_a_short_option(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        parse(["-V"])
+    assert capsys.readouterr().out.startswith("chatrobot 0.")
 
 
 def test_an_unknown_program_action_is_wrong_usage() -> None:

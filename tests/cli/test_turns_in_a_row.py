@@ -49,7 +49,22 @@ def test_keep_going_does_the_rest_all_the_same(chatrobot: Command) -> None:
         "do", "fly to the moon", "florble", "florble", "forward 1 m", "--keep-going", "--json", *FAST
     )
     assert outcomes(done) == ["refused", "unclear", "unclear", "completed"]
-    assert (done.code, done.named("notice")) == (0, [])
+    assert (done.code, done.named("notice")) == (4, [])
+
+
+@pytest.mark.parametrize(
+    ("texts", "code"),
+    [
+        (("forward 1 m", "back 1 m"), 0),
+        (("where are you?", "forward 1 m"), 0),
+        (("forward 1 m", "florble"), 3),
+        (("florble", "fly to the moon", "forward 1 m"), 3),
+    ],
+)
+def test_keep_going_tells_that_any_turn_was_not_done(
+    chatrobot: Command, texts: tuple[str, ...], code: int
+) -> None:
+    assert chatrobot("do", *texts, "--keep-going", *FAST).code == code
 
 
 def test_the_next_text_answers_what_was_asked(chatrobot: Command) -> None:

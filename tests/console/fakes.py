@@ -14,7 +14,7 @@ class FakeSession:
         self.log = log
         self.is_idle = True
         self.is_moving = False
-        self.is_paused = False
+        self.is_paused = self.is_plan_paused = False
         self.is_lost = False
 
     def _note(self, *what):

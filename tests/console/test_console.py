@@ -79,6 +79,13 @@ def test_ctrl_c_twice_leaves(chat):
     assert "Bye." in chat.text
 
 
+def test_a_goodbye_in_words_is_answered_once(chat):
+    chat.enter("bye")
+    assert chat.wait_for_end() == 0
+    assert "Goodbye." in chat.text
+    assert "Bye." not in chat.text
+
+
 def test_ctrl_d_lets_the_robot_finish_first(chat):
     chat.enter("forward 0.4 m")
     chat.wait_for(MOVING)
@@ -107,6 +114,10 @@ def test_the_commands_show_robot_world_and_plan(chat, tmp_path):
     chat.enter(f"/save-plan {tmp_path / 'mine.plan'}")
     chat.wait_for("The plan is in")
     assert (tmp_path / "mine.plan").read_text() == "turn left 20 deg\n"
+    chat.enter(f"/run-plan {tmp_path / 'mine.plan'}")
+    chat.wait_for(r"now at .* (39|4[01])°")
+    chat.enter("/run-plan")
+    chat.wait_for("Which plan? /run-plan FILE")
 
 
 def test_after_an_emergency_stop_nothing_moves_until_it_is_released(chat):

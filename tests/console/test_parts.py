@@ -215,8 +215,9 @@ def test_the_end_of_another_turn_does_not_end_the_ride():
     assert ride.pose == Pose(1.0)
 
 
-def strip_text(ride, width=100, world=HOME, latched=False, language="en"):
-    return "".join(text for _, text in Strip(ride, Words(language), world).fragments(width, latched))
+def strip_text(ride, width=100, world=HOME, latched=False, language="en", thinking_s=None):
+    strip = Strip(ride, Words(language), world)
+    return "".join(text for _, text in strip.fragments(width, latched, thinking_s))
 
 
 def test_the_strip_shows_no_share_of_what_has_no_known_end():
@@ -255,6 +256,16 @@ def test_a_narrow_strip_has_no_map_and_no_line_is_too_long():
 def test_a_standing_robot_has_a_line_and_a_latched_one_an_alarm():
     assert "\n" not in strip_text(Ride())
     assert "EMERGENCY STOP" in strip_text(moving_ride(), latched=True)
+
+
+def test_the_strip_says_for_how_long_a_model_thinks_whether_the_robot_moves_or_not():
+    assert "the model is thinking, 7 s" in strip_text(Ride(), thinking_s=7.9)
+    assert "模型正在思考，0 秒" in strip_text(Ride(), thinking_s=0.1, language="zh")
+    assert "the model is thinking, 7 s" in strip_text(moving_ride(), thinking_s=7.9)
+    assert "thinking" not in strip_text(Ride()) + strip_text(moving_ride())
+    for width in range(1, 120):
+        assert max(map(len, strip_text(moving_ride(), width=width, thinking_s=7.9).split("\n"))) <= width
+        assert len(strip_text(Ride(), width=width, thinking_s=7.9)) <= width
 
 
 def test_a_strip_shows_whole_hints_and_the_whole_percentage():
@@ -297,11 +308,17 @@ def test_a_plan_is_numbered_with_its_length_duration_and_findings():
 
 
 def test_a_long_plan_is_shown_in_part_and_whole_on_demand():
-    narrator, plan_text = Narrator(Words()), "\n".join(["drive 1 m"] * 40)
+    narrator, plan_text = Narrator(Words()), "\n".join(f"drive {n} m" for n in range(1, 41))
     text = told(narrator, Interpreted(1, "offline", plan_text, ""), REHEARSED)
-    assert text.count("drive 1 m") == PLAN_LINES - 1
+    assert text.count("drive ") == PLAN_LINES - 1
     assert "… 25 more lines" in text
-    assert printed(*narrator.plan(plan_text, REHEARSED)).count("drive 1 m") == 40
+    assert printed(*narrator.plan(plan_text, REHEARSED)).count("drive ") == 40
+
+
+def test_what_a_plan_does_several_times_is_counted_and_numbered_where_it_begins():
+    plan_text = "\n".join(["drive 0.5 m"] * 54 + ["wait 1 s"])
+    text = told(Narrator(Words()), Interpreted(1, "offline", plan_text, ""), REHEARSED)
+    assert re.search(r"\n +1  54 × drive 0\.5 m\n +55  wait 1 s\n", text)
 
 
 def test_the_refusal_that_is_the_result_is_not_told_twice():

@@ -4,6 +4,7 @@ import threading
 
 import pytest
 
+from chatrobot.cli.console import commands
 from chatrobot.cli.console.clean import LONGEST_CHARS
 from chatrobot.cli.console.talk import TWICE_S
 from chatrobot.core.events import Finished, Interpreted, Notice, Result, Started
@@ -214,6 +215,14 @@ def test_a_command_that_takes_nothing_does_nothing_where_more_was_typed(talk, lo
     talk.enter(typed)
     assert told(log) == []
     assert f"{typed.split()[0]} takes nothing behind it" in shown(log)
+
+
+def test_a_map_of_a_size_that_there_is_not_says_which_there_are(talk, log):
+    commands.BY_NAME["map"].act(talk, "huge")
+    assert "There is no map 'huge'. /map shows or hides the small one, /map big draws the big one." in shown(
+        log
+    )
+    assert talk.strip.shows_map
 
 
 @pytest.mark.parametrize(("typed", "word"), [("/stop it now", "stop"), ("/estop now", "emergency_stop")])

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
+import pexpect
 import pytest
 
 from chatrobot.cli.eval.corpus import Expect, Item, Meant, Turn
 from chatrobot.cli.eval.run import run_items
 from chatrobot.compose import Setup
 from chatrobot.plan.text import parse_plan
-from tests.cli.running import Command, chatrobot
+from tests.cli.running import PATIENCE_S, Command, chatrobot, environment
 
 __all__ = ["chatrobot"]
 
@@ -122,3 +124,29 @@ def test_the_shipped_corpora_are_valid_and_run_quickly(chatrobot: Command) -> No
     done = chatrobot("eval", *files, "--json")
     assert done.code == 0
     assert done.events[-1]["items"] >= 200
+
+
+@pytest.mark.parametrize("output", [[], ["--json"]], ids=["table", "json"])
+def test_on_a_terminal_it_says_how_many_are_done_from_the_first_moment(
+    corpus: str, tmp_path: Path, output: list[str]
+) -> None:
+    child = pexpect.spawn(
+        sys.executable,
+        ["-m", "chatrobot", "eval", corpus, *output],
+        env=environment(tmp_path),
+        encoding="utf-8",
+        timeout=PATIENCE_S,
+    )
+    child.expect_exact("\r0 of 5\x1b[K")
+    child.expect(r"[1-5] of 5, \d+ s to go ")
+    child.expect(pexpect.EOF)
+    assert child.before is not None
+    last = child.before.rsplit("\r\x1b[K", 1)[1]
+    assert "to go" not in last
+    for line in child.before.splitlines():
+        shown = line.rsplit("\x1b[K", 1)[-1]
+        assert not ("{" in shown and "to go" in shown), "a line of output stands alone"
+
+
+def test_where_errors_go_elsewhere_nothing_is_said_of_progress(chatrobot: Command, corpus: str) -> None:
+    assert chatrobot("eval", corpus).err == ""

@@ -18,6 +18,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import psutil
 import pytest
 
 pytest.importorskip(
@@ -36,6 +37,10 @@ _domains = itertools.cycle(
     random.Random(os.getpid()).sample(range(1 + 45 * (_WORKER % 2), 45 + 45 * (_WORKER % 2)), 44)
 )
 """Domains of this run's own, and of this worker's where two run side by side."""
+
+
+LAUNCH_REPEATS_S = 0.02
+"""`ros2 launch` hands on what the terminal has sent to all already so much later."""
 
 
 class Node(TalkingProcess):
@@ -62,10 +67,11 @@ class Node(TalkingProcess):
 
 
 class NodeRig:
-    """Everything running, and an ear for what goes over the wire."""
+    """Everything running, and an ear for what goes over the wire. `namespace`: of the robot and its nodes."""
 
-    def __init__(self, folder: Path, *nodes: str) -> None:
+    def __init__(self, folder: Path, *nodes: str, namespace: str = "") -> None:
         self.domain = next(_domains)
+        self.on = f"dds://{self.domain}/{namespace}" if namespace else "dds"
         kept = {
             k: v for k, v in os.environ.items() if not k.startswith(("ROS_", "CYCLONE", "CHATROBOT_", "XDG_"))
         }
@@ -77,15 +83,16 @@ class NodeRig:
             "PYTHONUNBUFFERED": "1",
         }
         self._all: list[Node] = []
-        self.ear = DdsWire(Wiring(), "ear", discovery=Discovery(domain_id=self.domain))
+        here = Discovery(domain_id=self.domain)
+        self.ear = DdsWire(Wiring(), "ear", namespace=namespace, discovery=here)
         self.velocities, self.truth, self.replies, self.events = Heard(), Heard(), Heard(), Heard()
         self.ear.subscribe("cmd_vel", TwistMessage, self.velocities)
         self.ear.subscribe("chatrobot/sim/truth", Odometry, self.truth)
         self.ear.subscribe("chatrobot/reply", Text, self.replies)
         self.ear.subscribe("chatrobot/events", Text, lambda message: self.events(json.loads(message.data)))
-        self.robot = self.start("sim", "--on", "dds", "--world", "empty")
+        self.robot = self.start("sim", "--on", self.on, "--world", "empty")
         self.nodes = {
-            name: self.start("node", name, "--on", "dds") for name in nodes or ("control", "base", "input")
+            name: self.start("node", name, "--on", self.on) for name in nodes or ("control", "base", "input")
         }
         self.robot.wait_for_line("it ends with Ctrl-C")
         for name, node in self.nodes.items():
@@ -100,7 +107,7 @@ class NodeRig:
     def replace(self, name: str, *more: str) -> None:
         """A new one in the place of a node that has ended, or was killed."""
         self.nodes[name].end()
-        self.nodes[name] = self.start("node", name, "--on", "dds", *more)
+        self.nodes[name] = self.start("node", name, "--on", self.on, *more)
         self.nodes[name].wait_for_line(name)
 
     def drive(self, text: str = "forward 100 m at 0.3 m/s") -> float:
@@ -162,6 +169,22 @@ class NodeRig:
         _, odometry = self.truth.wait_for(lambda _: True, now_s)
         return odometry.x_m, odometry.y_m, odometry.yaw_rad
 
+    def guard(self) -> psutil.Process:
+        """That of control."""
+        children = psutil.Process(self.nodes["control"].process.pid).children()
+        return next(child for child in children if "chatrobot.guard" in child.cmdline())
+
+    def interrupt_all(self) -> float:
+        """Ctrl-C as under `ros2 launch`: to every process of it at once, and again a moment later. When that was."""
+        processes = [node.process for node in (self.robot, *self.nodes.values())]
+        struck_s = time.monotonic()
+        for _ in range(2):
+            for process in processes:
+                if process.poll() is None:
+                    process.send_signal(signal.SIGINT)
+            time.sleep(LAUNCH_REPEATS_S)
+        return struck_s
+
     def seconds_to_zero(self, since_s: float, watch_s: float = 0.5) -> float:
         """Seconds from `since_s` to the zero after which nothing moves any more for `watch_s`."""
         first_s, _ = self.velocities.wait_for(lambda twist: not any(twist), since_s)
@@ -179,8 +202,8 @@ class NodeRig:
 
 
 @contextlib.contextmanager
-def running(folder: Path, *nodes: str) -> Iterator[NodeRig]:
-    rig = NodeRig(folder, *nodes)
+def running(folder: Path, *nodes: str, namespace: str = "") -> Iterator[NodeRig]:
+    rig = NodeRig(folder, *nodes, namespace=namespace)
     try:
         yield rig
     finally:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import ast
+import json
 import math
 import re
 import sys
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from importlib import import_module
@@ -22,9 +24,11 @@ import fake_rclpy
 from chatrobot.cli import doctor, ros_run
 from chatrobot.cli import node as command
 from chatrobot.cli.arguments import parse, split_ros_args
+from chatrobot.cli.entry import STOPPED
 from chatrobot.core.clock import RealClock, VirtualClock
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.core.motion_budget import MotionBudget
+from chatrobot.language.phrases import say
 from chatrobot.nodes import control
 from chatrobot.nodes.parameters import PARAMETERS
 from chatrobot.session import motion_runner
@@ -45,10 +49,12 @@ def ros(monkeypatch: pytest.MonkeyPatch) -> fake_rclpy.Ros:
 class _Guard(SimulatedGuard):
     """In place of the guard's process, which has no fake of ROS."""
 
-    def __init__(self, address: str, wiring: Any, clock: Any) -> None:
+    def __init__(self, address: str, wiring: Any, clock: Any, *, is_near: bool) -> None:
         super().__init__(VirtualClock())
         self.given_clock = clock
         self.halts = address, wiring.cmd_vel_topic, wiring.odom_topic
+        self.namespace = wiring.namespace
+        self.is_near = is_near
 
     def wait_until_alive(self, _timeout_s: float) -> bool:
         return True
@@ -58,8 +64,8 @@ class _Guard(SimulatedGuard):
 def guards(monkeypatch: pytest.MonkeyPatch) -> list[_Guard]:
     made: list[_Guard] = []
 
-    def make(address: str, wiring: Any, clock: Any) -> _Guard:
-        made.append(_Guard(address, wiring, clock))
+    def make(address: str, wiring: Any, clock: Any, *, is_near: bool) -> _Guard:
+        made.append(_Guard(address, wiring, clock, is_near=is_near))
         return made[-1]
 
     monkeypatch.setattr(motion_runner, "GuardProcess", make)
@@ -71,8 +77,9 @@ class _Watch:
 
     leaving = threading.Event()
 
-    def __init__(self, stop: Callable[[str], None]) -> None:
+    def __init__(self, stop: Callable[[str], None], *, repeats_s: float) -> None:
         self._stop = stop
+        assert repeats_s > 0.0, "ros2 launch sends a second Ctrl-C"
 
     def __enter__(self) -> _Watch:
         return self
@@ -84,21 +91,44 @@ class _Watch:
         return self.leaving.is_set()
 
 
+class _Silent:
+    """In place of a keyboard."""
+
+    has_ended = False
+
+    def __init__(self, on_line: object) -> None: ...
+    def start(self) -> None: ...
+
+    def wait(self, timeout_s: float) -> None:
+        threading.Event().wait(timeout_s)
+
+
+def _until(condition: Callable[[], bool]) -> None:
+    for _ in range(round(PATIENCE_S / 0.01)):
+        if condition():
+            return
+        threading.Event().wait(0.01)
+    raise AssertionError("it did not become so")
+
+
 @contextmanager
-def running(monkeypatch: pytest.MonkeyPatch, ros: fake_rclpy.Ros, *arguments: str) -> Iterator[None]:
-    """`chatrobot node …` in a thread, once its services are there."""
+def running(monkeypatch: pytest.MonkeyPatch, ros: fake_rclpy.Ros, *arguments: str) -> Iterator[list[int]]:
+    """`chatrobot node …` in a thread, once its services are there; its exit code once it has ended."""
     monkeypatch.setattr(command, "SignalWatch", _Watch)
     monkeypatch.setattr(_Watch, "leaving", threading.Event())
     known = len(ros.nodes)
-    thread = threading.Thread(target=command.run, args=(parse(["node", "--on", "ros", *arguments]),))
+    codes: list[int] = []
+    args = parse(["node", "--on", "ros", *arguments])
+    thread = threading.Thread(target=lambda: codes.append(command.run(args)))
     thread.start()
+
+    def is_there() -> bool:
+        assert thread.is_alive()
+        return len(ros.nodes) > known and bool(ros.nodes[-1].timers or arguments[0] == "input")
+
     try:
-        for _ in range(round(PATIENCE_S / 0.01)):
-            if len(ros.nodes) > known and ros.nodes[-1].timers:
-                break
-            assert thread.is_alive()
-            threading.Event().wait(0.01)
-        yield
+        _until(is_there)
+        yield codes
     finally:
         _Watch.leaving.set()
         thread.join(PATIENCE_S)
@@ -189,6 +219,73 @@ def test_namespace_remapping_and_name_reach_the_guard_and_the_graph(
         assert f"{node.namespace}/{node.name}" == "/robot1/driver"
         assert "/robot1/driver/stop" in node.services
     assert guards[0].halts == ("ros:", "/base/go", "/robot1/odom")
+    assert guards[0].namespace == "robot1"
+
+
+def test_it_logs_through_ros_in_sentences_and_its_banner_names_the_topics_as_they_are(
+    monkeypatch: pytest.MonkeyPatch, ros: fake_rclpy.Ros, guards: list[_Guard], ear: Any
+) -> None:
+    words = ("--ros-args", "-r", "__ns:=/robot1", "-r", "cmd_vel:=/base/go")
+    with running(monkeypatch, ros, "control", *words):
+        ear.publish("/robot1/chatgpt_node", Text("good morning"))
+        name, notice = "robot1.chatrobot_control", say("en", "foreign_ignored", text="good morning")
+        _until(lambda: ("warn", name, notice) in ros.log)
+    severity, logger, banner = ros.log[0]
+    assert (severity, logger) == ("info", name)
+    assert "/robot1/chatgpt_node → /base/go" in banner
+    assert guards
+
+
+@pytest.mark.parametrize(
+    ("node", "banner"),
+    [("base", "/robot1/user_input → /robot1/chatgpt_node"), ("input", "goes to /robot1/user_input")],
+)
+def test_the_other_banners_name_the_topics_as_they_are(
+    monkeypatch: pytest.MonkeyPatch,
+    ros: fake_rclpy.Ros,
+    capsys: pytest.CaptureFixture[str],
+    node: str,
+    banner: str,
+) -> None:
+    monkeypatch.setattr("chatrobot.cli.lines.LineReader", _Silent)
+    said = ""
+    with running(monkeypatch, ros, node, "--ros-args", "-r", "__ns:=/robot1"):
+        while banner not in said:
+            said += capsys.readouterr().out + "".join(text for _, _, text in ros.log)
+            threading.Event().wait(0.01)
+
+
+def test_asked_to_end_a_node_of_ros_gives_zero(
+    monkeypatch: pytest.MonkeyPatch, ros: fake_rclpy.Ros, guards: list[_Guard]
+) -> None:
+    with running(monkeypatch, ros, "control") as codes:
+        pass
+    assert codes == [0]
+    monkeypatch.setattr(ros_run, "main", lambda _: STOPPED)
+    monkeypatch.setattr(sys, "argv", ["control"])
+    assert ros_run.control_node() == 0, "Ctrl-C while it starts"
+    assert guards
+
+
+def test_events_are_quiet_while_nothing_happens_and_telemetry_has_a_topic_of_its_own(
+    monkeypatch: pytest.MonkeyPatch, ros: fake_rclpy.Ros, guards: list[_Guard], ear: Any
+) -> None:
+    events: list[str] = []
+    telemetry: list[dict[str, Any]] = []
+    ear.subscribe("chatrobot/events", Text, lambda message: events.append(message.data))
+    ear.subscribe("chatrobot/telemetry", Text, lambda message: telemetry.append(json.loads(message.data)))
+    with running(monkeypatch, ros, "control"):
+
+        def has_told_enough() -> bool:
+            ear.publish("odom", Odometry(time.monotonic(), 1.0, 2.0, 0.0, 0.0, 0.0, 0.0))
+            return len(telemetry) > 5
+
+        _until(has_told_enough)
+    assert all(json.loads(event)["event"] == "notice" for event in events), "said once, as it starts"
+    assert len(events) < 2
+    assert {told["event"] for told in telemetry} == {"telemetry"}
+    assert telemetry[-1]["pose"]["y_m"] == 2.0
+    assert guards
 
 
 def test_diagnostics_tell_how_a_node_is(

@@ -31,13 +31,13 @@ def rig(tmp_path_factory: pytest.TempPathFactory) -> Iterator[NodeRig]:
 def test_a_second_control_is_named_and_nothing_moves_until_it_is_gone(rig: NodeRig) -> None:
     second = rig.start("node", "control", "--on", "dds")
     for control in (second, rig.nodes["control"]):
-        assert "chatrobot_control" in control.wait_for_line("notice (not_alone")
+        assert "chatrobot_control" in control.wait_for_line("Others send velocities")
     result = rig.do("forward")
     assert (result["outcome"], result["reason"]["code"]) == ("refused", "another_motion")
     assert "chatrobot_control" in result["reply"]
     assert not any(any(twist) for _, twist in rig.velocities.all)
     second.end()
-    rig.nodes["control"].wait_for_line("notice (alone_again")
+    rig.nodes["control"].wait_for_line("Nobody else sends velocities")
     assert rig.do("forward 10 cm")["outcome"] == "completed"
 
 

@@ -19,7 +19,7 @@ def test_what_control_was_started_with_holds_for_all_that_comes_over_topics(tmp_
         assert rig.do("forward 1 m")["reason"]["code"] == "over_max_distance"
         limit = '{"word":"limit","source":"console","lease":"me","sequence":1,"payload":{"max_distance_m":"none"}}'
         rig.publish("chatgpt_node", Text(limit))
-        control.wait_for_line("notice (limit_refused_here: source=console")
+        control.wait_for_line("The limit of distance and time stays")
         assert rig.do("forward 1 m")["outcome"] == "refused"
         ended = rig.do("drive forward until a wall is within 50 cm")
         assert (ended["outcome"], ended["reason"]["code"]) == ("stopped", "max_distance_reached")

@@ -23,7 +23,7 @@ def test_a_person_releases_an_emergency_stop_over_ros_where_control_was_told_so(
         rig.result(said_s, "Emergency stop")
         assert rig.do("forward")["outcome"] == "refused"
         rig.publish("chatgpt_node", Text('{"word":"release","source":"me","lease":"me","sequence":1}'))
-        control.wait_for_line("notice (release_refused: source=me")
+        control.wait_for_line("The emergency stop stays: the me may not release it")
         rig.nodes["input"].say("release the emergency stop")
-        control.wait_for_line("notice (released: source=base")
+        control.wait_for_line("The emergency stop is released")
         assert rig.do("turn left 5 degrees")["outcome"] == "completed"

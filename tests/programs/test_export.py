@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import ast
 import os
+import signal
 import subprocess
+import sys
+import time
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
@@ -29,6 +32,7 @@ def test_the_workspace_is_whole() -> None:
         f"{ROOT}/launch/square_dance.launch.py",
         f"{ROOT}/square_dance/__init__.py",
         f"{ROOT}/square_dance/program.py",
+        f"{ROOT}/square_dance/run.py",
     }
 
 
@@ -49,16 +53,85 @@ def test_the_package_names_what_the_program_imports() -> None:
     assert root.findtext("description") == 'dance <fast> & "well"'
 
 
-def test_a_main_is_the_entry_point_and_a_plain_script_is_run_as_one() -> None:
-    assert "square_dance.program:main" in workspace(PROGRAM)[f"{ROOT}/setup.py"]
-    script = KeptProgram("square dance", "import rclpy\nrclpy.init()\n")
-    assert "square_dance.run:main" in workspace(script)[f"{ROOT}/setup.py"]
-    assert f"{ROOT}/square_dance/run.py" in workspace(script)
+@pytest.mark.parametrize(
+    ("source", "called"),
+    [
+        (NODE, "from square_dance.program import main"),
+        ("import rclpy\nrclpy.init()\n", "runpy.run_module('square_dance.program'"),
+        ("def main(speed):\n    pass\n", "runpy.run_module('square_dance.program'"),
+    ],
+)
+def test_a_main_is_called_and_a_script_or_a_main_that_wants_arguments_is_run_as_one(
+    source: str, called: str
+) -> None:
+    files = workspace(KeptProgram("square dance", source))
+    assert "square_dance.run:main" in files[f"{ROOT}/setup.py"]
+    assert called in files[f"{ROOT}/square_dance/run.py"]
 
 
-def test_a_main_that_wants_arguments_is_no_entry_point() -> None:
-    program = KeptProgram("x", "def main(speed):\n    pass\n")
-    assert "x.run:main" in workspace(program)["src/x/setup.py"]
+ENDING = """
+import sys
+import time
+
+
+class ExternalShutdownException(Exception): ...
+
+
+def main():
+    print('drives', flush=True)
+    try:
+        time.sleep(20.0)
+    finally:
+        time.sleep(0.5)
+        print('told to stand', flush=True)
+        {last}
+"""
+
+
+def run(folder: Path, source: str) -> subprocess.Popen[str]:
+    """As its executable would, where only Python is."""
+    root = export(KeptProgram("square dance", source), folder / "ws") / "src" / "square_dance"
+    code = "import sys; from square_dance.run import main; sys.exit(main())"
+    return subprocess.Popen(
+        [sys.executable, "-c", code], cwd=root, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
+
+
+@pytest.mark.parametrize(
+    ("last", "error"),
+    [
+        ("pass", ""),
+        ("raise RuntimeError('publisher context is invalid')", "publisher context is invalid"),
+    ],
+)
+def test_a_second_ctrl_c_as_launch_sends_it_breaks_off_nothing(tmp_path: Path, last: str, error: str) -> None:
+    process = run(tmp_path, ENDING.format(last=last))
+    assert process.stdout is not None
+    assert process.stdout.readline() == "drives\n"
+    for _ in range(2):
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.1)
+    out, err = process.communicate(timeout=20.0)
+    assert (out, process.returncode) == ("told to stand\n", 0)
+    assert "Traceback" not in err
+    assert error in err
+
+
+def test_what_breaks_by_itself_is_shown_as_ever(tmp_path: Path) -> None:
+    process = run(tmp_path, "def main():\n    raise RuntimeError('oh')\n")
+    _, err = process.communicate(timeout=20.0)
+    assert process.returncode == 1
+    assert "Traceback" in err
+
+
+def test_a_program_around_which_ros_is_shut_down_ends_in_order(tmp_path: Path) -> None:
+    source = ENDING.replace("time.sleep(20.0)", "raise ExternalShutdownException").format(
+        last="raise RuntimeError('rcl_shutdown already called')"
+    )
+    process = run(tmp_path, source)
+    _, err = process.communicate(timeout=20.0)
+    assert process.returncode == 0
+    assert "Traceback" not in err
 
 
 def test_an_agreed_remap_stands_in_the_launch_file() -> None:

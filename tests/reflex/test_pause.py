@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop, words_en, words_zh
+from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
+from chatrobot.reflex.words import ALL
 
 
-@pytest.mark.parametrize("phrase", [*words_en.PAUSE, *words_zh.PAUSE])
+@pytest.mark.parametrize("phrase", ALL.pause)
 def test_every_pause_word_stops_as_well(phrase: str) -> None:
     assert is_pause(phrase)
     assert is_stop(phrase)

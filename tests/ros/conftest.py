@@ -19,7 +19,7 @@ ROS = ("rclpy", "ros2cli", "colcon_core")
 TESTS = {
     "test_ros_wire.py": (ROS, "the contract of wires over rclpy"),
     "test_real_rosbridge.py": (
-        ("rclpy", "ros2cli", "rosbridge_server", "rosbridge_library", "websockets"),
+        ("rclpy", "ros2cli", "rosbridge_server", "rosbridge_library", "websockets", "cbor2"),
         "the contract of wires over the real rosbridge_server, and a robot driven over it",
     ),
     "test_tutorial_lines.py": (
@@ -27,7 +27,14 @@ TESTS = {
         "colcon build, every `ros2 run` of the tutorial, ros2 topic/node/param/service, diagnostics, Ctrl-C",
     ),
     "test_death_on_ros.py": (ROS, "nodes that die or freeze on ROS, its latencies, the console --on ros"),
-    "test_launch.py": ((*ROS, "launch_ros"), "ros2 launch of the simulated robot with its nodes"),
+    "test_launch.py": (
+        (*ROS, "launch_ros"),
+        "ros2 launch of the simulated robot with its nodes, of an exported program; Ctrl-C once and twice",
+    ),
+    "test_good_manners.py": (
+        (*ROS, "launch_ros"),
+        "namespaces, /rosout, quiet topics, /tf_static, exit codes of ros2 run",
+    ),
     "test_turtlesim.py": (
         (*ROS, "launch_ros", "turtlesim"),
         "turtlesim drives a square; DDS without ROS drives it, either started first, LOCALHOST and SUBNET",

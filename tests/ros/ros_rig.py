@@ -55,6 +55,32 @@ class Process(TalkingProcess):
             self.process.wait()
             raise
 
+    def guard(self) -> int:
+        """The process of the guard below it."""
+        waiting = [self.process.pid]
+        while waiting:
+            pid = waiting.pop()
+            if b"chatrobot.guard" in Path(f"/proc/{pid}/cmdline").read_bytes():
+                return pid
+            for children in Path(f"/proc/{pid}/task").glob("*/children"):
+                waiting += map(int, children.read_text().split())
+        raise AssertionError("there is no guard")
+
+
+def has_ended(pid: int) -> bool:
+    """It may wait for whoever has adopted it to look after it."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
+    except FileNotFoundError:
+        return True
+
+
+def wait_for_end(pid: int, timeout_s: float) -> None:
+    ends_s = time.monotonic() + timeout_s
+    while not has_ended(pid):
+        assert time.monotonic() < ends_s, f"process {pid} is there after {timeout_s:g} s"
+        time.sleep(0.01)
+
 
 class Workspace:
     """A colcon workspace with our two packages, built, and its environment."""

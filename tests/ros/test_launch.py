@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import math
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import pytest
-from ros_rig import Workspace, rig_of
+from ros_rig import Process, Workspace, rig_of, wait_for_end
 
 from chatrobot.wire.messages import Odometry, Text, TwistMessage
 
 pytestmark = pytest.mark.realtime
+GUARD_GONE_S = 1.0
 
 
 def test_launch_brings_up_a_robot_in_a_namespace_and_ctrl_c_ends_it_standing(
@@ -49,11 +53,83 @@ def test_launch_brings_up_a_robot_in_a_namespace_and_ctrl_c_ends_it_standing(
         assert "2.5" in period
         rig.ear.publish("/robot1/user_input", Text("forward 10 m"))
         moving_s, _ = velocities.wait_for(any, velocities.all[-1][0] + 0.1)
+        guard = launch.guard()
         struck_s = launch.interrupt()
         velocities.wait_for(lambda twist: not any(twist), max(struck_s, moving_s))
-        assert launch.end() in (0, 1, 2, 130)
+        ends_cleanly(launch)
+        wait_for_end(guard, GUARD_GONE_S)
         assert not any(velocities.all[-1][1])
-        assert "Traceback" not in "\n".join(launch.lines)
+        assert "chatrobot" not in rig.ask("node", "list", "--no-daemon", "--spin-time", "3")
+
+
+def ends_cleanly(launch: Process) -> None:
+    """Every process gives 0; not a word of an exception."""
+    assert launch.end() == 0
+    said = "\n".join(launch.lines)
+    assert said.count("process has finished cleanly") == said.count("process started"), said
+    for word in ("Traceback", "exception", "has died"):
+        assert word not in said, said
+
+
+@pytest.mark.parametrize("pause_s", [0.02, 0.3])
+def test_a_launch_that_is_interrupted_twice_ends_cleanly_too(
+    workspace: Workspace, tmp_path: Path, pause_s: float
+) -> None:
+    with rig_of(workspace, tmp_path) as rig:
+        launch = rig.start("ros2", "launch", "chatrobot", "simulated_robot.launch.py", "world:=empty")
+        for line in ("control drives", "base understands"):
+            launch.wait_for_line(line) if line not in "\n".join(launch.lines) else None
+        guard = launch.guard()
+        launch.interrupt()
+        time.sleep(pause_s)
+        launch.interrupt()
+        ends_cleanly(launch)
+        wait_for_end(guard, GUARD_GONE_S)
+
+
+SPINNER = """
+import rclpy
+from geometry_msgs.msg import Twist
+from rclpy.node import Node
+
+
+class Spinner(Node):
+    def __init__(self):
+        super().__init__('spinner')
+        self.publisher = self.create_publisher(Twist, 'cmd_vel', 10)
+        self.create_timer(0.1, lambda: self.publisher.publish(Twist()))
+
+
+def main(args=None):
+    rclpy.init(args=args)
+    node = Spinner()
+    try:
+        rclpy.spin(node)
+    finally:
+        node.publisher.publish(Twist())
+        node.destroy_node()
+        rclpy.shutdown()
+"""
+"""As programs are written everywhere: after Ctrl-C each line of its `finally` raises."""
+
+
+def test_an_exported_program_survives_the_second_ctrl_c_of_launch(
+    workspace: Workspace, tmp_path: Path
+) -> None:
+    from chatrobot.programs.export import export
+    from chatrobot.programs.library import KeptProgram
+
+    folder = export(KeptProgram("spinner", SPINNER), tmp_path / "ws")
+    subprocess.run([sys.executable, "-m", "colcon", "build"], cwd=folder, check=True, capture_output=True)
+    with rig_of(workspace, tmp_path) as rig:
+        heard = rig.hear("cmd_vel", TwistMessage)
+        launching = "source install/local_setup.bash && exec ros2 launch spinner spinner.launch.py"
+        launch = rig.start("bash", "-c", f"cd {folder} && {launching}")
+        heard.wait_for(lambda _: True)
+        launch.interrupt()
+        time.sleep(0.02)
+        launch.interrupt()
+        ends_cleanly(launch)
 
 
 def test_without_the_vendor_s_bring_up_it_is_said_how_to_get_it(workspace: Workspace, tmp_path: Path) -> None:

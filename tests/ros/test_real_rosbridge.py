@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import itertools
 import json
-import math
 import os
 import socket
 import subprocess
@@ -24,7 +23,7 @@ from wire_contract import CAMERA, Inbox, WireContract
 from chatrobot.core.wiring import Wiring
 from chatrobot.session.discovered import fit
 from chatrobot.wire.connect import Endpoint
-from chatrobot.wire.messages import LaserScan, Message, Number, TwistMessage
+from chatrobot.wire.messages import Message, Number, TwistMessage
 from chatrobot.wire.rosbridge import RosbridgeWire
 
 pytestmark = pytest.mark.realtime
@@ -100,11 +99,6 @@ class TestRealRosbridge(WireContract):
         return lambda: connect(CAMERA)
 
     def as_it_arrives(self, message: Message) -> About:
-        """Infinity and NaN are both null on the wire, and come back as NaN: what was there cannot be known."""
-        if isinstance(message, LaserScan):
-            message = message._replace(
-                ranges_m=[d if math.isfinite(d) else math.nan for d in message.ranges_m]
-            )
         return About(message)
 
     def test_messages_arrive_in_the_order_they_were_sent(self, connect: Callable[..., RosbridgeWire]) -> None:
@@ -131,6 +125,7 @@ class TestARobotBehindIt:
         return robot
 
     def do(self, server: Server, text: str) -> dict[str, object]:
+        """The result, with the time that was announced."""
         done = subprocess.run(
             [
                 sys.executable,
@@ -149,7 +144,10 @@ class TestARobotBehindIt:
             env=server.environment,
         )
         assert "Traceback" not in done.stderr
-        return dict(json.loads(done.stdout.splitlines()[-1]))
+        events = [json.loads(line) for line in done.stdout.splitlines()]
+        announced_s = [event["duration_s"] for event in events if event["event"] == "rehearsed"]
+        said = [event["reason"] for event in events if event["event"] == "notice"]
+        return {**events[-1], "announced_s": announced_s, "said": said}
 
     def test_it_is_driven(self, server: Server, robot: Process) -> None:
         assert robot.process.poll() is None
@@ -158,6 +156,15 @@ class TestARobotBehindIt:
         pose = result["pose"]
         assert isinstance(pose, dict)
         assert pose["x_m"] == pytest.approx(0.3, abs=0.02)
+
+    def test_open_space_is_crossed_at_normal_speed(self, server: Server, robot: Process) -> None:
+        """Its scan is infinity all around: in JSON that would be null, and 20 s."""
+        assert robot.process.poll() is None
+        result = self.do(server, "forward 2 m")
+        assert result["outcome"] == "completed", result
+        assert result["announced_s"] == [pytest.approx(7.0, abs=0.1)]
+        assert result["duration_s"] == pytest.approx(7.0, abs=1.0)
+        assert "open_space_unknown" not in str(result["said"])
 
     def test_rosapi_tells_how_the_robot_is_wired(self, server: Server, robot: Process) -> None:
         """The bridge itself says nothing of a type that nobody takes: it only logs."""

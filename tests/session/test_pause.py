@@ -312,6 +312,42 @@ def test_a_pause_before_anything_moved_moves_nothing() -> None:
     assert talk.session.is_paused or 1 in talk.results()
 
 
+def test_what_had_not_begun_waits_for_continue() -> None:
+    talk = Talk()
+    for text in ("forward 1 m", "back 20 cm", "pause"):
+        talk.session.say(text)
+    run_s(talk, 1.0)
+    assert talk.session.is_paused
+    assert list(talk.results()) == [3]
+    assert "“forward 1 m”, “back 20 cm”" in talk.results()[3].reply
+    assert talk.session.do("where are you?").outcome == "answered"
+    assert talk.session.do("continue").outcome == "answered"
+    talk.pump_until(lambda: {1, 2} <= talk.results().keys())
+    assert truth(talk).x_m == pytest.approx(0.8, abs=0.02)
+    assert not talk.session.is_paused
+
+
+@pytest.mark.parametrize("text", ["stop", "turn left 20 degrees"])
+def test_what_had_not_begun_is_dropped_by_a_stop_and_by_what_is_done_instead(text: str) -> None:
+    talk = Talk()
+    talk.session.say("forward 1 m")
+    talk.session.say("pause")
+    run_s(talk, 0.5)
+    talk.session.do(text)
+    run_s(talk, 0.5)
+    assert talk.results()[1].outcome == "stopped"
+    assert not talk.session.is_paused
+    assert truth(talk).x_m == pytest.approx(0.0, abs=0.01)
+
+
+def test_a_second_pause_keeps_what_had_not_begun() -> None:
+    talk = Talk()
+    for text in ("forward 50 cm", "pause", "pause", "continue"):
+        talk.session.say(text)
+    talk.pump_until(lambda: len(talk.results()) == 4)
+    assert talk.results()[1].outcome == "completed"
+
+
 def test_goodbye_drops_it() -> None:
     talk = Talk()
     talk.session.say("forward 2 m")

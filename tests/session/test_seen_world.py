@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import random
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,14 +13,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.session.test_session import Talk
 
-from chatrobot.core.events import Finished
+from chatrobot.core.events import Finished, Rehearsed
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.governor.contact import Footprint
+from chatrobot.governor.kernel import make_kernel
 from chatrobot.governor.obstacles import MARGIN_M
 from chatrobot.plan.rehearsal import MARGIN_M as REHEARSED_M
+from chatrobot.plan.rehearsal import rehearse
+from chatrobot.plan.text import parse_plan
 from chatrobot.robots.load import load_profile
 from chatrobot.session import planner
-from chatrobot.session.seen_world import POINT_RADIUS_M, SeenPoints
+from chatrobot.session.seen_world import POINT_RADIUS_M, SeenPoints, Sight
 from chatrobot.sim.world import EMPTY_WORLD
 
 MECANUM = load_profile("wheeltec_mini_mec")
@@ -148,6 +152,40 @@ def test_a_drive_up_to_something_is_rehearsed_up_to_what_was_seen() -> None:
     talk.pump_until(lambda: turn in talk.results())
     assert talk.results()[turn].outcome == "completed"
     assert talk.results()[turn].path_m == pytest.approx(2.2, abs=0.05)
+
+
+# --- where the lidar does not see, the robot is slow, and the estimate knows it ---
+
+
+@pytest.mark.parametrize(
+    ("lies", "text", "at_least_s"),
+    [
+        ("lidar_zeros=on", "forward 1 m", 9.9),
+        ("lidar_zeros=on", "turn left, then back 50 cm", 7.0),
+        ("lidar_fov_deg=180", "back 1 m", 9.9),
+        ("lidar_fov_deg=180", "forward 1 m", 3.0),
+        ("lidar_fov_deg=180", "turn left, then circle with radius 50 cm, then back 50 cm", 15.0),
+        ("", "back 1 m", 3.0),
+    ],
+)
+def test_the_estimate_of_a_plan_s_time_is_that_of_the_speed_that_will_be_allowed(
+    lies: str, text: str, at_least_s: float
+) -> None:
+    talk = Talk(sim=lies)
+    result = talk.session.do(text)
+    rehearsed = next(event for event in talk.events if isinstance(event, Rehearsed))
+    assert result.outcome == "completed"
+    assert result.duration_s > at_least_s
+    assert rehearsed.duration_s == pytest.approx(result.duration_s, rel=0.03)
+
+
+def test_a_blind_robot_that_may_not_go_blind_is_stopped_and_the_estimate_is_finite() -> None:
+    careful = replace(MECANUM, safety=replace(MECANUM.safety, blind_speed_mps=0.0))
+    assert MECANUM.lidar is not None
+    blind = SeenPoints(careful, np.empty((0, 2)), Sight(careful, MECANUM.lidar, None))
+    rehearsal = rehearse(parse_plan("drive 1 m"), careful, None, ORIGIN, make_kernel(careful), seen=blind)
+    assert rehearsal.ok
+    assert rehearsal.duration_s < 5.0
 
 
 COMMANDS = (

@@ -33,12 +33,13 @@ PROFILE = load_profile("wheeltec_mini_mec")
 class OnBoard:
     """The robot's own end, on the robot: no network lies between it and its rosbridge."""
 
-    def __init__(self, bridge: FakeRosbridge) -> None:
+    def __init__(self, bridge: FakeRosbridge, topics: tuple[str, ...] = ("odom", "imu")) -> None:
         self._bridge = bridge
+        self._topics = topics
 
     def publish(self, topic: str, message: Message) -> None:
         form = ros_form(topic, type(message), PROFILE.wiring)
-        if topic in ("odom", "imu"):
+        if topic in self._topics:
             self._bridge.say(f"/{topic}", form.to_ros(message))
 
     def subscribe(self, topic: str, kind: type[M], callback: Callable[[M], None]) -> None:  # noqa: ARG002
@@ -54,17 +55,18 @@ class OnBoard:
 class Rig:
     """A robot that holds its last command for ever, its rosbridge, and Motion on what looks like another machine."""
 
-    def __init__(self) -> None:
-        self.bridge = FakeRosbridge()
-        self.robot = SimRobot(PROFILE, wire=OnBoard(self.bridge), clock=RealClock())
+    host = "127.1"
+    """An address of this machine that does not look like one."""
+
+    def __init__(self, bridge: FakeRosbridge, topics: tuple[str, ...] = ("odom", "imu")) -> None:
+        self.bridge = bridge
+        self.robot = SimRobot(PROFILE, wire=OnBoard(bridge, topics), clock=RealClock())
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._live)
         self._thread.start()
         self.events: list[Event] = []
-        # An address of this machine that does not look like one.
-        self.joint = SocketJoint(
-            MotionProcess.start(f"rosbridge:ws://127.1:{self.bridge.port}", "wheeltec_mini_mec", "empty")
-        )
+        address = f"rosbridge:ws://{self.host}:{bridge.port}"
+        self.joint = SocketJoint(MotionProcess.start(address, "wheeltec_mini_mec", "empty"))
         self.joint.wait_until_ready()
 
     def _live(self) -> None:
@@ -112,7 +114,7 @@ class Rig:
 @pytest.fixture
 def rig(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Rig]:
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
-    made = Rig()
+    made = Rig(FakeRosbridge())
     yield made
     made.close()
 

@@ -28,10 +28,15 @@ class Recorder:
 
     def __init__(self) -> None:
         self.published: list[tuple[str, Mapping[str, Any]]] = []
+        self.kept: set[str] = set()
 
-    def publish_fields(self, topic: str, type_name: str, fields: Mapping[str, Any]) -> None:
+    def publish_fields(
+        self, topic: str, type_name: str, fields: Mapping[str, Any], *, is_kept: bool = False
+    ) -> None:
         assert type_name == "tf2_msgs/msg/TFMessage"
         self.published.append((topic, fields))
+        if is_kept:
+            self.kept.add(topic)
 
     def publish(self, topic: str, message: Message) -> None: ...
     def subscribe(self, topic: str, kind: Any, callback: Any) -> None: ...
@@ -82,15 +87,16 @@ def test_a_robot_lives_on_while_its_network_is_gone() -> None:
     MarshalledWire(Gone()).publish("odom", STANDING)
 
 
-def test_the_frames_are_told_with_every_second_odometry() -> None:
+def test_what_moves_is_told_with_every_second_odometry_and_what_is_fixed_once_for_all() -> None:
     wire = Recorder()
     lidar = Lidar(x_m=0.1, y_m=0.0, yaw_rad=0.5, beams=360, min_range_m=0.05, max_range_m=12.0, rate_hz=10.0)
     transforms = TransformPublisher(wire, replace(PROFILE, lidar=lidar))
     for _ in range(4):
         transforms.after("odom", STANDING)
         transforms.after("truth", STANDING)
-    assert [topic for topic, _ in wire.published] == ["/tf", "/tf"]
-    base, laser = wire.published[0][1]["transforms"]
+    assert [topic for topic, _ in wire.published] == ["/tf_static", "/tf", "/tf"]
+    assert wire.kept == {"/tf_static"}
+    (laser,), (base,) = (fields["transforms"] for _, fields in wire.published[:2])
     assert (base["header"]["frame_id"], base["child_frame_id"]) == ("odom", "base_link")
     assert base["transform"]["translation"] == {"x": 2.0, "y": 3.0}
     assert (laser["header"]["frame_id"], laser["child_frame_id"]) == ("base_link", "laser")

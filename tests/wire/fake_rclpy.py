@@ -6,11 +6,11 @@ down raises RuntimeErrors; reliable readers do not hear best-effort writers; nam
 
 from __future__ import annotations
 
+import contextlib
 import copy
 import queue
 import re
 import sys
-import threading
 import time
 from collections.abc import Callable, Iterator
 from enum import Enum
@@ -22,7 +22,7 @@ import pytest
 from fake_ros_messages import CLASSES
 from fake_ros_messages import modules as message_modules
 
-Option = Enum("Option", "KEEP_LAST RELIABLE BEST_EFFORT VOLATILE NO STEADY_TIME")
+Option = Enum("Option", "KEEP_LAST RELIABLE BEST_EFFORT VOLATILE TRANSIENT_LOCAL NO STEADY_TIME")
 
 
 # ruff: noqa: N818 - their names
@@ -62,6 +62,8 @@ class Ros:
     def __init__(self) -> None:
         self.nodes: list[Node] = []
         self.clock_s = 0.0
+        self.log: list[tuple[str, str, str]] = []
+        """Severity, logger and text."""
 
     def each(self, kind: str, topic: str) -> Iterator[Any]:
         for node in tuple(self.nodes):
@@ -86,17 +88,10 @@ class Context:
         self.overrides: dict[str, Any] = {}
 
 
-class Future:
-    def __init__(self) -> None:
-        self.event = threading.Event()
-
-    def set_result(self, _: object) -> None:
-        self.event.set()
-
-
 class Publisher:
     def __init__(self, node: Node, kind: type, topic: str, qos: Any) -> None:
         self.node, self.kind, self.topic, self.qos = node, kind, topic, qos
+        self.kept: list[Any] = []
 
     def _matched(self) -> list[Subscription]:
         if self.node.is_destroyed:
@@ -111,6 +106,8 @@ class Publisher:
     def publish(self, message: Any) -> None:
         if not isinstance(message, self.kind):
             raise TypeError(f"Expected {self.kind}, got {type(message)}")
+        if self.qos.durability is Option.TRANSIENT_LOCAL:
+            self.kept = [message][-self.qos.depth :]
         for subscription in self._matched():
             subscription.take(copy.deepcopy(message))
 
@@ -121,7 +118,16 @@ class Subscription:
 
     def hears(self, publisher: Publisher) -> bool:
         reliable = publisher.qos.reliability is Option.RELIABLE
-        return self.kind is publisher.kind and (reliable or self.qos.reliability is Option.BEST_EFFORT)
+        keeps = publisher.qos.durability is Option.TRANSIENT_LOCAL
+        return (
+            self.kind is publisher.kind
+            and (reliable or self.qos.reliability is Option.BEST_EFFORT)
+            and (keeps or not self.wants_kept)
+        )
+
+    @property
+    def wants_kept(self) -> bool:
+        return getattr(self.qos, "durability", Option.VOLATILE) is Option.TRANSIENT_LOCAL
 
     def take(self, message: Any) -> None:
         self.node.inbox.put(lambda: self.callback(message))
@@ -169,13 +175,33 @@ class Node:
     def create_subscription(self, kind: type, topic: str, callback: Any, qos: Any) -> Subscription:
         subscription = Subscription(self, kind, self.resolve_topic_name(topic), callback, qos)
         self.subscriptions.append(subscription)
+        for publisher in self.ros.each("publishers", subscription.topic):
+            if subscription.wants_kept and subscription.hears(publisher):
+                for message in publisher.kept:
+                    subscription.take(copy.deepcopy(message))
         return subscription
+
+    def get_logger(self) -> Any:
+        name = f"{self.namespace}/{self.name}".strip("/").replace("/", ".")
+        return SimpleNamespace(
+            info=lambda text: self.ros.log.append(("info", name, text)),
+            warning=lambda text: self.ros.log.append(("warn", name, text)),
+            error=lambda text: self.ros.log.append(("error", name, text)),
+        )
 
     def create_service(self, _kind: type, name: str, callback: Any) -> None:
         self.services[self.resolve_topic_name(name)] = callback
 
     def create_timer(self, period_s: float, callback: Any, clock: Any) -> None:  # noqa: ARG002
         self.timers.append([time.monotonic() + period_s, period_s, callback])
+
+    def create_guard_condition(self, callback: Callable[[], Any]) -> Any:
+        def trigger() -> None:
+            if self.is_destroyed:
+                raise InvalidHandle("cannot use Destroyable because destruction was requested")
+            self.inbox.put(callback)
+
+        return SimpleNamespace(trigger=trigger)
 
     def get_publishers_info_by_topic(self, topic: str) -> list[Any]:
         return self._infos("publishers", topic)
@@ -233,18 +259,15 @@ class SingleThreadedExecutor:
     def add_node(self, node: Node) -> None:
         self.node = node
 
-    def spin_until_future_complete(self, future: Future) -> None:
-        while not future.event.is_set():
-            if not self.context.is_valid:
-                raise ExternalShutdownException
-            for timer in self.node.timers:
-                if time.monotonic() >= timer[0]:
-                    timer[0] += timer[1]
-                    timer[2]()
-            try:
-                self.node.inbox.get(timeout=0.002)()
-            except queue.Empty:
-                continue
+    def spin_once(self) -> None:
+        if not self.context.is_valid:
+            raise ExternalShutdownException
+        for timer in self.node.timers:
+            if time.monotonic() >= timer[0]:
+                timer[0] += timer[1]
+                timer[2]()
+        with contextlib.suppress(queue.Empty):
+            self.node.inbox.get(timeout=0.002)()
 
     def shutdown(self) -> None:
         """Nothing is left to wait for."""
@@ -294,7 +317,6 @@ def _rclpy(ros: Ros) -> dict[str, ModuleType]:
             "QoSProfile": SimpleNamespace,
         },
         "rclpy.signals": {"SignalHandlerOptions": Option},
-        "rclpy.task": {"Future": Future},
         "rclpy.utilities": {"get_rmw_implementation_identifier": lambda: "rmw_fake_cpp"},
         "rcl_interfaces": {},
         "rcl_interfaces.msg": {

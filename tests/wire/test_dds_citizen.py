@@ -215,6 +215,21 @@ def test_sensors_are_heard_whether_reliable_or_not(
     assert heard.get(timeout=PATIENCE_S).vx_mps == 0.5
 
 
+def test_a_fixed_transform_reaches_a_listener_of_ros_s_that_comes_later(
+    ends: Ends, participant: DomainParticipant
+) -> None:
+    types, name = RosTypes(), "tf2_msgs/msg/TFMessage"
+    fixed = {"transforms": [{"header": {"frame_id": "base_link"}, "child_frame_id": "laser"}]}
+    DdsWire.publish_fields(ends.wires[0], "/tf_static", name, fixed, is_kept=True)
+    topic = Topic(participant, "rt/tf_static", types.topic_type(name))
+    as_tf2_asks = Qos(
+        Policy.Reliability.Reliable(0), Policy.Durability.TransientLocal, Policy.History.KeepLast(100)
+    )
+    reader: Any = DataReader(participant, topic, as_tf2_asks)
+    (sample,) = until(lambda: [sample for sample in reader.read(10) if hasattr(sample, "cdr")])
+    assert types.read(name, sample.cdr).transforms[0].child_frame_id == "laser"
+
+
 def test_bytes_that_are_no_message_are_ignored(ends: Ends, participant: DomainParticipant) -> None:
     types, name = RosTypes(), "std_msgs/msg/String"
     inbox = Inbox(ends.wires[0], "words", Text)

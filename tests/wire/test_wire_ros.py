@@ -162,6 +162,34 @@ def test_what_has_no_planar_form_is_published_by_its_fields(connect: Callable[..
     assert [transform.child_frame_id for transform in heard[0].transforms] == ["base_link"]
 
 
+def test_what_is_kept_reaches_who_listens_later(connect: Callable[..., Any]) -> None:
+    from chatrobot.wire.ros.convert import message_class
+
+    wire, heard = connect(), []
+    for child in ("camera", "laser"):
+        wire.publish_fields(
+            "/tf_static", "tf2_msgs/msg/TFMessage", {"transforms": [{"child_frame_id": child}]}, is_kept=True
+        )
+    listener = connect()
+    qos = fake_rclpy.SimpleNamespace(
+        reliability=fake_rclpy.Option.RELIABLE, durability=fake_rclpy.Option.TRANSIENT_LOCAL
+    )
+    listener.node.handle.create_subscription(
+        message_class("tf2_msgs/msg/TFMessage"), "/tf_static", heard.append, qos
+    )
+    Inbox(listener, "settled", Text)
+    assert [message.transforms[0].child_frame_id for message in heard] == ["laser"]
+
+
+def test_closing_twice_and_after_its_context_is_gone_breaks_nothing(connect: Callable[..., Any]) -> None:
+    wire = connect()
+    wire.node.context.is_valid = False
+    wire.node._thread.join(10.0)
+    wire.close()
+    wire.close()
+    assert wire.node.is_closed
+
+
 def test_a_type_that_is_not_installed_says_how_to_get_it(connect: Callable[..., Any]) -> None:
     with pytest.raises(UsageError, match="turtlesim"):
         connect(wiring=Wiring(odom_type="turtlesim/Pose")).publish("odom", STANDING)

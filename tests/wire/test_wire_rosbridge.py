@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import contextlib
+import math
 import queue
 import socket
 import threading
@@ -29,7 +30,9 @@ from chatrobot.wire.messages import (
 )
 
 pytest.importorskip("websockets", reason="pip install 'chatrobot[rosbridge]'")
+pytest.importorskip("cbor2", reason="pip install 'chatrobot[rosbridge]'")
 
+import cbor2
 from fake_rosbridge import FakeRosbridge
 from websockets.utils import accept_key
 
@@ -42,6 +45,14 @@ ZERO = TwistMessage(0.0, 0.0, 0.0)
 @pytest.fixture
 def robot() -> Iterator[FakeRosbridge]:
     server = FakeRosbridge()
+    yield server
+    server.stop()
+
+
+@pytest.fixture
+def old_robot() -> Iterator[FakeRosbridge]:
+    """Its rosbridge knows no CBOR."""
+    server = FakeRosbridge(offers_cbor=False)
     yield server
     server.stop()
 
@@ -65,6 +76,30 @@ class TestRosbridgeWire(WireContract):
         return lambda: connect(CAMERA)
 
     def as_it_arrives(self, message: Message) -> About:
+        return About(message)
+
+
+class TestRosbridgeWireOverJsonAlone(WireContract):
+    """Infinity and NaN are both null on the wire, and come back as NaN: what was there cannot be known."""
+
+    sees_open_space = False
+
+    @pytest.fixture
+    def connect(self, old_robot: FakeRosbridge) -> Iterator[Callable[[], RosbridgeWire]]:  # type: ignore[override]
+        wires: list[RosbridgeWire] = []
+
+        def connect_one() -> RosbridgeWire:
+            wires.append(RosbridgeWire(old_robot.url, CAMERA))
+            return wires[-1]
+
+        yield connect_one
+        for wire in wires:
+            wire.close()
+
+    def as_it_arrives(self, message: Message) -> About:
+        if isinstance(message, LaserScan):
+            ranges_m = [range_m if math.isfinite(range_m) else math.nan for range_m in message.ranges_m]
+            message = message._replace(ranges_m=ranges_m)
         return About(message)
 
 
@@ -205,6 +240,12 @@ def test_a_type_the_robot_refuses_is_said_when_publishing(connect: Connect) -> N
 @pytest.mark.parametrize(
     "garbage",
     [
+        b"",
+        b"\x82\x01",
+        b"\xa1\x62op\x67publish",
+        cbor2.dumps({"op": "publish", "topic": "/scan", "msg": {"ranges": cbor2.CBORTag(85, b"abc")}}),
+        cbor2.dumps({"op": "publish", "topic": "/scan", "msg": {"ranges": cbor2.CBORTag(85, "abc")}}),
+        b"\x81" * 10_000,
         "{",
         "[]",
         "null",
@@ -217,24 +258,61 @@ def test_a_type_the_robot_refuses_is_said_when_publishing(connect: Connect) -> N
     ],
 )
 def test_messages_that_make_no_sense_are_ignored(
-    robot: FakeRosbridge, connect: Connect, garbage: str
+    robot: FakeRosbridge, connect: Connect, garbage: str | bytes
 ) -> None:
     wire = connect()
     inbox = Inbox(wire, "text", Text)
     wire.subscribe("odom", Odometry, lambda _: None)
+    wire.subscribe("scan", LaserScan, lambda _: None)
     robot.say_raw(garbage)
     robot.say("/text", {"data": "fine"})
     assert inbox.next() == Text("fine")
 
 
-def test_what_json_cannot_say_is_not_known(robot: FakeRosbridge, connect: Connect) -> None:
-    scans = Inbox(connect(), "scan", LaserScan)
-    stamp = {"sec": 0, "nanosec": 0}
+def scan_of(*ranges: float | None) -> dict[str, object]:
     fields = ("angle_min", "angle_increment", "range_min", "range_max")
-    robot.say("/scan", {"header": {"stamp": stamp}, **dict.fromkeys(fields, 1), "ranges": [1, None, 2.5]})
-    ranges_m = scans.next().ranges_m
-    assert (ranges_m[0], ranges_m[2]) == (1.0, 2.5)
-    assert ranges_m[1] != ranges_m[1]
+    return {
+        "header": {"stamp": {"sec": 0, "nanosec": 0}},
+        **dict.fromkeys(fields, 1.0),
+        "ranges": list(ranges),
+    }
+
+
+def test_infinity_and_nan_are_told_apart_where_the_server_offers_cbor(
+    robot: FakeRosbridge, connect: Connect
+) -> None:
+    wire = connect()
+    scans = Inbox(wire, "scan", LaserScan)
+    robot.say("/scan", scan_of(1.0, math.inf, math.nan, -math.inf, 2.5))
+    told = scans.next().ranges_m
+    assert (told[0], told[1], told[3], told[4]) == (1.0, math.inf, -math.inf, 2.5)
+    assert math.isnan(told[2])
+    assert not wire.has_null_ranges
+
+
+def test_over_json_alone_both_are_unknown_and_the_wire_knows_it(old_robot: FakeRosbridge) -> None:
+    wire = RosbridgeWire(old_robot.url, Wiring())
+    scans = Inbox(wire, "scan", LaserScan)
+    old_robot.say("/scan", scan_of(1.0, 2.5))
+    assert scans.next().ranges_m == [1.0, 2.5]
+    assert not wire.has_null_ranges
+    old_robot.say("/scan", scan_of(1.0, math.inf, math.nan, 2.5))
+    told = scans.next().ranges_m
+    assert (told[0], told[3]) == (1.0, 2.5)
+    assert math.isnan(told[1])
+    assert math.isnan(told[2])
+    wire.close()
+    assert wire.has_null_ranges
+
+
+def test_messages_that_the_server_fails_to_write_as_cbor_are_asked_for_as_json(
+    robot: FakeRosbridge, connect: Connect
+) -> None:
+    heard: queue.Queue[Imu] = queue.Queue()
+    connect().subscribe("imu", Imu, heard.put)
+    assert robot.wait_for("subscribe", 1, PATIENCE_S)
+    robot.say("/imu", {"header": {"stamp": {"sec": 1, "nanosec": 0}}, "angular_velocity": {"z": 0.5}})
+    assert heard.get(timeout=PATIENCE_S).wz_radps == 0.5
 
 
 def test_late_odometry_keeps_its_age(robot: FakeRosbridge, connect: Connect) -> None:
@@ -255,10 +333,11 @@ def test_a_battery_is_told_in_per_cent(robot: FakeRosbridge, connect: Connect) -
     assert heard.next() == Number(50.0)
 
 
-def test_a_camera_s_pictures_are_asked_for_now_and_then_and_come_as_base64(
-    robot: FakeRosbridge, connect: Connect
-) -> None:
-    pictures = Inbox(connect(), "camera", Picture)
+@pytest.mark.parametrize("offers_cbor", [True, False], ids=["as bytes", "as base64"])
+def test_a_camera_s_pictures_are_asked_for_now_and_then(offers_cbor: bool) -> None:
+    robot = FakeRosbridge(offers_cbor=offers_cbor)
+    wire = RosbridgeWire(robot.url, Wiring())
+    pictures = Inbox(wire, "camera", Picture)
     asked = next(request for request in robot.of("subscribe") if request["topic"] == "/camera")
     assert (asked["throttle_rate"], asked["queue_length"]) == (200, 1)
     size = {"height": 480, "width": 640, "step": 1920}
@@ -267,6 +346,8 @@ def test_a_camera_s_pictures_are_asked_for_now_and_then_and_come_as_base64(
         "/camera", {"header": {"stamp": {"sec": 0, "nanosec": 0}}, "encoding": "rgb8", **size, "data": data}
     )
     assert len(pictures.next().data) == 640 * 480 * 3
+    wire.close()
+    robot.stop()
 
 
 def _rosapi(robot: FakeRosbridge) -> None:

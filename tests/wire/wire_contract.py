@@ -10,8 +10,11 @@ from typing import Generic, TypeVar
 
 import pytest
 
+from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import WireError
 from chatrobot.core.wiring import Wiring
+from chatrobot.execution.sensors import Sensors
+from chatrobot.robots.load import load_profile
 from chatrobot.wire.messages import (
     PICTURE_BYTES,
     Flag,
@@ -71,6 +74,9 @@ class WireContract:
     def as_it_arrives(self, message: Message) -> object:
         """What equals `message` at the other end, where a backend's format rounds or translates clocks."""
         return message
+
+    sees_open_space = True
+    """Whether infinity arrives as what it is: that nothing is there (REP-117)."""
 
     @pytest.mark.parametrize("message", ONE_OF_EACH, ids=lambda message: type(message).__name__)
     def test_every_kind_of_message_arrives_as_it_was_sent(
@@ -136,6 +142,20 @@ class WireContract:
         scan = LaserScan(1.0, -math.pi, 0.001, 0.05, 40.0, [i / 7.0 for i in range(6000)])
         connect().publish("scan", scan)
         assert self.as_it_arrives(scan) == inbox.next()
+
+    @pytest.mark.parametrize("range_m", [math.nan, 0.0, -1.0, -math.inf])
+    def test_a_scan_that_measured_nothing_is_blind_and_open_space_is_not(
+        self, connect: Callable[[], Wire], range_m: float
+    ) -> None:
+        receiver, sender = connect(), connect()
+        sensors = Sensors(load_profile("wheeltec_mini_mec"), RealClock())
+        sensors.attach(receiver)
+        inbox = Inbox(receiver, "scan", LaserScan)
+        for ranges_m in ([range_m] * 8, [math.inf] * 8):
+            assert sensors.scan is None
+            sender.publish("scan", LaserScan(1.0, -math.pi, math.tau / 8, 0.05, 12.0, ranges_m))
+            inbox.next()
+        assert (sensors.scan is not None) == self.sees_open_space
 
     def test_a_picture_passes(self, connect: Callable[[], Wire]) -> None:
         inbox = Inbox(connect(), "camera/image_raw", Picture)

@@ -1,22 +1,16 @@
-"""What may stand on the command line. Imports argparse alone: `chatrobot --help` must be there at once."""
+"""What may stand on the command line: the commands, what each takes, and how it is read.
+
+Imports argparse alone: `chatrobot --help` must be there at once.
+"""
 
 from __future__ import annotations
 
 import argparse
 import re
 from collections.abc import Sequence
-from typing import Any
 
 from chatrobot import __version__
-from chatrobot.cli.options import (
-    DEFAULT_ROBOT,
-    NO_ODOMETRY,
-    SHOWN,
-    SHOWN_OF_PROGRAMS,
-    Parser,
-    options_of,
-    port,
-)
+from chatrobot.cli.options import NO_ODOMETRY, OPTIONS, Parser, add_options, offer, port
 from chatrobot.core.errors import UsageError
 
 COMMANDS = {
@@ -26,6 +20,8 @@ COMMANDS = {
     "eval": "run a corpus of sayings and count correct, wrong and abstained",
     "calibrate": "one metre and one turn: you measure, your profile gets the correction",
     "doctor": "what works here, and how to get the rest",
+    "robots": "the robots that there is a profile for",
+    "worlds": "the worlds for the simulated robot",
     "program": "programs that move the robot: new, list, show, run, edit, rename, remove, export",
     "schema": "the JSON schema of plans",
     "sim": "run the simulated robot alone, for other programs to drive",
@@ -33,14 +29,9 @@ COMMANDS = {
     "model": "set up, list and test language models",
     "usage": "what language models have used and cost",
     "fake-model": "a scripted stand-in for a language model, for tests and demonstrations",
+    "completion": "what makes Tab complete in bash, zsh or fish",
 }
-DEFAULTS: dict[str, Any] = {
-    "on": "auto", "robot": DEFAULT_ROBOT, "interpreter": "auto", "model": "", "fast": False, "json": False,
-    "trace": False, "sim": "", "world": "", "approve": False, "yes": False, "config_dir": None,
-    "rounds": 6, "budget_tokens": 20_000, "budget_s": 600.0, "parameters": [],
-    "max_distance": None, "max_time": None, "open_loop": False, "keep_going": False,
-}  # fmt: skip
-
+SHELLS = ("bash", "zsh", "fish")
 _NODES = ("node", "sim")
 _TALKS = ("", "do", "plan")
 """A conversation takes `--ros-args -p revChatGPT:=True` as the tutorial's base node does."""
@@ -53,7 +44,8 @@ examples:
   chatrobot do "draw a square" --fast              the same as fast as the machine goes
   printf 'forward 1 m\\nturn left\\n' | chatrobot    a line is a turn; all of them are done
 
-exit codes: 0 completed or answered, 1 failed, 2 usage, 3 unclear, 4 refused, 5 stopped
+exit codes: 0 completed or answered, 1 failed, 2 usage, 3 unclear, 4 refused, 5 stopped; of several turns that of
+the last one, with --keep-going that of the first that was not done
 """
 
 
@@ -69,18 +61,21 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     Raises:
         UsageError: what is wrong, and what is allowed.
     """
-    parser, options = _parsers()
-    arguments, program_args = _split_program_args(arguments, options)
+    arguments, program_args = _split_program_args(arguments)
     arguments, ros_args = split_ros_args(arguments)
-    word = _first_word(arguments, options)
+    word = _first_word(arguments)
     if word is not None and word not in COMMANDS:
         raise UsageError(
             f"there is no command {word!r}",
             allowed=f'commands: {", ".join(COMMANDS)}; to tell the robot something: chatrobot do "{word} …"',
         )
-    parsed = parser.parse_args(list(arguments))
+    parsed = commands_parser().parse_args(list(arguments))
     parsed.command = parsed.command or ""
     if parsed.command == "do":
+        if not (parsed.texts or parsed.plan):
+            raise UsageError(
+                "nothing to do is given", allowed='chatrobot do "forward 1 m", or chatrobot do --plan FILE'
+            )
         _expect_words(parsed.texts, "do")
         _expect_quotes(parsed.texts)
     elif parsed.command == "plan":
@@ -100,9 +95,9 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     parsed.names_robot = hasattr(parsed, "robot")
     if not parsed.names_robot and getattr(parsed, "open_loop", False):
         parsed.robot = NO_ODOMETRY
-    for name, value in DEFAULTS.items():
-        if not hasattr(parsed, name):
-            setattr(parsed, name, value)
+    for option in OPTIONS:
+        if not hasattr(parsed, option.name):
+            setattr(parsed, option.name, option.default)
     return parsed
 
 
@@ -144,19 +139,17 @@ def split_ros_args(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
     return ours, theirs
 
 
-def _split_program_args(arguments: Sequence[str], options: Parser) -> tuple[list[str], list[str]]:
+def _split_program_args(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
     """The arguments before the first `--`, and those behind it, which `program` hands on to a program."""
-    if "--" not in arguments or _first_word(arguments, options) != "program":
+    if "--" not in arguments or _first_word(arguments) != "program":
         return list(arguments), []
     at = list(arguments).index("--")
     return list(arguments[:at]), list(arguments[at + 1 :])
 
 
-def _first_word(arguments: Sequence[str], options: Parser) -> str | None:
+def _first_word(arguments: Sequence[str]) -> str | None:
     """The first argument that is neither an option nor the value of one."""
-    takes_value = {
-        name for action in options._actions if action.nargs is None for name in action.option_strings
-    }
+    takes_value = {option.flag for option in OPTIONS if option.takes_value}
     rest = iter(arguments)
     for argument in rest:
         if argument in takes_value:
@@ -166,56 +159,55 @@ def _first_word(arguments: Sequence[str], options: Parser) -> str | None:
     return None
 
 
-def _parsers() -> tuple[Parser, Parser]:
-    options = options_of()
+def commands_parser() -> Parser:
+    """The parser of the whole command line."""
     parser = Parser(
-        prog="chatrobot",
-        description=_DESCRIPTION,
-        epilog=_EPILOG,
-        parents=[options],
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
+        prog="chatrobot", usage="%(prog)s [options] [COMMAND …]", description=_DESCRIPTION, epilog=_EPILOG
     )
-    parser.add_argument("--version", action="version", version=f"chatrobot {__version__}")
-    commands = parser.add_subparsers(dest="command", metavar="COMMAND", title="commands")
+    parser.add_argument("-V", "--version", action="version", version=f"chatrobot {__version__}")
+    add_options(parser, "")
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", title="commands", prog="chatrobot")
     for name, text in COMMANDS.items():
-        command = commands.add_parser(
-            name,
-            help=text,
-            description=f"{text[0].upper()}{text[1:]}.",
-            parents=[options_of(SHOWN.get(name), name)],
-            allow_abbrev=False,
-        )
+        command = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
         _ARGUMENTS.get(name, _no_arguments)(command)
-    return parser, options
+        add_options(command, name)
+    return parser
 
 
 def _do(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "texts", nargs="+", metavar="TEXT", help="what to do; several are turns of one dialogue"
+        "texts", nargs="*", metavar="TEXT", help="what to do; several are turns of one dialogue"
+    )
+    parser.add_argument(
+        "--plan", metavar="FILE", help="drive a saved plan, rehearsed anew; texts are the turns after it"
     )
     parser.add_argument(
         "--keep-going",
         action="store_true",
-        help="do the rest, too, after a turn that was refused, stopped, failed or not understood",
+        help="do the rest, too, after a turn that was refused, stopped, failed or not understood; "
+        "the exit code is then that of the first of these",
     )
 
 
 def _plan(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("text", metavar="TEXT", help="what the robot would have to do")
-    parser.add_argument("--png", metavar="FILE", help="draw the way it would take into a picture")
+    offer(
+        parser.add_argument("--png", metavar="FILE", help="draw the way it would take into a picture"),
+        "files",
+    )
 
 
 def _eval(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("files", nargs="+", metavar="FILE", help="a corpus in YAML")
+    offer(parser.add_argument("files", nargs="+", metavar="FILE", help="a corpus in YAML"), "files")
     parser.add_argument("--only", choices=("odd", "even"), help="only the items whose running number is so")
     parser.add_argument("--misses", action="store_true", help="list what was wrong and what was asked back")
 
 
 def _sim(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
+    socket = parser.add_argument(
         "--socket", metavar="PATH", help="where its wire is served (default: the runtime folder)"
     )
+    offer(socket, "files")
     _ros_args(parser)
 
 
@@ -252,9 +244,10 @@ def _model(parser: argparse.ArgumentParser) -> None:
         help="setup: with questions (the default); list: what there is; test: try one sentence; "
         "use: keep a choice; key: put a provider's key into the keyring",
     )
-    parser.add_argument(
+    name = parser.add_argument(
         "name", nargs="?", default="", metavar="PROVIDER[:NAME]", help="use none: keep that no model is used"
     )
+    offer(name, "models")
     parser.add_argument("--delete", action="store_true", help="key: take it out of the keyring")
 
 
@@ -263,36 +256,48 @@ def _usage(parser: argparse.ArgumentParser) -> None:
 
 
 def _fake_model(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("script", metavar="SCRIPT.yaml", help="what it answers: docs/models.md has the form")
+    script = parser.add_argument(
+        "script", metavar="SCRIPT.yaml", help="what it answers: docs/models.md has the form"
+    )
+    offer(script, "files")
     parser.add_argument("--port", type=port, default=8399, help="0: any that is free (default: 8399)")
     parser.add_argument(
         "--host", default="127.0.0.1", help="where to listen; beyond loopback a token is asked for"
     )
 
 
+def _completion(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("shell", choices=SHELLS, help="the shell whose script is printed")
+    parser.epilog = """\
+bash:  echo 'eval "$(chatrobot completion bash)"' >> ~/.bashrc
+zsh:   echo 'eval "$(chatrobot completion zsh)"' >> ~/.zshrc       (after compinit)
+fish:  chatrobot completion fish > ~/.config/fish/completions/chatrobot.fish"""
+
+
 def _program(parser: argparse.ArgumentParser) -> None:
-    actions = parser.add_subparsers(dest="action", metavar="ACTION", required=True, title="actions")
+    actions = parser.add_subparsers(
+        dest="action", metavar="ACTION", required=True, title="actions", prog="chatrobot program"
+    )
     for name, (text, takes) in PROGRAM_ACTIONS.items():
-        action = actions.add_parser(
-            name,
-            help=text,
-            description=f"{text[0].upper()}{text[1:]}.",
-            parents=[options_of(SHOWN_OF_PROGRAMS.get(name))],
-            allow_abbrev=False,
-        )
+        action = actions.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
         for argument, meaning in takes.items():
-            action.add_argument(argument.casefold(), metavar=argument, help=meaning)
+            added = action.add_argument(argument.casefold(), metavar=argument, help=meaning)
+            offer(added, _OFFERED.get((name, argument), _OFFERED.get(("", argument), ())))
         if name == "run":
             action.usage = f"{action.prog} [options] NAME [-- ARGS]"
             action.epilog = "ARGS are the program's own: -- --ros-args -p speed:=0.35 -r velocity:=/cmd_vel"
         if name == "new":
             action.add_argument("--name", dest="called", default="", metavar="NAME", help="what to call it")
         if name == "edit":
-            action.add_argument(
+            file = action.add_argument(
                 "--file", default="", metavar="FILE.py", help="take this source, ask no editor"
             )
+            offer(file, "files")
+        add_options(action, f"program {name}")
 
 
+_OFFERED = {("", "NAME"): "programs", ("run", "NAME"): "programs or files", ("", "DIR"): "folders"}
+"""What Tab completes an argument of a program's action with."""
 PROGRAM_ACTIONS: dict[str, tuple[str, dict[str, str]]] = {
     "new": ("write a program, rehearse it, run it and keep it", {"TEXT": "what it is to do"}),
     "list": ("the programs that are kept", {}),
@@ -321,5 +326,5 @@ def _no_arguments(_: argparse.ArgumentParser) -> None:
 
 _ARGUMENTS = {
     "do": _do, "plan": _plan, "eval": _eval, "sim": _sim, "node": _node, "model": _model, "usage": _usage,
-    "fake-model": _fake_model, "program": _program,
+    "fake-model": _fake_model, "program": _program, "completion": _completion,
 }  # fmt: skip

@@ -121,6 +121,10 @@ class Conversation:
         """One turn, seen through: its result."""
         return self.see_through_edits(self.session.say(text))
 
+    def do_plan(self, plan_text: str) -> Result:
+        """As `do`, for a plan that a person wrote."""
+        return self.see_through_edits(self.session.say_plan(plan_text))
+
     def drop_if_stopped(self, texts: Sequence[str]) -> None:
         """Where a stop came while the robot was started: say what is not begun."""
         for text in texts if self.is_leaving else ():

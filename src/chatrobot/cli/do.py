@@ -1,4 +1,4 @@
-"""`chatrobot do TEXT [TEXT…]`: one instruction, or a dialogue turn by turn."""
+"""`chatrobot do TEXT [TEXT…]`: one instruction, or a dialogue turn by turn. `--plan FILE`: a saved plan first."""
 
 from __future__ import annotations
 
@@ -8,22 +8,33 @@ from chatrobot.cli.approver import Approver
 from chatrobot.cli.choices import setup_from
 from chatrobot.cli.console.pasted import goes_on_after, quoted
 from chatrobot.cli.conversation import Conversation
-from chatrobot.cli.keyboard import Keyboard, has_keyboard
+from chatrobot.cli.keyboard import Keyboard
+from chatrobot.cli.lines import has_keyboard
+from chatrobot.cli.plan_file import read_plan_file
 from chatrobot.cli.printer import printer_for
-from chatrobot.core.events import Notice, Result
+from chatrobot.core.events import EXIT_CODES, Notice, Result
 from chatrobot.core.reason import Reason
 from chatrobot.language.consent import read_consent
 
 
 def run(args: argparse.Namespace) -> int:
-    """The exit code of the last turn that was taken."""
+    """The exit code of the last turn that was taken; with `--keep-going` of the first that was not done.
+
+    Raises:
+        UsageError: the plan's file cannot be used.
+    """
+    plan_text = read_plan_file(args.plan) if args.plan else ""
     printer = printer_for(args)
     approver = Approver(can_ask=has_keyboard())
     conversation = Conversation(setup_from(args, programs=True), printer, approver)
     Keyboard(conversation, approver).start()  # a stop may be typed while the robot starts
     with conversation:
-        conversation.drop_if_stopped(args.texts)
+        conversation.drop_if_stopped([args.plan, *args.texts] if args.plan else args.texts)
         results: list[Result] = []
+        if plan_text and not conversation.is_leaving:
+            if args.texts:
+                printer.turn(args.plan)
+            results.append(conversation.do_plan(plan_text))
         for number, text in enumerate(args.texts):
             if conversation.is_leaving or conversation.has_parted:
                 break
@@ -32,9 +43,12 @@ def run(args: argparse.Namespace) -> int:
                 reason = Reason("turns_not_done", {"texts": quoted(rest), "count": len(rest)})
                 conversation.show(Notice(0, reason))
                 break
-            if len(args.texts) > 1:
+            if len(args.texts) > 1 or plan_text:
                 printer.turn(text)
             results.append(conversation.do(text))
+    undone = [result for result in results if not goes_on_after(result.outcome)]
+    if args.keep_going and undone and not conversation.is_leaving:
+        return EXIT_CODES[undone[0].outcome]
     return conversation.exit_code
 
 

@@ -6,14 +6,18 @@ import argparse
 import os
 import platform
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from chatrobot import __version__
 from chatrobot.cli.folders import config_folder, profile_folders
+from chatrobot.cli.options import DEFAULT_ROBOT
 from chatrobot.core.errors import ChatRobotError
 from chatrobot.core.events import Event
+
+if TYPE_CHECKING:
+    from chatrobot.compose import Setup
 
 DISCOVERY_S = 0.6
 State = Literal["ok", "missing", "later"]
@@ -31,16 +35,22 @@ class Check:
 
 def run(args: argparse.Namespace) -> int:
     """0 where the simulated robot works, 1 where something has to be mended."""
-    checks = []
+    checks: list[Check] = []
     for check in _checks(args):
-        checks.append(check)
         if args.json:
             from chatrobot.cli.json_lines import json_line
 
             print(json_line({"event": "check", **asdict(check)}), end="", flush=True)
         else:
-            print(f"{_MARKS[check.state]} {check.name:<18}{check.text}", flush=True)
+            print(f"{_MARKS[check.state]} {check.name:<18}{_told_once(check, checks)}", flush=True)
+        checks.append(check)
     return 1 if any(check.state == "missing" for check in checks) else 0
+
+
+def _told_once(check: Check, before: Sequence[Check]) -> str:
+    """What was found; where it is what an earlier check has found, which."""
+    same = next((each.name for each in before if each.text == check.text), "")
+    return f"as above: {same}" if same else check.text
 
 
 def _checks(args: argparse.Namespace) -> Iterator[Check]:
@@ -51,6 +61,10 @@ def _checks(args: argparse.Namespace) -> Iterator[Check]:
     yield settings
     if settings.state == "missing":
         return  # everything else looks there first
+    profile = _try("robot profile", lambda: _profile(args))
+    yield profile
+    if profile.state == "missing":
+        args.robot = DEFAULT_ROBOT  # what else works is worth knowing
     yield _try("simulated robot", lambda: _simulated_robot(args))
     yield _try("in real time", lambda: _in_real_time(args))
     yield _ros(args)
@@ -74,12 +88,27 @@ def _settings(args: argparse.Namespace) -> str:
     return str(folder) if there == folder else f"{folder} (made when there is something to keep)"
 
 
+def _profile(args: argparse.Namespace) -> str:
+    from chatrobot.robots.load import load_profile
+
+    return f"{args.robot}: {load_profile(args.robot, profile_folders(args)).title}"
+
+
+def _setup(args: argparse.Namespace, *, fast: bool) -> Setup:
+    """The simulated robot in an empty world."""
+    from chatrobot.compose import Setup
+    from chatrobot.robots.load import profile_argument
+
+    robot = profile_argument(args.robot, profile_folders(args))
+    return Setup(robot=robot, world="empty", fast=fast)
+
+
 def _simulated_robot(args: argparse.Namespace) -> str:
     """Drive a metre on a virtual clock."""
-    from chatrobot.compose import Setup, connect
+    from chatrobot.compose import connect
 
     began_s = time.monotonic()
-    connection = connect(Setup(robot=args.robot, world="empty", fast=True), _ignore)
+    connection = connect(_setup(args, fast=True), _ignore)
     result = connection.session.do("forward 1 m")
     connection.close()
     if result.outcome != "completed":
@@ -89,10 +118,10 @@ def _simulated_robot(args: argparse.Namespace) -> str:
 
 def _in_real_time(args: argparse.Namespace) -> str:
     """Start all processes, as `chatrobot do` would, and end them again."""
-    from chatrobot.compose import Setup, connect
+    from chatrobot.compose import connect
 
     began_s = time.monotonic()
-    connection = connect(Setup(robot=args.robot, world="empty"), _ignore)
+    connection = connect(_setup(args, fast=False), _ignore)
     ready_s = time.monotonic() - began_s
     connection.close()
     return f"robot, control loop and guard run {ready_s:.2f} s after they are asked to"
@@ -188,7 +217,8 @@ def _model(args: argparse.Namespace) -> Check:
         return Check("language model", "later", text)
     problem = problem_with(choice.name, config)
     if problem is not None:
-        return Check("language model", "missing", f"{choice.name}: {render_reason(problem, 'en')}")
+        text = render_reason(problem, "en")
+        return Check("language model", "missing", text if choice.name in text else f"{choice.name}: {text}")
     source = {"option": "--model", "environment": "CHATROBOT_MODEL", "stored": "chatrobot model use"}[
         choice.source
     ]

@@ -11,6 +11,7 @@ from chatrobot.cli.drawing import fonts
 from chatrobot.cli.drawing.canvas import XY, Box, Canvas
 from chatrobot.cli.drawing.extent import Extent, extent_of_world
 from chatrobot.cli.drawing.map_text import draw_map_text
+from chatrobot.cli.drawing.orientation import Orientation
 from chatrobot.cli.drawing.ways import outline_at, progress_colour, standing_points, where_found
 from chatrobot.core.events import FindingSeen, Rehearsed
 from chatrobot.core.geometry import Pose
@@ -58,9 +59,8 @@ def draw_plan(
     extent = extent_of_world(
         world, way, margin_m=0.25 + (profile.footprint_radius_m if way else 0.0), least_m=3.0
     )
-    _Picture(extent, len(rehearsed.findings)).draw(world, profile, rehearsed, title, words or _code).save(
-        path
-    )
+    picture = _Picture(extent, Orientation(world), len(rehearsed.findings))
+    picture.draw(world, profile, rehearsed, title, words or _code).save(path)
 
 
 def _code(finding: FindingSeen) -> str:
@@ -70,8 +70,9 @@ def _code(finding: FindingSeen) -> str:
 class _Picture:
     """One picture on its way: an extent of the world on a canvas, and the labels that already stand there."""
 
-    def __init__(self, extent: Extent, findings: int) -> None:
+    def __init__(self, extent: Extent, orientation: Orientation, findings: int) -> None:
         self._extent = extent
+        self._orientation = orientation
         self._px_per_m = min(MAP_WIDTH_PX / extent.width_m, MAX_MAP_HEIGHT_PX / extent.height_m)
         self._map_w = max(760, round(extent.width_m * self._px_per_m))
         self._map_h = max(MIN_MAP_HEIGHT_PX, round(extent.height_m * self._px_per_m))
@@ -95,9 +96,14 @@ class _Picture:
         return self.canvas
 
     def _at(self, x_m: float, y_m: float) -> XY:
+        """A point in the frame of the start."""
+        return self._on_grid(*self._orientation.point(x_m, y_m))
+
+    def _on_grid(self, right_m: float, up_m: float) -> XY:
+        """A point so far from the start along the axes of the picture."""
         return (
-            self._off_x + (x_m - self._extent.min_x_m) * self._px_per_m,
-            self._off_y + (self._extent.max_y_m - y_m) * self._px_per_m,
+            self._off_x + (right_m - self._extent.min_x_m) * self._px_per_m,
+            self._off_y + (self._extent.max_y_m - up_m) * self._px_per_m,
         )
 
     def _points(self, points: Sequence[tuple[float, float]]) -> list[XY]:
@@ -114,20 +120,21 @@ class _Picture:
         for i in range(
             math.ceil((left - self._off_x) / self._px_per_m / step + self._extent.min_x_m / step), 10**6
         ):
-            x, _ = self._at(i * step, 0.0)
+            x, _ = self._on_grid(i * step, 0.0)
             if x > right:
                 break
             self.canvas.line([(x, top), (x, bottom)], GRID_STRONG if i == 0 else GRID)
             self.canvas.text((x, bottom + 7), f"{i * step:g}", FAINT, 13, "ma")
         lowest = self._extent.max_y_m - (bottom - self._off_y) / self._px_per_m
         for i in range(math.ceil(lowest / step), 10**6):
-            _, y = self._at(0.0, i * step)
+            _, y = self._on_grid(0.0, i * step)
             if y < top:
                 break
             self.canvas.line([(left, y), (right, y)], GRID_STRONG if i == 0 else GRID)
             self.canvas.text((left - 9, y), f"{i * step:g}", FAINT, 13, "rm")
-        self.canvas.text((right, bottom + 26), "x, metres", FAINT, 12, "ra")
-        self.canvas.text((left, top - 8), "y, metres", FAINT, 12, "ls")
+        whose = "from the start along the world's " if self._orientation.is_turned else ""
+        self.canvas.text((right, bottom + 26), f"{whose}x, metres", FAINT, 12, "ra")
+        self.canvas.text((left, top - 8), f"{whose}y, metres", FAINT, 12, "ls")
 
     def _obstacles(self, world: World) -> None:
         if world.allowed_area is not None:
@@ -154,10 +161,11 @@ class _Picture:
         self._taken += [(x - 6, y - 6, x + 6, y + 6) for x, y in spots.values()]
         for name, pose in world.places.items():
             x, y = spots[name]
-            look = (x + 11 * math.cos(pose.yaw_rad), y - 11 * math.sin(pose.yaw_rad))
+            heading_rad = self._orientation.heading_rad(pose.yaw_rad)
+            look = (x + 11 * math.cos(heading_rad), y - 11 * math.sin(heading_rad))
             self.canvas.line([(x, y), look], PLACE, 2.0)
             self.canvas.circle((x, y), 5, fill=PLACE, edge=(255, 255, 255), width_px=1.2)
-            self._label(name, (x, y), looks_right=math.cos(pose.yaw_rad) > 0.5)
+            self._label(name, (x, y), looks_right=math.cos(heading_rad) > 0.5)
 
     def _label(self, name: str, spot: XY, looks_right: bool) -> None:
         x, y = spot
@@ -211,7 +219,8 @@ class _Picture:
         self, point: tuple[float, float, float], colour: tuple[int, int, int], reach_px: float
     ) -> None:
         x, y = self._at(*point[:2])
-        cos, sin = math.cos(point[2]), -math.sin(point[2])
+        heading_rad = self._orientation.heading_rad(point[2])
+        cos, sin = math.cos(heading_rad), -math.sin(heading_rad)
         size = max(11.0, reach_px * 0.62)
         corners = ((1.0, 0.0), (-0.62, 0.62), (-0.3, 0.0), (-0.62, -0.62))
         placed = [(x + size * (cos * a - sin * b), y + size * (sin * a + cos * b)) for a, b in corners]

@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from chatrobot.cli.lines import has_keyboard
+from chatrobot.cli.typed_ahead import TypedAhead
 from chatrobot.core.motion_budget import MotionBudget
 from chatrobot.session.processes import SIMULATED, Processes
 
@@ -20,11 +22,15 @@ _CLEAR_LINE = "\r\x1b[K"
 
 
 class Early:
-    """The processes of a simulated robot in real time, None for any other; and a line that says what is waited for."""
+    """The processes of a simulated robot in real time, None for any other; a line that says what is waited for; and
+    what is typed meanwhile."""
 
     def __init__(self, args: argparse.Namespace) -> None:
         self.processes: Processes | None = None
+        self.typed_ahead = TypedAhead()
         self._is_shown = False
+        if not args.command and not args.json and has_keyboard():
+            self.typed_ahead.start()
         profile = self._checked(args)
         if not args.json and os.isatty(STDOUT):
             self._show(profile.title)

@@ -57,6 +57,14 @@ def _run(arguments: Sequence[str]) -> int:
         from chatrobot.cli import stop
 
         return stop.run()
+    if list(arguments[:3]) == [
+        "completion",
+        "words",
+        "--",
+    ]:  # what follows is half a command line: nothing to parse
+        from chatrobot.cli import completion
+
+        return completion.print_words(arguments[3:])
     from importlib import import_module
 
     from chatrobot.cli.arguments import parse
@@ -73,8 +81,13 @@ def _run(arguments: Sequence[str]) -> int:
 def _sentence(error: Exception) -> str:
     from chatrobot.core.errors import ChatRobotError
 
+    reason = getattr(error, "reason", None)
     if isinstance(error, ChatRobotError):
-        return str(error)
+        if reason is None:
+            return str(error)
+        from chatrobot.language.phrases import render_reason
+
+        return render_reason(reason, "en")
     if isinstance(error, OSError) and error.strerror:
         return f"{error.filename}: {error.strerror}" if error.filename else error.strerror
     return f"this should not happen: {type(error).__name__}: {error} (CHATROBOT_DEBUG=1 shows where)"

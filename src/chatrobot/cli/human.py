@@ -26,7 +26,7 @@ from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.shown import fixed
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.phrases import render_reason, say
-from chatrobot.plan.shown import shown_plan
+from chatrobot.plan.folded import folded_plan
 
 _CLEAR_LINE = "\r\x1b[K"
 _MARKS = {"refuse": "✗", "warn": "!", "note": "·"}
@@ -75,8 +75,8 @@ class HumanPrinter:
         self._show_plan(event.plan_text)
 
     def _show_plan(self, plan_text: str) -> None:
-        for line in shown_plan(plan_text).splitlines():
-            self._line(f"    {line}")
+        for line in folded_plan(plan_text):
+            self._line(f"    {line.text}")
 
     def _show_rehearsed(self, event: Rehearsed, language: LanguageCode) -> None:
         if event.turn == self._streamed:

@@ -10,16 +10,8 @@ import threading
 
 from chatrobot.cli.approver import Approver
 from chatrobot.cli.conversation import Conversation
-from chatrobot.cli.lines import MAX_LINE_BYTES
+from chatrobot.cli.lines import MAX_LINE_BYTES, has_keyboard
 from chatrobot.reflex import is_pause, leads_with_stop
-
-
-def has_keyboard() -> bool:
-    """Somebody may type here: a terminal, and we are not in its background."""
-    try:
-        return sys.stdin.isatty() and os.tcgetpgrp(sys.stdin.fileno()) == os.getpgrp()
-    except (OSError, ValueError):
-        return False
 
 
 class Keyboard:

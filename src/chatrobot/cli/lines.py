@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 import select
+import sys
 import threading
 from collections.abc import Callable
 
@@ -14,6 +15,14 @@ PASTE_S = 0.3
 """Lines that are pasted come at once; a terminal hands them on one by one."""
 _ITEM = re.compile(r"(?:\(?\d{1,2}[.,:、，．)]|[-*•·])\s*\S")
 """A point of a list: `1, the car needs to …`, `- then turn`."""
+
+
+def has_keyboard() -> bool:
+    """Somebody may type here: a terminal, and we are not in its background."""
+    try:
+        return sys.stdin.isatty() and os.tcgetpgrp(sys.stdin.fileno()) == os.getpgrp()
+    except (OSError, ValueError):
+        return False
 
 
 class Joiner:

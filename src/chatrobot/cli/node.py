@@ -17,9 +17,12 @@ from chatrobot.wire.connect import Connect, connect_wire
 if TYPE_CHECKING:
     from chatrobot.nodes.citizen import Citizen
 
+REPEATS_S = 2.0
+"""`ros2 launch` sends each node the Ctrl-C that the terminal has sent it already: so soon it is the same one."""
+
 
 def run(args: argparse.Namespace) -> int:
-    """0 where its input has ended, 5 where it was asked to end."""
+    """0 where its input has ended; where it was asked to end 5, and 0 as a node of ROS, which has no other way to."""
     if args.fast or args.trace or args.sim:
         raise UsageError("a node drives a robot on a wire", allowed="leave out --fast, --trace and --sim")
     args.approval = "all" if args.approve else "none" if args.yes else "profile"
@@ -32,14 +35,27 @@ def run(args: argparse.Namespace) -> int:
     else:
         citizen, connect = None, connect_wire
         vars(args).update(read_parameters(parameters_in(ros_args)))
-    return {"input": _run_input, "base": _run_base, "control": _run_control}[args.which](
+    has_left = {"input": _run_input, "base": _run_base, "control": _run_control}[args.which](
         args, citizen, connect
     )
+    return STOPPED if has_left and citizen is None else 0
 
 
-def _run_control(args: argparse.Namespace, citizen: Citizen | None, connect: Connect) -> int:
+def _run_control(args: argparse.Namespace, citizen: Citizen | None, connect: Connect) -> bool:
+    from chatrobot.core.events import Event, Started
     from chatrobot.nodes.control import ControlNode, ControlOptions
+    from chatrobot.nodes.log import Log, on_stderr
+    from chatrobot.nodes.told import told
+    from chatrobot.session.topics import CHATGPT_NODE
 
+    log = Log(on_stderr if citizen is None else citizen.log)
+
+    def note(event: Event) -> None:
+        line = told(event)
+        if line is not None:
+            log(*line)
+
+    told(Started(1))  # reads the tables of words now, not in the middle of a motion
     node = ControlNode(
         ControlOptions(
             _address(args),
@@ -52,6 +68,7 @@ def _run_control(args: argparse.Namespace, citizen: Citizen | None, connect: Con
             args.open_loop,
         ),
         connect,
+        note,
     )
 
     def stop(why: str) -> None:
@@ -63,20 +80,25 @@ def _run_control(args: argparse.Namespace, citizen: Citizen | None, connect: Con
             node.leave()
         return watch.is_leaving
 
-    with SignalWatch(stop) as watch:
+    with SignalWatch(stop, repeats_s=REPEATS_S) as watch:
         if citizen is not None:
             node.introduce(citizen)
-        _say(f"control drives {args.robot} on {_place(args)}: chatgpt_node → cmd_vel; Ctrl-C stops and ends")
+        way = f"{node.resolved(CHATGPT_NODE)} → {node.cmd_vel_topic}"
+        log("info", f"control drives {args.robot} on {_place(args)}: {way}; Ctrl-C stops and ends")
         node.run(is_leaving)
-    return STOPPED
+        log.close()
+    return True
 
 
-def _run_base(args: argparse.Namespace, citizen: Citizen | None, connect: Connect) -> int:
+def _run_base(args: argparse.Namespace, citizen: Citizen | None, connect: Connect) -> bool:
     from chatrobot.cli.choices import model_from
     from chatrobot.cli.folders import config_folder
     from chatrobot.nodes.base import BaseNode, BaseOptions
+    from chatrobot.nodes.log import Log
     from chatrobot.session.model_terms import ModelOptions
+    from chatrobot.session.topics import CHATGPT_NODE, USER_INPUT
 
+    log = Log((lambda _, text: _say(text)) if citizen is None else citizen.log)
     node = BaseNode(
         BaseOptions(
             _address(args),
@@ -91,22 +113,26 @@ def _run_base(args: argparse.Namespace, citizen: Citizen | None, connect: Connec
             args.approval,
             args.open_loop,
         ),
-        _say,
+        log,
         connect,
     )
-    with SignalWatch(node.stop) as watch:
+    with SignalWatch(node.stop, repeats_s=REPEATS_S) as watch:
         if citizen is not None:
             node.introduce(citizen)
-        ready = f"base understands for {args.robot} on {_place(args)}: user_input → chatgpt_node"
-        node.run(lambda: watch.is_leaving, lambda: _say(ready))
-    return STOPPED
+        way = f"{node.resolved(USER_INPUT)} → {node.resolved(CHATGPT_NODE)}"
+        ready = f"base understands for {args.robot} on {_place(args)}: {way}"
+        node.run(lambda: watch.is_leaving, lambda: log("info", ready))
+        log.close()
+    return True
 
 
-def _run_input(args: argparse.Namespace, _: Citizen | None, connect: Connect) -> int:
+def _run_input(args: argparse.Namespace, _: Citizen | None, connect: Connect) -> bool:
+    """On standard output alone: it is a person's terminal, and what is said is on topics already."""
     from chatrobot.cli.lines import LineReader
     from chatrobot.language.phrases import say
     from chatrobot.nodes.input import InputNode
     from chatrobot.robots.load import load_profile
+    from chatrobot.session.topics import USER_INPUT
 
     node = InputNode(_address(args), load_profile(_profile(args)).wiring, _say, connect)
 
@@ -115,13 +141,13 @@ def _run_input(args: argparse.Namespace, _: Citizen | None, connect: Connect) ->
             _say(say("en", "unsaid"))
 
     reader = LineReader(on_line)
-    with SignalWatch(lambda _: node.stop()) as watch:
-        _say(f"input on {_place(args)}: each line goes to user_input")
+    with SignalWatch(lambda _: node.stop(), repeats_s=REPEATS_S) as watch:
+        _say(f"input on {_place(args)}: each line goes to {node.resolved(USER_INPUT)}")
         reader.start()
         while not (watch.is_leaving or reader.has_ended):
             reader.wait(0.1)
-    node.close()
-    return STOPPED if watch.is_leaving else 0
+        node.close()
+    return watch.is_leaving
 
 
 def _address(args: argparse.Namespace) -> str:

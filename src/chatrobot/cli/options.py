@@ -1,9 +1,13 @@
-"""The options that commands share. Imports argparse alone: `chatrobot --help` must be there at once."""
+"""The options that commands share: each declared once, with its default, the commands that take it and what Tab offers.
+
+Imports argparse alone: `chatrobot --help` must be there at once.
+"""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any, NoReturn, TypeVar
 
 from chatrobot.core.errors import UsageError
@@ -16,33 +20,75 @@ DEFAULT_ROBOT = "wheeltec_mini_mec"
 NO_ODOMETRY = "no_odometry"
 """The same as `robots.open_loop.NO_ODOMETRY`: the robot of who asks for open loop and names none."""
 
-_MODEL_OPTIONS = ("interpreter", "model", "rounds", "budget_tokens", "budget_s")
-_BUDGET_OPTIONS = ("max_distance", "max_time", "open_loop")
-SHOWN: dict[str, tuple[str, ...]] = {
-    "plan": ("on", "robot", *_MODEL_OPTIONS, *_BUDGET_OPTIONS, "json", "world", "config_dir"),
-    "stop": (),
-    "schema": (),
-    "calibrate": ("on", "robot", "sim", "world", "config_dir"),
-    "doctor": ("on", "robot", "world", "model", "json", "config_dir"),
-    "sim": ("on", "robot", "sim", "world", "config_dir"),
-    "node": ("on", "robot", *_MODEL_OPTIONS, *_BUDGET_OPTIONS, "world", "config_dir", "parameters"),
-    "model": ("model", "json", "config_dir"),
-    "usage": ("json", "config_dir"),
-    "fake-model": ("json",),
-}
-"""The options that `--help` of a command lists, where it does not list all; any of them may stand before it, too."""
-SHOWN_OF_PROGRAMS: dict[str, tuple[str, ...]] = {
-    "list": ("json", "config_dir"),
-    "show": ("robot", "json", "config_dir"),
-    "edit": ("config_dir",),
-    "rename": ("config_dir",),
-    "remove": ("config_dir",),
-    "export": ("config_dir",),
-}
+COMMON = "options"
+"""argparse's own name for the group that stands first."""
+_SIMULATION, _MODEL, _LIMITS = "simulation", "language model", "limits of one text or program"
+_WORLD = "empty, home or a world file (default: {})"
+_WIRES = "ros[://DOMAIN[/NAMESPACE]] or rosbridge[:ws://HOST:9090]"
+_DRIVE = ("", "do", "program new", "program run")
+"""The commands that drive a robot; "" is `chatrobot` alone."""
+_PLAN = (*_DRIVE, "plan", "node")
+"""Those that turn text into a plan."""
+_UNDERSTAND = (*_PLAN, "eval")
+_KEPT = ("list", "show", "edit", "rename", "remove", "export")
+_SETTINGS = ("doctor", "robots", "model", "usage", *(f"program {action}" for action in _KEPT))
+
+
+@dataclass(frozen=True)
+class Option:
+    """One shared option. Every command accepts it; `commands` are those that use it, and list it in their help.
+
+    Args:
+        help: what it does; `helps` has what else is said of it in the help of some commands.
+        metavar: what stands for its value in the help; empty for a switch.
+        offers: what Tab completes its value with: a key of `completion.OFFERS`, or the values themselves.
+    """
+
+    flag: str
+    help: str
+    commands: tuple[str, ...]
+    group: str = COMMON
+    default: Any = None
+    metavar: str = ""
+    read: Callable[[str], Any] = str
+    choices: tuple[str, ...] | None = None
+    offers: str | tuple[str, ...] = ()
+    dest: str = ""
+    is_repeated: bool = False
+    helps: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def name(self) -> str:
+        """Its name in the namespace."""
+        return self.dest or self.flag.lstrip("-").replace("-", "_")
+
+    @property
+    def takes_value(self) -> bool:
+        """It is no switch."""
+        return bool(self.metavar or self.choices)
+
+    def add_to(self, group: argparse._ActionsContainer, command: str) -> None:
+        """Good before and after the command: hence no default here, the one would undo the other."""
+        how: dict[str, Any] = {"dest": self.name, "default": argparse.SUPPRESS, "help": argparse.SUPPRESS}
+        if command in self.commands:
+            how["help"] = self.helps.get(command, self.help)
+        if self.choices:
+            how["choices"] = self.choices
+        elif self.metavar:
+            how |= {"metavar": self.metavar, "type": self.read}
+        if self.is_repeated:
+            how["action"] = "append"
+        elif not self.takes_value:
+            how["action"] = "store_true"
+        offer(group.add_argument(self.flag, **how), self.offers)
 
 
 class Parser(argparse.ArgumentParser):
     """Wrong usage leaves through `main` like every other mistake, not out of the middle of parsing."""
+
+    def __init__(self, **how: Any) -> None:
+        how.setdefault("formatter_class", HelpText)
+        super().__init__(**how, allow_abbrev=False)
 
     def error(self, message: str) -> NoReturn:
         from chatrobot.models.secret import scrub  # a key may have been typed where none belongs
@@ -50,101 +96,28 @@ class Parser(argparse.ArgumentParser):
         raise UsageError(scrub(message, None), allowed=f"see {self.prog} --help")
 
 
-_HELP_OF_NODES = {
-    "on": "which wire: dds (the default) or ros[://DOMAIN[/NAMESPACE]], rosbridge[:ws://HOST:9090] or local:PATH",
-    "world": "what is known of the surroundings: empty, home or a world file (default: empty)",
-}
-_HELP_OF = {
-    "node": _HELP_OF_NODES,
-    "sim": {
-        "on": "where: on this machine alone (the default), dds or ros[://DOMAIN[/NAMESPACE]]; under ros2 run ros",
-        "world": "where it is: empty, home or a world file (default: home)",
-    },
-}
-"""What `--help` of a command says in place of the general words, where its defaults are others."""
+class HelpText(argparse.RawDescriptionHelpFormatter):
+    """Options are listed once, below: the line of usage has no room for them."""
+
+    def add_usage(self, usage: str | None, actions: Any, groups: Any, prefix: str | None = None) -> None:
+        if usage is None:
+            self._prog += " [options]"
+            actions, groups = [action for action in actions if not action.option_strings], []
+        super().add_usage(usage, actions, groups, prefix)
 
 
-def options_of(shown: Sequence[str] | None = None, command: str = "") -> Parser:
-    """Good before and after the command: hence no defaults here, the one would undo the other.
+def add_options(parser: argparse.ArgumentParser, command: str) -> None:
+    """Have `parser` accept every shared option, and list those that `command` uses, group by group."""
+    for title in (COMMON, _SIMULATION, _MODEL, _LIMITS):
+        group = parser if title == COMMON else parser.add_argument_group(title)
+        for option in OPTIONS:
+            if option.group == title:
+                option.add_to(group, command)
 
-    Args:
-        shown: the options that the help lists, by their names in the namespace; None for all.
-        command: whose help it is.
-    """
-    parser = Parser(add_help=False, argument_default=argparse.SUPPRESS, allow_abbrev=False)
-    group = parser.add_argument_group("options")
 
-    def add(*names: str, **how: Any) -> None:
-        action = group.add_argument(*names, **how)
-        action.help = _HELP_OF.get(command, {}).get(action.dest, action.help)
-        if shown is not None and action.dest not in shown:
-            action.help = argparse.SUPPRESS
-
-    add(
-        "--on",
-        metavar="WHERE",
-        help="which robot: sim (the default), dds or ros[://DOMAIN[/NAMESPACE]], or rosbridge[:ws://HOST:9090]",
-    )
-    add(
-        "--robot",
-        metavar="PROFILE",
-        help=f"a robot profile, by name or .toml file (default: {DEFAULT_ROBOT})",
-    )
-    add("--interpreter", choices=("auto", "offline", "model"), help="who understands (default: auto)")
-    add("--model", metavar="PROVIDER:NAME", help="the language model to ask what is not understood offline")
-    add("--rounds", type=positive(int), metavar="N", help="how often a model may look and go on (default: 6)")
-    add(
-        "--budget-tokens",
-        type=positive(int),
-        metavar="N",
-        help="what a model may use for one text (default: 20000)",
-    )
-    add(
-        "--budget-s",
-        type=positive(float),
-        metavar="SECONDS",
-        help="what a model's turn may take (default: 600)",
-    )
-    add("--fast", action="store_true", help="simulated time, as quick as it goes")
-    add("--json", action="store_true", help="one JSON object a line; without a command: text in, events out")
-    add(
-        "--trace", action="store_true", help="with --json: the simulated robot's true pose, 50 times a second"
-    )
-    add(
-        "--sim",
-        metavar="KEY=VALUE,…",
-        help="how the simulated robot lies: slip=0.03,latency_s=0.05,noise=on,seed=1",
-    )
-    add("--world", metavar="WORLD", help="empty, home or a world file (default: home; eval: empty)")
-    add(
-        "--max-distance",
-        type=limit,
-        metavar="M|none",
-        help="metres that one text or program may drive (default: 100)",
-    )
-    add(
-        "--max-time",
-        type=limit,
-        metavar="S|none",
-        help="seconds that one text or program may drive (default: 600; a program without an end runs 60)",
-    )
-    add(
-        "--open-loop",
-        action="store_true",
-        help="drive a robot without odometry: nothing is measured; 0.2 m/s, 0.5 rad/s and 10 s a text at most"
-        f" (robot: {NO_ODOMETRY}, unless you name one)",
-    )
-    add("--approve", action="store_true", help="ask before each plan")
-    add("--yes", action="store_true", help="do each plan without asking")
-    add("--config-dir", metavar="DIR", help="where places, programs and robot profiles live")
-    add(
-        "-p",
-        dest="parameters",
-        action="append",
-        metavar="NAME:=VALUE",
-        help="the tutorial's parameters: generate_code:=True (base), revChatGPT:=True",
-    )
-    return parser
+def offer(action: argparse.Action, offers: str | tuple[str, ...]) -> None:
+    """Say what Tab completes the value of `action` with: see `Option`."""
+    vars(action)["offers"] = offers
 
 
 _KINDS: dict[Any, str] = {int: "whole number", float: "number"}
@@ -177,3 +150,160 @@ def positive(kind: Callable[[str], Number]) -> Callable[[str], Number]:
         return value
 
     return read
+
+
+OPTIONS = (
+    Option(
+        "--on",
+        f"which robot: sim (the default), dds, {_WIRES}",
+        (*_PLAN, "calibrate", "sim"),
+        default="auto",
+        metavar="WHERE",
+        offers=("sim", "dds", "ros", "rosbridge"),
+        helps={
+            "node": f"where the robot is: dds (the default), {_WIRES}",
+            "sim": f"where others find it: dds, {_WIRES} (default: a wire of its own, see --socket; ros2 run: ros)",
+        },
+    ),
+    Option(
+        "--robot",
+        f"a robot profile, by name or .toml file (default: {DEFAULT_ROBOT}); chatrobot robots lists them",
+        (*_UNDERSTAND, "calibrate", "doctor", "sim", "program show"),
+        default=DEFAULT_ROBOT,
+        metavar="PROFILE",
+        offers="robots",
+    ),
+    Option(
+        "--world",
+        _WORLD.format("home"),
+        (*_UNDERSTAND, "calibrate", "sim"),
+        default="",
+        metavar="WORLD",
+        offers="worlds",
+        helps=dict.fromkeys(("eval", "node", "calibrate"), _WORLD.format("empty")),
+    ),
+    Option("--yes", "do each plan without asking", (*_DRIVE, "node"), default=False),
+    Option("--approve", "ask before each plan", (*_DRIVE, "node"), default=False),
+    Option(
+        "--json",
+        "one JSON object a line",
+        (
+            *_DRIVE,
+            "plan",
+            "eval",
+            "worlds",
+            "doctor",
+            "robots",
+            "model",
+            "usage",
+            "fake-model",
+            "program list",
+            "program show",
+        ),
+        default=False,
+        helps={"": "text in, events out: one JSON object a line"},
+    ),
+    Option(
+        "--config-dir",
+        "where places, programs and robot profiles live",
+        (*_PLAN, "calibrate", "sim", *_SETTINGS),
+        metavar="DIR",
+        offers="folders",
+    ),
+    Option(
+        "-p",
+        "as the tutorial's node takes it: revChatGPT:=True",
+        ("", "do", "plan", "node"),
+        default=(),
+        metavar="NAME:=VALUE",
+        dest="parameters",
+        is_repeated=True,
+        helps={"node": "the tutorial's parameters: generate_code:=True (base), revChatGPT:=True"},
+    ),
+    Option("--fast", "simulated time, as quick as it goes", _DRIVE, _SIMULATION, False),
+    Option(
+        "--sim",
+        "how the simulated robot lies: slip=0.03,latency_s=0.05,noise=on,seed=1",
+        (*_DRIVE, "eval", "calibrate", "sim"),
+        _SIMULATION,
+        "",
+        "KEY=VALUE,…",
+    ),
+    Option(
+        "--trace",
+        "with --json: the simulated robot's true pose, 50 times a second",
+        _DRIVE,
+        _SIMULATION,
+        False,
+    ),
+    Option(
+        "--model",
+        "the language model to ask what is not understood offline",
+        (*_UNDERSTAND, "doctor", "model"),
+        _MODEL,
+        "",
+        "PROVIDER:NAME",
+        offers="models",
+    ),
+    Option(
+        "--interpreter",
+        "who understands (default: auto)",
+        _UNDERSTAND,
+        _MODEL,
+        "auto",
+        choices=("auto", "offline", "model"),
+    ),
+    Option(
+        "--rounds",
+        "how often a model may look and go on (default: 6)",
+        _UNDERSTAND,
+        _MODEL,
+        6,
+        "N",
+        positive(int),
+    ),
+    Option(
+        "--budget-tokens",
+        "what a model may use for one text (default: 20000)",
+        _UNDERSTAND,
+        _MODEL,
+        20_000,
+        "N",
+        positive(int),
+    ),
+    Option(
+        "--budget-s",
+        "what a model's turn may take (default: 600)",
+        _UNDERSTAND,
+        _MODEL,
+        600.0,
+        "SECONDS",
+        positive(float),
+    ),
+    Option(
+        "--max-distance",
+        "metres that one text or program may drive (default: 100)",
+        _UNDERSTAND,
+        _LIMITS,
+        metavar="M|none",
+        read=limit,
+        offers=(NONE,),
+    ),
+    Option(
+        "--max-time",
+        "seconds that one text or program may drive (default: 600; a program without an end runs 60)",
+        _UNDERSTAND,
+        _LIMITS,
+        metavar="S|none",
+        read=limit,
+        offers=(NONE,),
+    ),
+    Option(
+        "--open-loop",
+        "drive a robot without odometry: at most 0.2 m/s, 0.5 rad/s and 10 s a text, and nothing is measured"
+        f" (robot: {NO_ODOMETRY}, unless you name one)",
+        _PLAN,
+        _LIMITS,
+        False,
+    ),
+)

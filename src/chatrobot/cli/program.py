@@ -13,7 +13,8 @@ from chatrobot.cli.conversation import Conversation
 from chatrobot.cli.editor import edited_text
 from chatrobot.cli.folders import config_folder, profile_folders
 from chatrobot.cli.json_lines import json_line
-from chatrobot.cli.keyboard import Keyboard, has_keyboard
+from chatrobot.cli.keyboard import Keyboard
+from chatrobot.cli.lines import has_keyboard
 from chatrobot.cli.parameter_files import with_parameter_files
 from chatrobot.cli.printer import printer_for
 from chatrobot.core.errors import UsageError

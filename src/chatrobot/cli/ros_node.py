@@ -6,6 +6,7 @@ import argparse
 import math
 from typing import TYPE_CHECKING
 
+from chatrobot.language.typed import type_as_ros_args
 from chatrobot.nodes.parameters import PARAMETERS, Value
 from chatrobot.wire.connect import domain_and_namespace, require_ros
 
@@ -22,10 +23,7 @@ def open_citizen(args: argparse.Namespace, address: str, ros_args: list[str]) ->
     require_ros()
     from chatrobot.nodes.citizen import Citizen
 
-    if args.which == "base":  # it puts what all of them say into words
-        from chatrobot.language.typed import type_as_ros_args
-
-        type_as_ros_args()
+    type_as_ros_args()
     given: dict[str, Value] = {
         **({"robot": args.robot} if args.names_robot else {}),
         "open_loop": args.open_loop,

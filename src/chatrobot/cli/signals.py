@@ -7,6 +7,7 @@ import os
 import signal
 import socket
 import threading
+import time
 from collections.abc import Callable
 from types import TracebackType
 from typing import Any
@@ -30,10 +31,14 @@ class SignalWatch:
 
     Args:
         stop: called with the reason, from that thread.
+        repeats_s: so soon after the first a second one is the same, sent twice, and ends nothing more. Then none is
+            heard after the watch either: it would only break the orderly end.
     """
 
-    def __init__(self, stop: Callable[[str], None]) -> None:
+    def __init__(self, stop: Callable[[str], None], *, repeats_s: float = 0.0) -> None:
         self._stop = stop
+        self._repeats_s = repeats_s
+        self._leaving_since_s = 0.0
         self.is_leaving = False
         self._before: dict[int, Any] = {}
         self._ours, self._theirs = socket.socketpair()
@@ -50,8 +55,9 @@ class SignalWatch:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        is_over = self.is_leaving and self._repeats_s > 0.0
         for number, handler in self._before.items():
-            signal.signal(number, handler)
+            signal.signal(number, signal.SIG_IGN if is_over else handler)
         signal.set_wakeup_fd(-1)
         self._theirs.close()
 
@@ -63,15 +69,22 @@ class SignalWatch:
                         self._on_signal(signal.Signals(number))
 
     def _on_signal(self, number: signal.Signals) -> None:
-        if number != signal.SIGTSTP and self.is_leaving:
-            os._exit(QUIT_AT_ONCE)
-        self.is_leaving = self.is_leaving or number != signal.SIGTSTP
+        if number != signal.SIGTSTP:
+            if self.is_leaving:
+                self._hear_again()
+                return
+            self._leaving_since_s = time.monotonic()
+            self.is_leaving = True
         with contextlib.suppress(
             JointError
         ):  # Motion is gone: its guard halts, and the main thread will tell
             self._stop(_WATCHED[number])
         if number == signal.SIGTSTP:
             os.kill(os.getpid(), signal.SIGSTOP)
+
+    def _hear_again(self) -> None:
+        if time.monotonic() - self._leaving_since_s >= self._repeats_s:
+            os._exit(QUIT_AT_ONCE)
 
 
 def _leave_it_to_the_thread(*_: object) -> None:

@@ -12,6 +12,7 @@ from chatrobot.cli.choices import setup_from
 from chatrobot.cli.conversation import Conversation
 from chatrobot.cli.lines import LineReader
 from chatrobot.cli.printer import printer_for
+from chatrobot.cli.typed_ahead import TypedAhead
 from chatrobot.core.events import Notice
 from chatrobot.core.reason import Reason
 
@@ -22,7 +23,7 @@ def run(args: argparse.Namespace) -> int:
     if sys.stdin.isatty() and not args.json:
         from chatrobot.cli.console.app import run_console
 
-        return run_console(setup)
+        return run_console(setup, args.early.typed_ahead if args.early is not None else TypedAhead())
     printer = printer_for(args)
     approver = Approver(can_ask=False, others_answer=args.json)
     with Conversation(setup, printer, approver) as conversation:

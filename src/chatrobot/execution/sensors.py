@@ -34,12 +34,15 @@ class Sensors:
         self.scan: LaserScan | None = None
         self.bumped = False
         self.battery_percent: float | None = None
+        self._attached_at_s = math.inf
+        self._has_scanned = False
         self._odometry_at_s = -math.inf
         self._imu_at_s = -math.inf
         self._scan_at_s = -math.inf
 
     def attach(self, wire: Wire) -> None:
         """Subscribe to what the profile says the robot has."""
+        self._attached_at_s = self._clock.now_s()
         hear: dict[str, Callable[[Any], None]] = {
             "odom": self._on_odometry,
             "imu": self._on_imu,
@@ -48,6 +51,10 @@ class Sensors:
             "battery": self._on_battery,
         }
         subscribe_sensors(wire, self._profile.wiring, hear)
+
+    def awaits_first_scan(self, due_s: float) -> bool:
+        """No scan has come yet, nor would it have to: it has listened for less than `due_s`."""
+        return not self._has_scanned and self._clock.now_s() - self._attached_at_s <= due_s
 
     @property
     def has_odometry(self) -> bool:
@@ -104,6 +111,7 @@ class Sensors:
         self.estimator.on_odometry(message)
 
     def _on_scan(self, message: LaserScan) -> None:
+        self._has_scanned = True
         scan = _usable(message)
         if scan is not None:  # one that shows nothing is as good as silence
             self._scan_at_s = self._clock.now_s()

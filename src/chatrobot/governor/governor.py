@@ -13,7 +13,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.governor.jerk import JerkLimit
 from chatrobot.governor.kernel import bounded, make_kernel
 from chatrobot.governor.lease import Leases
-from chatrobot.governor.looks import Floats
+from chatrobot.governor.looks import Floats, Look
 from chatrobot.governor.narrowed import NarrowedRule
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.governor.rule import NOTHING_SENSED, Sensed, Situation
@@ -141,6 +141,11 @@ class Governor:
     def seen_points(self) -> Floats:
         """What the lidar sees around the robot and remembers, [n, 2] in `odom`: what a rehearsal has to know of."""
         return self._seen.points if self._seen is not None else NO_POINTS
+
+    @property
+    def latest_look(self) -> Look | None:
+        """Where the lidar looked with its latest scan."""
+        return self._seen.looks.latest if self._seen is not None else None
 
     def take_scan(self, scan: LaserScan, pose: Pose) -> None:
         """What the lidar saw when the robot stood at `pose` (of `odom`)."""

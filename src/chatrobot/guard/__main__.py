@@ -1,4 +1,4 @@
-"""The guard's process: `python -m chatrobot.guard --wire ADDRESS --topic cmd_vel --odom odom --fd N`.
+"""The guard's process: `python -m chatrobot.guard --wire ADDRESS --topic cmd_vel --odom odom --near yes --fd N`.
 
 Started by Motion in a session of its own, so that neither Ctrl-C, Ctrl-Z nor a closed terminal reaches it.
 """
@@ -17,6 +17,7 @@ from chatrobot.core.errors import WireError
 from chatrobot.core.memory_pressure import GUARD, prefer
 from chatrobot.core.scheduling import wake_promptly
 from chatrobot.core.wiring import Wiring
+from chatrobot.guard.departure import Departure
 from chatrobot.guard.watch import BEAT_S, GOODBYE, TRIPPED, Watch
 from chatrobot.wire.connect import Returning, advertise, comes_back, connect_wire
 from chatrobot.wire.messages import Odometry, TwistMessage
@@ -50,18 +51,21 @@ class Standing:
 class Guard:
     """Reads Motion's words from `line`, halts over `wire`."""
 
-    def __init__(self, line: socket.socket, wire: Wire, cmd_vel_topic: str, odom_topic: str) -> None:
+    def __init__(
+        self, line: socket.socket, wire: Wire, cmd_vel_topic: str, odom_topic: str, *, is_near: bool = False
+    ) -> None:
         self._line = line
         self._wire = wire
         self._topic = cmd_vel_topic
         self._watch = Watch()
         self._standing = Standing()
+        self._departure = Departure(wire, cmd_vel_topic, odom_topic, is_near=is_near)
         self._motion_is_gone = False
         advertise(wire, cmd_vel_topic, TwistMessage)
         self._unheard_odom_topic = odom_topic
 
     def run(self) -> None:
-        """Until Motion says goodbye, or is gone and the robot stands."""
+        """Until Motion says goodbye, or is gone and the robot stands or is gone, too."""
         tripped_at_s: float | None = None
         while True:
             now_s = awake_or_not_s()
@@ -89,7 +93,11 @@ class Guard:
     def _may_leave(self, now_s: float, tripped_at_s: float) -> bool:
         self._hear_odometry()
         halted_s = now_s - tripped_at_s
-        return halted_s > GIVE_UP_S or (halted_s > STANDING_S and self._standing.for_s(now_s) > STANDING_S)
+        return (
+            halted_s > GIVE_UP_S
+            or (halted_s > STANDING_S and self._standing.for_s(now_s) > STANDING_S)
+            or self._departure.is_over(now_s)
+        )
 
     def _hear_odometry(self) -> None:
         """From the first question on: hearing what nobody asks would cost more than all else the guard does."""
@@ -131,6 +139,7 @@ def _wiring(options: dict[str, str]) -> Wiring:
         cmd_vel_type="TwistStamped" if options.get("--type") == "TwistStamped" else "Twist",
         odom_topic=options.get("--odom", ""),
         odom_type="turtlesim/Pose" if options.get("--odom-type") == "turtlesim/Pose" else "Odometry",
+        namespace=options.get("--namespace", ""),
     )
 
 
@@ -144,7 +153,9 @@ def main(arguments: list[str]) -> int:
     try:
         wiring = _wiring(options)
         wire = connect_wire(options["--wire"], wiring, "chatrobot_guard")
-        Guard(line, wire, wiring.cmd_vel_topic, wiring.odom_topic).run()
+        with contextlib.closing(wire):  # else its node stays on the graph until its lease ends
+            near = options.get("--near") == "yes"
+            Guard(line, wire, wiring.cmd_vel_topic, wiring.odom_topic, is_near=near).run()
     except WireError:
         return 1  # the robot's end is gone: there is nothing left to halt
     return 0

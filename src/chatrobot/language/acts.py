@@ -17,8 +17,9 @@ from chatrobot.language.data_files import DATA
 from chatrobot.language.signs import Clause, Names, Sign, clauses_of, is_strong
 
 SLOTS = 1 << 16
-ORDER = 0.5
-"""A text with lower odds than that orders nothing. Sources that were left out chose it: `fit_acts --check`."""
+MAYBE_ORDER, ORDER = -0.5, 0.5
+"""A text with lower odds than the first orders nothing; with lower odds than the second, what it orders is proposed.
+Sources that were left out chose them: `fit_acts --check`."""
 TALK, TALK_OF_MOTION = -2.0, -3.0
 """A clause with lower odds than that may be passed over beside an order; with a word of motion in it, the second."""
 SURE_ORDER = 1.0

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from chatrobot import reflex
 from chatrobot.language import questions
+from chatrobot.language.acts import orders as is_ordered
 from chatrobot.language.corrections import MEANT
 from chatrobot.language.frames import GO, STILL, TURN, Frame
 from chatrobot.language.heeded import check_heeded
@@ -156,7 +157,8 @@ def _is_stop(plain: str, reading: Reading) -> bool:
         return False
     others = [a for clause, stop in zip(clauses, stops) if not stop for a in reading.atoms(clause)]
     return not any(
-        a.kind in _MOVING or (a.kind == "verb" and a.value not in (*STILL, "make")) for a in others
+        a.kind in _MOVING or a.value == "other_way" or (a.kind == "verb" and a.value not in (*STILL, "make"))
+        for a in others
     )
 
 
@@ -174,7 +176,8 @@ def _question(plain: str, atoms: list[Atom], ability: bool, reading: Reading) ->
     except Unclear:
         ways = any(a.kind in ("dir", "rot", "shape") for a in atoms)
         doing = ways or any(a.kind == "verb" and a.value in _DOINGS for a in atoms)
-        if doing and questions.asks_a_favour(plain, language):
+        amount = any(a.kind == "q" and a.value in ("length", "angle", "turns") for a in atoms)
+        if doing and ((amount and is_ordered(plain)) or questions.asks_a_favour(plain, language)):
             raise  # could you …: it is to be done, and no fact answers it
     if questions.orders(plain, language):
         return None

@@ -10,7 +10,15 @@ from functools import lru_cache
 from chatrobot import reflex
 from chatrobot.core.proposal import Proposal
 from chatrobot.language import forms, questions
-from chatrobot.language.acts import orders, without_requests, without_talk
+from chatrobot.language.acts import (
+    MAYBE_ORDER,
+    ORDER,
+    order_log_odds,
+    orders,
+    read_acts,
+    without_requests,
+    without_talk,
+)
 from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
 from chatrobot.language.context import Context
@@ -18,6 +26,7 @@ from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import defined_unit, with_known_counts, with_measured_things
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
 from chatrobot.language.lexicon import lexicon
+from chatrobot.language.likeliest import likeliest, proposed
 from chatrobot.language.meant import says_meant
 from chatrobot.language.names import misspelt_place, names_in
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
@@ -55,8 +64,19 @@ class OfflineInterpreter:
             return self._ordered(text, language, context)
         except Unclear as problem:
             reading = Reading(language, context, self._profile)
-            asked = _did_you_mean(problem, text, reading) or asked_back(problem, language)
-            return replace(asked, corrects=says_meant(text))
+            asked = _did_you_mean(problem, text, reading) or self._likeliest(problem, text, reading)
+            return replace(asked or asked_back(problem, language), corrects=says_meant(text))
+
+    def _likeliest(self, problem: Unclear, text: str, reading: Reading) -> Interpretation | None:
+        def read(part: str, context: Context = reading.context) -> Interpretation:
+            return self._interpreted(part, reading.language, context)
+
+        def read_anew(part: str) -> Interpretation:
+            dialogue = replace(reading.context.dialogue, turns=(), pending="")
+            return read(part, replace(reading.context, dialogue=dialogue))
+
+        names = names_in(reading.context)
+        return likeliest(normalise(text), names, reading.language, problem, read, read_anew)
 
     def _ordered(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         """What is ordered. A plan that no clause orders is not driven; talk beside an order is passed over.
@@ -79,9 +99,12 @@ class OfflineInterpreter:
             with contextlib.suppress(Unclear):
                 return self._interpreted(asked, language, context)
             raise
-        if meant.outcome == "plan" and not (orders(plain, names) or read_twists(plain)):
+        if meant.outcome != "plan" or read_twists(plain):
+            return meant
+        odds = order_log_odds(read_acts(plain, names))
+        if odds < MAYBE_ORDER:
             raise Unclear("nothing_to_do")
-        return meant
+        return meant if odds >= ORDER else proposed(meant, language) or meant
 
     def _interpreted(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         check_consistent(normalise(text), language)

@@ -88,6 +88,8 @@ def _take_amount(found: Measures, head: Frame, part: Frame, name: str, amount: A
         found.angle_rad = value
     elif name == "time":
         found.seconds = value
+    elif name == "count" and _is_its_parts(head, part, value):
+        return
     elif name == "count":
         found.counts[amount.role] = whole_number(value)
         if amount.role in ("lap", "loop"):

@@ -11,6 +11,7 @@ from chatrobot.core.reason import Reason, Value
 from chatrobot.core.shown import ANGLE_PLACES, LENGTH_PLACES, number
 from chatrobot.language.data_files import load_table
 from chatrobot.language.typed import codes, typed
+from chatrobot.plan.folded import repeated, runs
 from chatrobot.plan.shown import shown_plan
 from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, RawTwist, Remember, Repeat, Say, Step, Turn, Wait
 from chatrobot.plan.text import format_step, parse_plan
@@ -19,7 +20,7 @@ _TABLES = ("phrases", "outcomes")
 _OURS = ("", "console", "base", "user_input", "service")
 """The sources of a stop that the person who is answered speaks through."""
 _SHOWN = 6
-"""Steps of a plan that are spelt out in a reply; the rest is counted."""
+"""Steps of a plan, or groups of steps that come several times, that are spelt out in a reply; the rest is counted."""
 
 
 @cache
@@ -115,9 +116,11 @@ def describe_text(plan_text: str, language: str) -> str:
 
 def describe_steps(steps: Iterable[Step], language: str) -> str:
     """The steps in short words, the first few of them."""
-    listed = [_step(step, language) for step in steps]
-    text = say(language, "join").join(listed[:_SHOWN])
-    return text if len(listed) <= _SHOWN else say(language, "and_more", text=text, count=len(listed) - _SHOWN)
+    join = say(language, "join")
+    groups = list(runs([_step(step, language) for step in steps]))
+    text = join.join(repeated(count, group, join) for count, group in groups[:_SHOWN])
+    more = sum(count * len(group) for count, group in groups[_SHOWN:])
+    return say(language, "and_more", text=text, count=more) if more else text
 
 
 def _way(direction_rad: float) -> str:
@@ -172,5 +175,7 @@ def _step(step: Step, language: str) -> str:
     if isinstance(step, Remember):
         return spoken("step_remember", place=step.place)
     if isinstance(step, Repeat):
-        return spoken("step_repeat", count=step.count, text=describe_steps(step.steps, language))
+        return repeated(
+            step.count, [describe_steps((each,), language) for each in step.steps], say(language, "join")
+        )
     return shown_plan(format_step(step))  # somebody else's primitive

@@ -70,7 +70,7 @@ def _quantity_at(atoms: Sequence[Atom], i: int) -> tuple[list[Atom], int] | None
         number is None
         and atoms[i].text in ("一个", "个")
         and is_kind(atoms, i + 1, "unit_turn")
-        and is_kind(atoms, i - 1, "verb")
+        and any(is_kind(atoms, i - 1, kind) for kind in ("verb", "dir", "rot"))
     ):
         number = Number(1.0, i + 1)  # 转一个圈圈
     if number is None and is_kind(atoms, i, "num", "article"):
@@ -192,10 +192,12 @@ def _misheard(atoms: Sequence[Atom], i: int) -> tuple[list[Atom], int] | None:
     number = lexicon().before_unit.get(atoms[i].text)
     if number is None or atoms[i].kind == "q":
         return None
-    unit = unit_at(atoms, i + 1)
+    more = read_addition(atoms, i + 1)
+    at = more.end if more else i + 1
+    unit = unit_at(atoms, at)
     if unit is None or unit[0] not in ("length", "time", "angle") or is_kind(atoms, i - 1, "q"):
         return None
-    if not atoms[i + 1].text.endswith(("s", "feet")) or len(atoms[i + 1].text) < 3:
+    if not atoms[at].text.endswith(("s", "feet")) or len(atoms[at].text) < 3:
         return None
     if (
         number == 4
@@ -204,8 +206,8 @@ def _misheard(atoms: Sequence[Atom], i: int) -> tuple[list[Atom], int] | None:
         and not (i and atoms[i - 1].text == "for")
     ):
         return None
-    text = f"{atoms[i].text} {atoms[i + 1].text}"
-    return [quantity(unit[0], number * unit[1], text)], i + 2
+    text = " ".join(a.text for a in atoms[i : at + 1])
+    return [quantity(unit[0], (number + (more.value if more else 0.0)) * unit[1], text)], at + 1
 
 
 def _shared_units(atoms: list[Atom]) -> list[Atom]:

@@ -73,8 +73,30 @@ def _heading(language: str) -> re.Pattern[str]:
     return re.compile(load_table(language, "rephrase")["heading"])
 
 
+@cache
+def _wishes(language: str) -> tuple[re.Pattern[str], dict[str, str], re.Pattern[str]]:
+    """What opens a wish; the verbs in it, in the past tense, and how they are read."""
+    table = load_table(language, "rephrase").get("wish", {})
+    pasts = {past: verb for verb, past in table.get("pasts", {}).items()}
+    return (
+        re.compile(table.get("opening", "(?!)")),
+        pasts,
+        re.compile(rf"\b(?:{'|'.join(pasts) or '(?!)'})\b"),
+    )
+
+
+def _of_wishes(text: str, language: str) -> str:
+    """`It would be great if you turned left`: the order that it is."""
+    opening, pasts, pattern = _wishes(language)
+    found = opening.search(text)
+    if found is None:
+        return text
+    return text[: found.start()] + pattern.sub(lambda past: pasts[past[0]], text[found.end() :])
+
+
 def rephrased(text: str, language: str) -> str:
     """`text` (normalised) in the words that the rest of the package reads."""
+    text = _of_wishes(text, language)
     text = without_numbers(_without_heading(text, language))
     written, pattern = _contractions(language)
     text = pattern.sub(lambda found: written[found[0]], text)

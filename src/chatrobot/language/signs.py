@@ -19,19 +19,25 @@ _NO_CONTENT = frozenset(
     {"filler", "glue", "sep", "conn", "doubt", "reason", "negation", "condition", "correction", "num",
      "operator", "unknown", "refuse"}
 )  # fmt: skip
+_MEASURES = frozenset({"UNIT", "SHAPE", "FULLTURN"})
+_BEGUN = frozenset({"VERB", "DIR", "request"})
 _IDLE = frozenset({"VERB", "DIR", "PLACE", "COUNTER"})
-_OPENING = frozenset({"request", "please", "opening", "robot"})
-_JOINT = "joint"
-"""The label of words that begin a clause of their own."""
+_OPENING = frozenset({"request", "please", "opening", "robot", "hence"})
+_JOINTS = frozenset({"joint", "contrast"})
+_HENCE = "hence"
+"""The labels of words that begin a clause of their own; the last where a word of motion follows."""
+_FIRST_IDEOGRAPH = 0x2E7F
 _QUOTES = frozenset('"“”「」『』')
 _UNITS = "unit_"
 _EVIDENCE_KINDS = {"num": "NUMBER", "negation": "not", "condition": "condition", "correction": "correction"}
 """Kinds of the lexicon that move nothing, and their labels here."""
 BINDING = frozenset(
-    {"not", "condition", "correction", "hypothetical", "question", "ask", "request", "please"}
+    {"not", "condition", "correction", "contrast", "hypothetical", "question", "ask", "request", "please"}
 )
 """Labels of words that bear on what stands beside them, or ask for something: a clause with one of them is never
 passed over."""
+DEPENDING = frozenset({"condition", "contrast", "correction", "question", "ask", "later"})
+"""Labels of words on which it may depend whether anything is to be done, or what."""
 TALKING = frozenset(
     {"social", "praise", "complaint", "verdict", "mine", "did", "does", "earlier", "kin", "thing"}
 )
@@ -81,8 +87,27 @@ class Clause:
     @property
     def talks(self) -> bool:
         """Whether it has evidence of talk and no amount or shape that could be meant for what stands beside it."""
-        told = any(sign.moves and sign.label.isupper() and sign.label not in _IDLE for sign in self.signs)
-        return not told and any(sign.label in TALKING for sign in self.signs)
+        return not self.tells and any(sign.label in TALKING for sign in self.signs)
+
+    @property
+    def tells(self) -> bool:
+        """Whether it has an amount or a shape."""
+        return any(sign.moves and sign.label.isupper() and sign.label not in _IDLE for sign in self.signs)
+
+    @property
+    def measures(self) -> bool:
+        """Whether it has a shape, or a number with its unit."""
+        return any(sign.label in _MEASURES for sign in self.signs)
+
+    def is_within(self, at: int) -> bool:
+        """Whether what stands at `at` in the text comes after what it says is to be done."""
+        return any(sign.label in _BEGUN and sign.start < at for sign in self.signs)
+
+    @property
+    def depends(self) -> bool:
+        """Whether it may decide on what stands beside it: a condition, a question, a correction, a lone no."""
+        bears = any(sign.label in DEPENDING for sign in self.signs) or self.signs[-1].label == "not"
+        return bears or self.end == "?"
 
     @property
     def moves(self) -> bool:
@@ -97,6 +122,9 @@ def clauses_of(text: str, names: Names = _NO_NAMES) -> list[Clause]:
     start = 0
     for match in UNIT.finditer(text):
         unit = match.group()
+        if units and _is_apart(text, units[-1], match.start()):
+            found += _parted(list(_signs(units, names)), ",", start, match.start())
+            units = []
         if unit in _STRONG or unit in _WEAK:
             if units:
                 found += _parted(list(_signs(units, names)), unit, start, match.end())
@@ -114,9 +142,22 @@ def clauses_of(text: str, names: Names = _NO_NAMES) -> list[Clause]:
     return found
 
 
+def _is_apart(text: str, before: Unit, start: int) -> bool:
+    """Whether a blank parts what is written without blanks, with more than a character on either side."""
+    written, at = before
+    if at + len(written) == start or min(ord(written[-1]), ord(text[start])) < _FIRST_IDEOGRAPH:
+        return False
+    around = text[max(at - 1, 0) : at] + text[start + 1 : start + 2]
+    return len(around) == 2 and not any(character.isspace() for character in around)
+
+
 def _parted(signs: list[Sign], end: str, start: int, stop: int) -> Iterator[Clause]:
     """What stands between two marks, parted before words such as `because`."""
-    begins = [0, *(i for i, sign in enumerate(signs) if i and sign.label == _JOINT)]
+    moves = [i for i, sign in enumerate(signs) if sign.moves]
+    begins = [0]
+    for i, sign in enumerate(signs):
+        if i and (sign.label in _JOINTS or (sign.label == _HENCE and moves and moves[-1] > i)):
+            begins.append(i)
     for begin, after in zip(begins, [*begins[1:], len(signs)]):
         is_last = after == len(signs)
         until = stop if is_last else signs[after].start

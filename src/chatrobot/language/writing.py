@@ -14,6 +14,7 @@ from chatrobot.language.repeats import (
     is_heading_back,
     is_moves_only,
     is_plain_again,
+    is_way_back,
     leading_count,
     lists_lengths,
     loop_end,
@@ -150,7 +151,7 @@ def _trips(script: Script, frames: list[Frame], i: int) -> int | None:
     back = frames[end] if end < len(frames) else None
     if back is not None and back.verb == "return" and back.has_extent and back.joined != "then":
         raise Unclear("contradiction", f"{frame.text} {back.text}")  # 每趟去一米、回半米
-    return end
+    return end + (back is not None and is_way_back(trip or frame, back))
 
 
 def _shape(script: Script, frames: list[Frame], i: int) -> int | None:

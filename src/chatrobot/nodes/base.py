@@ -7,7 +7,7 @@ import gc
 import json
 import sys
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -28,7 +28,9 @@ from chatrobot.core.motion_budget import NOT_CHOSEN
 from chatrobot.language.consent import read_consent
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.models.seam import Model
+from chatrobot.nodes.log import Severity, Write
 from chatrobot.nodes.operator import Operators
+from chatrobot.nodes.told import severity_of
 from chatrobot.plan.context import RoutePlanner
 from chatrobot.plan.route import GridRoutePlanner
 from chatrobot.programs.library import Library
@@ -70,6 +72,7 @@ SWITCH_INTERVAL_S = 0.0005
 """The wire's thread must get in between: what it hears may be a stop."""
 LOOK_S = 1.0
 Approval = Literal["profile", "all", "none"]
+_SEVERITY_OF_RESULTS: Mapping[str, Severity] = {"refused": "warn", "unclear": "warn", "failed": "error"}
 
 
 @dataclass(frozen=True)
@@ -95,16 +98,14 @@ class BaseNode:
     """A session whose texts come from a topic and whose Motion is another node.
 
     Args:
-        show: hears every sentence for people, besides the topic.
+        show: hears every sentence for people, besides the topic, and how severe it is; it must not block.
 
     Raises:
         WireError: nobody answers on that wire.
         InputError: the profile or the world cannot be used.
     """
 
-    def __init__(
-        self, options: BaseOptions, show: Callable[[str], None], connect: Connect = connect_wire
-    ) -> None:
+    def __init__(self, options: BaseOptions, show: Write, connect: Connect = connect_wire) -> None:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         self._options = options
         self._show = show
@@ -164,6 +165,10 @@ class BaseNode:
             self._look_for_twins()
         self._session.close()
         self._wire.close()
+
+    def resolved(self, topic: str) -> str:
+        """The name of that topic on the wire."""
+        return resolved(self._wire, topic)
 
     def stop(self, why: str) -> None:
         """Stop the robot and drop what waits; from any thread."""
@@ -228,7 +233,7 @@ class BaseNode:
         if self._options.rev_chatgpt:
             model = self._options.model
             code = "revchatgpt_gone" if model is not None else "revchatgpt_no_model"
-            self._say(say(language, code, model=model.name if model is not None else ""))
+            self._say(say(language, code, model=model.name if model is not None else ""), "warn")
 
     def _look_for_twins(self) -> None:
         """Two bases would do everything twice: say so, where the wire knows names."""
@@ -238,7 +243,7 @@ class BaseNode:
         self._next_look_s = now_s + LOOK_S
         has_twin = any(name.endswith(f"/{NODE}") for name in publishers_of(self._wire, CHATGPT_NODE))
         if has_twin and not self._has_twin:
-            self._say(say(self._session.understanding.language, "another_base"))
+            self._say(say(self._session.understanding.language, "another_base"), "warn")
         self._has_twin = has_twin
 
     def _hear_event(self, event: Event) -> None:
@@ -250,11 +255,12 @@ class BaseNode:
             self._say(event.reply)
         elif isinstance(event, Result):
             if not (self._session.is_moving and event.reply in _bare_stops(language)):
-                self._say(event.reply)  # else the end of what was stopped tells it, once the robot stands
+                # Else the end of what was stopped tells it, once the robot stands.
+                self._say(event.reply, _SEVERITY_OF_RESULTS.get(event.outcome, "info"))
         elif isinstance(event, Said):
             self._say(event.text)
         elif isinstance(event, Notice):
-            self._say(event.text or render_reason(event.reason, language))
+            self._say(event.text or render_reason(event.reason, language), severity_of(event.reason))
         elif isinstance(event, ProgramWritten):
             self._say_written(event, language)
         elif isinstance(event, Rehearsed) and event.needs_approval:
@@ -285,9 +291,9 @@ class BaseNode:
             routes=routes,
         )
 
-    def _say(self, text: str) -> None:
+    def _say(self, text: str, severity: Severity = "info") -> None:
         if text:
-            self._show(text)
+            self._show(severity, text)
             self._publish(REPLY, text)
 
     def _publish(self, topic: str, text: str) -> None:

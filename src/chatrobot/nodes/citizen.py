@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, NamedTuple
 
@@ -12,6 +11,7 @@ from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValu
 
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.core.wiring import Wiring
+from chatrobot.nodes.log import Severity
 from chatrobot.nodes.parameters import Parameter, Value
 from chatrobot.wire.ros.convert import message_class
 from chatrobot.wire.ros.node import RosNode
@@ -75,6 +75,10 @@ class Citizen:
         self._wire = RosWire(wiring, self.node)
         return self._wire
 
+    def log(self, severity: Severity, text: str) -> None:
+        """Into ROS's log (a `chatrobot.nodes.log.Write`)."""
+        self.node.log(severity, text)
+
     def serve(self, name: str, act: Callable[[], tuple[bool, str]]) -> None:
         """Offer a std_srvs/Trigger. `act` gives success and a sentence; it runs on the node's thread."""
         from std_srvs.srv import Trigger
@@ -93,7 +97,7 @@ class Citizen:
         try:
             message_class(_ARRAY)
         except UsageError as error:
-            print(f"no diagnostics: {error}", file=sys.stderr, flush=True)
+            self.log("warn", f"There are no diagnostics: {error}.")
             return
         handle = self.node.handle
         name = f"{handle.get_namespace().rstrip('/')}/{handle.get_name()}"

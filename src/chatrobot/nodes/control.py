@@ -1,13 +1,12 @@
 """`control`: from `chatgpt_node` to `cmd_vel`. It is Motion's process; only what carries the joint is a topic.
 
-Knows no language: what it tells people are codes with numbers.
+Knows no language: its events carry codes with numbers, and whoever starts it may have them written into a log.
 """
 
 from __future__ import annotations
 
 import contextlib
 import json
-import sys
 import time
 from collections import deque
 from collections.abc import Callable
@@ -15,15 +14,15 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from chatrobot.core.errors import WireError
-from chatrobot.core.events import Event, Finished, Notice, ProgramLog, Started
+from chatrobot.core.events import Event, Finished, Telemetry
 from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.nodes.foreign import Foreign
 from chatrobot.session.envelope import Envelope, Word
 from chatrobot.session.motion_runner import MotionRunner
-from chatrobot.session.topics import CHATGPT_NODE, EVENTS
-from chatrobot.wire.connect import Connect, advertise, connect_wire
+from chatrobot.session.topics import CHATGPT_NODE, EVENTS, TELEMETRY
+from chatrobot.wire.connect import Connect, advertise, connect_wire, resolved
 from chatrobot.wire.messages import Text
 
 if TYPE_CHECKING:
@@ -56,13 +55,22 @@ class ControlOptions:
 class ControlNode:
     """Motion behind topics. Any number of sources may come and go; it ends when it is told to.
 
+    Args:
+        note: hears every event that is published on `chatrobot/events`, after the tick; it must not block.
+
     Raises:
         WireError: there is no robot, or the guard does not start.
         InputError: the profile or the world cannot be used.
     """
 
-    def __init__(self, options: ControlOptions, connect: Connect = connect_wire) -> None:
+    def __init__(
+        self,
+        options: ControlOptions,
+        connect: Connect = connect_wire,
+        note: Callable[[Event], None] = lambda _event: None,
+    ) -> None:
         self._options = options
+        self._note = note
         self._ours: set[int] = set()
         self._untold: deque[Event] = deque()
         self._is_leaving = False
@@ -80,11 +88,12 @@ class ControlNode:
             connect=connect,
         )
         self._foreign = Foreign(self._runner, lambda: bool(self._ours))
-        advertise(self._runner.wire, EVENTS, Text)
+        for topic in (EVENTS, TELEMETRY):
+            advertise(self._runner.wire, topic, Text)
         self._runner.wire.subscribe(CHATGPT_NODE, Text, self._hear)
 
     def run(self, is_leaving: Callable[[], bool]) -> None:
-        """Until `is_leaving`, and then until the robot stands; in a simulation that stands still not for ever."""
+        """Until `is_leaving`, and then until the robot stands or is gone; where time stands still not for ever."""
         leaving_since_s: float | None = None
 
         def has_left() -> bool:
@@ -93,9 +102,20 @@ class ControlNode:
                 return False
             now_s = time.monotonic()
             leaving_since_s = now_s if leaving_since_s is None else leaving_since_s
-            return not self._runner.motion.is_busy or now_s - leaving_since_s > LEAVE_S
+            if not self._runner.motion.is_busy or self._runner.robot_has_left:
+                return True
+            return now_s - leaving_since_s > LEAVE_S
 
         self._runner.run(has_left, self._each_tick)
+
+    def resolved(self, topic: str) -> str:
+        """The name of that topic on the wire."""
+        return resolved(self._runner.wire, topic)
+
+    @property
+    def cmd_vel_topic(self) -> str:
+        """Where velocities go, by its name on the wire."""
+        return self.resolved(self._runner.profile.wiring.cmd_vel_topic)
 
     def stop(self, why: str) -> None:
         """Zero, now, from any thread."""
@@ -191,33 +211,11 @@ class ControlNode:
             self._publish(self._untold.popleft())
 
     def _publish(self, event: Event) -> None:
-        _log(event)
+        topic = TELEMETRY if isinstance(event, Telemetry) else EVENTS
         text = Text(json.dumps(event.to_json(), separators=(",", ":"), ensure_ascii=False))
         with contextlib.suppress(
             WireError
         ):  # a robot that cannot be told is Motion's affair, not the teller's
-            self._runner.wire.publish(EVENTS, text)
-
-
-def _log(event: Event) -> None:
-    """One line for who looks at this terminal."""
-    if isinstance(event, Started):
-        line = f"turn {event.turn}: started"
-    elif isinstance(event, Finished):
-        way = f"{event.path_m:.2f} m" if event.measured else "not measured"
-        line = f"turn {event.turn}: {event.outcome}{_why(event.reason)}, {way}"
-    elif isinstance(event, ProgramLog):
-        line = f"turn {event.turn}: | {event.text}"
-    elif isinstance(event, Notice):
-        line = f"notice{_why(event.reason)}"
-    else:
-        return
-    with contextlib.suppress(OSError):
-        print(line, file=sys.stderr, flush=True)
-
-
-def _why(reason: Reason | None) -> str:
-    if reason is None:
-        return ""
-    values = ", ".join(f"{name}={value}" for name, value in reason.values.items())
-    return f" ({reason.code}{': ' if values else ''}{values})"
+            self._runner.wire.publish(topic, text)
+        if topic == EVENTS:
+            self._note(event)

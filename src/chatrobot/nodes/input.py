@@ -9,7 +9,14 @@ from chatrobot.core.wiring import Wiring
 from chatrobot.nodes.operator import OperatorBeat
 from chatrobot.reflex import is_stop
 from chatrobot.session.topics import REPLY, STOP, USER_INPUT
-from chatrobot.wire.connect import Connect, advertise, connect_wire, is_on_this_machine, wait_for_listener
+from chatrobot.wire.connect import (
+    Connect,
+    advertise,
+    connect_wire,
+    is_on_this_machine,
+    resolved,
+    wait_for_listener,
+)
 from chatrobot.wire.messages import Flag, Text
 
 NODE = "chatrobot_input"
@@ -64,6 +71,10 @@ class InputNode:
         self._operator.claim(text)
         self._wire.publish(USER_INPUT, Text(text))
         return heard
+
+    def resolved(self, topic: str) -> str:
+        """The name of that topic on the wire."""
+        return resolved(self._wire, topic)
 
     def stop(self) -> None:
         """Stop the robot."""

@@ -54,6 +54,10 @@ class Bounds(Protocol):
 class SeenWorld(Protocol):
     """What the lidar has seen around the robot, as the governor knows it, in the odom frame."""
 
+    def allowed_share(self, twist: Twist, pose: Pose) -> float:
+        """How much of a twist the governor will allow at that pose, where the lidar sees as much as it does now."""
+        ...
+
     def free_ahead_m(self, pose: Pose, direction_rad: float) -> float:
         """How far it is straight on to what was seen, from the front of the footprint; infinite where nothing was."""
         ...

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -222,6 +222,7 @@ class _Run:
         if motion.until is not None:
             segment = self._until(segment, motion.until.distance_m, item)
             walk.ended_at(segment.end_pose)
+        segment = self._slowed(segment)
         if motion.asked is not None:
             self._find("note", _limited(motion.asked, motion.twist), item.index, item.start)
         changed = self.governor.changed(segment)
@@ -234,6 +235,17 @@ class _Run:
             rows = np.column_stack((times, sample_poses(segment, sample_ramp(segment.ramp, times)[0])))
         rows[:, 0] += self.t_s
         self._add(item, rows)
+
+    def _slowed(self, segment: Segment) -> Segment:
+        """The segment as slowly as the governor will let the robot go where its lidar does not see; the same path."""
+        motion, share = segment.motion, 1.0
+        if self.seen is not None:
+            share = self.seen.allowed_share(motion.twist, segment.start)
+        if not 0.0 < share < 1.0:
+            return segment
+        twist, hold_s = motion.twist.scaled(share), segment.ramp.hold_s / share
+        slower = replace(motion, twist=twist, hold_s=hold_s, ramp_per_s=motion.ramp_per_s / share)
+        return Segment(slower, segment.start)
 
     def _until(self, segment: Segment, distance_m: float, item: PlannedMotion) -> Segment:
         """The segment as it will be if the lidar sees what is known and what it saw, and nothing else."""

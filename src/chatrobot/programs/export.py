@@ -62,7 +62,7 @@ setup(
     license='Apache-2.0',
     entry_points={{
         'console_scripts': [
-            '{executable} = {package}.{entry}:main',
+            '{executable} = {package}.run:main',
         ],
     }},
 )
@@ -91,14 +91,53 @@ def generate_launch_description():
     ])
 """
 
-_RUNNER = '''\
-"""Runs the program, a plain script, as `python program.py` would."""
-import runpy
+_RUN = '''\
+"""Runs the program. Ctrl-C ends it as it ends ROS's own nodes, with exit code 0."""
+{imports}
+import signal
+import sys
+import time
+
+REPEATS_S = 2.0  # `ros2 launch` sends a second Ctrl-C, which must not break off what the program does as it ends
 
 
 def main():
-    runpy.run_module('{package}.program', run_name='__main__')
+    interrupted_s = None
+
+    def interrupt(_number, _frame):
+        nonlocal interrupted_s
+        if interrupted_s is None:
+            interrupted_s = time.monotonic()
+        elif time.monotonic() - interrupted_s < REPEATS_S:
+            return
+        raise KeyboardInterrupt
+
+    signal.signal(signal.SIGINT, interrupt)
+    try:
+{call}
+    except KeyboardInterrupt:
+        return 0
+    except Exception as error:
+        if interrupted_s is None and not shut_down(error):
+            raise
+        print(f'It was asked to end; as it ended: {{error}}', file=sys.stderr)
+        return 0
+    finally:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def shut_down(error):
+    """Whether it ended because ROS was shut down around it (SIGTERM)."""
+    while error is not None and type(error).__name__ != 'ExternalShutdownException':
+        error = error.__context__
+    return error is not None
 '''
+
+_CALLS = {
+    True: ("", "        from {package}.program import main as run\n        return run()"),
+    False: ("import runpy", "        runpy.run_module('{package}.program', run_name='__main__')"),
+}
+"""Imports and the call, by whether the program has a `main`; one without is run as `python program.py` would."""
 
 _BUILD_RUN = """\
 #!/usr/bin/env bash
@@ -138,16 +177,15 @@ def export(program: KeptProgram, folder: Path) -> Path:
 def workspace(program: KeptProgram) -> Mapping[str, str]:
     """The files of the workspace by their paths in it."""
     package = package_name(program.name)
-    has_main = _has_main(program.source)
+    imports, call = _CALLS[_has_main(program.source)]
     words = {
         "package": package,
         "executable": package,
-        "entry": "program" if has_main else "run",
         "description": _description(program),
     }
     remappings = [(topic, target) for topic, target in program.remap.items()]
     root = f"src/{package}"
-    files = {
+    return {
         "build_run.sh": _BUILD_RUN.format(**words),
         f"{root}/package.xml": _PACKAGE_XML.format(
             package=package, description=escape(words["description"]), depends=_depends(program.source)
@@ -158,10 +196,8 @@ def workspace(program: KeptProgram) -> Mapping[str, str]:
         f"{root}/launch/{package}.launch.py": _LAUNCH.format(remappings=remappings, **words),
         f"{root}/{package}/__init__.py": "",
         f"{root}/{package}/program.py": program.source,
+        f"{root}/{package}/run.py": _RUN.format(imports=imports, call=call.format(package=package)),
     }
-    if not has_main:
-        files[f"{root}/{package}/run.py"] = _RUNNER.format(package=package)
-    return files
 
 
 def _description(program: KeptProgram) -> str:

@@ -8,9 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from chatrobot.reflex.phrases import Phrase, Table, matches
-from chatrobot.reflex.real_words_en import WORDS as REAL_WORDS
-from chatrobot.reflex.sounds_zh import SYLLABLES
-from chatrobot.reflex.sounds_zh import WORDS as CHINESE_WORDS
+from chatrobot.reflex.words import ALL
 
 LEAST_LETTERS = 4
 """A shorter phrase is too near to too many others."""
@@ -29,10 +27,9 @@ class Mistyped:
     def __init__(self, stops: Table, fillers: Table, known: Table) -> None:
         self._stops = stops
         self._fillers = fillers
-        self._known = {*REAL_WORDS.split(), *(word for found in known.values() for p in found for word in p)}
+        self._known = {*ALL.real_words, *(word for found in known.values() for p in found for word in p)}
         self._by_length: dict[int, list[tuple[str, bool]]] = {}
         self._sounds: set[Phrase] = set()
-        self._chinese_words = frozenset(CHINESE_WORDS.split())
         self._most_units = 2
         for table, is_stop in ((stops, True), (fillers, False)):
             for phrase in (phrase for found in table.values() for phrase in found):
@@ -82,11 +79,11 @@ class Mistyped:
                     yield is_stop
 
     def _sounds_like_a_stop(self, window: Phrase) -> bool:
-        return _sound(window) in self._sounds and "".join(window) not in self._chinese_words
+        return _sound(window) in self._sounds and "".join(window) not in self._known
 
 
 def _sound(units: Phrase) -> Phrase:
-    return tuple(SYLLABLES.get(unit, unit) for unit in units)
+    return tuple(ALL.sounds.get(unit, unit) for unit in units)
 
 
 def is_one_edit(a: str, b: str) -> bool:

@@ -5,15 +5,12 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 
-from chatrobot.reflex import words_en
+from chatrobot.reflex import words
 
-_TRADITIONAL = str.maketrans(
-    "車剎動別緊煩關電機馬達執運轉終斷這裡裏給說們聽沒來對開後進過許準跑嗎讓幾點個馬請亂棄滅鎖複復",
-    "车刹动别紧烦关电机马达执运转终断这里里给说们听没来对开后进过许准跑吗让几点个马请乱弃灭锁复复",
-)
-_WORD = re.compile(r"[a-z0-9]+(?:['’][a-z]+)*|[\u3400-\u9fff]")
+_WORD = re.compile(r"[a-zß-öø-ÿ0-9]+(?:['’][a-zß-öø-ÿ]+)*|[\u3400-\u9fff]")
 _STRETCHED = re.compile(r"(.)\1{2,}")
 _WIDE = {code: code - 0xFEE0 for code in range(0xFF01, 0xFF5F)}
+_FOLD = str.maketrans(words.ALL.fold)
 
 Phrase = tuple[str, ...]
 Table = dict[str, set[Phrase]]
@@ -23,17 +20,15 @@ Table = dict[str, set[Phrase]]
 @lru_cache(maxsize=32)
 def units_of(text: str) -> Phrase:
     """Several questions are asked about one text: it is cut once."""
-    lowered = text.translate(_WIDE).lower().replace("’", "'").replace("-", " ").translate(_TRADITIONAL)
+    lowered = text.translate(_WIDE).lower().replace("’", "'").replace("-", " ").translate(_FOLD)
     return tuple(_unstretched(word) for word in _WORD.findall(lowered))
 
 
 def _unstretched(word: str) -> str:
     """`stoooop` → `stop`, `haaalt` → `halt`; other words stay, and so does `stoop`, which is one."""
     short = _STRETCHED.sub(r"\1", word)
-    if short != word:
-        return short
-    single = re.sub(r"(.)\1+", r"\1", word)
-    return single if single in words_en.DOUBLED and word not in words_en.NOT_DOUBLED else word
+    single = re.sub(r"(.)\1+", r"\1", short)
+    return single if single in words.ALL.stretched and word not in words.ALL.not_stretched else short
 
 
 def phrases(*groups: tuple[str, ...]) -> Table:

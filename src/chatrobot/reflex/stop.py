@@ -5,61 +5,38 @@ from __future__ import annotations
 import re
 from functools import cache
 
-from chatrobot.reflex import words_en, words_zh
 from chatrobot.reflex.mistyped import Mistyped
 from chatrobot.reflex.phrases import Phrase, consists, matches, phrases, units_of
+from chatrobot.reflex.words import ALL
 
 MAX_CHARACTERS = 300
 """A longer utterance is no stop as a whole; its beginning is still looked at."""
 
 _BREAK = re.compile(r"[.,;!?…。，；！？\n—]+|\s-+\s|\.\.+")
 
-_STOP = phrases(words_en.STOP, words_zh.STOP, words_en.EMERGENCY, words_zh.EMERGENCY)
-"""An emergency stop is a stop, too."""
-_EMERGENCY = phrases(words_en.EMERGENCY, words_zh.EMERGENCY)
-_RELEASE = phrases(words_en.RELEASE, words_zh.RELEASE)
-_RELEASE_FILLER = phrases(words_en.RELEASE_FILLER, words_zh.RELEASE_FILLER)
-_FILLER = phrases(words_en.FILLER, words_zh.FILLER)
-_PAUSE = phrases(words_en.PAUSE, words_zh.PAUSE)
-"""Of the stops, those that keep what was under way."""
-_PAUSE_FILLER = phrases(words_en.PAUSE_FILLER, words_zh.PAUSE_FILLER)
-_CANCELLED = phrases(words_en.CANCELLED, words_zh.CANCELLED)
-_TAKEN_BACK = phrases(words_en.TAKEN_BACK, words_zh.TAKEN_BACK)
-_OTHER_WORDS = phrases(words_zh.OTHER_WORDS)
-"""They begin like a stop and are none."""
-_NOUNS = frozenset({"sign", "signs", "牌", "标", "watch", "light", "lights"})
-_NUMBERS = frozenset("一二两三四五六七八九十半几") | {
-    "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "half", "between",
-    "after", "every",
-}  # fmt: skip
-_NOT_LEADING = {
-    units_of(p)
-    for p in (
-        "不要",
-        "别",
-        "stop sign",
-        "no more",
-        "不行",
-        "够了",
-        "wo",
-        "ho",
-        "取消",
-        "算了",
-        "cancel",
-        "enough",
-    )
-}
+_STOP = phrases(ALL.stop, ALL.pause, ALL.emergency)
+_EMERGENCY = phrases(ALL.emergency)
+_RELEASE = phrases(ALL.release)
+_RELEASE_FILLER = phrases(ALL.release_filler)
+_FILLER = phrases(ALL.filler)
+_PAUSE = phrases(ALL.pause)
+_PAUSE_FILLER = phrases(ALL.pause_filler)
+_CANCELLED = phrases(ALL.cancelled, ALL.taken_back)
+_TAKEN_BACK = phrases(ALL.taken_back)
+_OTHER_WORDS = phrases(ALL.other_words)
+_FORBIDS = phrases(ALL.forbids)
+_NOT_LEADING = {units_of(phrase) for phrase in ALL.not_leading}
+_DURATION_BUT = {units_of(word) for word in ALL.duration_but}
+_DURATION_WORDS = {units_of(word)[0] for word in ALL.duration_words}
 
 
 def _forbids_stopping(units: Phrase) -> bool:
     """别停, 不要停下, `don't stop`: the opposite of a stop."""
-    joined = " ".join(units)
-    return (
-        re.search(
-            r"(?:别|不要|不许|不准|不能|don't|dont|not|never|without) (?:停|刹|stop)".replace("不", "不 ?"),
-            joined,
-        )
-        is not None
+    return any(
+        units[i + len(phrase)].startswith(ALL.forbidden)
+        for i in range(len(units))
+        for phrase in matches(units, i, _FORBIDS)
+        if i + len(phrase) < len(units)
     )
 
 
@@ -132,7 +109,9 @@ def _mistyped_stop() -> Mistyped:
 
 @cache
 def _mistyped_pause() -> Mistyped:
-    return Mistyped(_PAUSE, _PAUSE_FILLER, phrases(words_en.STOP, words_en.FILLER, words_en.CANCELLED))
+    return Mistyped(
+        _PAUSE, _PAUSE_FILLER, phrases(ALL.stop, ALL.pause, ALL.filler, ALL.cancelled, ALL.taken_back)
+    )
 
 
 def _is_other_word(units: Phrase, begin: int) -> bool:
@@ -147,9 +126,9 @@ def _is_no_stop(following: Phrase) -> bool:
     """`stop-sign shape` is a noun, and 停一秒 or `stop for two seconds` is a pause, by what follows the stop."""
     if not following:
         return False
-    if following[0] in _NOUNS or following[0] in _NUMBERS or following[0][0].isdigit():
+    if following[0] in ALL.nouns_after or following[0] in ALL.times_after or following[0][0].isdigit():
         return True
-    return following[0] == "for" and following[1:2] not in ((), ("now",), ("a",), ("god's",), ("heaven's",))
+    return following[0] in _DURATION_WORDS and following[1:2] not in ((), *_DURATION_BUT)
 
 
 def is_emergency_stop(text: str) -> bool:

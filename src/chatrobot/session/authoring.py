@@ -90,6 +90,8 @@ class Authoring:
         self._spent: list[Spent] = []
         self._cancels = 0
         self._cancel_reply: Callable[[], None] | None = None
+        self.asked_at_s: float | None = None
+        """Since when a model is being asked (monotonic); None where none is."""
 
     def cancel(self) -> None:
         """Stop waiting for a model. From any thread; returns at once."""
@@ -243,7 +245,7 @@ class Authoring:
     def _ask(self, messages: Sequence[Message], language: str) -> str:
         assert self.model is not None
         before = self._cancels
-        began_s = time.monotonic()
+        began_s = self.asked_at_s = time.monotonic()
         reply = self.model.ask(messages, LIMITS)
         self._cancel_reply = reply.cancel
         pieces: list[str] = []
@@ -255,7 +257,7 @@ class Authoring:
             if found is None or not found.is_closed:  # half a program is not run, nor blamed on its writer
                 raise NotWrittenError("failed", render_reason(error.reason, language)) from error
         finally:
-            self._cancel_reply = None
+            self._cancel_reply = self.asked_at_s = None
             usage = reply.usage or estimated(messages, "".join(pieces))
             self._spent.append(Spent(self.model.name, usage, time.monotonic() - began_s))
         if self._cancels != before:

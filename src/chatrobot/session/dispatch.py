@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from chatrobot.core.errors import PlanTextError
-from chatrobot.core.events import Event, Interpreted
+from chatrobot.core.events import Event, Interpreted, Paused
 from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.phrases import say
 from chatrobot.language.resuming import wants_to_resume
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.session.draft import Draft
@@ -16,11 +17,14 @@ from chatrobot.session.orders import Orders
 from chatrobot.session.parting import parting
 from chatrobot.session.program_turns import ProgramTurns
 from chatrobot.session.proposals import Proposals
+from chatrobot.session.quoting import one_line
 from chatrobot.session.resuming import Resuming
 from chatrobot.session.said import Said, SaidTexts
 from chatrobot.session.thinking import Thinking
 from chatrobot.session.turn_book import TurnBook
 from chatrobot.session.understanding import Understanding
+
+_SHOWN_CHARS = 60
 
 
 class Dispatch:
@@ -83,19 +87,33 @@ class Dispatch:
             code = code if self._understanding.is_measured else f"{code}_unmeasured"
             reply = self._understanding.say(code, said.text)
             if said.kind == "pause":
-                reply = self._resuming.told(self._resuming.paused, "paused_now")
+                reply = self._told("paused_now", self._resuming.paused)
             self._emit(Interpreted(said.turn, "reflex", "", ""))
             self._book.conclude(said.turn, "stopped", reply)
 
     def _goes_on(self, text: str) -> bool:
         """Whether it asks to go on with what was paused or stopped, be there anything or not."""
-        return wants_to_resume(text, may_mean_more=self._resuming.is_about_this)
+        return wants_to_resume(text, may_mean_more=self._resuming.is_about_this or bool(self._said.held))
+
+    def _told(self, code: str, paused: Paused | None) -> str:
+        """What is left of a paused plan, or else of what was said and had not begun, in the phrase of that code."""
+        held = self._said.held
+        if paused is None and held:
+            texts = ", ".join(f"“{one_line(said.text, _SHOWN_CHARS)}”" for said in held)
+            return say(self._understanding.language, code, plan=texts)
+        return self._resuming.told(paused, code)
 
     def _go_on(self, said: Said) -> None:
         """Go on with what is paused; what is left of a plan that was stopped is offered."""
         self._understanding.hear_language(said.text)
         paused = self._resuming.take_paused()
         self._orders.is_paused = False
+        if paused is None and self._said.held:
+            reply = self._told("goes_on", None)
+            self._said.release()
+            self._emit(Interpreted(said.turn, "offline", "", reply))
+            self._book.conclude(said.turn, "answered", reply)
+            return
         if paused is None:
             meant = self._resuming.offer()
             reply = self._understanding.say("nothing_paused", said.text)

@@ -12,7 +12,9 @@ from chatrobot.execution.health import freshness, sensor_fault, silence
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor, Verdict
 from chatrobot.governor.rule import Sensed
+from chatrobot.governor.sensors_due import silent_after_s
 from chatrobot.robots.profile import RobotProfile
+from chatrobot.session.seen_world import SeenPoints, Sight
 from chatrobot.transports.transport import Transport
 from chatrobot.wire.messages import LaserScan
 
@@ -37,6 +39,22 @@ class GovernedRobot:
         """Where it is in `odom`, as far as it is known: the origin before it has said so."""
         estimate = self.sensors.estimate
         return estimate.pose if estimate is not None else ORIGIN
+
+    def seen(self) -> SeenPoints | None:
+        """What the lidar sees at this moment, for a rehearsal; None where it says nothing of any plan."""
+        points, sight = self.governor.seen_points, self._sight()
+        return SeenPoints(self.profile, points, sight) if sight is not None or len(points) else None
+
+    def _sight(self) -> Sight | None:
+        """Where the governor will slow the robot down; None where its lidar looks all around, or has just begun."""
+        lidar, look = self.profile.lidar, self.governor.latest_look
+        due_s = silent_after_s(self.profile, "scan")
+        is_silent = self.sensors.ages_s()["scan"] > due_s
+        if lidar is None or (is_silent and self.sensors.awaits_first_scan(due_s)):
+            return None
+        if not is_silent and (look is None or look.is_all_around):
+            return None
+        return Sight(self.profile, lidar, None if is_silent else look)
 
     def begin(self, lease: str, now_s: float) -> Reason | None:
         """Have that lease take the wheel for a new motion; why it may not."""

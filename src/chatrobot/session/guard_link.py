@@ -36,10 +36,11 @@ class GuardProcess:
 
     Args:
         wire_address: the robot's wire (`chatrobot.wire.connect`).
-        wiring: names the topics it halts and watches.
+        wiring: names the topics it halts and watches, and the namespace it lives in.
+        is_near: the robot's process is on this machine.
     """
 
-    def __init__(self, wire_address: str, wiring: Wiring, clock: Clock) -> None:
+    def __init__(self, wire_address: str, wiring: Wiring, clock: Clock, *, is_near: bool = False) -> None:
         self._clock = clock
         self._echo_at_s = float("-inf")
         self._tripped = False
@@ -48,6 +49,7 @@ class GuardProcess:
             *("--wire", wire_address),
             *("--topic", wiring.cmd_vel_topic, "--type", wiring.cmd_vel_type),
             *("--odom", wiring.odom_topic, "--odom-type", wiring.odom_type),
+            *("--namespace", wiring.namespace, "--near", "yes" if is_near else "no"),
             kind=socket.SOCK_STREAM,
         )
         self._line.setblocking(False)

@@ -163,12 +163,12 @@ class Jobs:
         self._preparing = job = jobs.popleft()
         job.start = self._robot.pose
 
-        seen_points = self._robot.governor.seen_points
+        seen = self._robot.seen()
 
         def rehearse() -> Planned:
             if isinstance(job, ProgramJob):
                 return self._programs.rehearse(job, self._planner)
-            return self._planner.plan(job.turn, job.plan_text, job.start, job.plan_start, seen_points)
+            return self._planner.plan(job.turn, job.plan_text, job.start, job.plan_start, seen)
 
         self._inbox.fetch(rehearse, lambda planned: self._take_rehearsed(job, planned))
 
@@ -223,9 +223,9 @@ class Jobs:
             return
         plan_text, start = stream.take(), stream.walk.end
         if plan_text is not None:
-            text, seen_points = plan_text, self._robot.governor.seen_points
+            text, seen = plan_text, self._robot.seen()
             self._inbox.fetch(
-                lambda: self._planner.plan(job.turn, text, start, job.plan_start or job.start, seen_points),
+                lambda: self._planner.plan(job.turn, text, start, job.plan_start or job.start, seen),
                 lambda planned: self._take_part(job, stream, planned),
             )
 

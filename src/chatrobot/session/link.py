@@ -17,6 +17,7 @@ from chatrobot.wire.connect import (
     Surveying,
     advertise,
     comes_back,
+    has_null_ranges,
     publishers_of,
     resolved,
 )
@@ -59,6 +60,10 @@ class PatientWire:
     @property
     def is_connected(self) -> bool:
         return is_up(self._wire)
+
+    @property
+    def has_null_ranges(self) -> bool:
+        return has_null_ranges(self._wire)
 
     def resolve(self, topic: str) -> str:
         return resolved(self._wire, topic)

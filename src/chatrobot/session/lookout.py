@@ -16,7 +16,7 @@ from chatrobot.session.hints import why_unheard
 from chatrobot.session.link import is_up
 from chatrobot.session.motion import Motion
 from chatrobot.session.rivals import BEAT_S, Rivals
-from chatrobot.wire.connect import Surveying, publishers_of, resolved
+from chatrobot.wire.connect import Surveying, has_null_ranges, publishers_of, resolved
 from chatrobot.wire.wire import Wire
 
 LOOK_EVERY = 5
@@ -51,6 +51,7 @@ class Lookout:
         self._odometry: list[str] = []
         self._notice = notice
         self._accept_others = accept_others
+        self._told_of_nulls = False
         self._was_up = True
         self._seen: list[str] = []
         self._named: list[str] = []
@@ -71,7 +72,10 @@ class Lookout:
             time.sleep(BEAT_S)
 
     def look_around(self) -> None:
-        """See who else drives."""
+        """See who else drives, and whether scans come whole."""
+        if not self._told_of_nulls and has_null_ranges(self._wire):
+            self._told_of_nulls = True
+            self._notice(Reason("open_space_unknown", {"speed_mps": self._profile.safety.blind_speed_mps}))
         motions = self._rivals.motions()
         others = sorted({*motions, *self._rivals.others()})
         is_settled, self._seen = others == self._seen, others  # a name from discovery alone soon gets better

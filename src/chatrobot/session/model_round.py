@@ -47,6 +47,11 @@ class ModelRound:
         return not self.call.has_ended
 
     @property
+    def asked_at_s(self) -> float | None:
+        """Since when the model is being asked (monotonic); None where it is not."""
+        return self.call.began_s if self.is_calling else None
+
+    @property
     def is_in_vain(self) -> bool:
         """What the model says from now on counts no more: its run is over."""
         return self.run_problem is not None or self.is_plan_refused

@@ -134,8 +134,9 @@ class ModelTurn:
         return time.monotonic() - call.began_s
 
     @property
-    def is_calling(self) -> bool:
-        return self._round.is_calling
+    def asked_at_s(self) -> float | None:
+        """Since when the model is being asked (monotonic); None where it is not. From any thread."""
+        return self._round.asked_at_s
 
     def wait(self, timeout_s: float) -> None:
         """Until the model says something: where time is simulated, it stands meanwhile."""
@@ -239,7 +240,7 @@ class ModelTurn:
         self._feed.end()
         self._round.end_run(finished)
         self._total = finished if self._total is None else summed(self._total, finished)
-        if not self.is_calling:
+        if not self._round.is_calling:
             self._end_round()
         elif finished.outcome != "completed":
             self._round.call.cancel()  # the end of the call ends the round

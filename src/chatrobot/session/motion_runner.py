@@ -25,6 +25,7 @@ from chatrobot.core.scheduling import wake_promptly
 from chatrobot.core.wiring import Wiring
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.governor.tick import TICK_S
+from chatrobot.guard.departure import Departure
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import load_profile
@@ -44,7 +45,15 @@ from chatrobot.session.stops import PAUSED
 from chatrobot.session.topics import STOP, USER_INPUT
 from chatrobot.sim.load import load_world
 from chatrobot.sim.start import check_known
-from chatrobot.wire.connect import Connect, Knowing, clock_of, connect_wire, is_on_this_machine, resolved
+from chatrobot.wire.connect import (
+    Connect,
+    Knowing,
+    clock_of,
+    connect_wire,
+    is_on_this_machine,
+    namespace_of,
+    resolved,
+)
 from chatrobot.wire.messages import Flag, Text
 from chatrobot.wire.wire import Wire
 
@@ -100,7 +109,10 @@ class MotionRunner:
         self._wake = threading.Event()
         self._plans: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self.programs = ProgramHost(self.profile, is_in_step=False)
-        self._guard = GuardProcess(address, _as_others_name_it(self.wire, self.profile.wiring), RealClock())
+        is_near = on_robot or is_on_this_machine(address)
+        wiring = _as_others_name_it(self.wire, self.profile.wiring)
+        self._guard = GuardProcess(address, wiring, RealClock(), is_near=is_near)
+        self._departure = Departure(self.wire, wiring.cmd_vel_topic, wiring.odom_topic, is_near=is_near)
         self.motion = Motion(
             self.profile,
             self.wire,
@@ -116,7 +128,12 @@ class MotionRunner:
             self.wire, node, self.profile.wiring.cmd_vel_topic, open_loop_notice(self.profile)
         )
         self._lookout = Lookout(
-            self.wire, self._rivals, self.motion, self.profile, self.notice, accept_others=accept_others
+            self.wire,
+            self._rivals,
+            self.motion,
+            self.profile,
+            self.notice,
+            accept_others=accept_others,
         )
         self._open(said)
 
@@ -164,6 +181,11 @@ class MotionRunner:
         finally:
             self.programs.close()
             remove_stop_socket()
+
+    @property
+    def robot_has_left(self) -> bool:
+        """The robot's process is seen to be gone; for who waits for the robot to stand. On the control thread."""
+        return self._departure.is_over(time.monotonic())
 
     # --- from any thread ---
 
@@ -244,6 +266,7 @@ def _settle_memory() -> None:
 
 
 def _as_others_name_it(wire: Wire, wiring: Wiring) -> Wiring:
-    """The guard is another end of the wire, which knows nothing of our namespace and remappings."""
+    """The guard is another end of the wire, which is told our namespace, and the topics as our remappings have them."""
     cmd_vel_topic, odom_topic = resolved(wire, wiring.cmd_vel_topic), resolved(wire, wiring.odom_topic)
-    return replace(wiring, cmd_vel_topic=cmd_vel_topic, odom_topic=odom_topic)
+    namespace = namespace_of(wire) or wiring.namespace
+    return replace(wiring, cmd_vel_topic=cmd_vel_topic, odom_topic=odom_topic, namespace=namespace)

@@ -12,14 +12,13 @@ from chatrobot.core.events import Event, FindingSeen, Rehearsed
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.governor.kernel import Kernel, make_kernel
-from chatrobot.plan.known_world import Floats
+from chatrobot.plan.known_world import Floats, SeenWorld
 from chatrobot.plan.lowering import CoreWalk
 from chatrobot.plan.rehearsal import Rehearsal, rehearse
 from chatrobot.plan.route import GridRoutePlanner
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.session.budgets import Extent
-from chatrobot.session.seen_world import SeenPoints
 from chatrobot.sim.world import World
 
 DRAWN_POINTS = 400
@@ -187,13 +186,13 @@ class Planner:
         plan_text: str,
         start: Pose,
         plan_start: Pose | None = None,
-        seen_points: Floats | None = None,
+        seen: SeenWorld | None = None,
     ) -> Planned:
         """Read and rehearse `plan_text` from `start` (odom frame). Never raises for what a person or model wrote.
 
         Args:
             plan_start: where the whole began that this is a part of, if it did not begin here.
-            seen_points: [n, 2] in odom, what the governor knows of by its lidar.
+            seen: what the governor knows by its lidar.
         """
         try:
             plan = parse_plan(plan_text)
@@ -207,8 +206,6 @@ class Planner:
             self._kernel,
             plan_start=plan_start,
             route_planner=self._routes,
-            seen=SeenPoints(self._profile, seen_points)
-            if seen_points is not None and len(seen_points)
-            else None,
+            seen=seen,
         )
         return Planned(turn, rehearsal)

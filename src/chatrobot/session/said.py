@@ -37,10 +37,12 @@ class Said:
 
 
 class _Hold(NamedTuple):
-    """`turn` is the last that was said before that pause."""
+    """`turn` is the last that was said before that pause; `keeps_unbegun`: nothing was under way then, so that what
+    waits is itself what is paused."""
 
     number: int
     turn: int
+    keeps_unbegun: bool = False
 
 
 class SaidTexts:
@@ -70,9 +72,13 @@ class SaidTexts:
         self._void_turn = self._turns
         return self._void_turn
 
-    def hold(self) -> None:
-        """A pause: what was said up to now and waits goes on waiting. No lock: it waits for nothing."""
-        self._hold = _Hold(self._hold.number + 1, self._turns)
+    def hold(self, *, is_under_way: bool) -> None:
+        """A pause: what was said up to now and waits goes on waiting. No lock: it waits for nothing.
+
+        Args:
+            is_under_way: something is driven or thought about, which is what is paused.
+        """
+        self._hold = _Hold(self._hold.number + 1, self._turns, not is_under_way)
 
     @property
     def pauses(self) -> int:
@@ -83,6 +89,16 @@ class SaidTexts:
     def is_holding(self) -> bool:
         """There was a pause, and what was said before it has neither been released nor dropped."""
         return self._hold is not self._released
+
+    @property
+    def keeps_unbegun(self) -> bool:
+        """What is held waits for a word, not for a plan that is paused."""
+        return self.is_holding and self._hold.keeps_unbegun
+
+    @property
+    def held(self) -> tuple[Said, ...]:
+        """What waits behind the pause, oldest first."""
+        return tuple(said for said in self._texts if self.is_held(said) and not self.is_void(said))
 
     def is_held(self, said: Said) -> bool:
         """It waits behind what is paused."""

@@ -6,15 +6,20 @@ A plan that passes here keeps every seen point at the distance that the governor
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
-from chatrobot.core.geometry import Pose
+from chatrobot.core.geometry import ORIGIN, Pose, Twist
+from chatrobot.governor.blind import BlindRule
 from chatrobot.governor.contact import Floats, Footprint
+from chatrobot.governor.looks import Look
 from chatrobot.governor.obstacles import MARGIN_M, NEARER_M
+from chatrobot.governor.rule import NOTHING_SENSED, Sensed, Situation
+from chatrobot.governor.seen import Seen
 from chatrobot.plan import rehearsal
 from chatrobot.plan.known_world import Contact
-from chatrobot.robots.profile import RobotProfile
+from chatrobot.robots.profile import Lidar, RobotProfile
 
 APART_M = 0.01
 """Poses of a path that are nearer to each other than this are looked at once."""
@@ -24,13 +29,47 @@ POINT_RADIUS_M = 0.03
 """What was seen is at least so large: the gaps between beams are nothing to drive through."""
 
 
-class SeenPoints:
-    """Points [n, 2] in odom, as they were at one moment. Implements `SeenWorld`."""
+class Sight:
+    """How much the governor allows where the lidar does not see, by its own rule.
 
-    def __init__(self, profile: RobotProfile, points: Floats) -> None:
+    Args:
+        look: where the lidar looked last; None where it shows nothing, not even that nothing is there.
+    """
+
+    def __init__(self, profile: RobotProfile, lidar: Lidar, look: Look | None) -> None:
+        self._mounting = Pose(lidar.x_m, lidar.y_m, lidar.yaw_rad)
+        self._look = look
+        self._seen = Seen(lidar)
+        self._seen.looks.note(
+            Look(ORIGIN, 0.0, math.tau, 1)
+        )  # all around: what it comes by has been seen before
+        self._rule = BlindRule(profile, self._seen)
+
+    def allowed_share(self, twist: Twist, pose: Pose) -> float:
+        """Of a twist at that pose, from where the lidar looks as it does now."""
+        sensed = NOTHING_SENSED
+        if self._look is not None:
+            self._seen.looks.latest = replace(self._look, lidar=pose.compose(self._mounting))
+            sensed = Sensed({"scan": 0.0})
+        return self._rule.judge(twist, Situation(pose, sensed)).factor
+
+
+class SeenPoints:
+    """Points [n, 2] in odom, as they were at one moment, and how the lidar looked. Implements `SeenWorld`.
+
+    Args:
+        sight: None where the lidar looks all around.
+    """
+
+    def __init__(self, profile: RobotProfile, points: Floats, sight: Sight | None = None) -> None:
+        self._sight = sight
         self._footprint = Footprint(profile.footprint)
         self._corners = np.array(profile.footprint)
         self._points = points
+
+    def allowed_share(self, twist: Twist, pose: Pose) -> float:
+        """How much the governor will allow of a twist at that pose."""
+        return self._sight.allowed_share(twist, pose) if self._sight is not None else 1.0
 
     def free_ahead_m(self, pose: Pose, direction_rad: float) -> float:
         """How far the strip that the footprint sweeps straight on is free; infinite where nothing was seen in it."""

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -168,7 +169,7 @@ class Session:
 
     def pause(self, why: str = "") -> None:
         """Stop the robot as `stop` does, and keep what it was told; what cannot be kept ends as with a stop."""
-        self._said.hold()
+        self._said.hold(is_under_way=self.is_moving or self._thinking.is_busy)
         self._joint.send("stop", why=why, keep=True)
         self._thinking.cancel_unmoved(Reason("paused_by", {"why": why}))
         if self.authoring is not None:
@@ -210,8 +211,20 @@ class Session:
         return self._book.is_any_with_motion or self._thinking.is_moving
 
     @property
+    def thinking_s(self) -> float | None:
+        """For how long a model has been asked by now, for a plan or a program; None where none is."""
+        writing_at_s = self.authoring.asked_at_s if self.authoring is not None else None
+        asked_at_s = writing_at_s if writing_at_s is not None else self._thinking.asked_at_s
+        return time.monotonic() - asked_at_s if asked_at_s is not None else None
+
+    @property
     def is_paused(self) -> bool:
-        """A plan of ours is paused."""
+        """A plan of ours is paused, or what was said and had not begun."""
+        return self.is_plan_paused or (self._said.keeps_unbegun and bool(self._said.held))
+
+    @property
+    def is_plan_paused(self) -> bool:
+        """A plan of ours that had begun is paused."""
         return self._resuming.paused is not None
 
     @property
@@ -276,12 +289,19 @@ class Session:
         for said in self._said.take_too_many():
             # Who said one too many hears so now, not when the ten before it are done.
             self._book.conclude(said.turn, "refused", self.understanding.say("queue_full", said.text))
-        if self._said.is_holding and not self.is_moving:
-            self._said.drop_held()  # nothing is paused that it could wait for
+        self._drop_held()
         while (found := self._find_next()) is not None:
             self._orders.pauses = self._said.pauses
             if (taken := self._said.take(found)) is not None:
                 self._dispatch.take(taken)
+                self._drop_held()
+
+    def _drop_held(self) -> None:
+        """Drop what waits behind a pause where nothing is paused any more, or something new is done instead."""
+        said = self._said
+        is_under_way = self._book.is_any_with_motion or self._thinking.is_busy
+        if said.is_holding and (is_under_way if said.keeps_unbegun and said.held else not self.is_moving):
+            said.drop_held()
 
     # --- what Motion and the model tell ---
 
@@ -311,7 +331,7 @@ class Session:
         self._emit(event)
         if self._book.has(event.turn) or self._thinking.has(event.turn):
             self._resuming.hear(event)
-            self._orders.is_paused = self.is_paused
+            self._orders.is_paused = self.is_plan_paused
         if self._programs is not None and self._programs.hear(event):
             return  # the next version of a program is on its way
         self._thinking.hear(event)

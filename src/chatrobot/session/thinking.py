@@ -105,6 +105,12 @@ class Thinking:
                 turn.doing.cancel(why)
 
     @property
+    def asked_at_s(self) -> float | None:
+        """Since when a model is being asked (monotonic); None where none is."""
+        asked = [turn.doing.asked_at_s for turn in tuple(self._turns.values())]
+        return min((at_s for at_s in asked if at_s is not None), default=None)
+
+    @property
     def has_mind(self) -> bool:
         """A model may be asked."""
         return self._mind is not None
@@ -126,7 +132,7 @@ class Thinking:
 
     @property
     def is_calling(self) -> bool:
-        return any(turn.doing.is_calling for turn in self._turns.values())
+        return self.asked_at_s is not None
 
     def may_be_overtaken(self, said_s: float) -> bool:
         """Whether what was said at `said_s` (monotonic) and needs no model goes before the model's turn.
@@ -238,7 +244,7 @@ class Thinking:
     def wait(self, timeout_s: float) -> None:
         """Until a model says something. For simulated time, which stands meanwhile."""
         for turn in self._turns.values():
-            if turn.doing.is_calling:
+            if turn.doing.asked_at_s is not None:
                 turn.doing.wait(timeout_s)
                 return
 

@@ -1,4 +1,5 @@
-"""The joint to a Motion that is a node of its own: envelopes on `chatgpt_node`, events on `chatrobot/events`."""
+"""The joint to a Motion that is a node of its own: envelopes on `chatgpt_node`, events on `chatrobot/events`, and
+telemetry on `chatrobot/telemetry`."""
 
 from __future__ import annotations
 
@@ -27,7 +28,7 @@ from chatrobot.session.envelope import Envelope, Word
 from chatrobot.session.event_queue import EventQueue
 from chatrobot.session.joint import Sender
 from chatrobot.session.rivals import read_beat
-from chatrobot.session.topics import CHATGPT_NODE, CONTROL, EVENTS
+from chatrobot.session.topics import CHATGPT_NODE, CONTROL, EVENTS, TELEMETRY
 from chatrobot.wire.connect import advertise, comes_back
 from chatrobot.wire.messages import Text
 from chatrobot.wire.wire import Wire
@@ -71,6 +72,7 @@ class TopicJoint(EventQueue):
         """Listen, and begin to beat."""
         advertise(self._wire, CHATGPT_NODE, Text)
         self._wire.subscribe(CONTROL, Text, self._hear_control)
+        self._wire.subscribe(TELEMETRY, Text, self._hear_event)  # first: older than an end that comes with it
         self._wire.subscribe(EVENTS, Text, self._hear_event)
         self.send("hello", term_s=self._term_s)
         threading.Thread(target=self._beat, name="beat", daemon=True).start()

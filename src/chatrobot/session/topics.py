@@ -9,7 +9,10 @@ CHATGPT_NODE = "chatgpt_node"
 """Envelopes (JSON) from `base` to `control`; text of others as the tutorial has it."""
 
 EVENTS = "chatrobot/events"
-"""What happens, one JSON event a message."""
+"""What happens, one JSON event a message; quiet while nothing happens."""
+
+TELEMETRY = "chatrobot/telemetry"
+"""Where the robot is and how it moves, ten times a second: the JSON event `telemetry`."""
 
 REPLY = "chatrobot/reply"
 """Sentences for people."""

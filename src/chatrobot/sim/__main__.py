@@ -21,6 +21,7 @@ from chatrobot.sim.start import check_start
 from chatrobot.sim.tf import FieldsPublisher, TransformPublisher
 from chatrobot.wire.local import LocalHub
 from chatrobot.wire.messages import TwistMessage
+from chatrobot.wire.wire import Wire
 
 NODE = "chatrobot_sim"
 
@@ -95,7 +96,10 @@ def _open_wire(options: argparse.Namespace, profile: RobotProfile) -> LocalHub |
     from chatrobot.wire.connect import connect_ros, connect_wire
 
     if address.startswith("ros:"):
-        wire = connect_ros(address, profile.wiring, NODE, options.ros_args)
+        on_ros = connect_ros(address, profile.wiring, NODE, options.ros_args)
+        way = f"{on_ros.resolve(profile.wiring.cmd_vel_topic)} → {on_ros.resolve(profile.wiring.odom_topic)}"
+        on_ros.node.log("info", f"the simulated {profile.name} drives: {way}")
+        wire: Wire = on_ros
     else:
         wire = connect_wire(address, profile.wiring, NODE)
     if isinstance(wire, FieldsPublisher):

@@ -25,6 +25,10 @@ def load_world(name_or_path: str) -> World:
     path = _BUILT_IN / f"{name_or_path}.yaml"
     if path.is_file():
         return read_world(path)
-    names = sorted(file.stem for file in _BUILT_IN.glob("*.yaml"))
-    allowed = f"{', '.join((EMPTY_WORLD.name, *names))}, or a path to a .yaml file"
+    allowed = f"{', '.join(world_names())}, or a path to a .yaml file"
     raise WorldError(f"there is no world named {name_or_path!r}", allowed=allowed)
+
+
+def world_names() -> list[str]:
+    """The worlds that have a name, the empty one first."""
+    return [EMPTY_WORLD.name, *sorted(file.stem for file in _BUILT_IN.glob("*.yaml"))]

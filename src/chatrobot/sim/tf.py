@@ -1,4 +1,5 @@
-"""The simulated robot's transforms for RViz and Nav2 (REP-105): `odom` → `base_link` → `laser`, on `/tf`."""
+"""The simulated robot's transforms for RViz and Nav2 (REP-105): `odom` → `base_link` on `/tf`, and `base_link` →
+`laser`, which is fixed, once on `/tf_static`, where who comes later finds it, too."""
 
 from __future__ import annotations
 
@@ -12,6 +13,7 @@ from chatrobot.wire.stamps import to_wall_s
 from chatrobot.wire.wire import Wire
 
 TF_TOPIC = "/tf"
+TF_STATIC_TOPIC = "/tf_static"
 TF_TYPE = "tf2_msgs/msg/TFMessage"
 _EVERY = 2
 """Of 100 odometry messages a second, every second one: RViz draws no faster."""
@@ -21,7 +23,9 @@ _EVERY = 2
 class FieldsPublisher(Wire, Protocol):
     """A wire that also carries ROS messages that have no planar form."""
 
-    def publish_fields(self, topic: str, type_name: str, fields: Mapping[str, Any]) -> None: ...
+    def publish_fields(
+        self, topic: str, type_name: str, fields: Mapping[str, Any], *, is_kept: bool = False
+    ) -> None: ...
 
 
 class TransformPublisher:
@@ -41,8 +45,14 @@ class TransformPublisher:
         if self._count % _EVERY:
             return
         at_s = to_wall_s(message.stamp_s)
-        transforms = [transform(ODOM_FRAME, BASE_FRAME, at_s, message.x_m, message.y_m, message.yaw_rad)]
-        if self._lidar is not None:
-            mount = self._lidar
-            transforms.append(transform(BASE_FRAME, LASER_FRAME, at_s, mount.x_m, mount.y_m, mount.yaw_rad))
-        self._wire.publish_fields(TF_TOPIC, TF_TYPE, {"transforms": transforms})
+        self._publish_fixed(at_s)
+        moving = transform(ODOM_FRAME, BASE_FRAME, at_s, message.x_m, message.y_m, message.yaw_rad)
+        self._wire.publish_fields(TF_TOPIC, TF_TYPE, {"transforms": [moving]})
+
+    def _publish_fixed(self, at_s: float) -> None:
+        """Once."""
+        mount = self._lidar
+        if mount is not None:
+            fixed = transform(BASE_FRAME, LASER_FRAME, at_s, mount.x_m, mount.y_m, mount.yaw_rad)
+            self._wire.publish_fields(TF_STATIC_TOPIC, TF_TYPE, {"transforms": [fixed]}, is_kept=True)
+            self._lidar = None

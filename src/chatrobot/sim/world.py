@@ -46,6 +46,7 @@ class World:
     `places` maps each place's main name to where a robot stands there. `aliases` maps every name a person may
     say (English or Chinese, casefolded; the main names too) to a main name. `allowed_area` is the polygon the
     robot is to stay in, if the world has one; it is a rule, not a wall: neither lidar nor collisions know it.
+    `start_yaw_rad` is the heading of the start in the world's own axes, those of its file: maps are drawn along them.
     """
 
     name: str
@@ -53,6 +54,7 @@ class World:
     places: Mapping[str, Pose] = field(default_factory=dict)
     aliases: Mapping[str, str] = field(default_factory=dict)
     allowed_area: Polygon | None = None
+    start_yaw_rad: float = 0.0
 
     @property
     def is_empty(self) -> bool:

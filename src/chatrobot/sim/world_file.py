@@ -28,8 +28,10 @@ def read_world(path: Path) -> World:
     """
     try:
         text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise WorldError("cannot be read", where=str(path), allowed=str(error)) from error
+    except OSError as error:
+        raise WorldError(f"cannot be read ({error.strerror})", where=str(path)) from error
+    except UnicodeDecodeError as error:
+        raise WorldError("cannot be read", where=str(path), allowed="YAML in UTF-8") from error
     return parse_world(text, str(path), default_name=path.stem)
 
 
@@ -47,6 +49,7 @@ def parse_world(text: str, source: str, default_name: str = "world") -> World:
         places=places,
         aliases=aliases,
         allowed_area=_polygon(area).seen_from(start) if area else None,
+        start_yaw_rad=start.yaw_rad,
     )
 
 

@@ -14,13 +14,16 @@ import os
 import re
 from collections.abc import Callable, Sequence
 from importlib.util import find_spec
-from typing import Literal, NamedTuple, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol, runtime_checkable
 
 from chatrobot.core.clock import Clock, RealClock
 from chatrobot.core.errors import UsageError
 from chatrobot.core.wiring import Wiring
 from chatrobot.wire.messages import Message
 from chatrobot.wire.wire import Wire
+
+if TYPE_CHECKING:
+    from chatrobot.wire.ros.wire import RosWire
 
 ADDRESSES = "local:PATH, dds: or ros:, dds://DOMAIN[/NAMESPACE] or rosbridge:ws://HOST:9090[#NAMESPACE]"
 _DOMAIN = re.compile(
@@ -110,6 +113,19 @@ class Returning(Protocol):
     def is_connected(self) -> bool: ...
 
 
+@runtime_checkable
+class Nulling(Protocol):
+    """A wire whose scans may hold null: for infinity (open space) and for NaN (nothing measured) alike."""
+
+    @property
+    def has_null_ranges(self) -> bool: ...
+
+
+def has_null_ranges(wire: Wire) -> bool:
+    """Whether open space cannot be told from a range that was not measured, as far as scans have come."""
+    return wire.has_null_ranges if isinstance(wire, Nulling) else False
+
+
 def advertise(wire: Wire, topic: str, kind: type[Message]) -> None:
     """Let listeners find us before the first message, where the wire needs it: a first zero must not be lost."""
     if isinstance(wire, Discovering):
@@ -136,6 +152,19 @@ class Resolving(Protocol):
 def resolved(wire: Wire, topic: str) -> str:
     """The name under which any other end of `wire` reaches our `topic`."""
     return wire.resolve(topic) if isinstance(wire, Resolving) and topic else topic
+
+
+@runtime_checkable
+class Namespaced(Protocol):
+    """A wire where we are a node in a namespace."""
+
+    @property
+    def namespace(self) -> str: ...
+
+
+def namespace_of(wire: Wire) -> str:
+    """The namespace of our node, without slashes around it; empty for none, and where the wire has no nodes."""
+    return wire.namespace if isinstance(wire, Namespaced) else ""
 
 
 @runtime_checkable
@@ -218,7 +247,7 @@ def _connect_dds(address: str, wiring: Wiring, node_name: str) -> Wire:
     )
 
 
-def connect_ros(address: str, wiring: Wiring, node_name: str, ros_args: Sequence[str] = ()) -> Wire:
+def connect_ros(address: str, wiring: Wiring, node_name: str, ros_args: Sequence[str] = ()) -> RosWire:
     """A ROS node of its own; `ros_args` is what stood behind `--ros-args`.
 
     Raises:

@@ -1,7 +1,8 @@
 """The wire over rosbridge: its JSON protocol (version 2) on a websocket, for robots that offer nothing else.
 
 Protocol: https://github.com/RobotWebTools/rosbridge_suite, ROSBRIDGE_PROTOCOL.md. A thread of the backend reads,
-and reconnects when the robot is gone; meanwhile publishing fails at once, and nothing is kept for later.
+and reconnects when the robot is gone; meanwhile publishing fails at once, and nothing is kept for later. Scans and
+pictures are asked for in CBOR; a server that has none ignores that and sends JSON.
 """
 
 from __future__ import annotations
@@ -27,9 +28,10 @@ from chatrobot.core.errors import UsageError, WireError
 from chatrobot.core.wiring import Wiring
 from chatrobot.wire.codec import as_base64
 from chatrobot.wire.connect import Endpoint
-from chatrobot.wire.messages import Message
+from chatrobot.wire.messages import LaserScan, Message
 from chatrobot.wire.ros_messages import RosForm, ros_form, stamped
 from chatrobot.wire.rosapi import RosApi
+from chatrobot.wire.rosbridge_cbor import read_cbor
 from chatrobot.wire.stamps import StampTranslator, to_wall_s
 from chatrobot.wire.wire import M
 
@@ -48,6 +50,8 @@ MESSAGE_BYTES = 8_388_608
 _VELOCITIES = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
 _PICTURES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage")
 PICTURE_MS = 200
+_IN_CBOR = ("sensor_msgs/msg/LaserScan", *_PICTURES)
+"""Not odometry and gyros: rosbridge_server 2.1.0 fails to write arrays of fixed length (covariances) as CBOR."""
 _SIOCOUTQ = 0x5411
 
 
@@ -98,6 +102,7 @@ class RosbridgeWire:
         self._subscriptions: dict[tuple[str, type], _Subscription] = {}
         self._advertised: dict[tuple[str, type], RosForm] = {}
         self._refused: dict[str, str] = {}
+        self._has_null_ranges = False
         self._rosapi = RosApi(self._call)
         self._answers: dict[str, queue.SimpleQueue[dict[str, Any]]] = {}
         self._calls = itertools.count(1)
@@ -147,6 +152,11 @@ class RosbridgeWire:
     def is_connected(self) -> bool:
         """Whether the robot is there now."""
         return self._connection is not None
+
+    @property
+    def has_null_ranges(self) -> bool:
+        """Whether a scan came with null for a range: JSON says it for infinity (open space) and for NaN alike."""
+        return self._has_null_ranges
 
     def rewire(self, wiring: Wiring) -> None:
         """Take the robot to be wired like this; before anything is published or listened to."""
@@ -252,12 +262,14 @@ class RosbridgeWire:
 
     def _hear(self, text: str | bytes) -> None:
         try:
-            heard = json.loads(text, object_hook=lambda fields: SimpleNamespace(**fields))
+            heard = read_cbor(text) if isinstance(text, bytes) else _read_json(text)
             operation = heard.op
             if operation == "publish":
-                for (topic, _), subscription in tuple(self._subscriptions.items()):
+                for (topic, kind), subscription in tuple(self._subscriptions.items()):
                     if self.resolve(topic) == heard.topic and not self._ended.is_set():
                         subscription.deliver(heard.msg)
+                        if kind is LaserScan and not self._has_null_ranges:
+                            self._has_null_ranges = None in heard.msg.ranges
             elif operation == "service_response" and heard.id in self._answers:
                 self._answers[heard.id].put(vars(heard.values) if heard.result else {})
             elif operation == "status" and heard.level == "error":
@@ -273,9 +285,15 @@ class RosbridgeWire:
 
     def _subscribe_request(self, topic: str, form: RosForm) -> dict[str, Any]:
         request = {"op": "subscribe", "id": _id("subscribe", topic, form)}
-        # Of pictures the newest, now and then: the bridge writes each down as text, and its line is no wider for it.
+        # Of pictures the newest, now and then: they share the line with odometry.
         gently = {"throttle_rate": PICTURE_MS, "queue_length": 1} if form.type_name in _PICTURES else {}
-        return {**request, "topic": self.resolve(topic), "type": form.type_name, "throttle_rate": 0, **gently}
+        encoded = {"compression": "cbor"} if form.type_name in _IN_CBOR else {}
+        about = {"topic": self.resolve(topic), "type": form.type_name, "throttle_rate": 0}
+        return {**request, **about, **gently, **encoded}
+
+
+def _read_json(text: str) -> Any:
+    return json.loads(text, object_hook=lambda fields: SimpleNamespace(**fields))
 
 
 def _id(operation: str, topic: str, form: RosForm) -> str:

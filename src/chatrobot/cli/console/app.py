@@ -17,6 +17,7 @@ from chatrobot.cli.console.lines import indented
 from chatrobot.cli.console.tables import example_place, place_in
 from chatrobot.cli.console.talk import Talk
 from chatrobot.cli.console.words import Words, language_of_environment
+from chatrobot.cli.typed_ahead import TypedAhead
 from chatrobot.compose import Setup, connect
 from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import JointError, UsageError
@@ -26,8 +27,11 @@ from chatrobot.session.processes import SIMULATED
 HISTORY_FILE = "history"
 
 
-def run_console(setup: Setup) -> int:
+def run_console(setup: Setup, typed_ahead: TypedAhead) -> int:
     """Talk to the robot until somebody leaves. What is said while it moves replaces what it does.
+
+    Args:
+        typed_ahead: has what was typed while the robot started.
 
     Raises:
         InputError: the setup is wrong.
@@ -46,7 +50,7 @@ def run_console(setup: Setup) -> int:
     connection = connect(setup, hear)
     talk = Talk(connection, words, RealClock(), commands.run)
     try:
-        code = _converse(talk, setup)
+        code = _converse(talk, setup, typed_ahead)
     finally:
         connection.close()
     return code
@@ -63,7 +67,7 @@ def can_chat(environment: Mapping[str, str] = os.environ) -> bool:
     )
 
 
-def _converse(talk: Talk, setup: Setup) -> int:
+def _converse(talk: Talk, setup: Setup, typed_ahead: TypedAhead) -> int:
     def hang_up() -> None:
         with contextlib.suppress(JointError):  # nothing is said: nobody is there to read it
             talk.session.stop("terminal closed")
@@ -78,11 +82,15 @@ def _converse(talk: Talk, setup: Setup) -> int:
         face = plain.Plain(talk, hang_up)
     talk.face = face
     face.print(*greeting(talk, setup.on))
+    for text in typed_ahead.stop():
+        talk.enter(text)
+    if typed_ahead.has_ended:
+        talk.leave()
     code = face.run()
     if code != 0:
         with contextlib.suppress(JointError):
             talk.session.stop("the console has ended")
-    else:
+    elif not talk.has_parted:
         print(f"  {talk.words.say('goodbye')}")
     return code
 

@@ -13,6 +13,8 @@ from chatrobot.cli.console import tables
 from chatrobot.cli.console.limits import read_limits
 from chatrobot.cli.console.maps import big_map
 from chatrobot.cli.console.talk import Talk
+from chatrobot.cli.plan_file import read_plan_file
+from chatrobot.core.errors import UsageError
 
 
 @dataclass(frozen=True)
@@ -116,6 +118,16 @@ def _save_plan(talk: Talk, argument: str) -> None:
     talk.tell("saved", file=path)
 
 
+def _run_plan(talk: Talk, argument: str) -> None:
+    if not argument:
+        talk.tell("run_which")
+        return
+    try:
+        talk.say_plan(read_plan_file(argument))
+    except UsageError as error:
+        talk.tell("run_failed", problem=error)
+
+
 def _program(talk: Talk, argument: str) -> None:
     """A new program, or without words the list of those that are kept."""
     if argument:
@@ -131,6 +143,9 @@ def _map(talk: Talk, argument: str) -> None:
         return
     if argument.casefold() in ("big", "大"):
         talk.face.print(big_map(talk.ride, talk.connection.world, talk.face.width))
+        return
+    if argument:
+        talk.tell("no_such_map", size=argument)
         return
     talk.strip.shows_map = not talk.strip.shows_map
     talk.tell("map_on" if talk.strip.shows_map else "map_off")
@@ -168,6 +183,7 @@ COMMANDS = (
     Command("places", _places),
     Command("plan", _plan),
     Command("save-plan", _save_plan, takes="FILE"),
+    Command("run-plan", _run_plan, takes="FILE"),
     Command("program", _program, takes="[TEXT]"),
     Command("undo", _undo),
     Command("map", _map, takes="[big]"),

@@ -7,6 +7,7 @@ from rich.text import Text
 from chatrobot.cli.console.ride import Ride
 from chatrobot.cli.drawing.extent import Extent, extent_around, extent_of_world
 from chatrobot.cli.drawing.map_text import MapLines, draw_map_text
+from chatrobot.cli.drawing.orientation import Orientation
 from chatrobot.sim.world import World
 
 COLOURS = {
@@ -24,7 +25,7 @@ def big_map(ride: Ride, world: World, width: int) -> Text:
 
 def way_map(ride: Ride, world: World) -> Text:
     """The predicted way of the last plan and what stands around it."""
-    extent = extent_around(ride.path, margin_m=0.8, least_m=3.0)
+    extent = extent_around(Orientation(world).points(ride.path), margin_m=0.8, least_m=3.0)
     return _draw(ride, world, extent, WAY_COLUMNS, WAY_ROWS)
 
 

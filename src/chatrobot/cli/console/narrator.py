@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 
 from rich.console import RenderableType
@@ -30,6 +31,7 @@ from chatrobot.core.events import (
 from chatrobot.core.geometry import Twist
 from chatrobot.core.shown import fixed
 from chatrobot.language.phrases import describe_text, render_reason, say
+from chatrobot.plan.folded import folded_plan
 from chatrobot.plan.shown import shown_plan
 from chatrobot.session.program_text import body, headline
 
@@ -97,9 +99,9 @@ class Narrator:
             )
             head.append(f"  {facts}", "dim")
         yield head
-        lines = shown_plan(plan_text).splitlines()
+        lines = folded_plan(plan_text)
         shown = lines if limit is None or len(lines) <= limit else lines[: limit - 1]
-        for number, line in enumerate(shown, 1):
+        for number, line in shown:
             yield Text("  ").append(f"{number:>3}  ", "dim").append_text(_plan_line(line))
         if len(shown) < len(lines):
             yield Text("       ").append(self._words.say("plan_more", count=len(lines) - len(shown)), "dim")
@@ -203,10 +205,12 @@ class Narrator:
         return " · ".join(parts) or self._words.say("speed", speed="0")
 
 
+_VERB = re.compile(r"^ *(?:\d+ × \(?)*([a-z_]+)")
+
+
 def _plan_line(line: str) -> Text:
-    """The verb in bold, so that a plan reads at a glance."""
-    verb_begin = len(line) - len(line.lstrip())
-    verb_end = line.find(" ", verb_begin)
+    """The first verb in bold, so that a plan reads at a glance."""
     text = Text(line)
-    text.stylize("bold cyan", verb_begin, verb_end if verb_end >= 0 else len(line))
+    if verb := _VERB.match(line):
+        text.stylize("bold cyan", *verb.span(1))
     return text

@@ -10,6 +10,7 @@ from chatrobot.cli.console.ride import XY, Ride
 from chatrobot.cli.console.words import Words
 from chatrobot.cli.drawing.extent import extent_around
 from chatrobot.cli.drawing.map_text import MapLines, MapText
+from chatrobot.cli.drawing.orientation import Orientation
 from chatrobot.sim.world import World
 
 Fragments = list[tuple[str, str]]
@@ -48,15 +49,19 @@ class Strip:
         self._map: MapText | None = None
         self._map_of: tuple[XY, ...] | None = None
 
-    def fragments(self, width: int, latched: bool = False) -> Fragments:
-        """What to show now in `width` cells: one line while the robot stands, the map's height while it moves."""
+    def fragments(self, width: int, latched: bool = False, thinking_s: float | None = None) -> Fragments:
+        """What to show now in `width` cells: one line while the robot stands, the map's height while it moves.
+
+        Args:
+            thinking_s: for how long a model has been asked; None where none is.
+        """
         if latched:
             return [("class:strip.alarm", f" {self._words.say('latched')} ")]
         if not self._ride.is_moving:
-            return self._standing(width)
+            return self._standing(width, thinking_s)
         has_map = self.shows_map and self._ride.is_measured and width >= LEAST_WIDTH
         room = width - MAP_COLUMNS - 2 if has_map else width
-        lines = [_cut(line, room) for line in self._words_beside(room)]
+        lines = [_cut(line, room) for line in self._words_beside(room, thinking_s)]
         if has_map:
             lines = self._with_map(lines)
         joined: Fragments = []
@@ -64,15 +69,20 @@ class Strip:
             joined += ([("", "\n")] if number else []) + line
         return joined
 
-    def _standing(self, width: int) -> Fragments:
-        where = f"{self._words.say('standing')} · {self._words.pose(self._ride.pose)}"
-        words = f" {where if self._ride.is_measured else self._words.say('not_measured')}"
+    def _standing(self, width: int, thinking_s: float | None) -> Fragments:
+        is_measured, state = self._ride.is_measured, self._thinking(thinking_s)
+        state = state or (self._words.say("standing") if is_measured else "")
+        where = self._words.pose(self._ride.pose) if is_measured else self._words.say("not_measured")
+        words = f" {state} · {where}" if state else f" {where}"
         hints = self._words.say("strip_idle").split("  ")
         while hints and cell_len(f"{words}   {'  '.join(hints)}") > width:
             hints.pop()
         return _cut([("class:strip.dim", f"{words}   {'  '.join(hints)}".rstrip())], width)
 
-    def _words_beside(self, room: int) -> list[Fragments]:
+    def _thinking(self, thinking_s: float | None) -> str:
+        return self._words.say("thinking", seconds=int(thinking_s)) if thinking_s is not None else ""
+
+    def _words_beside(self, room: int, thinking_s: float | None) -> list[Fragments]:
         ride, say = self._ride, self._words.say
         facts = [
             say("at_pose", pose=self._words.pose(ride.pose)),
@@ -85,6 +95,8 @@ class Strip:
         more = [say("nearest", distance=f"{ride.nearest_m:.2f}")] if ride.nearest_m is not None else []
         if ride.battery_percent is not None:
             more.append(say("battery", percent=f"{ride.battery_percent:.0f}"))
+        if thinking_s is not None:
+            more.append(self._thinking(thinking_s))
         label = f" {say('moving')}  "
         bar_cells = max(LEAST_BAR_CELLS, min(BAR_CELLS, room - cell_len(label) - PERCENT_CELLS))
         head: Fragments = [("class:strip.key", label)]
@@ -109,7 +121,7 @@ class Strip:
         """The map of this plan; its still part is drawn once a plan, so that it does not jump while it is driven."""
         ride = self._ride
         if self._map is None or self._map_of is not ride.path:
-            points = (*ride.path, *ride.trail[:1])
+            points = Orientation(self._world).points((*ride.path, *ride.trail[:1]))
             extent = extent_around(points, margin_m=0.5, least_m=2.5)
             self._map = MapText(self._world, extent, columns=MAP_COLUMNS, rows=MAP_ROWS, path=ride.path)
             self._map_of = ride.path

@@ -68,6 +68,8 @@ class Talk:
         self.narrator = Narrator(words)
         self.pump = Pump(self.session, self.lose, lambda: self.face.leave(1))
         self.latched = False
+        self.has_parted = False
+        """The person said goodbye in words, and was answered."""
         self._release_is_due = False
         self._clock = clock
         self._question = Question()
@@ -91,7 +93,7 @@ class Talk:
         elif len(texts) == 1:
             self._enter_one(texts[0])
         elif is_plan(cleaned):
-            self._say_plan(cleaned.strip(), cleaned.strip())
+            self.say_plan(cleaned.strip(), cleaned.strip())
         elif texts:
             self._enter_all(texts)
 
@@ -144,18 +146,20 @@ class Talk:
         if len(edited) > (LONGEST_CHARS if program is None else MAX_SOURCE_CHARS):
             self.tell("line_too_long", limit=LONGEST_CHARS)
         elif text and program is None:
-            self._say_plan(text, self.words.say("edited"), is_edited=True)
+            self.say_plan(text, self.words.say("edited"), is_edited=True)
         elif text and program is not None:
             with self._order:
                 self.attempt(lambda: self.session.say_source(program.program, f"{text}\n"))
                 self._echo(self.words.say("edited"))
 
-    def _say_plan(self, plan_text: str, shown: str, *, is_edited: bool = False) -> None:
+    def say_plan(self, plan_text: str, shown: str = "", *, is_edited: bool = False) -> None:
+        """Have a plan driven that is there as text; `shown` is what its line looks like, if it has not been shown."""
         say = self.session.say_edited_plan if is_edited else self.session.say_plan
         with self._order:
             undone = self._pasted.drop()
             self.attempt(lambda: say(plan_text))
-            self._echo(shown)
+            if shown:
+                self._echo(shown)
         self._tell_undone(undone)
 
     def interrupt(self) -> None:
@@ -166,7 +170,7 @@ class Talk:
             self.face.leave(0)
             return
         self._interrupted_s = now_s
-        self._leaving = False
+        self._leaving = self.has_parted = False
         self.tell("interrupted")
 
     def leave(self) -> None:
@@ -272,7 +276,7 @@ class Talk:
             if (
                 isinstance(event, Interpreted)
                 and event.by == "reflex"
-                and (self.ride.is_moving or self._said_stopped or self.session.is_paused)
+                and (self.ride.is_moving or self._said_stopped or self.session.is_plan_paused)
             ):
                 self._muted.add(event.turn)  # what was moving says how it ended
             if isinstance(event, Result):
@@ -282,6 +286,7 @@ class Talk:
         if isinstance(event, Result):
             self._go_on_after(event)
             if is_parting(event):
+                self.has_parted = True
                 self.leave()
             if self._leaving and self._has_nothing_to_do:
                 self.face.leave(0)

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
+from chatrobot.cli.drawing.orientation import XY as XY
+from chatrobot.cli.drawing.orientation import Orientation
 from chatrobot.sim.world import World
-
-XY = tuple[float, float]
 
 
 class Extent(NamedTuple):
-    """An axis-aligned box in the frame of the world, metres."""
+    """A box along the axes that the map is drawn in (see `Orientation`), metres."""
 
     min_x_m: float
     min_y_m: float
@@ -31,7 +31,7 @@ class Extent(NamedTuple):
 
 
 def extent_around(points: Iterable[XY], *, margin_m: float, least_m: float) -> Extent:
-    """The box around `points` with a margin, at least `least_m` wide and high; around the origin if there are none."""
+    """The box around `points` as they are drawn, at least `least_m` wide and high; without any around the start."""
     xs, ys = zip(*(tuple(points) or ((0.0, 0.0),)))
     (min_x, max_x), (min_y, max_y) = (
         _widened(min(values) - margin_m, max(values) + margin_m, least_m) for values in (xs, ys)
@@ -40,10 +40,13 @@ def extent_around(points: Iterable[XY], *, margin_m: float, least_m: float) -> E
 
 
 def extent_of_world(world: World, points: Iterable[XY], *, margin_m: float, least_m: float) -> Extent:
-    """The box that holds the whole world and `points`."""
-    bounds = world.bounds
-    corners = () if bounds is None else ((bounds.min_x_m, bounds.min_y_m), (bounds.max_x_m, bounds.max_y_m))
-    return extent_around((*corners, *points), margin_m=margin_m, least_m=least_m)
+    """The box that holds the whole world, the start and `points`, all in the frame of the start."""
+    held = [*points]
+    if world.bounds is not None:
+        held += [(0.0, 0.0), *(pose[:2] for pose in world.places.values())]
+        held += [point for _, outline in world.outline() for point in outline]
+        held += world.allowed_area.points if world.allowed_area is not None else ()
+    return extent_around(Orientation(world).points(held), margin_m=margin_m, least_m=least_m)
 
 
 def _widened(low: float, high: float, least: float) -> tuple[float, float]:

@@ -12,6 +12,8 @@ from collections.abc import Iterable, Sequence
 from itertools import groupby, pairwise
 
 from chatrobot.cli.drawing.extent import XY, Extent
+from chatrobot.cli.drawing.furniture import furniture
+from chatrobot.cli.drawing.orientation import Orientation
 from chatrobot.core.geometry import Pose
 from chatrobot.sim.world import World
 
@@ -34,7 +36,7 @@ class MapText:
     """A world within an extent on so many cells. What stands still is drawn once.
 
     Args:
-        names: write the places' names on the map.
+        names: write the names of places on the map, and those of furniture where there is room.
     """
 
     def __init__(
@@ -48,6 +50,7 @@ class MapText:
         names: bool = False,
     ) -> None:
         self._columns, self._rows = columns, rows
+        self._orientation = Orientation(world)
         self._dots_per_m = min(columns * 2 / extent.width_m, rows * 4 / extent.height_m)
         self._extent = extent
         self._left = (columns * 2 - extent.width_m * self._dots_per_m) / 2.0
@@ -59,16 +62,19 @@ class MapText:
         self._letters: dict[tuple[int, int], Run] = {}
         if names:
             for name, pose in world.places.items():
-                if extent.holds(pose.x_m, pose.y_m):
+                if extent.holds(*self._orientation.point(pose.x_m, pose.y_m)):
                     self._name(name, pose)
+            for name, outline in furniture(world):
+                self._furniture_name(name, outline)
 
     def lines(self, *, trail: Sequence[XY] = (), pose: Pose | None = None) -> MapLines:
         """The map now: `rows` lines of runs, each line `columns` cells wide."""
         layers = {layer: dict(cells) for layer, cells in self._still.items()}
         self._line("trail", trail, layers)
         letters = dict(self._letters)
-        if pose is not None and self._extent.holds(pose.x_m, pose.y_m):
-            self._put(letters, self._cell(pose.x_m, pose.y_m), ("robot", arrow(pose.yaw_rad)))
+        if pose is not None and self._extent.holds(*self._orientation.point(pose.x_m, pose.y_m)):
+            heading_rad = self._orientation.heading_rad(pose.yaw_rad)
+            self._put(letters, self._cell(pose.x_m, pose.y_m), ("robot", arrow(heading_rad)))
         return [self._row(row, layers, letters) for row in range(self._rows)]
 
     def _row(
@@ -99,9 +105,10 @@ class MapText:
     # --- putting things on ---
 
     def _dot(self, x_m: float, y_m: float) -> tuple[float, float]:
+        right_m, up_m = self._orientation.point(x_m, y_m)
         return (
-            self._left + (x_m - self._extent.min_x_m) * self._dots_per_m,
-            self._top + (self._extent.max_y_m - y_m) * self._dots_per_m,
+            self._left + (right_m - self._extent.min_x_m) * self._dots_per_m,
+            self._top + (self._extent.max_y_m - up_m) * self._dots_per_m,
         )
 
     def _cell(self, x_m: float, y_m: float) -> tuple[int, int]:
@@ -133,6 +140,32 @@ class MapText:
         for char in name:
             self._put(self._letters, (start, row), ("place", char))
             start += _width(char)
+
+    def _furniture_name(self, name: str, outline: Sequence[XY]) -> None:
+        """In the middle of the thing, else right of it, left of it, above or below; nowhere where there is no room."""
+        dots = [self._dot(*point) for point in outline]
+        left, right = (int(end(x for x, _ in dots)) // 2 for end in (min, max))
+        top, bottom = (int(end(y for _, y in dots)) // 4 for end in (min, max))
+        width = sum(map(_width, name))
+        middle, row = (left + right + 1 - width) // 2, (top + bottom) // 2
+        spots = (
+            (middle, row),
+            (right + 1, row),
+            (left - width, row),
+            (middle, top - 1),
+            (middle, bottom + 1),
+        )
+        for start, line in spots:
+            if self._has_room(range(start, start + width), line):
+                for char in name:
+                    self._put(self._letters, (start, line), ("wall", char))
+                    start += _width(char)
+                return
+
+    def _has_room(self, span: range, row: int) -> bool:
+        is_on_map = 0 <= row < self._rows and span.start >= 0 and span.stop <= self._columns
+        taken = {*self._letters, *(cell for cells in self._still.values() for cell in cells)}
+        return is_on_map and not any((column, row) in taken for column in span)
 
     @staticmethod
     def _put(letters: dict[tuple[int, int], Run], cell: tuple[int, int], run: Run) -> None:

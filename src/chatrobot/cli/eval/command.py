@@ -10,7 +10,7 @@ from pathlib import Path
 from chatrobot.cli.choices import setup_from
 from chatrobot.cli.eval.corpus import Item, load_corpus
 from chatrobot.cli.eval.report import item_json, misses, table, totals_json
-from chatrobot.cli.eval.run import run_items
+from chatrobot.cli.eval.run import Judged, run_items
 from chatrobot.cli.json_lines import json_line
 from chatrobot.session.options import Options
 
@@ -26,14 +26,14 @@ def run(args: argparse.Namespace) -> int:
     setup = setup_from(args, options=Options(), world="empty", named_model=True)
     items = [item for file in args.files for item in load_corpus(Path(file)) if _is_chosen(item, args.only)]
     began_s = time.monotonic()
-    progress = _Progress(len(items), began_s)
-    judged = []
-    for one in run_items(items, setup):
-        judged.append(one)
-        progress.show(len(judged))
-        if args.json:
-            print(json_line(item_json(one)), end="", flush=True)
-    progress.clear()
+    judged: list[Judged] = []
+    with _Progress(len(items), began_s) as progress:
+        for one in run_items(items, setup):
+            judged.append(one)
+            if args.json:
+                progress.clear()
+                print(json_line(item_json(one)), end="", flush=True)
+            progress.show(len(judged))
     if args.json:
         print(json_line(totals_json(judged)), end="")
         return 0
@@ -49,22 +49,33 @@ def _is_chosen(item: Item, only: str | None) -> bool:
 
 
 class _Progress:
-    """How many items are done, on one line of a terminal; nothing where errors go elsewhere."""
+    """How many items are done, on one line of the terminal that errors go to; nothing where they go elsewhere.
+
+    The line is there while it is entered.
+    """
 
     def __init__(self, total: int, began_s: float) -> None:
         self._total = total
         self._began_s = self._shown_s = began_s
         self._is_shown = sys.stderr.isatty()
 
+    def __enter__(self) -> _Progress:
+        self._write(f"0 of {self._total}")
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.clear()
+
     def show(self, done: int) -> None:
         now_s = time.monotonic()
-        if self._is_shown and now_s - self._shown_s >= _REPORTED_EVERY_S:
+        if now_s - self._shown_s >= _REPORTED_EVERY_S:
             self._shown_s = now_s
             left_s = (now_s - self._began_s) / done * (self._total - done)
-            print(
-                f"\r{done} of {self._total}, {left_s:.0f} s to go \033[K", end="", file=sys.stderr, flush=True
-            )
+            self._write(f"{done} of {self._total}, {left_s:.0f} s to go ")
 
     def clear(self) -> None:
+        self._write("")
+
+    def _write(self, text: str) -> None:
         if self._is_shown:
-            print("\r\033[K", end="", file=sys.stderr, flush=True)
+            print(f"\r{text}\033[K", end="", file=sys.stderr, flush=True)

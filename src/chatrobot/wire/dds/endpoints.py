@@ -37,12 +37,17 @@ _ANY = SampleState.Any | ViewState.Any | InstanceState.Any
 
 
 class Port(NamedTuple):
-    """A topic as ROS sees it. `best_effort`: its publishers may use the QoS of sensors; `depth`: of a reader."""
+    """A topic as ROS sees it. `best_effort`: its publishers may use the QoS of sensors; `depth`: of a reader.
+
+    `is_kept`: of a writer, whose last message goes to readers that come later, too, as ROS's transient local
+    publishers do it.
+    """
 
     dds_topic: str
     form: RosForm
     best_effort: bool
     depth: int = 1
+    is_kept: bool = False
 
 
 class Writer:
@@ -56,8 +61,8 @@ class Writer:
         # old velocities for a frozen listener would help nobody.
         qos = Qos(
             Policy.Reliability.Reliable(0),
-            Policy.History.KeepLast(_WRITE_DEPTH),
-            Policy.Durability.Volatile,
+            Policy.History.KeepLast(1 if port.is_kept else _WRITE_DEPTH),
+            Policy.Durability.TransientLocal if port.is_kept else Policy.Durability.Volatile,
             types.typehash(name),
         )
         self._participant = participant

@@ -91,16 +91,20 @@ class DdsWire:
             else:
                 reader.callbacks = (*reader.callbacks, callback)
 
-    def publish_fields(self, topic: str, type_name: str, fields: Mapping[str, Any]) -> None:
+    def publish_fields(
+        self, topic: str, type_name: str, fields: Mapping[str, Any], *, is_kept: bool = False
+    ) -> None:
         """Publish a ROS message that has no planar form, `tf2_msgs/msg/TFMessage` say.
 
         Args:
             fields: nested dictionaries; what is left out is zero. Stamps as ROS has them (`stamps.to_wall_s`).
+            is_kept: who listens later gets the last message, too (ROS's transient local durability).
         """
         writer = self._writers.get((topic, type_name))
         if writer is None:
             form = RosForm(type_name, dict, lambda _: None)
-            writer = self._open_writer(topic, type_name, Port(self._name(topic), form, best_effort=False))
+            port = Port(self._name(topic), form, best_effort=False, is_kept=is_kept)
+            writer = self._open_writer(topic, type_name, port)
         writer.write_fields(fields)
 
     def advertise(self, topic: str, kind: type[Message]) -> None:
@@ -125,6 +129,10 @@ class DdsWire:
         """The endpoints of other participants, found so far."""
         graph = self._graph
         return [] if graph is None else graph.endpoints()
+
+    @property
+    def namespace(self) -> str:
+        return self._namespace
 
     def resolve(self, topic: str) -> str:
         return "/" + self._name(topic).removeprefix("rt/")

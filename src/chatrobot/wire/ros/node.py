@@ -6,6 +6,7 @@ end it stops the robot first, and then calls `close`.
 
 from __future__ import annotations
 
+import contextlib
 import threading
 import time
 from collections.abc import Sequence
@@ -16,7 +17,6 @@ from rclpy.context import Context
 from rclpy.exceptions import InvalidNamespaceException, InvalidNodeNameException
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.signals import SignalHandlerOptions
-from rclpy.task import Future
 
 from chatrobot.core.errors import UsageError, WireError
 
@@ -67,8 +67,9 @@ class RosNode:
             raise WireError(f"ROS cannot be opened: {error}") from error
         self._executor = SingleThreadedExecutor(context=self.context)
         self._executor.add_node(self.handle)
-        self._leaving = Future()
         self._closed = False
+        self._has_left = False
+        self._farewell = self.handle.create_guard_condition(self._leave)
         self._thread = threading.Thread(target=self._deliver, name="ros", daemon=True)
         self._thread.start()
 
@@ -95,17 +96,35 @@ class RosNode:
             time.sleep(0.02)
         return True
 
+    def log(self, severity: str, text: str) -> None:
+        """Into ROS's log: `severity` is info, warn or error."""
+        logger = self.handle.get_logger()
+        if severity == "info":  # on lines of their own: rclpy keeps one severity for each line that calls it
+            logger.info(text)
+        elif severity == "warn":
+            logger.warning(text)
+        else:
+            logger.error(text)
+
     def close(self) -> None:
         """Leave; from any thread, its own too. Closing twice does no harm."""
         if not self._closed:
             self._closed = True
-            self._leaving.set_result(None)
+            with contextlib.suppress(
+                RuntimeError
+            ):  # its thread has left already: somebody closed the context
+                self._farewell.trigger()
         if self._thread is not threading.current_thread():
             self._thread.join(JOIN_S)
 
+    def _leave(self) -> None:
+        """Called by the executor on its own thread, so that nothing is destroyed that the caller still wakes."""
+        self._has_left = True
+
     def _deliver(self) -> None:
         try:
-            self._executor.spin_until_future_complete(self._leaving)
+            while not self._has_left:
+                self._executor.spin_once()
         except ExternalShutdownException:
             pass  # somebody has closed the context: publishing says so from now on
         finally:

@@ -30,11 +30,10 @@ _UNKNOWN = "_NODE_NAME_UNKNOWN_"
 class _Publisher:
     """One topic as one type."""
 
-    def __init__(self, node: RosNode, topic: str, form: RosForm) -> None:
+    def __init__(self, node: RosNode, topic: str, form: RosForm, *, is_kept: bool = False) -> None:
         self._form = form
-        self._publisher = node.handle.create_publisher(
-            message_class(form.type_name), topic, _qos(_WRITE_DEPTH)
-        )
+        qos = _qos(1, durability=DurabilityPolicy.TRANSIENT_LOCAL) if is_kept else _qos(_WRITE_DEPTH)
+        self._publisher = node.handle.create_publisher(message_class(form.type_name), topic, qos)
 
     def send(self, message: Message) -> None:
         self.send_fields(self._form.to_ros(message))
@@ -127,11 +126,18 @@ class RosWire:
                 raise WireError(f"cannot listen on {topic}: {error}") from error
             self._subscriptions = {**self._subscriptions, (topic, kind): subscription}
 
-    def publish_fields(self, topic: str, type_name: str, fields: Mapping[str, Any]) -> None:
-        """Publish a ROS message that has no planar form, `tf2_msgs/msg/TFMessage` say; what is left out is zero."""
+    def publish_fields(
+        self, topic: str, type_name: str, fields: Mapping[str, Any], *, is_kept: bool = False
+    ) -> None:
+        """Publish a ROS message that has no planar form, `tf2_msgs/msg/TFMessage` say; what is left out is zero.
+
+        Args:
+            is_kept: who listens later gets the last message, too (ROS's transient local durability).
+        """
         publisher = self._publishers.get((topic, type_name))
         if publisher is None:
-            publisher = self._open_publisher(topic, type_name, RosForm(type_name, dict, lambda _: None))
+            form = RosForm(type_name, dict, lambda _: None)
+            publisher = self._open_publisher(topic, type_name, form, is_kept=is_kept)
         publisher.send_fields(fields)
 
     def advertise(self, topic: str, kind: type[Message]) -> None:
@@ -187,6 +193,10 @@ class RosWire:
         """The topic's full name, namespace and remappings applied."""
         return str(self.node.handle.resolve_topic_name(topic))
 
+    @property
+    def namespace(self) -> str:
+        return str(self.node.handle.get_namespace()).strip("/")
+
     def now_s(self) -> float:
         """ROS's time; a clock for who asks `has_own_time` first."""
         return self.node.now_s()
@@ -214,26 +224,27 @@ class RosWire:
         clock = StampTranslator()
         return lambda stamp_s: clock.local_s(stamp_s, time.monotonic())
 
-    def _open_publisher(self, topic: str, key: object, form: RosForm) -> _Publisher:
+    def _open_publisher(self, topic: str, key: object, form: RosForm, *, is_kept: bool = False) -> _Publisher:
         with self._lock:
             self._must_be_open()
             publisher = self._publishers.get((topic, key))
             if publisher is None:
                 try:
-                    publisher = _Publisher(self.node, topic, form)
+                    publisher = _Publisher(self.node, topic, form, is_kept=is_kept)
                 except (RuntimeError, NameValidationException) as error:
                     raise WireError(f"cannot publish on {topic}: {error}") from error
                 self._publishers = {**self._publishers, (topic, key): publisher}
             return publisher
 
 
-def _qos(depth: int, reliability: Any = ReliabilityPolicy.RELIABLE) -> QoSProfile:
+def _qos(
+    depth: int,
+    reliability: Any = ReliabilityPolicy.RELIABLE,
+    durability: Any = DurabilityPolicy.VOLATILE,
+) -> QoSProfile:
     """ROS's defaults: what its own endpoints and every base ask for."""
     return QoSProfile(
-        history=HistoryPolicy.KEEP_LAST,
-        depth=depth,
-        reliability=reliability,
-        durability=DurabilityPolicy.VOLATILE,
+        history=HistoryPolicy.KEEP_LAST, depth=depth, reliability=reliability, durability=durability
     )
 
 

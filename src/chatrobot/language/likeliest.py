@@ -1,0 +1,145 @@
+"""The likeliest reading of a text that the rules do not cover whole: it is done where it is sure, else proposed.
+
+Clauses that tell of something, and hold nothing that could bear on the order, are talk: the order beside them is done.
+Where the rules stumble on anything else, the clause it stands in is left out, or the word alone if nobody knows it
+and its clause says by itself what to do and how much. What was left out is named, and the plan of the rest proposed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+from chatrobot.core.proposal import Proposal
+from chatrobot.language.acts import ORDER, Read, order_log_odds, read_acts
+from chatrobot.language.interpretation import Interpretation, LanguageCode
+from chatrobot.language.lexicon import cut, lexicon
+from chatrobot.language.phrases import describe_plan, say
+from chatrobot.language.signs import Names
+from chatrobot.language.unclear import Unclear
+from chatrobot.plan.text import format_plan
+
+TALK, APART = 1.5, 3.0
+"""A clause may be sure talk below these odds, and where the order's are higher by so much."""
+NO_ORDER = 3.5
+"""A clause without an amount may be left out of a proposal below these odds."""
+MOST_CLAUSES, MOST_PARTS = 12, 3
+"""So many clauses are looked at one by one, and so many parts are left out of what is proposed."""
+
+Reader = Callable[[str], Interpretation]
+
+
+@dataclass
+class _Rest:
+    """What is read of a text: the clauses that are kept, without the words that nobody knows."""
+
+    plain: str
+    kept: list[Read]
+    strange: list[str] = field(default_factory=list)
+    left_out: list[str] = field(default_factory=list)
+
+    @property
+    def text(self) -> str:
+        return self.without_strange(" ".join(self.said(read) for read in self.kept).strip(" ,;:"))
+
+    def said(self, read: Read) -> str:
+        return self.plain[read.clause.start : read.clause.stop].strip()
+
+    def without_strange(self, text: str) -> str:
+        for part in self.strange:
+            text = " ".join(text.replace(part, " ", 1).split())
+        return text
+
+    def leave_out(self, read: Read) -> None:
+        self.kept.remove(read)
+        self.left_out.append(self.said(read).strip(" ,.;:!"))
+
+    def with_part(self, part: str) -> Read | None:
+        """The clause that was not understood: the last that holds `part`."""
+        squeezed = "".join(part.split())
+        held = [read for read in self.kept if squeezed and squeezed in "".join(self.said(read).split())]
+        return held[-1] if held else None
+
+
+def likeliest(
+    plain: str, names: Names, language: LanguageCode, problem: Unclear, read: Reader, read_anew: Reader
+) -> Interpretation | None:
+    """What a normalised text most likely means, where `read` raised `problem`; None where it orders nothing.
+
+    Either a plan, or a question that proposes one. `read_anew` reads as if nothing had been said before.
+    """
+    reads = read_acts(plain, names)
+    best = order_log_odds(reads)
+    if best < ORDER or len(reads) > MOST_CLAUSES:
+        return None
+    rest = _Rest(plain, list(reads))
+    for clause in [clause for clause in reads if _is_sure_talk(clause, best)]:
+        rest.leave_out(clause)
+    is_sure = not problem.refused
+    for _ in range(MOST_PARTS + 1):
+        try:
+            found = read(rest.text)
+        except Unclear as stumbled:
+            if not _without(rest, stumbled, best, names):
+                return None
+            is_sure = False
+            continue
+        if rest.strange and not _means_the_same(found, rest.text, read_anew):
+            return None  # what was left out may be what is to be changed
+        return found if is_sure else proposed(found, language, (*rest.strange, *rest.left_out))
+    return None
+
+
+def proposed(
+    found: Interpretation, language: LanguageCode, left_out: Sequence[str] = ()
+) -> Interpretation | None:
+    """The question whether that is meant; None where there is nothing to do."""
+    if found.plan is None:
+        return None
+    ask = say(language, "did_you_mean", text=describe_plan(found.plan, language))
+    named = max(left_out, key=len, default="")
+    reply = f"{say(language, 'left_out', part=named)} {ask}" if named else ask
+    offer = Proposal(format_plan(found.plan), ask)
+    return Interpretation("unclear", reply, language, unaccounted=named, code="did_you_mean", proposal=offer)
+
+
+def _is_sure_talk(read: Read, best: float) -> bool:
+    clause = read.clause
+    return clause.talks and not clause.binds and read.log_odds < min(TALK, best - APART)
+
+
+def _without(rest: _Rest, stumbled: Unclear, best: float, names: Names) -> bool:
+    """Leave out what the rules stumbled on; False where it may be what was meant."""
+    clause = rest.with_part(stumbled.part)
+    told = clause is not None and (clause.clause.talks or not stumbled.refused)
+    if clause is not None and told and _leaves_order(rest, clause, best):
+        rest.leave_out(clause)
+        return True
+    if clause is None or stumbled.refused or stumbled.code != "unknown_part":
+        return False
+    strange = _is_strange(stumbled.part, rest.text, names) and clause.clause.measures
+    if not strange or not clause.clause.is_within(rest.plain.find(stumbled.part, clause.clause.start)):
+        return False
+    rest.strange.append(stumbled.part)
+    return True
+
+
+def _leaves_order(rest: _Rest, read: Read, best: float) -> bool:
+    """Whether `read` may be no part of what is ordered, and what is left orders something."""
+    clause = read.clause
+    others = [other for other in rest.kept if other is not read and other.clause.moves]
+    passable = not (clause.measures or clause.depends) and read.log_odds < min(NO_ORDER, best + 1.0)
+    return passable and bool(others) and order_log_odds(others) >= ORDER
+
+
+def _is_strange(part: str, text: str, names: Names) -> bool:
+    """Whether it consists of words that nobody knows, so that none of them is one of motion."""
+    words = lexicon().words
+    return part in text and not any((unit,) in words or (unit,) in names for unit in cut(part))
+
+
+def _means_the_same(found: Interpretation, text: str, read_anew: Reader) -> bool:
+    try:
+        return read_anew(text).plan == found.plan
+    except Unclear:
+        return False
