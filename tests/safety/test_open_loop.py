@@ -32,9 +32,11 @@ from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.joint import SimulatedJoint
 from chatrobot.session.lookout import Lookout
 from chatrobot.session.rivals import Rivals
+from chatrobot.session.topic_joint import TopicJoint
 from chatrobot.session.zeroing import PATIENCE_S
 from chatrobot.sim.load import load_world
 from chatrobot.sim.start import check_known
+from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import TwistMessage
 from tests.session.far_robot import Rig
 from tests.session.undo_rig import UndoRig
@@ -373,3 +375,17 @@ def test_simulated_time_keeps_the_notice_for_who_asks_later() -> None:
     assert isinstance(rig.session._joint, SimulatedJoint)
     rig.live(0.1)
     assert [event.reason.code for event in rig.events if isinstance(event, Notice)] == ["open_loop"]
+
+
+def test_a_base_that_comes_later_hears_from_controls_beats_how_the_robot_is_driven() -> None:
+    hub = MemoryHub()
+    joint = TopicJoint(hub.connect(), "base", is_on_this_machine=True)
+    joint.open()
+    notice = Reason("open_loop", {"speed_mps": 0.2, "rate_radps": 0.5, "max_s": 10.0})
+    rivals = Rivals(hub.connect(), "chatrobot_control", "cmd_vel", notice)
+    rivals.note_source(joint._sender.lease)
+    rivals.beat()
+    assert joint.next_event(1.0) == Notice(0, notice)
+    rivals.beat()
+    assert joint.next_event(0.05) is None, "once"
+    joint.close()
