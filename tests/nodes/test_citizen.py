@@ -44,6 +44,7 @@ PATIENCE_S = 10.0
 
 @pytest.fixture
 def ros(monkeypatch: pytest.MonkeyPatch) -> fake_rclpy.Ros:
+    monkeypatch.setattr("chatrobot.language.typed._is_ros", False)  # a node sets it for its process
     return fake_rclpy.install(monkeypatch)
 
 
@@ -324,6 +325,7 @@ def test_the_command_line_is_the_default_and_ros_s_parameters_go_before_it(
         "use_sim_time": False,
         "generate_code": True,
         "revChatGPT": False,
+        "open_loop": False,
         "robot": "originbot",
         "world": "home",
         "diagnostics_period_s": 1.0,
@@ -399,9 +401,12 @@ def test_every_parameter_stands_on_the_page_and_every_switch_of_a_launch_line_is
     names = {parameter.name for known in PARAMETERS.values() for parameter in known}
     assert {name for name in names if f"| `{name}` |" in page} == names
     launch = (ROOT / "ros" / "chatrobot" / "launch" / "robot.launch.py").read_text(encoding="utf-8")
-    of_one = re.search("^OF_ONE = (.*)$", launch, re.MULTILINE)
+    of_one = re.search("^OF_ONE = (.*?^})", launch, re.MULTILINE | re.DOTALL)
     assert of_one is not None
-    assert set(re.findall(r'^    "(\w+)":', launch, re.MULTILINE)) <= {*names, "use_sim_time"}
+    assert set(re.findall(r'^    "(\w+)":', launch[: of_one.start()], re.MULTILINE)) <= {
+        *names,
+        "use_sim_time",
+    }
     for node, own in ast.literal_eval(of_one[1]).items():
         assert own <= {parameter.name for parameter in PARAMETERS[node]}
 
@@ -422,6 +427,39 @@ def test_doctor_says_how_to_get_ros(monkeypatch: pytest.MonkeyPatch) -> None:
     assert check.state == "later"
     assert "not for this Python" in check.text
     assert "source /opt/ros" in check.text
+
+
+@pytest.mark.parametrize("which", ["base", "control"])
+def test_help_under_ros2_run_lists_the_parameters_with_their_defaults(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], which: str
+) -> None:
+    monkeypatch.setattr(sys, "argv", [f"/ws/lib/chatGPT_test/chatGPT_{which}", "--help"])
+    assert {"base": ros_run.base_node, "control": ros_run.control_node}[which]() == 0
+    text = capsys.readouterr().out
+    assert text.startswith(f"usage: ros2 run chatGPT_test chatGPT_{which} --ros-args")
+    for parameter in PARAMETERS[which]:
+        assert f"\n  {parameter.name}:=" in text
+    assert "world:=empty" in text
+    assert "--on" not in text
+
+
+def test_open_loop_is_a_parameter_and_brings_its_robot(ros: fake_rclpy.Ros) -> None:
+    def values(*ros_args: str) -> dict[str, Any]:
+        from chatrobot.cli.ros_node import open_citizen
+
+        args = parse(["node", "control", "--on", "ros", "--ros-args", *ros_args])
+        args.approval = "profile"
+        citizen = open_citizen(args, "ros:", args.ros_args)
+        citizen.node.close()
+        return {name: getattr(args, name) for name in ("robot", "open_loop")}
+
+    assert values() == {"robot": "wheeltec_mini_mec", "open_loop": False}
+    assert values("-p", "open_loop:=True") == {"robot": "no_odometry", "open_loop": True}
+    assert values("-p", "open_loop:=True", "-p", "robot:=turtlesim") == {
+        "robot": "turtlesim",
+        "open_loop": True,
+    }
+    assert not ros.nodes
 
 
 @pytest.mark.parametrize(

@@ -132,6 +132,14 @@ def test_an_exported_program_survives_the_second_ctrl_c_of_launch(
         ends_cleanly(launch)
 
 
+def test_without_the_vendor_s_bring_up_it_is_said_how_to_get_it(workspace: Workspace, tmp_path: Path) -> None:
+    with rig_of(workspace, tmp_path) as rig:
+        launch = rig.start("ros2", "launch", "chatrobot", "wheeltec.launch.py")
+        launch.wait_for_line("turn_on_wheeltec_robot is not here")
+        launch.wait_for_line("robot.launch.py robot:=wheeltec_mini_mec on_robot:=true")
+        launch.end()
+
+
 def test_the_vendor_s_bring_up_is_included(workspace: Workspace, tmp_path: Path) -> None:
     """In place of Wheeltec's image: a package of that name whose launch file starts the simulated robot."""
     vendor = tmp_path / "vendor"

@@ -9,6 +9,7 @@ import threading
 from types import FrameType
 
 from chatrobot.cli.entry import STOPPED, main
+from chatrobot.cli.ros_help import asks_for_help, show
 
 UNWIND_S = 3.0
 """So long a Ctrl-C while a node starts may take; nothing has been driven yet."""
@@ -32,6 +33,8 @@ def simulated_robot() -> int:
 
 def _run(*command: str) -> int:
     """Of two Ctrl-C, which `ros2 launch` sends, the first counts, also while this process starts or ends."""
+    if command[0] == "node" and asks_for_help(sys.argv[1:]):
+        return show(command[1])
     watch, before = _StartWatch(), signal.getsignal(signal.SIGINT)
     if before is not signal.SIG_IGN:
         signal.signal(signal.SIGINT, watch.interrupt)

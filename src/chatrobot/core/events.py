@@ -117,10 +117,15 @@ class ProgramLog(Event):
 
 @dataclass(frozen=True)
 class Started(Event):
-    """The robot begins to act on this turn."""
+    """The robot begins to act on this turn. `measured`: see `Finished`."""
 
     name: ClassVar[str] = "started"
     pose: Pose = ORIGIN
+    measured: bool = True
+
+    @property
+    def unknown(self) -> frozenset[str]:
+        return _unknown("pose", measured=self.measured)
 
 
 @dataclass(frozen=True)
@@ -267,7 +272,9 @@ class Finished(Event):
 
     `planned_m` is the way of the whole plan, for "0.60 m of 1.00 m", and `planned_turn_rad` what it wanted to turn up
     to its end. `open_ended`: the whole is not known, and `planned_m` is what was rehearsed of it.
-    `possible` is plan text: what can be done of a plan that was refused.
+    `possible` is plan text: what can be done of a plan that was refused. `measured` is False where the robot has no
+    odometry: poses, path and turn are then unknown, null in JSON, and `planned_m` and `planned_turn_rad` are what was
+    sent.
 
     `executed` and `remaining` are plan text: the part of the plan that was driven, as odometry measured it, and the
     part that was not. Driving one after the other is driving the whole plan. Both are empty for a program and where
@@ -293,10 +300,14 @@ class Finished(Event):
     remaining: str = ""
     open_ended: bool = False
 
+    @property
+    def unknown(self) -> frozenset[str]:
+        return _unknown("start", "pose", "turned_rad", "path_m", measured=self.measured)
+
 
 @dataclass(frozen=True)
 class Result(Event):
-    """The last event of every turn; pose and distances are what odometry measured, as in `Finished`.
+    """The last event of every turn; pose and distances are what odometry measured, as in `Finished`; `measured`, too.
 
     `proposal` is a plan that the reply asks about.
     """
@@ -311,6 +322,11 @@ class Result(Event):
     paused_s: float = 0.0
     reason: Reason | None = field(default=None)
     proposal: Proposal | None = None
+    measured: bool = True
+
+    @property
+    def unknown(self) -> frozenset[str]:
+        return _unknown("pose", "turned_rad", "path_m", measured=self.measured)
 
     @property
     def has_moved(self) -> bool:
@@ -321,3 +337,7 @@ class Result(Event):
     def is_question(self) -> bool:
         """The next text may answer it."""
         return self.outcome == "unclear" or self.proposal is not None
+
+
+def _unknown(*names: str, measured: bool) -> frozenset[str]:
+    return frozenset() if measured else frozenset(names)

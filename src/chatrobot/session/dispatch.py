@@ -84,6 +84,7 @@ class Dispatch:
             self._begin_program(said)
         else:
             code = "stopped_now" if said.kind != "emergency_stop" else "emergency_stopped"
+            code = code if self._understanding.is_measured else f"{code}_unmeasured"
             reply = self._understanding.say(code, said.text)
             if said.kind == "pause":
                 reply = self._told("paused_now", self._resuming.paused)

@@ -96,7 +96,7 @@ class Driver:
 
     def _set_out(self, run: Run | ProgramRun, now_s: float) -> None:
         self._run = run
-        self._emit(Started(run.job.turn, run.job.start))
+        self._emit(Started(run.job.turn, run.job.start, self._robot.sensors.has_odometry))
         self.tick(now_s)
 
     # --- under way ---

@@ -61,6 +61,8 @@ class Jobs:
         self._emit = emit
         self._pausing = pausing
         self._preparing: Job | None = None
+        self.why_unheard: Reason | None = None
+        """See `Motion.why_unheard`."""
 
     @property
     def current(self) -> Job | None:
@@ -174,7 +176,7 @@ class Jobs:
         if now_s - job.received_s >= ODOMETRY_WAIT_S:
             self._intake.jobs.popleft()
             topic = self._robot.profile.wiring.odom_topic
-            self._finish(job, "failed", Reason("no_odometry", {"topic": topic}))
+            self._finish(job, "failed", self.why_unheard or Reason("no_odometry", {"topic": topic}))
         return True
 
     def _take_rehearsed(self, job: Job, planned: Planned) -> None:

@@ -18,7 +18,7 @@ from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
 from chatrobot.governor.priority import RELEASERS, Priority, priority_of
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.session.budgets import Budgets
+from chatrobot.session.budgets import Budgets, open_loop_notice
 from chatrobot.session.clearance import Clearance
 from chatrobot.session.driver import Driver
 from chatrobot.session.ends import Ends
@@ -87,7 +87,7 @@ class Motion:
             self._governor.leases, lambda lease: self._jobs.is_engaged(lease), self._intake.forget
         )
         self._inbox = Inbox(background)
-        self._ends = ends = Ends(emit)
+        self._ends = ends = Ends(emit, measured=profile.has_odometry)
         stops, inbox = self._stops, self._inbox
         self._driver = Driver(robot, self.clearance, stops, programs, inbox, clock, ends, emit)
         self._pausing = pausing = Pausing(robot, self._intake, self.clearance, stops, clock, ends, emit)
@@ -174,6 +174,9 @@ class Motion:
         wire.subscribe(RELAY_TOPIC, TwistMessage, self._relay.hear)
         wire.subscribe(JOYSTICK_TOPIC, TwistMessage, self._joystick.hear)
         self._guard.handshake()
+        open_loop = open_loop_notice(self._profile)
+        if open_loop is not None:
+            self._notice(open_loop)
 
     @property
     def is_busy(self) -> bool:
@@ -196,6 +199,15 @@ class Motion:
     def latched(self) -> Reason | None:
         """The emergency stop that has not been released."""
         return self._governor.latched
+
+    @property
+    def why_unheard(self) -> Reason | None:
+        """Why no odometry comes, as far as those know who look after the wire; any thread may set it."""
+        return self._jobs.why_unheard
+
+    @why_unheard.setter
+    def why_unheard(self, reason: Reason | None) -> None:
+        self._jobs.why_unheard = reason
 
     @property
     def has_left(self) -> bool:

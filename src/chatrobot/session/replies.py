@@ -12,8 +12,8 @@ from chatrobot.core.geometry import wrap_angle
 from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
 from chatrobot.core.shown import fixed
-from chatrobot.language.phrases import describe_plan, describe_text, render_reason, say
-from chatrobot.plan.steps import Face, Go, Step
+from chatrobot.language.phrases import describe_plan, describe_steps, describe_text, render_reason, say
+from chatrobot.plan.steps import Face, Go, RawTwist, Step
 from chatrobot.plan.text import parse_plan
 from chatrobot.session.quoting import one_line
 
@@ -29,6 +29,8 @@ _STOPPED_TWICE = re.compile(r"([.?!。？！])[.。]")
 
 def describe_end(finished: Finished, language: str, steps: Sequence[Step] = ()) -> str:
     """What a plan of those steps came to: outcome, measured motion, and the reason if it did not complete."""
+    if not finished.measured and finished.outcome != "refused":
+        return _ended_once(_commanded(finished, language, steps))
     moved = _measured(finished, language)
     if finished.outcome == "completed":
         done = say(language, "done", moved=moved) if moved else _done_standing(steps, language)
@@ -43,6 +45,32 @@ def describe_end(finished: Finished, language: str, steps: Sequence[Step] = ()) 
         )
     code = "stopped_after" if finished.outcome == "stopped" else "failed_after"
     return _ended_once(say(language, code, moved=moved or say(language, "nothing_moved"), reason=reason))
+
+
+def _commanded(finished: Finished, language: str, steps: Sequence[Step]) -> str:
+    """The end of a turn of a robot that measures nothing: what it was sent, never what it did."""
+    if finished.outcome == "completed":
+        if not finished.duration_s:
+            return say(language, "done_standing")
+        is_known = steps and not any(
+            isinstance(step, RawTwist) for step in steps
+        )  # those may have been scaled
+        plan = describe_steps(steps, language) if is_known else _velocities(finished, language)
+        return say(language, "commanded", plan=plan)
+    reason = render_reason(finished.reason, language) if finished.reason is not None else ""
+    return _stop_sent(finished, reason, language)
+
+
+def _stop_sent(finished: Finished, reason: str, language: str) -> str:
+    if not finished.duration_s:
+        return say(language, "nothing_commanded", reason=reason)
+    return say(language, "stop_unconfirmed", reason=reason, plan=_velocities(finished, language))
+
+
+def _velocities(finished: Finished, language: str) -> str:
+    """How long it was told to move, and how far that would be: all that is known where nothing is measured."""
+    way = {"of_m": finished.planned_m, "of_deg": math.degrees(finished.planned_turn_rad)}
+    return say(language, "commanded_velocities", duration_s=finished.duration_s, **way)
 
 
 def _done_standing(steps: Sequence[Step], language: str) -> str:
@@ -116,6 +144,8 @@ def describe_model_end(ended: Ended, language: str) -> str:
     if ended.outcome == "refused":
         why = " ".join(filter(None, (why, _free(reason, language))))
     moved = _measured(finished, language) if finished is not None else ""
+    if ended.outcome == "stopped" and finished is not None and not finished.measured:
+        return _ended_once(_stop_sent(finished, why, language))
     if ended.outcome == "stopped":
         return say(language, "stopped_after", moved=moved or say(language, "nothing_moved"), reason=why)
     if ended.outcome == "failed" and finished is not None and finished.outcome == "failed":
@@ -126,10 +156,15 @@ def describe_model_end(ended: Ended, language: str) -> str:
 
 
 def _measured(finished: Finished, language: str) -> str:
+    if not finished.measured:
+        return (
+            say(language, "commanded_so_far", plan=_velocities(finished, language))
+            if finished.duration_s
+            else ""
+        )
     parts = []
     if finished.planned_m > LEAST_M or (finished.open_ended and finished.path_m > LEAST_M):
         code = "drove_open" if finished.open_ended else "drove"
-        code = code if finished.measured else f"{code}_unmeasured"
         parts.append(say(language, code, drove_m=f"{finished.path_m:.2f}", of_m=f"{finished.planned_m:.2f}"))
     if abs(finished.planned_turn_rad) > LEAST_RAD or abs(finished.turned_rad) > math.radians(3.0):
         parts.append(_turned(math.degrees(finished.turned_rad), language))

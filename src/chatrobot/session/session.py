@@ -11,11 +11,12 @@ from dataclasses import replace
 from typing import Any
 
 from chatrobot.core.errors import JointError
-from chatrobot.core.events import Event, Finished, Paused, Remembered, Result, Telemetry
+from chatrobot.core.events import Event, Finished, Notice, Paused, Remembered, Result, Telemetry
 from chatrobot.core.reason import Reason
 from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.session.authoring import Authoring
+from chatrobot.session.budgets import OPEN_LOOP
 from chatrobot.session.dispatch import Dispatch
 from chatrobot.session.draft import Draft
 from chatrobot.session.early import EarlyAnswers
@@ -320,6 +321,8 @@ class Session:
             self.understanding.note_place(event)
         elif isinstance(event, Paused) and self._book.has(event.turn):
             event = replace(event, waiting=self._dispatch.texts_behind(event.turn))
+        elif isinstance(event, Notice) and event.reason.code == OPEN_LOOP:
+            self.understanding.note_open_loop()
         self._emit(event)
         if self._book.has(event.turn) or self._thinking.has(event.turn):
             was_paused = self.is_plan_paused

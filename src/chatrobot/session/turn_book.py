@@ -61,7 +61,9 @@ class TurnBook:
         unkept = understanding.places.take_unkept()
         if unkept:
             self._emit(Notice(turn, Reason("places_not_kept", {"why": unkept})))
-        result = Result(turn, outcome, reply, pose, reason=reason, proposal=proposal)
+        result = Result(
+            turn, outcome, reply, pose, reason=reason, proposal=proposal, measured=understanding.is_measured
+        )
         if finished is not None:
             result = Result(
                 turn,
@@ -74,6 +76,7 @@ class TurnBook:
                 finished.paused_s,
                 reason or finished.reason,
                 proposal,
+                finished.measured,
             )
         self.results[turn] = result
         self._emit(result)

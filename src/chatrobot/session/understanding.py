@@ -55,7 +55,7 @@ class Understanding:
     def __init__(self, profile: RobotProfile, world: World, folder: Path | None) -> None:
         self._interpreter = OfflineInterpreter(profile)
         self._dialogue = Dialogue()
-        self._state = RobotState(has_said_so=False)
+        self._state = RobotState(has_said_so=False, is_measured=profile.has_odometry)
         self._world_places = {alias: world.places[main] for alias, main in world.aliases.items()}
         self._main_places = dict(world.places)
         self._names = tuple(world.names_of(name) for name in world.places)
@@ -108,7 +108,8 @@ class Understanding:
         meant = self._interpreter.interpret(text, self._context(dialogue))
         self.language = meant.language
         if meant.remember_place and not self.hears_robot:  # nobody knows which place this is
-            meant = Interpretation("refused", say(self.language, UNHEARD), self.language)
+            code = UNHEARD if self.is_measured else "answer_unmeasured"
+            meant = Interpretation("refused", say(self.language, code), self.language)
         return meant
 
     def _context(self, dialogue: Dialogue) -> Context:
@@ -124,6 +125,15 @@ class Understanding:
         """The names of each place that can be gone to, the person's own first."""
         own = self.usable_places
         return [*((name,) for name in own), *(names for names in self._names if names[0] not in own)]
+
+    @property
+    def is_measured(self) -> bool:
+        """The robot has odometry, as far as is known."""
+        return self._state.is_measured
+
+    def note_open_loop(self) -> None:
+        """Motion has said that it drives without odometry, whatever our profile says."""
+        self._state = replace(self._state, is_measured=False)
 
     @property
     def hears_robot(self) -> bool:

@@ -138,6 +138,9 @@ def _program(talk: Talk, argument: str) -> None:
 
 
 def _map(talk: Talk, argument: str) -> None:
+    if not talk.ride.is_measured:  # nobody knows where on it the robot is
+        talk.tell("not_measured")
+        return
     if argument.casefold() in ("big", "大"):
         talk.face.print(big_map(talk.ride, talk.connection.world, talk.face.width))
         return

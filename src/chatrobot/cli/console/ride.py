@@ -10,6 +10,7 @@ from chatrobot.core.events import (
     Event,
     Finished,
     Interpreted,
+    Notice,
     Paused,
     ProgramWritten,
     Progress,
@@ -19,6 +20,7 @@ from chatrobot.core.events import (
     Telemetry,
 )
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
+from chatrobot.session.budgets import OPEN_LOOP
 
 XY = tuple[float, float]
 TRAIL_SPACING_M = 0.03
@@ -28,7 +30,7 @@ TRAIL_LIMIT = 2000
 @dataclass
 class Ride:
     """`path` is the predicted way of the last plan, `trail` what was driven of it, in `odom`; `program` the last
-    one written, where no plan came after it."""
+    one written, where no plan came after it. `is_measured`: not so, nobody knows pose and velocity."""
 
     pose: Pose = ORIGIN
     twist: Twist = ZERO_TWIST
@@ -45,6 +47,7 @@ class Ride:
     program: ProgramWritten | None = None
     rehearsed: Rehearsed | None = None
     turn: int = 0
+    is_measured: bool = True
     _streamed: int = 0
 
     def hear(self, event: Event) -> None:
@@ -78,6 +81,8 @@ class Ride:
             self.is_paused = True
         elif isinstance(event, Finished):
             self._finish(event)
+        elif isinstance(event, Notice) and event.reason.code == OPEN_LOOP:
+            self.is_measured = False
 
     def _grow(self, event: Streamed) -> None:
         """A plan that comes in step by step."""
