@@ -83,7 +83,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     if parsed.command == "do":
         if not (parsed.texts or parsed.plan):
             raise UsageError(
-                "nothing to do is given", allowed='chatrobot do "forward 1 m", or chatrobot do --plan FILE'
+                "nothing to do is given", allowed='TEXT or --plan FILE, such as: chatrobot do "forward 1 m"'
             )
         _expect_words(parsed.texts, "do")
         _expect_quotes(parsed.texts)

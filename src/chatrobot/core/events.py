@@ -7,6 +7,7 @@ are in `odom` as the robot itself measures them (`TruePose` alone is the simulat
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal
@@ -21,6 +22,8 @@ Outcome = Literal["completed", "stopped", "refused", "unclear", "answered", "fai
 EXIT_CODES: Mapping[str, int] = {
     "completed": 0, "answered": 0, "failed": 1, "unclear": 3, "refused": 4, "stopped": 5,
 }  # fmt: skip
+LEAST_M, LEAST_RAD = 0.005, math.radians(0.5)
+"""Less than this is no motion worth telling."""
 
 
 @dataclass(frozen=True)
@@ -125,13 +128,14 @@ class Paused(Event):
     """The plan of this turn was stopped by a word that keeps it: the turn stays open, and `plan_text` is what is left.
 
     It is gone on with, from where the robot stands then, when its own source asks for that: `rehearsed` and `started`
-    follow. Else `finished` ends it.
+    follow. Else `finished` ends it. `waiting` are the texts of its session that are done after it.
     """
 
     name: ClassVar[str] = "paused"
     pose: Pose
     plan_text: str
     reason: Reason | None = None
+    waiting: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -307,6 +311,11 @@ class Result(Event):
     paused_s: float = 0.0
     reason: Reason | None = field(default=None)
     proposal: Proposal | None = None
+
+    @property
+    def has_moved(self) -> bool:
+        """It was measured that the robot moved."""
+        return self.path_m > LEAST_M or abs(self.turned_rad) > LEAST_RAD
 
     @property
     def is_question(self) -> bool:

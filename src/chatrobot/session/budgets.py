@@ -18,6 +18,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.priority import RELEASERS, Priority, priority_of
 from chatrobot.governor.tick import TICK_S
+from chatrobot.plan.free_part import Most
 from chatrobot.robots.profile import Limits
 
 EXCEEDED = frozenset({"over_max_distance", "over_max_time"})
@@ -92,6 +93,11 @@ class Account:
         if total.driving_s > budget.time_s + ROUNDING_S:
             return Reason("over_max_time", {"driving_s": total.driving_s, "max_s": budget.time_s})
         return None
+
+    def left(self, certain: Extent) -> Most:
+        """What may be driven besides what has been driven, and `certain`."""
+        used, budget = self.driven.planned.plus(certain), self.budget
+        return Most(max(0.0, budget.distance_m - used.length_m), max(0.0, budget.time_s - used.driving_s))
 
     def notice(self, is_endless: bool) -> Reason | None:
         """What a person should know before it runs: when a program without an end will be stopped."""

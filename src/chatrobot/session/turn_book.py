@@ -29,6 +29,10 @@ class TurnBook:
         """What Motion has, in the order it was said."""
         return tuple(self._with_motion.values())
 
+    def texts_but(self, turn: int) -> tuple[str, ...]:
+        """What Motion has besides that turn, in the order it was said."""
+        return tuple(one.text for number, one in self._with_motion.items() if number != turn)
+
     def has(self, turn: int) -> bool:
         """That turn is with Motion."""
         return turn in self._with_motion

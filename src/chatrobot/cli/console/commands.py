@@ -64,7 +64,7 @@ def nearest(word: str) -> str:
 def _unknown(talk: Talk, word: str) -> None:
     near = nearest(word)
     if near:
-        talk.tell("did_you_mean", command=f"/{word}", nearest=f"/{near}")
+        talk.tell("nearest_command", command=f"/{word}", nearest=f"/{near}")
     else:
         talk.face.print(
             Text("  ").append(talk.words.say("no_such_command", command=f"/{word}")).append(" ")

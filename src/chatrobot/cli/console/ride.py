@@ -33,6 +33,7 @@ class Ride:
     pose: Pose = ORIGIN
     twist: Twist = ZERO_TWIST
     is_moving: bool = False
+    is_paused: bool = False
     step: int = 0
     of: int = 0
     fraction: float | None = 0.0
@@ -67,12 +68,14 @@ class Ride:
             self.path = (*self.path, *path) if goes_on else path
         elif isinstance(event, Started):
             self.turn, self.is_moving, self.step, self.of = event.turn, True, 0, 0
+            self.is_paused = False
             self.fraction = None if self.rehearsed is not None and self.rehearsed.open_ended else 0.0
             self.pose, self.trail = event.pose, ((event.pose.x_m, event.pose.y_m),)
         elif isinstance(event, Paused):
             self.pose = event.pose
             if event.turn == self.turn:
                 self.is_moving, self.twist = False, ZERO_TWIST
+            self.is_paused = True
         elif isinstance(event, Finished):
             self._finish(event)
 
@@ -90,5 +93,6 @@ class Ride:
     def _finish(self, event: Finished) -> None:
         self.pose = event.pose
         if event.turn == self.turn:
+            self.is_paused = False
             self._follow(event.pose)
             self.is_moving, self.twist = False, ZERO_TWIST

@@ -70,7 +70,8 @@ class Strip:
         return joined
 
     def _standing(self, width: int, thinking_s: float | None) -> Fragments:
-        state = self._thinking(thinking_s) or self._words.say("standing")
+        stands = "paused" if self._ride.is_paused else "standing"
+        state = self._thinking(thinking_s) or self._words.say(stands)
         words = f" {state} · {self._words.pose(self._ride.pose)}"
         hints = self._words.say("strip_idle").split("  ")
         while hints and cell_len(f"{words}   {'  '.join(hints)}") > width:
