@@ -241,6 +241,9 @@ class Motion:
         while (action := self._inbox.take()) is not None:
             action()
             self._book_stop()
+        now_s = (
+            self._clock.now_s()
+        )  # an action may have launched a motion, whose first velocity is younger than `now_s`
         self._joystick.tick(now_s, self._is_clear)
         self._driver.tick(now_s)
         self._book_stop()
