@@ -63,7 +63,8 @@ class TalkingProcess:
         )
         self.lines: list[str] = []
         self._queue: queue.SimpleQueue[str | None] = queue.SimpleQueue()
-        threading.Thread(target=self._read, daemon=True).start()
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
 
     def wait_for_line(self, part: str, timeout_s: float | None = None) -> str:
         ends_s = time.monotonic() + (self.patience_s if timeout_s is None else timeout_s)
@@ -75,6 +76,11 @@ class TalkingProcess:
             assert line is not None, f"{part!r} was not said: {self.lines}"
             if part in line:
                 return line
+
+    def wait_for_output_end(self, timeout_s: float) -> None:
+        """Until nobody is left who may write there."""
+        self._reader.join(timeout_s)
+        assert not self._reader.is_alive(), "somebody holds the pipe"
 
     def say(self, line: str) -> float:
         assert self.process.stdin is not None

@@ -24,6 +24,7 @@ from chatrobot.models.seam import Model, ModelError
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.robots.load import DEFAULT_PROFILE
+from chatrobot.robots.open_loop import NO_ODOMETRY
 from chatrobot.session.model_choice import chosen_model
 from chatrobot.session.options import Options
 from chatrobot.session.session import Session
@@ -36,11 +37,12 @@ Listener = Callable[[Event], None]
 def connect(
     *,
     on: str = "auto",
-    robot: str | Path = DEFAULT_PROFILE,
-    world: str | Path = "home",
+    robot: str | Path = "",
+    world: str | Path = "",
     sim: str = "",
     fast: bool = False,
     trace: bool = False,
+    open_loop: bool = False,
     config_dir: Path | str | None = None,
     model: Model | str | None = None,
     interpreter: Interpreter = "auto",
@@ -50,11 +52,13 @@ def connect(
 
     Args:
         on: `sim`, `dds…`, `ros…` or `rosbridge…`, as for `--on`.
-        robot: a robot profile, by name or as the path of a .toml file.
-        world: `empty`, `home` or the path of a world file.
+        robot: a robot profile, by name or as the path of a .toml file; "" is the one of the command line.
+        world: `empty`, `home` or the path of a world file; "" is what fits the robot.
         sim: how the simulated robot lies, such as `slip=0.03,noise=on`.
         fast: simulated time, as quick as it goes; otherwise real time.
         trace: the simulated robot's true poses come as events too.
+        open_loop: drive a robot that has no odometry, slowly and for at most 10 s a text; nothing of its motion is
+            measured (`Result.measured` is False), and `pose` and distances mean nothing.
         model: the language model that is asked what is not understood without one: `PROVIDER:NAME`, or anything
             with the methods of `chatrobot.models.seam.Model`. None: no model.
         interpreter: `auto`, `offline`, or `model` to ask it about everything.
@@ -82,8 +86,8 @@ def connect(
     options = Options(interpreter=interpreter)
     return Robot(
         Setup(
-            on=on, robot=robot, world=world, sim=sim, fast=fast, trace=trace, folder=folder, model=chosen,
-            options=options, camera=camera,
+            on=on, robot=robot or (NO_ODOMETRY if open_loop else DEFAULT_PROFILE), world=world, sim=sim, fast=fast,
+            trace=trace, folder=folder, model=chosen, options=options, camera=camera, open_loop=open_loop,
         )
     )  # fmt: skip
 

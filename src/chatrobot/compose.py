@@ -20,6 +20,7 @@ from chatrobot.plan.context import RoutePlanner
 from chatrobot.programs.library import Library
 from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile, profile_argument
+from chatrobot.robots.open_loop import as_chosen
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.authoring import Authoring
 from chatrobot.session.camera import Camera, PassedCamera, wire_camera
@@ -34,7 +35,7 @@ from chatrobot.session.understanding import Understanding
 from chatrobot.sim.lies import SimLies
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import TRUTH_TOPIC, SimRobot
-from chatrobot.sim.start import check_start
+from chatrobot.sim.start import check_known, check_start
 from chatrobot.sim.world import World
 from chatrobot.wire.connect import connect_wire, is_on_this_machine, wire_address
 from chatrobot.wire.messages import Odometry
@@ -55,6 +56,7 @@ class Setup:
     simulated robot and nothing known for any other. `sim` holds the lies of the simulated robot (`slip=0.03,…`).
     `yes`: plans of a real robot need no approval. `programs`: who asks for a program gets one written, rehearsed and
     run; else its motion is driven as a plan. `budget` is the motion budget, as far as it is not the profile's.
+    `open_loop`: drive a robot that has no odometry (`chatrobot.robots.open_loop`).
     `folder` is where places, programs and history live; None keeps
     nothing. `model` is the language model to ask, None for none, `model_options` how it is used, and `camera` takes
     pictures for it, as JPEG or PNG, in place of the robot's own camera. `processes` are those of a simulated robot in
@@ -70,6 +72,7 @@ class Setup:
     yes: bool = False
     programs: bool = False
     budget: MotionBudget = NOT_CHOSEN
+    open_loop: bool = False
     folder: Path | None = None
     options: Options = field(default_factory=Options)
     model: Model | None = None
@@ -98,13 +101,15 @@ def connect(setup: Setup, on_event: OnEvent) -> Connection:
         JointError: Motion or the simulated robot does not start.
     """
     on_wire = setup.on not in SIMULATED
-    profile = load_profile(setup.robot, profile_dirs(setup.folder)).with_budget(setup.budget)
+    profile = load_profile(setup.robot, profile_dirs(setup.folder))
+    profile = as_chosen(profile, setup.budget, open_loop=setup.open_loop)
     if not on_wire:
         profile = replace(profile, approval="stream")
     elif drives_on_alone(profile) and not is_on_this_machine(wire_address(setup.on)):
         profile = slowed(profile)  # as Motion does: what is said of speeds must be true
-    setup = replace(setup, world=setup.world or default_world(setup.on))
+    setup = replace(setup, world=setup.world or default_world(setup.on, open_loop=setup.open_loop))
     world = load_world(setup.world)
+    check_known(world, profile)
     SimLies.parse(setup.sim)
     if not on_wire:
         check_start(world, profile, f"--world {setup.world}")
@@ -118,9 +123,9 @@ def connect(setup: Setup, on_event: OnEvent) -> Connection:
     return _connect_real_time(setup, profile, world, understanding, on_event)
 
 
-def default_world(on: str) -> str:
-    """What is known of the surroundings where nobody says: of a robot that is not ours, nothing."""
-    return "home" if on in SIMULATED else "empty"
+def default_world(on: str, *, open_loop: bool = False) -> str:
+    """What is known of the surroundings where nobody says: of a robot that is not ours, or lost in them, nothing."""
+    return "home" if on in SIMULATED and not open_loop else "empty"
 
 
 def mind_of(setup: Setup, profile: RobotProfile) -> Mind | None:
@@ -216,7 +221,11 @@ def _connect_real_time(
     from chatrobot.wire.local import LocalWire
 
     processes = setup.processes or Processes.start(
-        profile_argument(setup.robot, profile_dirs(setup.folder)), setup.world, setup.sim, setup.budget
+        profile_argument(setup.robot, profile_dirs(setup.folder)),
+        setup.world,
+        setup.sim,
+        setup.budget,
+        open_loop=setup.open_loop,
     )
     processes.is_taken = True
     joint = SocketJoint(processes.motion)
@@ -266,7 +275,8 @@ def _connect_wire(
             address, profile.wiring, "chatrobot"
         ).close()  # Motion would wait, and could not say for what
     profile_file = profile_argument(setup.robot, profile_dirs(setup.folder))
-    joint = SocketJoint(MotionProcess.start(address, profile_file, setup.world, setup.budget))
+    motion = MotionProcess.start(address, profile_file, setup.world, setup.budget, open_loop=setup.open_loop)
+    joint = SocketJoint(motion)
     joint.wait_until_ready()
     setup.on_ready()
     authoring = _authoring(setup, profile, world, understanding)

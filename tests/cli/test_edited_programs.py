@@ -115,3 +115,25 @@ def test_a_plan_that_was_not_changed_is_asked_about_again(tmp_path: Path, editor
         terminal.wait_for(QUESTION, times=2)
         terminal.enter("go ahead")
         assert terminal.wait_for_end() == 0
+
+
+def test_an_edit_that_is_no_python_leaves_the_program_as_it_was_and_asks_again(tmp_path: Path) -> None:
+    with command(tmp_path, "sed -i s/^import.time/import:time/", *NEW) as terminal:
+        terminal.wait_for(QUESTION)
+        terminal.enter("e")
+        terminal.wait_for("as it was before")
+        terminal.wait_for(QUESTION, times=2)
+        terminal.enter("n")
+        assert terminal.wait_for_end() == 4
+    assert "import time" in Library(tmp_path).get("dash").source
+
+
+def test_an_edit_that_is_no_plan_leaves_the_plan_as_it_was_and_asks_again(tmp_path: Path) -> None:
+    with command(tmp_path, "sed -i s/drive/fly/", "do", "forward 1 m", "--approve", "--fast") as terminal:
+        terminal.wait_for(QUESTION)
+        terminal.enter("e")
+        terminal.wait_for("as it was before")
+        terminal.wait_for(QUESTION, times=2)
+        terminal.enter("y")
+        assert terminal.wait_for_end() == 0
+        assert "drove 1.00 m of 1.00 m" in terminal.text

@@ -98,7 +98,7 @@ def test_help_is_in_groups_and_the_common_options_come_first(capsys: pytest.Capt
         "limits of",
     ]
     assert sorted(marks, key=text.index) == marks
-    assert text.startswith("usage: chatrobot do [options] TEXT [TEXT ...]")
+    assert text.startswith("usage: chatrobot do [options] [TEXT ...]")
 
 
 @pytest.mark.parametrize(

@@ -75,4 +75,4 @@ def test_a_file_that_is_not_there_and_nothing_at_all_say_the_way_out(
     missing = chatrobot("do", "--plan", str(tmp_path / "none.plan"), *FAST)
     assert (missing.code, "none.plan: No such file or directory" in missing.err) == (2, True)
     nothing = chatrobot("do", *FAST)
-    assert (nothing.code, "chatrobot do --plan FILE" in nothing.err) == (2, True)
+    assert (nothing.code, "--plan FILE" in nothing.err) == (2, True)

@@ -150,3 +150,15 @@ def test_arguments_that_cannot_be_given_are_one_sentence(
     done = chatrobot("program", *arguments)
     assert done.code == 2
     assert done.err.count("\n") == 1
+
+
+def test_plan_rehearses_a_kept_program_and_runs_nothing(chatrobot: Command, tmp_path: Path) -> None:
+    folder = ("--config-dir", str(tmp_path))
+    made = chatrobot("program", "new", "drive forward 0.6 m at 0.3 m/s", "--name", "dash", "--fast", *folder)
+    assert made.code == 0
+    planned = chatrobot("plan", "run dash", "--json", *folder)
+    assert planned.code == 0
+    rehearsed = next(event for event in planned.events if event["event"] == "rehearsed")
+    assert rehearsed["length_m"] == pytest.approx(0.6, abs=0.01)
+    assert planned.events[-1]["path_m"] == 0.0
+    assert not any(event["event"] == "started" for event in planned.events)

@@ -29,7 +29,7 @@ class FakeSession:
     def say_plan(self, plan_text):
         return self._note("say_plan", plan_text)
 
-    def say_edited_plan(self, plan_text):
+    def say_edited_plan(self, plan_text, instead_of=""):  # noqa: ARG002
         return self._note("say_edited_plan", plan_text)
 
     def stop(self, why=""):

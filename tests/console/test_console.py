@@ -244,7 +244,7 @@ def test_a_plan_can_be_approved_refused_and_edited(tmp_path):
         chat.wait_for(r"✓ .*\s+now at \(0\.00, -?0\.00\) (19|20|21)°")
 
 
-def test_an_edited_plan_with_a_mistake_moves_nothing(tmp_path):
+def test_an_edited_plan_with_a_mistake_is_asked_about_as_it_was(tmp_path):
     with console(tmp_path, "--approve") as chat:
         chat.wait_for(STANDING)
         chat.enter("forward 0.3 m")
@@ -252,8 +252,14 @@ def test_an_edited_plan_with_a_mistake_moves_nothing(tmp_path):
         chat.enter("e")
         chat.wait_for("plan› drive 0.3 m")
         chat.type("\x15fly 3 m\x1b\r")
-        chat.wait_for(r"\? .*fly")
-        assert len(chat.text.split("Do it?")) == 2
+        chat.wait_for(r"as it was before: .*fly")
+        chat.wait_for("Do it?", times=2)
+        chat.enter("e")
+        chat.wait_for("plan› fly 3 m")
+        chat.type("\x15drive 0.2 m\x1b\r")
+        chat.wait_for("Do it?", times=3)
+        chat.enter("y")
+        chat.wait_for("drove 0.20 m of 0.20 m")
 
 
 def test_ctrl_z_stops_the_robot_and_really_suspends(tmp_path):

@@ -28,6 +28,7 @@ from chatrobot.core.events import (
     Finished,
     Interpreted,
     Limited,
+    Notice,
     Progress,
     Rehearsed,
     Result,
@@ -348,6 +349,19 @@ def test_a_strip_without_its_map_is_words_alone():
     strip = Strip(moving_ride(), Words(), EMPTY_WORLD)
     strip.shows_map = False
     assert "→" not in "".join(text for _, text in strip.fragments(100))
+
+
+@pytest.mark.parametrize("moves", [True, False])
+def test_the_strip_of_a_robot_without_odometry_says_so_and_tells_no_pose(moves: bool) -> None:
+    ride = Ride()
+    ride.hear(Notice(0, Reason("open_loop", {})))
+    ride.hear(Started(1, measured=False))
+    if not moves:
+        ride.hear(Finished(1, "completed", None, Pose(), Pose(), 0.0, 0.0, 1.0, 0.0, measured=False))
+    shown = strip_text(ride)
+    assert "not measured" in shown
+    assert "0.00" not in shown
+    assert "→" not in shown
 
 
 # --- what is told ---

@@ -128,7 +128,6 @@ def test_what_is_too_long_is_never_done_in_part(talk, log):
 
 def test_an_empty_line_is_nothing(talk, log):
     talk.enter("  \n")
-    talk.take_edited("\n")
     assert log == []
 
 
@@ -215,6 +214,20 @@ def test_a_command_that_takes_nothing_does_nothing_where_more_was_typed(talk, lo
     talk.enter(typed)
     assert told(log) == []
     assert f"{typed.split()[0]} takes nothing behind it" in shown(log)
+
+
+def test_a_saved_plan_is_told_to_the_session_and_a_broken_one_is_not(talk, log, tmp_path):
+    act = commands.BY_NAME["run-plan"].act
+    (tmp_path / "my plan").write_text("drive 1 m\n")
+    (tmp_path / "bad").write_text("drive 1 m\nfly 2 m\n")
+    act(talk, f"{tmp_path / 'my plan'}")
+    assert told(log) == [("say_plan", "drive 1 m\n")]
+    act(talk, f"{tmp_path / 'bad'}")
+    act(talk, f"{tmp_path / 'none'}")
+    assert len(told(log)) == 1
+    assert "The plan is not driven: " in shown(log)
+    assert "bad: line 2: 'fly 2 m': no step begins like this (one of: arc, drive, " in shown(log)
+    assert "none: No such file or directory" in shown(log)
 
 
 def test_a_map_of_a_size_that_there_is_not_says_which_there_are(talk, log):

@@ -6,6 +6,8 @@ import ast
 import json
 import math
 import re
+import signal
+import subprocess
 import sys
 import threading
 import time
@@ -42,6 +44,7 @@ PATIENCE_S = 10.0
 
 @pytest.fixture
 def ros(monkeypatch: pytest.MonkeyPatch) -> fake_rclpy.Ros:
+    monkeypatch.setattr("chatrobot.language.typed._is_ros", False)  # a node sets it for its process
     return fake_rclpy.install(monkeypatch)
 
 
@@ -262,7 +265,10 @@ def test_asked_to_end_a_node_of_ros_gives_zero(
     assert codes == [0]
     monkeypatch.setattr(ros_run, "main", lambda _: STOPPED)
     monkeypatch.setattr(sys, "argv", ["control"])
+    before = signal.getsignal(signal.SIGINT)
     assert ros_run.control_node() == 0, "Ctrl-C while it starts"
+    assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN, "a second one would break off its end"
+    signal.signal(signal.SIGINT, before)
     assert guards
 
 
@@ -319,6 +325,7 @@ def test_the_command_line_is_the_default_and_ros_s_parameters_go_before_it(
         "use_sim_time": False,
         "generate_code": True,
         "revChatGPT": False,
+        "open_loop": False,
         "robot": "originbot",
         "world": "home",
         "diagnostics_period_s": 1.0,
@@ -394,9 +401,12 @@ def test_every_parameter_stands_on_the_page_and_every_switch_of_a_launch_line_is
     names = {parameter.name for known in PARAMETERS.values() for parameter in known}
     assert {name for name in names if f"| `{name}` |" in page} == names
     launch = (ROOT / "ros" / "chatrobot" / "launch" / "robot.launch.py").read_text(encoding="utf-8")
-    of_one = re.search("^OF_ONE = (.*)$", launch, re.MULTILINE)
+    of_one = re.search("^OF_ONE = (.*?^})", launch, re.MULTILINE | re.DOTALL)
     assert of_one is not None
-    assert set(re.findall(r'^    "(\w+)":', launch, re.MULTILINE)) <= {*names, "use_sim_time"}
+    assert set(re.findall(r'^    "(\w+)":', launch[: of_one.start()], re.MULTILINE)) <= {
+        *names,
+        "use_sim_time",
+    }
     for node, own in ast.literal_eval(of_one[1]).items():
         assert own <= {parameter.name for parameter in PARAMETERS[node]}
 
@@ -419,6 +429,39 @@ def test_doctor_says_how_to_get_ros(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "source /opt/ros" in check.text
 
 
+@pytest.mark.parametrize("which", ["base", "control"])
+def test_help_under_ros2_run_lists_the_parameters_with_their_defaults(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], which: str
+) -> None:
+    monkeypatch.setattr(sys, "argv", [f"/ws/lib/chatGPT_test/chatGPT_{which}", "--help"])
+    assert {"base": ros_run.base_node, "control": ros_run.control_node}[which]() == 0
+    text = capsys.readouterr().out
+    assert text.startswith(f"usage: ros2 run chatGPT_test chatGPT_{which} --ros-args")
+    for parameter in PARAMETERS[which]:
+        assert f"\n  {parameter.name}:=" in text
+    assert "world:=empty" in text
+    assert "--on" not in text
+
+
+def test_open_loop_is_a_parameter_and_brings_its_robot(ros: fake_rclpy.Ros) -> None:
+    def values(*ros_args: str) -> dict[str, Any]:
+        from chatrobot.cli.ros_node import open_citizen
+
+        args = parse(["node", "control", "--on", "ros", "--ros-args", *ros_args])
+        args.approval = "profile"
+        citizen = open_citizen(args, "ros:", args.ros_args)
+        citizen.node.close()
+        return {name: getattr(args, name) for name in ("robot", "open_loop")}
+
+    assert values() == {"robot": "wheeltec_mini_mec", "open_loop": False}
+    assert values("-p", "open_loop:=True") == {"robot": "no_odometry", "open_loop": True}
+    assert values("-p", "open_loop:=True", "-p", "robot:=turtlesim") == {
+        "robot": "turtlesim",
+        "open_loop": True,
+    }
+    assert not ros.nodes
+
+
 @pytest.mark.parametrize(
     ("executable", "command_line"),
     [
@@ -434,8 +477,70 @@ def test_ros2_run_starts_what_the_command_line_starts(
     started: list[list[str]] = []
     monkeypatch.setattr(ros_run, "main", lambda arguments: started.append(arguments) or 7)
     monkeypatch.setattr(sys, "argv", ["/ws/lib/chatrobot/it", "--ros-args", "-r", "a:=b"])
+    before = signal.getsignal(signal.SIGINT)
     assert executable() == 7
+    assert signal.getsignal(signal.SIGINT) is before
     assert started == [[*command_line, "--on", "ros", "--ros-args", "-r", "a:=b"]]
+
+
+INTERRUPTED = """
+import signal, sys, time
+from chatrobot.cli import ros_run
+from chatrobot.cli.entry import STOPPED
+
+def starting(_arguments):
+    try:
+        print("starts", flush=True)
+        while True:
+            time.sleep(0.01)
+    except KeyboardInterrupt:
+        time.sleep(0.4)
+        return STOPPED
+
+ros_run.main = starting
+code = ros_run.control_node()
+time.sleep(0.4)
+sys.exit(code)
+"""
+
+
+def test_while_a_node_starts_the_first_of_two_ctrl_c_counts_and_the_second_breaks_off_nothing() -> None:
+    process = subprocess.Popen(
+        [sys.executable, "-c", INTERRUPTED], text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
+    assert process.stdout is not None
+    assert process.stdout.readline() == "starts\n"
+    for _ in range(3):  # the last one comes as it leaves
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.25)
+    _, said = process.communicate(timeout=20.0)
+    assert (process.returncode, said) == (0, "")
+
+
+SWALLOWED = """
+import sys, time
+from chatrobot.cli import ros_run
+
+def starting(_arguments):
+    try:
+        print("starts", flush=True)
+        while True:
+            time.sleep(0.01)
+    except KeyboardInterrupt:
+        time.sleep(20.0)
+    return 1
+
+ros_run.main, ros_run.UNWIND_S = starting, 0.3
+sys.exit(ros_run.control_node())
+"""
+
+
+def test_a_ctrl_c_that_a_library_swallows_while_a_node_starts_ends_it_all_the_same() -> None:
+    process = subprocess.Popen([sys.executable, "-c", SWALLOWED], text=True, stdout=subprocess.PIPE)
+    assert process.stdout is not None
+    assert process.stdout.readline() == "starts\n"
+    process.send_signal(signal.SIGINT)
+    assert process.wait(PATIENCE_S) == 0
 
 
 def test_ros_s_arguments_end_at_two_dashes() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
+import psutil
 import pytest
 from scripts.faults import has_ended
 
@@ -56,3 +57,17 @@ def test_a_guard_in_a_namespace_halts_its_robot_and_no_other(tmp_path: Path) -> 
         assert took_s <= PROMISE_S
         rig.truth.wait_for(lambda truth: not truth.vx_mps, time.monotonic())
         assert not elsewhere
+
+
+def test_who_reads_what_control_wrote_need_not_wait_for_its_guard(tmp_path: Path) -> None:
+    """The robot is frozen: the guard goes on, but `ros2 launch` must see that control has ended."""
+    with running(tmp_path) as rig:
+        rig.drive()
+        guard = rig.guard()
+        (robot,) = psutil.Process(rig.robot.process.pid).children()
+        robot.suspend()
+        control = rig.nodes["control"]
+        control.strike("SIGKILL")
+        control.wait_for_output_end(3.0)
+        assert not has_ended(guard)
+        robot.resume()

@@ -119,8 +119,10 @@ def test_a_typed_stop_stops_what_moves(rig: NodeRig) -> None:
     stopped_s = rig.nodes["input"].say("stop")
     assert rig.seconds_to_zero(stopped_s) < 0.25
     assert rig.event("finished", said_s)["outcome"] == "stopped"
-    rig.replies.wait_for(lambda reply: reply.data == "Stopped.", stopped_s)
+    rig.replies.wait_for(lambda reply: "you said “stop”" in reply.data, stopped_s)
     rig.result(said_s, "Stopped.")
+    told = [reply.data for at_s, reply in rig.replies.all if at_s > stopped_s]
+    assert len([text for text in told if "top" in text]) == 1, "once, as it was typed"
 
 
 def test_stop_needs_no_base(rig: NodeRig) -> None:

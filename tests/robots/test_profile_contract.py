@@ -15,6 +15,7 @@ from chatrobot.robots.profile import Limits, RobotProfile
 ENTRIES = list_profiles()
 BUILT_IN = {
     "generic_diff",
+    "no_odometry",
     "originbot",
     "turtlebot3_burger",
     "turtlebot4",

@@ -55,16 +55,29 @@ class Process(TalkingProcess):
             self.process.wait()
             raise
 
+    def interrupt_below(self) -> None:
+        """Ctrl-C to all that it has started in its group, not to itself: `ros2 launch` may hang at a second one."""
+        for pid in self._below():
+            with contextlib.suppress(ProcessLookupError):
+                if os.getpgid(pid) == self.process.pid:
+                    os.kill(pid, signal.SIGINT)
+
     def guard(self) -> int:
         """The process of the guard below it."""
+        return next(
+            pid for pid in self._below() if b"chatrobot.guard" in Path(f"/proc/{pid}/cmdline").read_bytes()
+        )
+
+    def _below(self) -> list[int]:
+        found: list[int] = []
         waiting = [self.process.pid]
         while waiting:
             pid = waiting.pop()
-            if b"chatrobot.guard" in Path(f"/proc/{pid}/cmdline").read_bytes():
-                return pid
-            for children in Path(f"/proc/{pid}/task").glob("*/children"):
-                waiting += map(int, children.read_text().split())
-        raise AssertionError("there is no guard")
+            with contextlib.suppress(OSError):  # it has ended meanwhile
+                for children in Path(f"/proc/{pid}/task").glob("*/children"):
+                    waiting += map(int, children.read_text().split())
+            found.append(pid)
+        return found[1:]
 
 
 def has_ended(pid: int) -> bool:

@@ -12,6 +12,7 @@ from chatrobot.core.geometry import ORIGIN, Twist
 from chatrobot.core.governed import StopEpoch
 from chatrobot.governor.governor import TICK_S, Governor
 from chatrobot.governor.rule import Sensed
+from chatrobot.robots.open_loop import driven_open_loop
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.memory import MemoryHub
@@ -38,6 +39,7 @@ class Driven:
     """
 
     def __init__(self, profile: RobotProfile, source: str, connect: Callable[[], Wire] | None = None) -> None:
+        profile = profile if profile.has_odometry else driven_open_loop(profile)
         self.profile, self.source = profile, source
         self.epoch = StopEpoch()
         self.governor = Governor(profile, self.epoch)

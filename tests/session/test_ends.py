@@ -13,6 +13,7 @@ from tests.session.far_robot import Rig
 
 from chatrobot.core.events import Finished
 from chatrobot.core.reason import Reason
+from chatrobot.robots.open_loop import driven_open_loop
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.messages import TwistMessage
 
@@ -95,7 +96,7 @@ def test_others_who_let_go_while_they_creep_leave_a_zero_behind(topic: str) -> N
 
 
 def blind(profile: RobotProfile) -> RobotProfile:
-    return replace(profile, wiring=replace(profile.wiring, odom_topic="", imu_topic=""))
+    return driven_open_loop(replace(profile, wiring=replace(profile.wiring, odom_topic="", imu_topic="")))
 
 
 def test_a_robot_that_nobody_sees_is_sent_zeros_too() -> None:

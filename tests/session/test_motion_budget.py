@@ -21,6 +21,7 @@ from chatrobot.core.events import Finished, Notice, Rehearsed, Result
 from chatrobot.core.motion_budget import MotionBudget, limit_text, read_limit, read_limit_text
 from chatrobot.core.reason import Reason
 from chatrobot.robots.load import load_profile
+from chatrobot.robots.open_loop import driven_open_loop
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.budgets import Account, Extent
 from chatrobot.wire.messages import TwistMessage
@@ -305,13 +306,13 @@ def test_a_joystick_is_exempt() -> None:
 
 
 def test_a_robot_that_does_not_measure_is_stopped_by_what_it_was_sent() -> None:
-    profile = limited(1.0, math.inf)
+    profile = limited(0.5, math.inf)
     wiring = replace(profile.wiring, odom_topic="", imu_topic="")
-    rig = SimulatedRig(Path(), profile=replace(profile, wiring=wiring))
+    rig = SimulatedRig(Path(), profile=driven_open_loop(replace(profile, wiring=wiring)))
     send_plan(rig, 1, "drive forward until obstacle within 0.5 m")
     end = finished(rig, 1)
     assert (end.outcome, code(end), end.measured) == ("stopped", "max_distance_reached", False)
-    assert rig.robot.true_pose.x_m == pytest.approx(1.0, abs=NEAR_M)  # type: ignore[attr-defined]
+    assert rig.robot.true_pose.x_m == pytest.approx(0.5, abs=NEAR_M)  # type: ignore[attr-defined]
 
 
 @pytest.mark.realtime

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from tests.session.scripted_model import ModelTalk, Options
 
-from chatrobot.core.events import Event, Finished, Paused, Rehearsed, Started
+from chatrobot.core.events import Event, Finished, Paused, Progress, Rehearsed, Started
 from chatrobot.core.geometry import ORIGIN
 from chatrobot.language.consent import read_consent, wants_to_edit
 from chatrobot.session.question import Question
@@ -189,3 +189,38 @@ def test_an_edited_plan_waits_for_a_yes_whatever_the_options() -> None:
     talk.session.approve(turn, True)
     talk.pump_until(lambda: turn in talk.session.results)
     assert talk.session.results[turn].outcome == "completed"
+
+
+@pytest.mark.parametrize("instead_of", ["drive 0.3 m", ""])
+def test_an_edit_that_cannot_be_read_leaves_the_plan_and_says_why(instead_of: str) -> None:
+    talk = ModelTalk(PLAN)
+    turn = talk.session.say_edited_plan("drive 0.2 m\nfly 3 m", instead_of)
+    if not instead_of:
+        talk.pump_until(lambda: turn in talk.session.results)
+        assert talk.session.results[turn].outcome == "unclear"
+        return
+    talk.pump_until(lambda: any(isinstance(event, Rehearsed) for event in talk.events))
+    assert talk.of("rehearsed")[-1].needs_approval  # type: ignore[attr-defined]
+    (notice,) = talk.of("notice")
+    assert notice.reason.code == "edit_unreadable"  # type: ignore[attr-defined]
+    assert "line 2" in notice.reason.values["problem"]  # type: ignore[attr-defined]
+    talk.session.approve(turn, True)
+    talk.pump_until(lambda: turn in talk.session.results)
+    assert talk.session.results[turn].path_m == pytest.approx(0.3, abs=0.01)
+
+
+def test_what_was_driven_before_a_pause_is_told_where_the_rest_is_not_approved() -> None:
+    talk = ModelTalk(PLAN, options=Options(approve=True))
+    turn = talk.session.say("forward 1 m")
+    talk.pump_until(lambda: any(isinstance(event, Rehearsed) for event in talk.events))
+    talk.session.approve(turn, True)
+    talk.pump_until(lambda: any(isinstance(e, Progress) and e.pose.x_m > 0.3 for e in talk.events))
+    talk.session.say("pause")
+    talk.pump_until(lambda: talk.session.is_paused)
+    talk.session.say("continue")
+    talk.pump_until(lambda: len(talk.of("rehearsed")) == 2)
+    talk.session.approve(turn, False)
+    talk.pump_until(lambda: turn in talk.session.results)
+    told = talk.session.results[turn]
+    assert (told.outcome, told.has_moved) == ("refused", True)
+    assert f"drove {told.path_m:.2f} m of 1.00 m" in told.reply

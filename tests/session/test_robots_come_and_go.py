@@ -63,6 +63,21 @@ def test_who_leaves_a_robot_out_of_sight_leaves_its_guard_at_work(rig: Rig) -> N
     assert said == ["goodbye"], "its base may hold the last command for ever"
 
 
+def test_who_leaves_a_robot_that_stood_when_it_was_last_seen_takes_the_guard_along(rig: Rig) -> None:
+    """Ctrl-C at a simulated robot, and then at control: nobody is left who could move."""
+    said: list[str] = []
+    rig.motion._guard.goodbye = lambda: said.append("goodbye")  # type: ignore[method-assign]
+    rig.do("drive 0.1 m")
+    rig.pass_time(0.5)
+    rig.network.is_down = True
+    rig.pass_time(0.5)
+    rig.motion.halt(Reason("stopped"))
+    rig.pass_time(4.0)
+    assert rig.motion.zeroing.has_lost_sight
+    rig.motion.leave()
+    assert said == ["goodbye"]
+
+
 def test_where_the_wire_is_closed_for_good_all_that_was_asked_for_has_failed(rig: Rig) -> None:
     rig.begin("drive 5 m")
     rig.begin("drive 1 m")

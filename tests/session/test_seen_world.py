@@ -135,7 +135,10 @@ def test_what_only_the_lidar_sees_is_in_the_way_and_the_rest_is_offered() -> Non
     talk = Talk(world="home")
     blocked = talk.session.do("forward 5 m")
     assert (blocked.outcome, blocked.path_m) == ("refused", 0.0)
-    assert re.match(r"Something is in the way after 2\.\d\d m, so I am not moving\.", blocked.reply)
+    assert re.match(
+        r"Something is in the way: I would be within 0\.04 m of it after 2\.\d\d m, so I am not moving\.",
+        blocked.reply,
+    )
     assert blocked.proposal is not None
     done = talk.session.do("yes")
     assert (done.outcome, done.path_m) == ("completed", pytest.approx(2.65, abs=0.02))

@@ -12,6 +12,7 @@ from tests.session.undo_rig import UndoRig
 from chatrobot.core.events import Interpreted, Rehearsed
 from chatrobot.core.geometry import Pose
 from chatrobot.robots.load import load_profile
+from chatrobot.robots.open_loop import driven_open_loop
 from chatrobot.session.options import Options
 
 HOME = Pose()
@@ -221,7 +222,7 @@ def test_after_odometry_began_anew_nothing_is_undone(rig: UndoRig) -> None:
 
 def test_without_odometry_nothing_is_undone() -> None:
     profile = load_profile("wheeltec_mini_mec")
-    rig = UndoRig(profile=replace(profile, wiring=replace(profile.wiring, odom_topic=None)))
+    rig = UndoRig(profile=driven_open_loop(replace(profile, wiring=replace(profile.wiring, odom_topic=""))))
     rig.do("forward 0.5 m")
     assert said_why(rig, "no odometry")
 

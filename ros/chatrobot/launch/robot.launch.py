@@ -18,14 +18,23 @@ TEXTS = {
     "robot": "the robot's profile, by name or .toml file",
     "world": "what is known of the surroundings: empty, home or a world file",
 }
+NUMBERS = {
+    "max_distance_m": "metres that one text or program may drive; -1: no limit",
+    "max_time_s": "seconds that one text or program may drive; -1: no limit",
+}
 SWITCHES = {
+    "open_loop": "drive a robot without odometry: slowly, 10 s a text at most, nothing measured",
     "use_sim_time": "follow the time of a simulation (/clock)",
     "allow_release": "an emergency stop may be released over ROS",
     "accept_others": "drive though another ChatRobot is on the same robot",
     "on_robot": "this machine is the robot's own: no network lies between control and base",
     "generate_code": "have requests for programs answered by a program",
 }
-OF_ONE = {"base": {"generate_code"}, "control": {"allow_release", "accept_others", "on_robot"}}
+OF_ONE = {
+    "base": {"generate_code"},
+    "control": {"allow_release", "accept_others", "on_robot", "max_distance_m", "max_time_s"},
+}
+NO_ODOMETRY = "no_odometry"
 
 
 def nodes(context):
@@ -35,7 +44,10 @@ def nodes(context):
         return LaunchConfiguration(name).perform(context)
 
     values = {name: given(name) for name in TEXTS if given(name)}
+    values.update({name: float(given(name)) for name in NUMBERS if given(name)})
     values.update({name: given(name).lower() == "true" for name in SWITCHES if given(name)})
+    if values.get("open_loop") and given("params_file") == PARAMS:
+        values.setdefault("robot", NO_ODOMETRY)  # in place of the robot that our own file names
     made = []
     for executable, own in OF_ONE.items():
         others = set().union(*OF_ONE.values()) - own
@@ -57,7 +69,7 @@ def generate_launch_description():
         DeclareLaunchArgument("namespace", default_value="", description="of the robot"),
         DeclareLaunchArgument("params_file", default_value=PARAMS, description="every parameter, in YAML"),
     ]
-    for name, text in {**TEXTS, **SWITCHES}.items():
+    for name, text in {**TEXTS, **NUMBERS, **SWITCHES}.items():
         arguments.append(
             DeclareLaunchArgument(name, default_value="", description=f"{text}; where empty, the file's")
         )

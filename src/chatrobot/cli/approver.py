@@ -9,9 +9,10 @@ import threading
 from collections.abc import Callable
 
 from chatrobot.cli.console.ride import Ride
+from chatrobot.cli.edited import Edited
 from chatrobot.cli.editor import edited_text
 from chatrobot.core.errors import UsageError
-from chatrobot.core.events import Event
+from chatrobot.core.events import Event, Result
 from chatrobot.language.consent import read_consent, wants_to_edit
 from chatrobot.session.question import Question
 from chatrobot.session.session import Session
@@ -39,6 +40,7 @@ class Approver:
         self._ride = Ride()
         self._world: World | None = None
         self._edited: SayEdited | None = None
+        self._edit_of = Edited()
         self._withdrawn: set[int] = set()
         self._typed: queue.SimpleQueue[str] = queue.SimpleQueue()
         self.editing = threading.Lock()
@@ -55,10 +57,12 @@ class Approver:
 
     def is_withdrawn(self, event: Event) -> bool:
         """It only tells that a plan was not done which is being edited: that is shown, and asked about anew."""
-        return event.turn in self._withdrawn
+        has_moved = isinstance(event, Result) and event.has_moved
+        return event.turn in self._withdrawn and not has_moved
 
     def hear(self, event: Event) -> None:
         self._ride.hear(event)
+        self._edit_of.hear(event)
         if self._question.hear(event):
             self._has_asked = False
             self._typed = queue.SimpleQueue()
@@ -102,14 +106,10 @@ class Approver:
         """What the person typed: anything but a yes is none."""
         turn, program, plan_text = self._question.turn, self._ride.program, self._ride.plan_text
         self.give(session, read_consent(answer) is True)
-        if not wants_to_edit(answer) or turn is None:
+        if not wants_to_edit(answer) or turn is None or not (program or plan_text):
             return
-        if program is not None:
-            source = self._edit(program.source, ".py", turn)
-            self._edited = (lambda session: session.say_source(program.program, source)) if source else None
-        elif plan_text:
-            text = self._edit(plan_text, ".txt", turn)
-            self._edited = (lambda session: session.say_edited_plan(text)) if text else None
+        text = self._edit(self._edit_of.begin(plan_text, program), ".py" if program else ".txt", turn)
+        self._edited = (lambda session: self._edit_of.say(session, text)) if text else None
 
     def take_edited(self) -> SayEdited | None:
         """What is to be said next, once: the plan or program that was edited, or the same where the editor failed."""

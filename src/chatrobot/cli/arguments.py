@@ -10,7 +10,7 @@ import re
 from collections.abc import Sequence
 
 from chatrobot import __version__
-from chatrobot.cli.options import OPTIONS, Parser, add_options, offer, port
+from chatrobot.cli.options import NO_ODOMETRY, OPTIONS, Parser, add_options, offer, port
 from chatrobot.core.errors import UsageError
 
 COMMANDS = {
@@ -83,7 +83,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     if parsed.command == "do":
         if not (parsed.texts or parsed.plan):
             raise UsageError(
-                "nothing to do is given", allowed='chatrobot do "forward 1 m", or chatrobot do --plan FILE'
+                "nothing to do is given", allowed='TEXT or --plan FILE, such as: chatrobot do "forward 1 m"'
             )
         _expect_words(parsed.texts, "do")
         _expect_quotes(parsed.texts)
@@ -101,6 +101,9 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         )
     parsed.program_args = program_args
     parsed.ros_args = ros_args
+    parsed.names_robot = hasattr(parsed, "robot")
+    if not parsed.names_robot and getattr(parsed, "open_loop", False):
+        parsed.robot = NO_ODOMETRY
     for option in OPTIONS:
         if not hasattr(parsed, option.name):
             setattr(parsed, option.name, option.default)

@@ -50,6 +50,7 @@ def setup_from(
         yes=args.yes,
         programs=programs,
         budget=MotionBudget(args.max_distance, args.max_time),
+        open_loop=args.open_loop,
         folder=config_folder(args),
         options=replace(options, interpreter=args.interpreter),
         model=model_from(args, named=named_model),

@@ -172,8 +172,10 @@ def _domain() -> str:
 
 def _who_is_on(address: str, args: argparse.Namespace) -> str:
     """Who tells the robot's odometry there, and who sends velocities."""
+    from chatrobot.language.phrases import render_reason
     from chatrobot.robots.load import load_profile
-    from chatrobot.wire.connect import connect_wire, publishers_of
+    from chatrobot.session.hints import why_unheard
+    from chatrobot.wire.connect import Surveying, connect_wire, publishers_of
 
     wiring = load_profile(args.robot, profile_folders(args)).wiring
     wire = connect_wire(address, wiring, "chatrobot_doctor")
@@ -183,9 +185,19 @@ def _who_is_on(address: str, args: argparse.Namespace) -> str:
         time.sleep(0.05)
         robots = publishers_of(wire, wiring.odom_topic) if wiring.odom_topic else []
     drivers = publishers_of(wire, wiring.cmd_vel_topic)
+    told = (
+        why_unheard(wiring, wire.survey(), wire.resolve)
+        if isinstance(wire, Surveying) and not robots
+        else None
+    )
     wire.close()
-    text = f"{', '.join(robots)} tells {wiring.odom_topic}" if robots else f"nobody tells {wiring.odom_topic}"
-    return text + (f"; {', '.join(drivers)} sends {wiring.cmd_vel_topic}" if drivers else "")
+    text = (
+        f"{', '.join(robots)} tells {wiring.odom_topic}"
+        if robots
+        else f"nobody tells {wiring.odom_topic or 'odometry'}"
+    )
+    text += f"; {', '.join(drivers)} sends {wiring.cmd_vel_topic}" if drivers else ""
+    return f"{text}. {render_reason(told, 'en')}" if told is not None else text
 
 
 def _model(args: argparse.Namespace) -> Check:

@@ -43,18 +43,22 @@ class Early:
         """
         from chatrobot.cli.folders import profile_folders
         from chatrobot.robots.load import load_profile, profile_argument
+        from chatrobot.robots.open_loop import as_chosen
 
         folders = profile_folders(args)
-        profile = load_profile(args.robot, folders)
+        budget = MotionBudget(args.max_distance, args.max_time)
+        profile = as_chosen(load_profile(args.robot, folders), budget, open_loop=args.open_loop)
         if args.on in SIMULATED:
             from chatrobot.sim.lies import SimLies
             from chatrobot.sim.load import load_world
+            from chatrobot.sim.start import check_known
 
-            world = args.world or "home"
-            load_world(world)
+            world = args.world or ("empty" if args.open_loop else "home")
+            check_known(load_world(world), profile)
             SimLies.parse(args.sim)
-            budget = MotionBudget(args.max_distance, args.max_time)
-            self.processes = Processes.start(profile_argument(args.robot, folders), world, args.sim, budget)
+            self.processes = Processes.start(
+                profile_argument(args.robot, folders), world, args.sim, budget, open_loop=args.open_loop
+            )
         return profile
 
     def _show(self, title: str) -> None:

@@ -67,6 +67,7 @@ def _run_control(args: argparse.Namespace, citizen: Citizen | None, connect: Con
             args.accept_others,
             args.on_robot,
             MotionBudget(args.max_distance, args.max_time),
+            args.open_loop,
         ),
         connect,
         note,
@@ -81,13 +82,12 @@ def _run_control(args: argparse.Namespace, citizen: Citizen | None, connect: Con
             node.leave()
         return watch.is_leaving
 
-    with SignalWatch(stop, repeats_s=REPEATS_S) as watch:
+    with contextlib.closing(log), SignalWatch(stop, repeats_s=REPEATS_S) as watch:
         if citizen is not None:
             node.introduce(citizen)
         way = f"{node.resolved(CHATGPT_NODE)} → {node.cmd_vel_topic}"
         log("info", f"control drives {args.robot} on {_place(args)}: {way}; Ctrl-C stops and ends")
         node.run(is_leaving)
-        log.close()
     return True
 
 
@@ -112,17 +112,17 @@ def _run_base(args: argparse.Namespace, citizen: Citizen | None, connect: Connec
             model_from(args, server_held=args.revChatGPT),
             ModelOptions(rounds=args.rounds, budget_tokens=args.budget_tokens, budget_s=args.budget_s),
             args.approval,
+            args.open_loop,
         ),
         log,
         connect,
     )
-    with SignalWatch(node.stop, repeats_s=REPEATS_S) as watch:
+    with contextlib.closing(log), SignalWatch(node.stop, repeats_s=REPEATS_S) as watch:
         if citizen is not None:
             node.introduce(citizen)
         way = f"{node.resolved(USER_INPUT)} → {node.resolved(CHATGPT_NODE)}"
         ready = f"base understands for {args.robot} on {_place(args)}: {way}"
         node.run(lambda: watch.is_leaving, lambda: log("info", ready))
-        log.close()
     return True
 
 

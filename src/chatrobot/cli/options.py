@@ -17,6 +17,8 @@ Number = TypeVar("Number", int, float)
 DEFAULT_ROBOT = "wheeltec_mini_mec"
 """The same as `robots.load.DEFAULT_PROFILE` (a test compares); importing that would read TOML for a help text."""
 
+NO_ODOMETRY = "no_odometry"
+"""The same as `robots.open_loop.NO_ODOMETRY`: the robot of who asks for open loop and names none."""
 
 COMMON = "options"
 """argparse's own name for the group that stands first."""
@@ -160,7 +162,7 @@ OPTIONS = (
         offers=("sim", "dds", "ros", "rosbridge"),
         helps={
             "node": f"where the robot is: dds (the default), {_WIRES}",
-            "sim": f"where others find it: dds, {_WIRES} (default: a wire of its own, see --socket)",
+            "sim": f"where others find it: dds, {_WIRES} (default: a wire of its own, see --socket; ros2 run: ros)",
         },
     ),
     Option(
@@ -295,5 +297,13 @@ OPTIONS = (
         metavar="S|none",
         read=limit,
         offers=(NONE,),
+    ),
+    Option(
+        "--open-loop",
+        "drive a robot without odometry: at most 0.2 m/s, 0.5 rad/s and 10 s a text, and nothing is measured"
+        f" (robot: {NO_ODOMETRY}, unless you name one)",
+        _PLAN,
+        _LIMITS,
+        False,
     ),
 )

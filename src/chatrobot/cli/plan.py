@@ -34,7 +34,7 @@ def run(args: argparse.Namespace) -> int:
             rehearsed.append(event)
         printer.show(event, session.understanding.language)
 
-    setup = setup_from(args, options=Options(rehearse_only=True))
+    setup = setup_from(args, options=Options(rehearse_only=True), programs=True)
     setup = replace(setup, fast=setup.on in SIMULATED, trace=False)
     connection = connect(setup, lambda event: on_event(event))
     session = connection.session

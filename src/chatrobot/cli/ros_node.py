@@ -6,6 +6,7 @@ import argparse
 import math
 from typing import TYPE_CHECKING
 
+from chatrobot.language.typed import type_as_ros_args
 from chatrobot.nodes.parameters import PARAMETERS, Value
 from chatrobot.wire.connect import domain_and_namespace, require_ros
 
@@ -22,8 +23,10 @@ def open_citizen(args: argparse.Namespace, address: str, ros_args: list[str]) ->
     require_ros()
     from chatrobot.nodes.citizen import Citizen
 
+    type_as_ros_args()
     given: dict[str, Value] = {
-        "robot": args.robot,
+        **({"robot": args.robot} if args.names_robot else {}),
+        "open_loop": args.open_loop,
         "world": args.world or "empty",
         "config_dir": args.config_dir or "",
         "interpreter": args.interpreter,

@@ -31,8 +31,8 @@ class SignalWatch:
 
     Args:
         stop: called with the reason, from that thread.
-        repeats_s: so soon after the first a second one is the same, sent twice, and ends nothing more. Then none is
-            heard after the watch either: it would only break the orderly end.
+        repeats_s: so soon after the first a second one is the same, sent twice, and ends nothing more. Then no Ctrl-C
+            is heard after the watch either: it would only break the orderly end.
     """
 
     def __init__(self, stop: Callable[[str], None], *, repeats_s: float = 0.0) -> None:
@@ -55,9 +55,10 @@ class SignalWatch:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        is_over = self.is_leaving and self._repeats_s > 0.0
+        if self.is_leaving and self._repeats_s > 0.0 and signal.SIGINT in self._before:
+            self._before[signal.SIGINT] = signal.SIG_IGN
         for number, handler in self._before.items():
-            signal.signal(number, signal.SIG_IGN if is_over else handler)
+            signal.signal(number, handler)
         signal.set_wakeup_fd(-1)
         self._theirs.close()
 

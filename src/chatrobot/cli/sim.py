@@ -21,16 +21,20 @@ from chatrobot.wire.runtime_dir import runtime_dir
 def run(args: argparse.Namespace) -> int:
     """Until Ctrl-C, or until everybody who drove it has left; the exit code of its process."""
     address, path = _wire(args)
-    robot = _start(args, address, path)
+    robot: subprocess.Popen[bytes] | None = None
     asked_to_end = False
 
     def end(_signal: int, _frame: FrameType | None) -> None:
         nonlocal asked_to_end
         asked_to_end = True
-        robot.terminate()
+        if robot is not None:
+            robot.terminate()
 
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, end)
+    robot = _start(args, address, path)
+    if asked_to_end:  # before there was anybody to end
+        robot.terminate()
     assert robot.stdout is not None
     if robot.stdout.readline() != b"ready\n" and not asked_to_end:
         if robot.wait() == USAGE:

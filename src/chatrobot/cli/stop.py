@@ -17,7 +17,7 @@ _ANSWERS = {
     b"moving": "stopped: it was moving, and zeros go on until it is seen standing",
     b"waiting": "it was standing; what it was told to do is not done any more, and zeros were sent",
     b"standing": "it was standing already; zeros were sent all the same",
-    b"unseen": "zeros were sent; whether it was moving nobody can see, for there is no odometry",
+    b"unseen": "Stop sent. There is no odometry, so I cannot confirm that the robot stopped.",
 }
 """What Motion found, by odometry, when the zero was out."""
 

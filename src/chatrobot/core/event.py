@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from chatrobot.core.geometry import Pose, Twist
+from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
 
@@ -25,10 +25,19 @@ class Event:
     def __init_subclass__(cls) -> None:
         _TYPES[cls.name] = cls
 
+    @property
+    def unknown(self) -> frozenset[str]:
+        """The fields whose values nobody knows: null in JSON."""
+        return frozenset()
+
     def to_json(self) -> dict[str, Any]:
+        unknown = self.unknown
         return {
             "event": self.name,
-            **{f.name: _plain(getattr(self, f.name)) for f in dataclasses.fields(self)},
+            **{
+                f.name: None if f.name in unknown else _plain(getattr(self, f.name))
+                for f in dataclasses.fields(self)
+            },
         }
 
 
@@ -71,7 +80,8 @@ def _optional(read: Callable[[Any], Any]) -> Callable[[Any], Any]:
 
 
 _READERS: Mapping[str, Any] = {
-    "Pose": lambda value: Pose(**value),
+    "Pose": lambda value: ORIGIN if value is None else Pose(**value),
+    "float": lambda value: 0.0 if value is None else value,
     "Twist": lambda value: Twist(**value),
     "Reason": Reason.from_json,
     "Reason | None": _optional(Reason.from_json),

@@ -7,6 +7,7 @@ are in `odom` as the robot itself measures them (`TruePose` alone is the simulat
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal
@@ -21,6 +22,8 @@ Outcome = Literal["completed", "stopped", "refused", "unclear", "answered", "fai
 EXIT_CODES: Mapping[str, int] = {
     "completed": 0, "answered": 0, "failed": 1, "unclear": 3, "refused": 4, "stopped": 5,
 }  # fmt: skip
+LEAST_M, LEAST_RAD = 0.005, math.radians(0.5)
+"""Less than this is no motion worth telling."""
 
 
 @dataclass(frozen=True)
@@ -114,10 +117,15 @@ class ProgramLog(Event):
 
 @dataclass(frozen=True)
 class Started(Event):
-    """The robot begins to act on this turn."""
+    """The robot begins to act on this turn. `measured`: see `Finished`."""
 
     name: ClassVar[str] = "started"
     pose: Pose = ORIGIN
+    measured: bool = True
+
+    @property
+    def unknown(self) -> frozenset[str]:
+        return _unknown("pose", measured=self.measured)
 
 
 @dataclass(frozen=True)
@@ -125,13 +133,14 @@ class Paused(Event):
     """The plan of this turn was stopped by a word that keeps it: the turn stays open, and `plan_text` is what is left.
 
     It is gone on with, from where the robot stands then, when its own source asks for that: `rehearsed` and `started`
-    follow. Else `finished` ends it.
+    follow. Else `finished` ends it. `waiting` are the texts of its session that are done after it.
     """
 
     name: ClassVar[str] = "paused"
     pose: Pose
     plan_text: str
     reason: Reason | None = None
+    waiting: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -263,7 +272,9 @@ class Finished(Event):
 
     `planned_m` is the way of the whole plan, for "0.60 m of 1.00 m", and `planned_turn_rad` what it wanted to turn up
     to its end. `open_ended`: the whole is not known, and `planned_m` is what was rehearsed of it.
-    `possible` is plan text: what can be done of a plan that was refused.
+    `possible` is plan text: what can be done of a plan that was refused. `measured` is False where the robot has no
+    odometry: poses, path and turn are then unknown, null in JSON, and `planned_m` and `planned_turn_rad` are what was
+    sent.
 
     `executed` and `remaining` are plan text: the part of the plan that was driven, as odometry measured it, and the
     part that was not. Driving one after the other is driving the whole plan. Both are empty for a program and where
@@ -293,10 +304,14 @@ class Finished(Event):
     open_ended: bool = False
     late_s: float = 0.0
 
+    @property
+    def unknown(self) -> frozenset[str]:
+        return _unknown("start", "pose", "turned_rad", "path_m", measured=self.measured)
+
 
 @dataclass(frozen=True)
 class Result(Event):
-    """The last event of every turn; pose and distances are what odometry measured, as in `Finished`.
+    """The last event of every turn; pose and distances are what odometry measured, as in `Finished`; `measured`, too.
 
     `proposal` is a plan that the reply asks about.
     """
@@ -311,8 +326,22 @@ class Result(Event):
     paused_s: float = 0.0
     reason: Reason | None = field(default=None)
     proposal: Proposal | None = None
+    measured: bool = True
+
+    @property
+    def unknown(self) -> frozenset[str]:
+        return _unknown("pose", "turned_rad", "path_m", measured=self.measured)
+
+    @property
+    def has_moved(self) -> bool:
+        """It was measured that the robot moved."""
+        return self.path_m > LEAST_M or abs(self.turned_rad) > LEAST_RAD
 
     @property
     def is_question(self) -> bool:
         """The next text may answer it."""
         return self.outcome == "unclear" or self.proposal is not None
+
+
+def _unknown(*names: str, measured: bool) -> frozenset[str]:
+    return frozenset() if measured else frozenset(names)

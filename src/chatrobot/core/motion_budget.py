@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 MAX_DISTANCE_M = 100.0
 MAX_TIME_S = 600.0
@@ -19,10 +19,14 @@ NONE = "none"
 
 @dataclass(frozen=True)
 class MotionBudget:
-    """What somebody chose. None: not chosen, so that the defaults above hold; infinite: no limit."""
+    """What somebody chose. None: not chosen, so that the defaults above hold; infinite: no limit.
+
+    `ceiling_s` bounds the time whatever is chosen: it is no choice, and `changed` keeps it.
+    """
 
     max_distance_m: float | None = None
     max_time_s: float | None = None
+    ceiling_s: float = field(default=math.inf, kw_only=True)
 
     @property
     def distance_m(self) -> float:
@@ -32,18 +36,24 @@ class MotionBudget:
     @property
     def time_s(self) -> float:
         """How long one text or program may drive; while it waits it does not."""
-        return self.max_time_s if self.max_time_s is not None else MAX_TIME_S
+        return min(self.max_time_s if self.max_time_s is not None else MAX_TIME_S, self.ceiling_s)
+
+    @property
+    def is_at_ceiling(self) -> bool:
+        """No choice can make the time longer."""
+        return self.time_s == self.ceiling_s
 
     @property
     def endless_program_s(self) -> float:
         """How long a program may run whose rehearsal did not end."""
-        return self.max_time_s if self.max_time_s is not None else ENDLESS_PROGRAM_S
+        return min(self.max_time_s if self.max_time_s is not None else ENDLESS_PROGRAM_S, self.ceiling_s)
 
     def changed(self, choice: MotionBudget) -> MotionBudget:
         """With what `choice` chooses in place of this."""
         return MotionBudget(
             self.max_distance_m if choice.max_distance_m is None else choice.max_distance_m,
             self.max_time_s if choice.max_time_s is None else choice.max_time_s,
+            ceiling_s=self.ceiling_s,
         )
 
 

@@ -12,12 +12,16 @@ JOYSTICK_TOPIC = "chatrobot/joystick"
 """The same for a person with a joystick who looks at the robot: it goes before every plan."""
 
 
+ODOM_TOPIC = "odom"
+"""Where a robot tells its odometry, if its profile says nothing else."""
+
+
 @dataclass(frozen=True)
 class Wiring:
     """Topics, types and habits of the base. Nothing here bounds a motion.
 
-    Topics are ROS names, None where the robot has no such sensor. Their types: imu sensor_msgs/Imu, scan
-    sensor_msgs/LaserScan, bumper std_msgs/Bool, battery sensor_msgs/BatteryState; odometry and camera as
+    Topics are ROS names, None where the robot has no such sensor ("" for odometry). Their types: imu sensor_msgs/Imu,
+    scan sensor_msgs/LaserScan, bumper std_msgs/Bool, battery sensor_msgs/BatteryState; odometry and camera as
     `odom_type` and `camera_type` (of sensor_msgs) say. `base_timeout_s` is how long the base holds its last
     command; None means for ever. `namespace` is put before relative topics where the wire's address names none;
     it needs a wire that has namespaces (DDS, ROS, rosbridge).
@@ -25,7 +29,7 @@ class Wiring:
 
     cmd_vel_topic: str = "cmd_vel"
     cmd_vel_type: Literal["Twist", "TwistStamped"] = "Twist"
-    odom_topic: str = "odom"
+    odom_topic: str = ODOM_TOPIC
     odom_type: Literal["Odometry", "turtlesim/Pose"] = "Odometry"
     imu_topic: str | None = None
     scan_topic: str | None = None

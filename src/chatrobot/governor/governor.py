@@ -21,6 +21,7 @@ from chatrobot.governor.rules import Composed, Setting, compose, make_rules
 from chatrobot.governor.seen import NO_POINTS, Seen
 from chatrobot.governor.tick import TICK_S as TICK_S
 from chatrobot.governor.wheel import Taken, Wheel
+from chatrobot.robots.open_loop import OPEN_LOOP_MPS, OPEN_LOOP_RADPS
 from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.wire.messages import LaserScan
 
@@ -92,6 +93,8 @@ class Governor:
         self._seen = Seen(profile.lidar) if profile.lidar is not None else None
         self._narrowed = NarrowedRule()
         self._rules = [self._narrowed, *make_rules(Setting(profile, self._seen, area))]
+        if profile.open_loop:
+            self.narrow(OPEN_LOOP_MPS, OPEN_LOOP_RADPS)
 
     # --- emergency stop ---
 
@@ -118,6 +121,8 @@ class Governor:
         """Take the wheel for a new motion: from nobody, or from a source of lower priority."""
         if self._latch is not None:
             return Taken(self._latch)
+        if not (self._profile.has_odometry or self._profile.open_loop):
+            return Taken(Reason("needs_open_loop"))
         if not self.leases.is_valid(lease_id, now_s):
             return Taken(Reason("lease_lapsed", {"source": self.leases.source_of(lease_id)}))
         barred = compose(self._rules, ZERO_TWIST, Situation(None, sensed, begins=True))

@@ -6,11 +6,13 @@ Started by Motion in a session of its own, so that neither Ctrl-C, Ctrl-Z nor a 
 from __future__ import annotations
 
 import contextlib
+import os
 import select
 import signal
 import socket
 import sys
 import time
+from collections.abc import Callable
 
 from chatrobot.core.clock import awake_or_not_s
 from chatrobot.core.errors import WireError
@@ -61,6 +63,8 @@ class Guard:
         self._standing = Standing()
         self._departure = Departure(wire, cmd_vel_topic, odom_topic, is_near=is_near)
         self._motion_is_gone = False
+        self.on_loss: Callable[[], None] = lambda: None
+        """Called once when Motion is gone without a goodbye."""
         advertise(wire, cmd_vel_topic, TwistMessage)
         self._unheard_odom_topic = odom_topic
 
@@ -119,6 +123,7 @@ class Guard:
             words = b""
         if not words:
             self._motion_is_gone = True
+            self.on_loss()
             self._watch.lose()
             return self._watch.state == "idle"
         if GOODBYE in words:
@@ -131,6 +136,14 @@ class Guard:
         with contextlib.suppress(OSError):
             self._line.send(answer, socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
         return False
+
+
+def _let_go_of_output() -> None:
+    """Whoever reads what Motion wrote, `ros2 launch` say, waits for the end of it, and must not wait for us."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    for number in (1, 2):
+        os.dup2(nowhere, number)
+    os.close(nowhere)
 
 
 def _wiring(options: dict[str, str]) -> Wiring:
@@ -155,7 +168,9 @@ def main(arguments: list[str]) -> int:
         wire = connect_wire(options["--wire"], wiring, "chatrobot_guard")
         with contextlib.closing(wire):  # else its node stays on the graph until its lease ends
             near = options.get("--near") == "yes"
-            Guard(line, wire, wiring.cmd_vel_topic, wiring.odom_topic, is_near=near).run()
+            guard = Guard(line, wire, wiring.cmd_vel_topic, wiring.odom_topic, is_near=near)
+            guard.on_loss = _let_go_of_output
+            guard.run()
     except WireError:
         return 1  # the robot's end is gone: there is nothing left to halt
     return 0

@@ -17,7 +17,7 @@ from chatrobot.language.data_files import DATA
 from chatrobot.language.signs import Clause, Names, Sign, clauses_of, is_strong
 
 SLOTS = 1 << 16
-MAYBE_ORDER, ORDER = -0.5, 0.5
+MAYBE_ORDER, ORDER = -0.5, 0.75
 """A text with lower odds than the first orders nothing; with lower odds than the second, what it orders is proposed.
 Sources that were left out chose them: `fit_acts --check`."""
 TALK, TALK_OF_MOTION = -2.0, -3.0

@@ -6,12 +6,13 @@ import dataclasses
 import math
 from collections.abc import Sequence
 
+from chatrobot.language.edits import Edit, resized
 from chatrobot.language.frames import DIRECTIONS, GO, SIDES, Frame
 from chatrobot.language.manner import Pace
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.tokens import quantity
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Repeat, Step, Turn, Wait
+from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Repeat, Step, Turn
 
 
 def is_change(whole: Frame) -> bool:
@@ -71,9 +72,11 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
         if count.number != int(count.number) or not 1 <= count.number <= 100:
             raise Unclear("bad_count", count.text)
         return steps * int(count.number)
-    if any(name in whole.q for name in ("length", "angle", "turns", "time")):
-        steps = _resized(steps, whole)
-    return steps
+    sizes = [whole.q[name] for name in ("length", "angle", "turns", "time") if name in whole.q]
+    out = resized(steps, Edit(amounts=sizes))
+    if out is None:
+        raise Unclear("nothing_before", whole.text)
+    return out
 
 
 def _speed_said(whole: Frame, steps: Sequence[Step]) -> Frame:
@@ -144,29 +147,6 @@ def _speed(old: float | None, whole: Frame, pace: Pace) -> float | None:
     if whole.pace == "fast":
         return min(usual * 1.7, pace.profile.limits.max_speed_mps)
     return pace.speed(whole)
-
-
-def _resized(steps: list[Step], whole: Frame) -> list[Step]:
-    """`the same but two metres`: a new amount, where exactly one step takes it."""
-    length, seconds = whole.q.get("length"), whole.q.get("time")
-    angle = whole.q.get("angle") or whole.q.get("turns")
-    out: list[Step] = []
-    taken = 0
-    for step in steps:
-        if length and isinstance(step, Drive):
-            step, taken = dataclasses.replace(step, distance_m=length.number, duration_s=None), taken + 1
-        elif angle and isinstance(step, Turn):
-            step, taken = dataclasses.replace(step, angle_rad=angle.number, duration_s=None), taken + 1
-        elif seconds and isinstance(step, Drive):
-            step, taken = dataclasses.replace(step, duration_s=seconds.number, distance_m=None), taken + 1
-        elif seconds and isinstance(step, Turn):
-            step, taken = dataclasses.replace(step, duration_s=seconds.number, angle_rad=None), taken + 1
-        elif seconds and isinstance(step, Wait):
-            step, taken = Wait(seconds.number), taken + 1
-        out.append(step)
-    if taken != 1:
-        raise Unclear("nothing_before", whole.text)
-    return out
 
 
 def a_bit_of(steps: Sequence[Step], whole: Frame, pace: Pace) -> Step:

@@ -9,6 +9,7 @@ from chatrobot import reflex
 from chatrobot.language import questions
 from chatrobot.language.acts import orders as is_ordered
 from chatrobot.language.corrections import MEANT
+from chatrobot.language.edits import edited
 from chatrobot.language.frames import GO, STILL, TURN, Frame
 from chatrobot.language.heeded import check_heeded
 from chatrobot.language.interpretation import Interpretation, planned, stopped
@@ -89,6 +90,9 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     until = read_until(plain, language)
     if until is not None:
         return _until(until, reading)
+    changed = edited(atoms, reading.context.dialogue)
+    if changed is not None:
+        return planned(changed, language, append=_appends(atoms))
     frames = frames_of(atoms)
     check_start(frames, reading.context.dialogue)
     default = _default(frames, reading)

@@ -47,6 +47,7 @@ class RobotState:
     """How the robot is at this moment, in the odom frame. None: not known.
 
     `has_said_so` is False before its odometry has been heard: pose, twist and path are then nothing to tell.
+    `is_measured` is False where it has no odometry: they never will be.
     """
 
     pose: Pose = ORIGIN
@@ -56,6 +57,7 @@ class RobotState:
     battery_percent: float | None = None
     obstacle_m: float | None = None
     has_said_so: bool = True
+    is_measured: bool = True
 
 
 @dataclass(frozen=True)

@@ -6,12 +6,14 @@ import math
 from dataclasses import dataclass, field
 
 from chatrobot.core.geometry import Pose
-from chatrobot.language.frames import DIAGONALS, GO, SIDES, Frame
+from chatrobot.language.frames import DIAGONALS, GO, SIDES, TURN, Frame
 from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Drive, Step, Turn, Wait
 
 _SLIDING = frozenset({"no_turn", "sideways"})
+_MOST_M, _LEAST_DEG = 2.0, 5.0
+"""A bare number is so many metres at most, and so many degrees at least."""
 _THE_SAME = ("the same", "do the same", "same", "likewise")
 
 
@@ -134,7 +136,25 @@ def _meant_unit(frame: Frame, value: float, state: State) -> tuple[str, float] |
         return "angle", math.radians(1.0)
     if state.unit_m and not frame.has_extent and _goes_on_in_unit(frame, value, state):
         return "length", state.unit_m
-    return None
+    return _unit_by_sense(frame, value, state)
+
+
+def _unit_by_sense(frame: Frame, value: float, state: State) -> tuple[str, float] | None:
+    """`turn left 20`, `go forward 2`: degrees for a turn, metres for a drive of at most two where no unit was said."""
+    if (
+        frame.has_extent
+        or frame.shape
+        or frame.place
+        or frame.roles
+        or set(frame.q) - {"number", "speed", "rate"}
+    ):
+        return None
+    if not any(map(str.isdecimal, frame.q["number"].text)):
+        return None  # written out, more may follow: 前进半…
+    if frame.verb in TURN and frame.sided and _LEAST_DEG <= value <= 1080:
+        return "angle", math.radians(1.0)
+    along = frame.direction in ("forward", "back") or (frame.verb == "slide" and frame.direction in SIDES)
+    return ("length", 1.0) if along and 0 < value <= _MOST_M and not (state.unit_m or frame.flags) else None
 
 
 def _goes_on_in_degrees(frame: Frame, value: float, state: State) -> bool:

@@ -39,7 +39,8 @@ class TurnRecord:
     """One turn as it really ended. Poses are in the odom frame; `plan` is None where nothing was to move.
 
     `executed` and `remaining` are the parts of the plan that were driven and were not, as measured. `lost` is the
-    code of the reason why nobody can tell any more how the robot gets back to where the turn began.
+    code of the reason why nobody can tell any more how the robot gets back to where the turn began. `program`: a
+    program drove, which the session keeps under that number; 0 for none.
     """
 
     text: str
@@ -51,6 +52,7 @@ class TurnRecord:
     remaining: Plan | None = None
     walk: Walk | None = None
     lost: str = ""
+    program: int = 0
 
     @property
     def way(self) -> Way:
@@ -74,6 +76,8 @@ class Entry:
         back: the steps from where the robot stood last to `before`.
         forth: the same to `after`; empty where nothing has been undone.
         lost: see `TurnRecord`.
+        programs: the programs among its turns, see `TurnRecord`.
+        turns: how many turns it is.
     """
 
     before: Pose
@@ -82,6 +86,8 @@ class Entry:
     back: Way
     forth: Way = ()
     lost: str = ""
+    programs: tuple[int, ...] = ()
+    turns: int = 1
 
 
 class Ledger:
@@ -123,7 +129,9 @@ class Ledger:
             if self.done:
                 self.done[-1] = replace(self.done[-1], forth=())
             way = record.way
-            self.done.append(Entry(record.start_pose, record.end_pose, way, _inverse(way), (), record.lost))
+            programs = (record.program,) if record.program else ()
+            poses = (record.start_pose, record.end_pose)
+            self.done.append(Entry(*poses, way, _inverse(way), (), record.lost, programs))
             self._undone.clear()
         elif walk.kind == "undo":
             self._take_undo(walk.count, record)
@@ -170,6 +178,8 @@ def _joined(first: Entry, then: Entry) -> Entry:
         _chained(then.back, first.back),
         then.forth,
         first.lost or then.lost,
+        (*first.programs, *then.programs),
+        first.turns + then.turns,
     )
 
 

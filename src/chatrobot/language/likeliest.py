@@ -7,6 +7,7 @@ and its clause says by itself what to do and how much. What was left out is name
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
@@ -25,6 +26,10 @@ NO_ORDER = 3.5
 """A clause without an amount may be left out of a proposal below these odds."""
 MOST_CLAUSES, MOST_PARTS = 12, 3
 """So many clauses are looked at one by one, and so many parts are left out of what is proposed."""
+
+FAR_M = 10.0
+"""A bare number above that is no number of metres."""
+_DECIMAL = re.compile(r"\d*\.?\d+")
 
 Reader = Callable[[str], Interpretation]
 
@@ -72,6 +77,8 @@ def likeliest(
     best = order_log_odds(reads)
     if best < ORDER or len(reads) > MOST_CLAUSES:
         return None
+    if problem.code == "no_unit":
+        return _with_unit(plain, problem.part, language, read)
     rest = _Rest(plain, list(reads))
     for clause in [clause for clause in reads if _is_sure_talk(clause, best)]:
         rest.leave_out(clause)
@@ -101,6 +108,19 @@ def proposed(
     reply = f"{say(language, 'left_out', part=named)} {ask}" if named else ask
     offer = Proposal(format_plan(found.plan), ask)
     return Interpretation("unclear", reply, language, unaccounted=named, code="did_you_mean", proposal=offer)
+
+
+def _with_unit(plain: str, number: str, language: LanguageCode, read: Reader) -> Interpretation | None:
+    """`Drive 50`: in metres, or in centimetres where that would be far."""
+    at = [found.start() for found in re.finditer(rf"(?<![\w.]){re.escape(number)}(?![\w.])", plain)]
+    if len(at) != 1 or not _DECIMAL.fullmatch(number):
+        return None
+    unit = "m" if float(number) <= FAR_M else "cm"
+    end = at[0] + len(number)
+    try:
+        return proposed(read(f"{plain[:end]} {unit}{plain[end:]}"), language)
+    except Unclear:
+        return None
 
 
 def _is_sure_talk(read: Read, best: float) -> bool:

@@ -10,6 +10,7 @@ from functools import cache
 from chatrobot.core.reason import Reason, Value
 from chatrobot.core.shown import ANGLE_PLACES, LENGTH_PLACES, number
 from chatrobot.language.data_files import load_table
+from chatrobot.language.typed import codes, typed
 from chatrobot.plan.folded import repeated, runs
 from chatrobot.plan.shown import shown_plan
 from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, RawTwist, Remember, Repeat, Say, Step, Turn, Wait
@@ -58,12 +59,15 @@ class _Formatted(dict[str, Value]):
 
 def say(language: str, code: str, **values: Value) -> str:
     """The phrase of that code. An unknown code is printed with its values rather than hidden."""
-    template = _phrases(language).get(code) or _phrases("en").get(code)
+    known = (
+        table[name] for name in codes(code) for table in (_phrases(language), _phrases("en")) if name in table
+    )
+    template = next(known, None)
     if template is None:
         listed = ", ".join(f"{name}={_shown(value)}" for name, value in values.items())
         return f"{code} ({listed})" if listed else code
     try:
-        return _MINUS_ZERO.sub("", template.format_map(_Formatted(values)))
+        return _MINUS_ZERO.sub("", typed(template).format_map(_Formatted(values)))
     except (ValueError, TypeError):
         return template
 
@@ -73,7 +77,7 @@ def _shown(value: Value) -> str:
 
 
 def render_reason(reason: Reason, language: str) -> str:
-    """A reason in words; one that knows the name of what is in the way may have words of its own for it."""
+    """A reason in words; one that knows the name of what is in the way, or a namespace, may have its own for it."""
     values: dict[str, Value] = dict(reason.values)
     if reason.code in ("stopped_by", "paused_by"):
         return _stop_cause(str(values.get("source", "")), str(values.get("why", "")), language)
@@ -81,8 +85,11 @@ def render_reason(reason: Reason, language: str) -> str:
     for key in ("source", "to"):
         if key in values:
             values[key] = names.get(values[key], values[key])
-    named = f"{reason.code}_named"
-    return say(language, named if "obstacle" in values and named in _phrases("en") else reason.code, **values)
+    special = (
+        f"{reason.code}_{kind}" for key, kind in (("obstacle", "named"), ("namespace", "in")) if key in values
+    )
+    code = next((code for code in special if code in _phrases("en")), reason.code)
+    return say(language, code, **values)
 
 
 def _stop_cause(source: str, why: str, language: str) -> str:

@@ -141,7 +141,7 @@ def answer(topic: str, language: str, context: Context, profile: RobotProfile) -
         "last": context.dialogue.turns[-1].text if context.dialogue.turns else "-",
     }
     if topic in _MEASURED and not state.has_said_so:
-        return say(language, "answer_unheard")
+        return say(language, "answer_unheard" if state.is_measured else "answer_unmeasured")
     if topic == "battery":
         if state.battery_percent is None:
             return say(language, "answer_battery_unknown")

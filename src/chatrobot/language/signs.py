@@ -26,7 +26,7 @@ _OPENING = frozenset({"request", "please", "opening", "robot", "hence"})
 _JOINTS = frozenset({"joint", "contrast"})
 _HENCE = "hence"
 """The labels of words that begin a clause of their own; the last where a word of motion follows."""
-_FIRST_IDEOGRAPH = 0x2E7F
+_FIRST_IDEOGRAPH, _FEWEST = 0x2E7F, 3
 _QUOTES = frozenset('"“”「」『』')
 _UNITS = "unit_"
 _EVIDENCE_KINDS = {"num": "NUMBER", "negation": "not", "condition": "condition", "correction": "correction"}
@@ -143,12 +143,12 @@ def clauses_of(text: str, names: Names = _NO_NAMES) -> list[Clause]:
 
 
 def _is_apart(text: str, before: Unit, start: int) -> bool:
-    """Whether a blank parts what is written without blanks, with more than a character on either side."""
+    """Whether a blank parts what is written without blanks: a few characters at least on either side."""
     written, at = before
     if at + len(written) == start or min(ord(written[-1]), ord(text[start])) < _FIRST_IDEOGRAPH:
         return False
-    around = text[max(at - 1, 0) : at] + text[start + 1 : start + 2]
-    return len(around) == 2 and not any(character.isspace() for character in around)
+    sides = text[max(at - _FEWEST + 1, 0) : at + 1], text[start : start + _FEWEST]
+    return all(len(side) == _FEWEST and not any(map(str.isspace, side)) for side in sides)
 
 
 def _parted(signs: list[Sign], end: str, start: int, stop: int) -> Iterator[Clause]:

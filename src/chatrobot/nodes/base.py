@@ -24,6 +24,7 @@ from chatrobot.core.events import (
     Result,
     Said,
 )
+from chatrobot.core.motion_budget import NOT_CHOSEN
 from chatrobot.language.consent import read_consent
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.models.seam import Model
@@ -35,6 +36,7 @@ from chatrobot.plan.route import GridRoutePlanner
 from chatrobot.programs.library import Library
 from chatrobot.reflex import is_release
 from chatrobot.robots.load import load_profile
+from chatrobot.robots.open_loop import as_chosen
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.approval import LAPSES_AFTER_S
 from chatrobot.session.authoring import Authoring
@@ -77,7 +79,7 @@ _SEVERITY_OF_RESULTS: Mapping[str, Severity] = {"refused": "warn", "unclear": "w
 class BaseOptions:
     """`folder` is where places live; None for nowhere. The two flags are the tutorial's parameters. `model`
     is asked what is not understood without one. `approval`: what waits for a person's yes: each plan, none, or what a
-    model wrote, where the robot's profile asks for approval."""
+    model wrote, where the robot's profile asks for approval. `open_loop`: control drives a robot without odometry."""
 
     wire: str
     profile: str
@@ -89,6 +91,7 @@ class BaseOptions:
     model: Model | None = None
     model_options: ModelOptions = field(default_factory=ModelOptions)
     approval: Approval = "profile"
+    open_loop: bool = False
 
 
 class BaseNode:
@@ -106,7 +109,7 @@ class BaseNode:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         self._options = options
         self._show = show
-        profile = load_profile(options.profile)
+        profile = as_chosen(load_profile(options.profile), NOT_CHOSEN, open_loop=options.open_loop)
         world = load_world(options.world)
         understanding = Understanding(profile, world, options.folder)
         understanding.interpret("forward 1 m")  # reads the tables now, not with the first instruction
@@ -256,7 +259,9 @@ class BaseNode:
         if isinstance(event, Interpreted) and event.plan_text:
             self._say(event.reply)
         elif isinstance(event, Result):
-            self._say(event.reply, _SEVERITY_OF_RESULTS.get(event.outcome, "info"))
+            if not (self._session.is_moving and event.reply in _bare_stops(language)):
+                # Else the end of what was stopped tells it, once the robot stands.
+                self._say(event.reply, _SEVERITY_OF_RESULTS.get(event.outcome, "info"))
         elif isinstance(event, Said):
             self._say(event.text)
         elif isinstance(event, Notice):
@@ -299,6 +304,11 @@ class BaseNode:
     def _publish(self, topic: str, text: str) -> None:
         with contextlib.suppress(WireError):  # gone: the joint tells
             self._wire.publish(topic, Text(text))
+
+
+def _bare_stops(language: str) -> tuple[str, ...]:
+    """What is said of a stop that tells no more than that it came."""
+    return tuple(say(language, code) for code in ("stopped_now", "stopped_now_unmeasured"))
 
 
 def _sentences(findings: Iterable[FindingSeen], language: str) -> list[str]:

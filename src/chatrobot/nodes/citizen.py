@@ -58,10 +58,11 @@ class Citizen:
     ) -> None:
         self.node = RosNode(name, namespace=namespace, ros_args=ros_args, domain_id=domain_id)
         try:
-            self.values = {
-                known.name: self._declare(known, defaults.get(known.name, known.default))
-                for known in parameters
-            }
+            self.values: dict[str, Any] = {}
+            for known in parameters:
+                instead = known.open_loop if self.values.get("open_loop") else None
+                default = defaults.get(known.name, known.default if instead is None else instead)
+                self.values[known.name] = self._declare(known, default)
             if self.node.has_own_time and not self.node.wait_for_time(SIMULATED_TIME_S):
                 raise WireError("use_sim_time is set, but nobody tells the time on /clock")
         except (UsageError, WireError):

@@ -39,7 +39,7 @@ ODOMETRY_LATE_S = 1.0
 
 @dataclass(frozen=True)
 class ControlOptions:
-    """`release`: an emergency stop may be released over ROS. `accept_others`, `on_robot`, `budget`: see
+    """`release`: an emergency stop may be released over ROS. The rest after it: see
     `MotionRunner`."""
 
     wire: str
@@ -49,6 +49,7 @@ class ControlOptions:
     accept_others: bool = False
     on_robot: bool = False
     budget: MotionBudget = NOT_CHOSEN
+    open_loop: bool = False
 
 
 class ControlNode:
@@ -83,6 +84,7 @@ class ControlNode:
             on_robot=options.on_robot,
             releasers=RELEASERS | {BASE} if options.release else RELEASERS,
             budget=options.budget,
+            open_loop=options.open_loop,
             connect=connect,
         )
         self._foreign = Foreign(self._runner, lambda: bool(self._ours))
@@ -167,6 +169,8 @@ class ControlNode:
             return Diagnosis("error" if motion.latched else "warn", barred.code, {**values, **barred.values})
         if motion.sensors.has_odometry and motion.sensors.odometry_age_s() > ODOMETRY_LATE_S:
             return Diagnosis("warn", "no_odometry", values)
+        if self._options.open_loop:
+            return Diagnosis("warn", "open_loop", values)
         return Diagnosis("ok", "driving" if motion.is_busy else "ready", values)
 
     def _hear(self, message: Text) -> None:

@@ -19,6 +19,7 @@ class Parameter:
         default: also says the type.
         bounds: lowest and highest value of a number.
         choices: the words allowed; empty for any.
+        open_loop: the default where `open_loop`, which is declared before, is true; None for the same.
     """
 
     name: str
@@ -26,11 +27,20 @@ class Parameter:
     description: str
     bounds: tuple[float, float] | None = None
     choices: tuple[str, ...] = ()
+    open_loop: Value | None = None
 
 
 _ROBOT = (
     Parameter(
-        "robot", "wheeltec_mini_mec", "The robot's profile: a built-in name, or the path of a .toml file."
+        "open_loop",
+        False,
+        "Drive a robot that has no odometry: at most 0.2 m/s, 0.5 rad/s and 10 s a text, and nothing is measured.",
+    ),
+    Parameter(
+        "robot",
+        "wheeltec_mini_mec",
+        "The robot's profile: a built-in name, or the path of a .toml file; with open_loop no_odometry is the default.",
+        open_loop="no_odometry",
     ),
     Parameter(
         "world", "empty", "What is known of the surroundings: empty, home, or the path of a world file."

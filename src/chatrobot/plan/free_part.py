@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -26,6 +28,59 @@ LEAST_M = 0.1
 LEAST_DEG = 10
 """Less than this is not worth a question."""
 
+STANDING = 1e-9
+"""Rows of a path that differ by less are the same."""
+
+
+class Most(NamedTuple):
+    """How far and how long a plan may drive that is offered; while it waits it does not drive."""
+
+    length_m: float = math.inf
+    driving_s: float = math.inf
+
+    def first_row_over(self, rows: Floats) -> int:
+        """The first of the rows [n, 4] of a path that is beyond it; n where none is."""
+        steps = np.diff(rows, axis=0)
+        driven_m = np.cumsum(np.hypot(steps[:, 1], steps[:, 2]))
+        moves = np.any(np.abs(steps[:, 1:]) > STANDING, axis=1)
+        over = (driven_m > self.length_m + STANDING) | (np.cumsum(steps[:, 0] * moves) > self.driving_s)
+        found = np.flatnonzero(over)
+        return int(found[0]) + 1 if len(found) else len(rows)
+
+    def allows(self, rows: Floats) -> bool:
+        """The whole path [n, 4] is within it."""
+        return self.first_row_over(rows) == len(rows)
+
+
+ANY_WAY = Most()
+
+
+@dataclass(frozen=True)
+class Leg:
+    """Rows [n, 4] of a path that belong to one motion of one step."""
+
+    item: PlannedMotion
+    rows: Floats
+
+
+def leg_at(legs: Sequence[Leg], row: int) -> tuple[Leg, int]:
+    """The leg that this row of the whole path belongs to, and the first row of it."""
+    ends = np.cumsum([len(leg.rows) for leg in legs])
+    number = int(np.searchsorted(ends, row, side="right"))
+    return legs[number], int(ends[number]) - len(legs[number].rows)
+
+
+def part_up_to(
+    plan: Plan, context: LoweringContext, legs: Sequence[Leg], row: int, most_m: float = math.inf
+) -> tuple[Plan | None, dict[str, float]]:
+    """What can be done of `plan` up to a row of its path, and how much of the motion there; `most_m`: of the whole."""
+    leg, first_row = leg_at(legs, row)
+    rows = np.concatenate([leg.rows for leg in legs])[: row + 1]
+    driven_m = float(np.hypot(*np.diff(rows[: first_row + 1, 1:3], axis=0).T).sum())
+    of_step = [found.item for found in legs if found.item.number == leg.item.number]
+    done = of_step.index(leg.item)
+    return free_part(plan, context, leg.item, done, of_step[0].start, rows[first_row:], most_m - driven_m)
+
 
 def free_part(
     plan: Plan,
@@ -34,6 +89,7 @@ def free_part(
     motions_done: int,
     step_start: Pose,
     way: Floats,
+    most_m: float = math.inf,
 ) -> tuple[Plan | None, dict[str, float]]:
     """What can be done of `plan`, None where nothing is worth a question; and what is free of the blocked motion.
 
@@ -41,8 +97,9 @@ def free_part(
         context: from where the plan begins.
         motions_done: how many motions of the blocked step come before; the step begins at `step_start`.
         way: [n, 4] of t_s, x_m, y_m, yaw_rad, from where the motion begins to where it is blocked.
+        most_m: nothing is in the way, but this motion may go no farther.
     """
-    share, row, free = _free_share(blocked.motion, way)
+    share, row, free = _free_share(blocked.motion, way, most_m)
     here = Pose(*(float(value) for value in way[row, 1:]))
     if not free and here.distance_to(context.pose) < LEAST_M:
         return None, {}
@@ -61,11 +118,12 @@ def nearest_part(plan: Plan, context: LoweringContext, impossible: Impossible) -
         return None
 
 
-def _free_share(motion: CoreMotion | None, way: Floats) -> tuple[float, int, dict[str, float]]:
+def _free_share(motion: CoreMotion | None, way: Floats, most_m: float) -> tuple[float, int, dict[str, float]]:
     """The share of the motion that is free, the row of `way` where it ends, and the amount; 0 where it is too small."""
     if isinstance(motion, RampedTwist) and motion.twist.speed_mps > 0.0:
         driven_m = np.append(0.0, np.cumsum(np.hypot(*np.diff(way[:, 1:3], axis=0).T)))
-        steps = math.floor((float(driven_m[-1]) - SPARE_M) / STEP_M)
+        until_m = min(driven_m[-1] - SPARE_M if math.isinf(most_m) else driven_m[-1], most_m)
+        steps = math.floor(until_m / STEP_M + STANDING)
         free_m = round(steps * STEP_M, 2)
         if free_m >= LEAST_M:
             share = min(1.0, free_m / (motion.twist.speed_mps * motion.hold_s))

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Final, Protocol, Union
 
 from chatrobot.core.geometry import Pose
+from chatrobot.core.reason import Reason
 from chatrobot.plan.base import Block, Step
 from chatrobot.plan.context import MAX_DURATION_S, Impossible, Lowered, LoweringContext, too_long
 from chatrobot.plan.core_motion import CoreMotion, RampedTwist
@@ -29,6 +30,8 @@ def lower(step: Step, context: LoweringContext) -> Lowered:
     primitive = for_step(step)
     if isinstance(primitive, BlockPrimitive):
         raise TypeError(f"{type(step).__name__} is a block: walk it with iterate_core")
+    if primitive.needs_pose and context.profile.open_loop:
+        return Impossible(Reason("needs_odometry"))
     lowered = primitive.lower(step, context)
     if isinstance(lowered, Impossible):
         return lowered

@@ -34,7 +34,8 @@ class PrimitiveInfo:
     """What every primitive, simple or block, tells about itself.
 
     `kind` is its name in JSON, `verb` the first word of its line, `step_type` its dataclass, `usage` its grammar
-    on one line, `help` what it does in one line, `examples` whole texts that parse.
+    on one line, `help` what it does in one line, `examples` whole texts that parse. `needs_pose`: it means something
+    only where the robot's place is known.
     """
 
     kind: ClassVar[str]
@@ -43,6 +44,7 @@ class PrimitiveInfo:
     help: ClassVar[str]
     examples: ClassVar[tuple[str, ...]]
     step_type: ClassVar[type[Step]]
+    needs_pose: ClassVar[bool] = False
 
 
 class Primitive(PrimitiveInfo, ABC, Generic[StepT]):

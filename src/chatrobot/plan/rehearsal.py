@@ -25,7 +25,7 @@ from chatrobot.plan.context import (
 )
 from chatrobot.plan.core_motion import Pause, RampedTwist
 from chatrobot.plan.findings import Finding, Severity
-from chatrobot.plan.free_part import free_part, nearest_part
+from chatrobot.plan.free_part import ANY_WAY, Leg, Most, leg_at, nearest_part, part_up_to
 from chatrobot.plan.governed_path import TICK_S, GovernorCheck, pose_of
 from chatrobot.plan.known_world import Contact, Floats, GovernorKernel, KnownWorld, SeenWorld
 from chatrobot.plan.lowering import CoreWalk, PlannedMotion, iterate_core
@@ -59,7 +59,8 @@ class Rehearsal:
 
     `plan` is the one to run (corners may have been rounded for a base that steers). `path` is [n, 4] of t_s, x_m,
     y_m, yaw_rad in the odom frame, at most 50 ms apart, up to the end or to the first step that cannot be done.
-    `possible` is what can be done of a plan that is refused, where that is worth a question.
+    `possible` is what can be done of a plan that is refused, or else drives more than it may, where that is worth a
+    question.
     """
 
     plan: Plan
@@ -103,6 +104,7 @@ def rehearse(
     plan_start: Pose | None = None,
     route_planner: RoutePlanner | None = None,
     seen: SeenWorld | None = None,
+    most: Most = ANY_WAY,
 ) -> Rehearsal:
     """Rehearse `plan` from `start_pose` (odom frame).
 
@@ -112,6 +114,7 @@ def rehearse(
         plan_start: what the frame `start` means, if the plan is the continuation of one that began elsewhere.
         route_planner: for `go`; by default a grid search in `world`.
         seen: what the lidar has seen; None where there is none.
+        most: how far and how long a plan may drive; what is `possible` of one that drives more is told.
     """
     planner = route_planner
     if planner is None and world is not None and not world.is_empty:
@@ -122,21 +125,13 @@ def rehearse(
         profile, start_pose, plan_start if plan_start is not None else start_pose, planner
     )
     rounded = round_corners(plan, profile)
-    run = _Run(rounded.plan, context, world, governor, seen)
+    run = _Run(rounded.plan, context, world, governor, seen, most)
     run.findings += [
         Finding(note.severity, note.reason, note.index, 0.0, start_pose) for note in rounded.notes
     ]
     if not any(finding.severity == "refuse" for finding in run.findings):
         run.drive()
     return run.result()
-
-
-@dataclass(frozen=True)
-class _Leg:
-    """Rows of the path that belong to one motion of one step."""
-
-    item: PlannedMotion
-    rows: Floats
 
 
 class _Run:
@@ -149,15 +144,17 @@ class _Run:
         world: KnownWorld | None,
         governor: GovernorKernel,
         seen: SeenWorld | None,
+        most: Most,
     ) -> None:
         self.plan = plan
         self.context = context
         self.world = world if world is not None and not world.is_empty else None
         self.area = world.allowed_area if world is not None else None
         self.seen = seen
+        self.most = most
         self.governor = GovernorCheck(governor)
         self.findings: list[Finding] = []
-        self.legs: list[_Leg] = []
+        self.legs: list[Leg] = []
         self.steps: list[StepEnd] = []
         self.t_s = 0.0
         self.possible: Plan | None = None
@@ -214,7 +211,7 @@ class _Run:
         return True
 
     def _add(self, item: PlannedMotion, rows: Floats) -> None:
-        self.legs.append(_Leg(item, rows))
+        self.legs.append(Leg(item, rows))
         self.t_s = float(rows[-1, 0])
 
     def _move(self, walk: CoreWalk, item: PlannedMotion, motion: RampedTwist) -> None:
@@ -287,33 +284,31 @@ class _Run:
             for fence in fences
         ]
         self._block(rows, "leaves_area", left)
+        row = self.most.first_row_over(rows)
+        if row < len(rows) and not any(finding.severity == "refuse" for finding in self.findings):
+            self.possible, _ = part_up_to(self.plan, self.context, self.legs, row, self.most.length_m)
 
     def _block(self, rows: Floats, code: str, contacts: Sequence[Contact | None]) -> None:
         """Refuse the plan for the first of the contacts, if there is one."""
         contact = min((found for found in contacts if found is not None), key=lambda c: c.row, default=None)
         if contact is None:
             return
-        ends = np.cumsum([len(leg.rows) for leg in self.legs])
-        leg = self.legs[int(np.searchsorted(ends, contact.row, side="right"))]
-        item, row = leg.item, rows[contact.row]
+        leg, first_row = leg_at(self.legs, contact.row)
         driven = np.hypot(*np.diff(rows[: contact.row + 1, 1:3], axis=0).T)
-        first_row = int(ends[self.legs.index(leg)]) - len(leg.rows)
         values: dict[str, float | int | str] = {
             "distance_m": float(driven[first_row:].sum()),
             "total_m": float(driven.sum()),
         }
         if contact.row < self._blocked_row:
             self._blocked_row = contact.row
-            of_step = [found.item for found in self.legs if found.item.number == item.number]
-            way = rows[first_row : contact.row + 1]
-            self.possible, free = free_part(
-                self.plan, self.context, item, of_step.index(item), of_step[0].start, way
-            )
+            self.possible, free = part_up_to(self.plan, self.context, self.legs, contact.row)
             values.update(free)
-        name = self._name_of(contact) if code == "would_collide" else ""
-        if name:
-            values["obstacle"] = name
-        self._find("refuse", Reason(code, values), item.index, pose_of(row), float(row[0]))
+        if code == "would_collide":
+            values["margin_m"] = MARGIN_M
+            name = self._name_of(contact)
+            values.update({"obstacle": name} if name else {})
+        row = rows[contact.row]
+        self._find("refuse", Reason(code, values), leg.item.index, pose_of(row), float(row[0]))
 
     def _name_of(self, contact: Contact) -> str:
         """What stands there, if it is known."""

@@ -136,12 +136,13 @@ class _Rounding:
         return angle if turn.left else -angle
 
     def _length_m(self, drive: Drive) -> float | None:
-        """None where the leg cannot be shortened: its end is not known, or it does not go along the wheels."""
+        """None where the leg cannot be shortened: nobody knows its end, or it does not go along the wheels."""
         if drive.until is not None or abs(math.sin(drive.direction_rad)) > _ALONG_RAD:
             return None
         if drive.distance_m is not None:
             return drive.distance_m
-        return (drive.speed_mps or self._profile.defaults.speed_mps) * (drive.duration_s or 0.0)
+        length_m = (drive.speed_mps or self._profile.defaults.speed_mps) * (drive.duration_s or 0.0)
+        return length_m if math.isfinite(length_m) else None
 
     @staticmethod
     def _is_backward(drive: Drive) -> bool:

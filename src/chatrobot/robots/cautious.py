@@ -24,11 +24,11 @@ def drives_on_alone(profile: RobotProfile) -> bool:
     return timeout_s is None or timeout_s > LONG_HOLD_S
 
 
-def slowed(profile: RobotProfile) -> RobotProfile:
-    """The same robot, never faster than `SLOW_MPS` and `SLOW_RADPS`; limits only ever shrink."""
+def slowed(profile: RobotProfile, most_mps: float = SLOW_MPS, most_radps: float = SLOW_RADPS) -> RobotProfile:
+    """The same robot, never faster than `most_mps` and `most_radps`; limits only ever shrink."""
     limits, defaults = profile.limits, profile.defaults
-    speed_mps = min(limits.max_speed_mps, SLOW_MPS)
-    rate_radps = min(limits.max_rate_radps, SLOW_RADPS)
+    speed_mps = min(limits.max_speed_mps, most_mps)
+    rate_radps = min(limits.max_rate_radps, most_radps)
     if not profile.can_turn_on_the_spot:
         rate_radps = min(rate_radps, speed_mps / limits.min_turning_radius_m)
     return replace(

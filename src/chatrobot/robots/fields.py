@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import NoReturn
 
 from chatrobot.core.errors import ProfileError
+from chatrobot.core.motion_budget import NONE
 
 # A ROS name, relative or absolute, without substitutions (design.ros2.org, topic and service names).
 _TOPIC = re.compile(r"/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*", re.ASCII)
@@ -141,6 +142,10 @@ class Table:
         if not isinstance(value, str) or value not in choices:
             self.source.fail(self.field(key), f"{_shown(value)} is not possible", allowed)
         return value
+
+    def is_none(self, key: str) -> bool:
+        """Whether `key` says that there is no such thing."""
+        return self.is_text(key, NONE)
 
     def topic(self, key: str) -> str:
         """The name of a ROS topic."""

@@ -11,7 +11,7 @@ import re
 import sys
 from typing import Any
 
-from chatrobot.core.motion_budget import NONE, MotionBudget
+from chatrobot.core.motion_budget import MotionBudget
 from chatrobot.robots.fields import Range, Source, Table
 from chatrobot.robots.profile import (
     Calibration,
@@ -189,7 +189,7 @@ def _safety(table: Table) -> Safety:
 
 def _budget(table: Table) -> dict[str, float]:
     return {
-        key: math.inf if table.is_text(key, NONE) else table.number(key, allowed)
+        key: math.inf if table.is_none(key) else table.number(key, allowed)
         for key, allowed in BUDGET_RANGES.items()
         if key in table
     }
@@ -217,6 +217,8 @@ def _wiring(table: Table) -> Wiring:
             continue
         if key == "base_timeout_s":
             values[key] = None if table.is_text(key, FOREVER) else table.number(key, TIMEOUT_RANGE)
+        elif key == "odom_topic" and table.is_none(key):
+            values[key] = ""
         elif key == "namespace":
             values[key] = table.topic(key).strip("/")
         elif key in WIRING_CHOICES:

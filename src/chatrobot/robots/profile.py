@@ -111,7 +111,8 @@ class RobotProfile:
 
     `name` is that of the file it was read from. `sources` tells for every limit, by the name of its field in
     `Limits`, where its number comes from. `approval` says whether a plan needs a person's yes before it runs
-    where nothing else is said.
+    where nothing else is said. `open_loop`: it is driven although nothing measures its motion; no file can say so,
+    `chatrobot.robots.open_loop` does.
     """
 
     name: str
@@ -125,11 +126,17 @@ class RobotProfile:
     safety: Safety = field(default_factory=Safety)
     calibration: Calibration = Calibration()
     approval: Literal["plan", "stream"] = "plan"
+    open_loop: bool = False
     sources: Mapping[str, str] = field(default_factory=dict)
 
     def with_budget(self, choice: MotionBudget) -> RobotProfile:
         """The same robot with what somebody chose in place of its own motion budget."""
         return replace(self, safety=replace(self.safety, budget=self.safety.budget.changed(choice)))
+
+    @property
+    def has_odometry(self) -> bool:
+        """It measures its motion."""
+        return bool(self.wiring.odom_topic)
 
     @property
     def can_turn_on_the_spot(self) -> bool:

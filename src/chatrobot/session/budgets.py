@@ -18,12 +18,18 @@ from chatrobot.core.reason import Reason
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.priority import RELEASERS, Priority, priority_of
 from chatrobot.governor.tick import TICK_S
-from chatrobot.robots.profile import Limits
+from chatrobot.plan.free_part import Most
+from chatrobot.robots.profile import Limits, RobotProfile
 
-EXCEEDED = frozenset({"over_max_distance", "over_max_time"})
+OPEN_LOOP = "open_loop"
+"""The code of the notice that a robot is driven open loop."""
+
+EXCEEDED = frozenset({"over_max_distance", "over_max_time", "over_open_loop_time"})
 """The refusals of what is known to exceed its budget."""
 
-REACHED = frozenset({"max_distance_reached", "max_time_reached", "endless_program_stopped"})
+REACHED = frozenset(
+    {"max_distance_reached", "max_time_reached", "open_loop_time_reached", "endless_program_stopped"}
+)
 """The reasons of a motion that was stopped at its budget."""
 
 KEPT_ACCOUNTS = 64
@@ -40,6 +46,9 @@ OLDEST_NEWS_S = 0.5
 
 ROUNDING_M, ROUNDING_S = 1e-3, 1e-2
 """A rehearsed length that is longer by less is not longer."""
+
+CEILING_LATE_S = 2.0 * TICK_S
+"""What was rehearsed to end at the ceiling may end so much later: ticks do not come to the instant."""
 
 TOLERANCE_SHARE, TOLERANCE_M, TOLERANCE_S = 0.02, 0.1, 5.0
 """How much more than it was rehearsed for a motion may drive and take: its rehearsal said that it fits."""
@@ -90,8 +99,14 @@ class Account:
         if total.length_m > budget.distance_m + ROUNDING_M:
             return Reason("over_max_distance", {"distance_m": total.length_m, "max_m": budget.distance_m})
         if total.driving_s > budget.time_s + ROUNDING_S:
-            return Reason("over_max_time", {"driving_s": total.driving_s, "max_s": budget.time_s})
+            code = "over_open_loop_time" if budget.is_at_ceiling else "over_max_time"
+            return Reason(code, {"driving_s": total.driving_s, "max_s": budget.time_s})
         return None
+
+    def left(self, certain: Extent) -> Most:
+        """What may be driven besides what has been driven, and `certain`."""
+        used, budget = self.driven.planned.plus(certain), self.budget
+        return Most(max(0.0, budget.distance_m - used.length_m), max(0.0, budget.time_s - used.driving_s))
 
     def notice(self, is_endless: bool) -> Reason | None:
         """What a person should know before it runs: when a program without an end will be stopped."""
@@ -113,7 +128,8 @@ class Account:
         return Reason("max_distance_reached", {"max_m": self.budget.distance_m})
 
     def time_reached(self) -> Reason:
-        return Reason("max_time_reached", {"max_s": self.budget.time_s})
+        code = "open_loop_time_reached" if self.budget.is_at_ceiling else "max_time_reached"
+        return Reason(code, {"max_s": self.budget.time_s})
 
 
 class Meter:
@@ -144,7 +160,8 @@ class Meter:
         self._driving_s = 0.0
         self._start_path_m = self._path_m
         self._sent = ZERO_TWIST
-        self._sent_m = 0.0
+        self.sent_m = self.sent_rad = 0.0
+        """How far, and by how much to the left, it would have gone by what it was sent."""
         self._has_told = False
 
     @property
@@ -154,13 +171,19 @@ class Meter:
     @property
     def extent(self) -> Extent:
         """How far and how long this run has driven: as measured, or as sent where nothing is measured."""
-        driven_m = self._path_m - self._start_path_m if self._sensors.has_odometry else self._sent_m
+        driven_m = self._path_m - self._start_path_m if self._sensors.has_odometry else self.sent_m
         return Extent(driven_m, self._driving_s)
+
+    @property
+    def least_s(self) -> float:
+        """How long it was told to move at least: what was sent is held until something else is."""
+        return 0.0 if self._sent.is_zero else TICK_S
 
     def note(self, sent: Twist, now_s: float) -> None:
         """Take in what was sent now."""
         elapsed_s = max(0.0, now_s - self._now_s)
-        self._sent_m += self._sent.speed_mps * elapsed_s
+        self.sent_m += self._sent.speed_mps * elapsed_s
+        self.sent_rad += self._sent.wz_radps * elapsed_s
         self._driving_s += 0.0 if self._sent.is_zero else elapsed_s
         self._sent, self._now_s = sent, now_s
 
@@ -181,6 +204,7 @@ class Meter:
         braking_m = speed_mps * (unseen_s + self._latency_s + braking_s / 2.0)
         most_m = _with_tolerance(budget.distance_m + ROUNDING_M, known.length_m, TOLERANCE_M)
         most_s = _with_tolerance(budget.time_s + ROUNDING_S, known.driving_s, TOLERANCE_S)
+        most_s = min(most_s, budget.ceiling_s + CEILING_LATE_S)
         if driven.length_m + braking_m > most_m:
             return account.distance_reached()
         if self._is_endless and self._now_s - self._began_s + braking_s > budget.endless_program_s:
@@ -239,6 +263,15 @@ def said(budget: MotionBudget) -> Iterator[Reason]:
     else:
         values = {"max_s": budget.time_s, "endless_s": budget.endless_program_s}
         yield Reason("limit_time", values)
+
+
+def open_loop_notice(profile: RobotProfile) -> Reason | None:
+    """What a person should know of a robot that is driven open loop; None for any other."""
+    if not profile.open_loop:
+        return None
+    limits, budget = profile.limits, profile.safety.budget
+    values = {"speed_mps": limits.max_speed_mps, "rate_radps": limits.max_rate_radps, "max_s": budget.time_s}
+    return Reason(OPEN_LOOP, values)
 
 
 def _chosen(payload: Mapping[str, Any], name: str) -> float | None:

@@ -2,28 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Literal
 
 from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import Wiring
+from chatrobot.session.hints import ODOMETRY, TURTLE_POSE, FullName, hints, unclear
 from chatrobot.wire.connect import Endpoint
 
-ODOMETRY, TURTLE_POSE = "nav_msgs/msg/Odometry", "turtlesim/msg/Pose"
 IMU, SCAN = "sensor_msgs/msg/Imu", "sensor_msgs/msg/LaserScan"
 TWIST, TWIST_STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
-FullName = Callable[[str], str]
-"""A topic of the profile as the wire lists it: absolute, with the robot's namespace."""
 
 
 def is_complete(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullName) -> bool:
     """The robot is there as its profile says: it listens for velocities, and tells odometry, gyro and scan."""
     wanted = [
         Endpoint(full_name(wiring.cmd_vel_topic), _cmd_vel_type(wiring), "listens"),
-        Endpoint(full_name(wiring.odom_topic), _odom_type(wiring), "publishes"),
     ]
-    for topic, type_name in ((wiring.imu_topic, IMU), (wiring.scan_topic, SCAN)):
+    told = ((wiring.odom_topic, _odom_type(wiring)), (wiring.imu_topic, IMU), (wiring.scan_topic, SCAN))
+    for topic, type_name in told:
         if topic:
             wanted.append(Endpoint(full_name(topic), type_name, "publishes"))
     return set(wanted) <= set(endpoints)
@@ -39,8 +37,10 @@ def fit(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullName) -> t
     cmd_vel = full_name(wiring.cmd_vel_topic)
     fitted, said = _fit_velocities(wiring, seen, cmd_vel)
     sensors = _Sensors(seen, full_name("x")[:-1], cmd_vel)
-    fitted, more = _fit_odometry(fitted, sensors, full_name(wiring.odom_topic))
-    said += more
+    more: list[Reason] = []
+    if wiring.odom_topic:  # a robot without odometry gets none from somewhere else
+        fitted, more = _fit_odometry(fitted, sensors, full_name(wiring.odom_topic))
+    said += [*hints(fitted, seen, full_name), *more]
     if wiring.imu_topic:
         found, more = sensors.elsewhere(full_name(wiring.imu_topic), IMU)
         fitted, said = replace(fitted, imu_topic=found or wiring.imu_topic), [*said, *more]
@@ -75,7 +75,7 @@ class _Sensors:
         ours = [at for at in told if at.startswith(self._prefix) and not at.startswith(self._others)]
         if len(ours) == 1:
             return ours[0], [Reason("sensor_found", {"topic": topic, "found": ours[0]})]
-        return "", [Reason("sensor_unclear", {"topic": topic, "found": ", ".join(told)})]
+        return "", [unclear(topic, told)]
 
 
 def _fit_velocities(wiring: Wiring, seen: list[Endpoint], topic: str) -> tuple[Wiring, list[Reason]]:
@@ -86,11 +86,6 @@ def _fit_velocities(wiring: Wiring, seen: list[Endpoint], topic: str) -> tuple[W
     if _cmd_vel_type(replace(wiring, cmd_vel_type=other)) in types:
         said = Reason("cmd_vel_type_found", {"topic": topic, "type": other, "instead": wiring.cmd_vel_type})
         return replace(wiring, cmd_vel_type=other), [said]
-    elsewhere = sorted(
-        {end.topic for end in seen if end.role == "listens" and end.type_name in (TWIST, TWIST_STAMPED)}
-    )
-    if elsewhere:
-        return wiring, [Reason("cmd_vel_elsewhere", {"topic": topic, "found": ", ".join(elsewhere)})]
     return wiring, []
 
 
@@ -103,7 +98,9 @@ def _fit_odometry(wiring: Wiring, sensors: _Sensors, topic: str) -> tuple[Wiring
         said = Reason("odom_type_found", {"topic": topic, "type": kind, "instead": wiring.odom_type})
         return replace(wiring, odom_type=kind), [said]
     found, more = sensors.elsewhere(topic, ODOMETRY)
-    return (replace(wiring, odom_topic=found, odom_type="Odometry") if found else wiring), more
+    if found:
+        return replace(wiring, odom_topic=found, odom_type="Odometry"), more
+    return wiring, more
 
 
 def _cmd_vel_type(wiring: Wiring) -> str:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from chatrobot.core.errors import PlanTextError
-from chatrobot.core.events import Event, Interpreted, Paused
+from chatrobot.core.events import Event, Interpreted, Notice, Paused
 from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import say
 from chatrobot.language.resuming import wants_to_resume
+from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.session.draft import Draft
 from chatrobot.session.joint import Joint
@@ -17,14 +19,12 @@ from chatrobot.session.orders import Orders
 from chatrobot.session.parting import parting
 from chatrobot.session.program_turns import ProgramTurns
 from chatrobot.session.proposals import Proposals
-from chatrobot.session.quoting import one_line
+from chatrobot.session.replies import describe_waiting
 from chatrobot.session.resuming import Resuming
 from chatrobot.session.said import Said, SaidTexts
 from chatrobot.session.thinking import Thinking
 from chatrobot.session.turn_book import TurnBook
 from chatrobot.session.understanding import Understanding
-
-_SHOWN_CHARS = 60
 
 
 class Dispatch:
@@ -69,7 +69,7 @@ class Dispatch:
 
     def take(self, said: Said) -> None:
         if self._said.is_void(said):
-            self._book.conclude(said.turn, "stopped", self._understanding.say("dropped_by_stop", said.text))
+            self._drop(said)
             return
         answer = self._proposals.answered(said)
         if answer is not None:
@@ -84,11 +84,23 @@ class Dispatch:
             self._begin_program(said)
         else:
             code = "stopped_now" if said.kind != "emergency_stop" else "emergency_stopped"
+            code = code if self._understanding.is_measured else f"{code}_unmeasured"
             reply = self._understanding.say(code, said.text)
             if said.kind == "pause":
                 reply = self._told("paused_now", self._resuming.paused)
             self._emit(Interpreted(said.turn, "reflex", "", ""))
             self._book.conclude(said.turn, "stopped", reply)
+
+    def texts_behind(self, turn: int) -> tuple[str, ...]:
+        """What is done after that turn, which is paused: what Motion has already, and what waits here."""
+        return (*self._book.texts_but(turn), *(said.text for said in self._said.held))
+
+    def _drop(self, said: Said) -> None:
+        """End a turn that waited for what was stopped, or paused and not gone on with."""
+        why = self._said.why_void(said.turn)
+        code = "dropped_behind_pause" if self._said.waited_behind_pause(said.turn) else "dropped_by_stop"
+        reply = self._understanding.say_because(code, said.text, why)
+        self._book.conclude(said.turn, "stopped", reply, reason=why)
 
     def _goes_on(self, text: str) -> bool:
         """Whether it asks to go on with what was paused or stopped, be there anything or not."""
@@ -96,10 +108,12 @@ class Dispatch:
 
     def _told(self, code: str, paused: Paused | None) -> str:
         """What is left of a paused plan, or else of what was said and had not begun, in the phrase of that code."""
-        held = self._said.held
+        held = tuple(said.text for said in self._said.held)
         if paused is None and held:
-            texts = ", ".join(f"“{one_line(said.text, _SHOWN_CHARS)}”" for said in held)
-            return say(self._understanding.language, code, plan=texts)
+            language = self._understanding.language
+            return say(language, code, plan=describe_waiting(held, language))
+        if paused is not None:
+            paused = replace(paused, waiting=self.texts_behind(paused.turn))
         return self._resuming.told(paused, code)
 
     def _go_on(self, said: Said) -> None:
@@ -118,9 +132,9 @@ class Dispatch:
             reply = self._understanding.say("nothing_paused", said.text)
             self._act_on(said, meant or Interpretation("answered", reply, self._understanding.language))
             return
+        reply = self._told("goes_on", paused)  # before what waits is released
         self._orders.resume(paused.turn)
         self._said.release()
-        reply = self._resuming.told(paused, "goes_on")
         self._emit(Interpreted(paused.turn, "offline", paused.plan_text, ""))
         self._emit(Interpreted(said.turn, "offline", "", reply))
         self._book.conclude(said.turn, "answered", reply)
@@ -143,12 +157,28 @@ class Dispatch:
         if is_any_under_way and meant.is_about_turn_before:
             self._end_turn_before(said)
             return
+        if self._runs_programs_again(said, meant):
+            return
+        if meant.outcome == "plan" and meant.walk is None and wants_to_resume(said.text):
+            meant = self._resuming.more(meant, is_under_way=self._book.is_any_with_motion)
         if self._understanding.misses_robot(meant) and self._hears_robot_soon():
             meant = self._understanding.interpret(said.text)
         if parting(meant) is None and self._thinking.wants(said.text, meant):
             self._ask_model(said, meant)
             return
         self._act_on(said, self._thinking.without_model(said.text, meant))
+
+    def _runs_programs_again(self, said: Said, meant: Interpretation) -> bool:
+        """Whether `meant` does a program again that was undone: it is run, or refused where it was not alone."""
+        entry = self._understanding.undone_programs(meant)
+        if entry is None or self._programs is None:
+            return False
+        if entry.turns == 1:
+            self._programs.run_again(said.turn, said.text, entry.programs[0])
+        else:
+            reply = self._understanding.say("redo_has_program", said.text)
+            self._act_on(said, Interpretation("refused", reply, self._understanding.language))
+        return True
 
     def _end_turn_before(self, said: Said) -> None:
         """Stop what is under way, because `said` is about it; read `said` again once that has ended."""
@@ -159,6 +189,9 @@ class Dispatch:
 
     def _act_on(self, said: Said, meant: Interpretation) -> None:
         """Do what was understood without a model."""
+        paused = self._resuming.paused
+        if paused is not None and self._understanding.tells_it_stands(meant):
+            meant = replace(meant, reply=self._told("paused_now", paused))
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         interpreted = Interpreted(said.turn, "offline", plan_text, meant.reply)
         if meant.outcome == "plan":
@@ -194,7 +227,7 @@ class Dispatch:
 
     def _read_plan(self, said: Said) -> None:
         try:
-            plan = parse_plan(said.text)
+            plan = self._plan_in(said)
         except PlanTextError as error:
             self._emit(Interpreted(said.turn, "offline", "", ""))
             self._book.conclude(
@@ -206,9 +239,26 @@ class Dispatch:
         self._emit(Interpreted(said.turn, "offline", plan_text, ""))
         self._send_plan(said, meant, plan_text)
 
+    def _plan_in(self, said: Said) -> Plan:
+        """The plan that was said; for an edit that cannot be read the one that it was made of, and a word about it.
+
+        Raises:
+            PlanTextError: neither can be read.
+        """
+        try:
+            return parse_plan(said.text)
+        except PlanTextError as error:
+            if not said.about:
+                raise
+            before = parse_plan(str(said.about))
+            self._emit(Notice(said.turn, Reason("edit_unreadable", {"problem": str(error)})))
+            return before
+
     def _send_plan(self, said: Said, meant: Interpretation, plan_text: str) -> None:
         mode = "append" if meant.append else self._orders.mode
         if mode == "replace":
             self._thinking.replace()
+        if mode == "append" and self._resuming.paused is not None:
+            self._emit(Notice(said.turn, Reason("waits_behind_pause")))
         self._book.track(said.turn, said.text, meant)
         self._orders.plan(said.turn, plan_text, mode, asks=said.kind == "edited_plan")

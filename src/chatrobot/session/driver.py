@@ -7,6 +7,7 @@ and only then do pose, turn and path say what became of the motion.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Finished, Outcome, Progress, Started
@@ -97,7 +98,7 @@ class Driver:
 
     def _set_out(self, run: Run | ProgramRun, now_s: float) -> None:
         self._run = run
-        self._emit(Started(run.job.turn, run.job.start))
+        self._emit(Started(run.job.turn, run.job.start, self._robot.sensors.has_odometry))
         self.tick(now_s)
 
     # --- under way ---
@@ -171,11 +172,14 @@ class Driver:
 
     def _end(self, run: Run | ProgramRun, outcome: Outcome, reason: Reason | None) -> None:
         self._let_go(run)
-        stream = run.job.stream
+        stream, possible = run.job.stream, ""
         if outcome == "completed" and stream is not None and stream.refusal is not None:
             reason = stream.refusal  # what came before it has been done
             outcome = "stopped" if reason.code in REACHED else "refused"
-        self._ends.tell_later(lambda: run.job.whole(run.finished(outcome, reason)))
+            possible = stream.possible
+        self._ends.tell_later(
+            lambda: replace(run.job.whole(run.finished(outcome, reason)), possible=possible)
+        )
 
     def _let_go(self, run: Run | ProgramRun) -> None:
         self.job = self._run = None

@@ -4,15 +4,21 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
+from dataclasses import replace
 
 from chatrobot.core.events import Event, Finished
 
 
 class Ends:
-    """Belongs to the control thread. An end is made when it is told, so that it says what was measured by then."""
+    """Belongs to the control thread. An end is made when it is told, so that it says what was measured by then.
 
-    def __init__(self, emit: Callable[[Event], None]) -> None:
+    Args:
+        measured: the robot has odometry; without, no end is told as measured, and be it of what never moved.
+    """
+
+    def __init__(self, emit: Callable[[Event], None], *, measured: bool) -> None:
         self._emit = emit
+        self._measured = measured
         self._untold: deque[Callable[[], Finished]] = deque()
 
     @property
@@ -24,7 +30,7 @@ class Ends:
         if self._untold:
             self._untold.append(end)
         else:
-            self._emit(end())
+            self._tell(end)
 
     def tell_later(self, end: Callable[[], Finished]) -> None:
         """Tell it once the robot stands."""
@@ -33,4 +39,8 @@ class Ends:
     def tell_all(self) -> None:
         """The robot stands, or nobody sees whether it does."""
         while self._untold:
-            self._emit(self._untold.popleft()())
+            self._tell(self._untold.popleft())
+
+    def _tell(self, end: Callable[[], Finished]) -> None:
+        finished = end()
+        self._emit(finished if self._measured else replace(finished, measured=False))

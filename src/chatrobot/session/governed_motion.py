@@ -111,7 +111,8 @@ class GovernedMotion:
         remaining: str = "",
         open_ended: bool = False,
     ) -> Finished:
-        """The end, as odometry measured it."""
+        """The end, as odometry measured it; where there is none, what was planned is what was sent."""
+        measured = self._sensors.has_odometry
         start, estimate = self._job.start, self._sensors.estimate
         return Finished(
             self._job.turn,
@@ -121,13 +122,13 @@ class GovernedMotion:
             pose=estimate.pose if estimate is not None else start,
             turned_rad=self.turned_rad(),
             path_m=self.path_m,
-            duration_s=self._stopwatch.moving_s,
+            duration_s=self._stopwatch.moving_s or (0.0 if measured else self._meter.least_s),
             paused_s=self._stopwatch.paused_s,
-            planned_m=planned_m,
-            planned_turn_rad=planned_turn_rad,
+            planned_m=planned_m if measured else self._meter.sent_m,
+            planned_turn_rad=planned_turn_rad if measured else self._meter.sent_rad,
             steps_done=steps_done,
             steps=steps,
-            measured=self._sensors.has_odometry,
+            measured=measured,
             executed=executed,
             remaining=remaining,
             open_ended=open_ended,

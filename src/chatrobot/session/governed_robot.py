@@ -33,6 +33,8 @@ class GovernedRobot:
         self.governor = governor
         self._transport = transport
         self._looked_at: LaserScan | None = None
+        self.may_move = False
+        """A velocity that is none has been sent since it was last seen standing."""
 
     @property
     def pose(self) -> Pose:
@@ -89,6 +91,7 @@ class GovernedRobot:
     def _send(self, governed: GovernedTwist) -> None:
         """What it is told counts as told from before it moves, and until after it was told to stand."""
         if not governed.twist.is_zero:
+            self.may_move = True
             self.sensors.note_sent(governed.twist)
         self._transport.send(governed)
         if governed.twist.is_zero:

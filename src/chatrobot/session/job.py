@@ -9,6 +9,7 @@ from chatrobot.core.events import Finished, Outcome
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.core.reason import Reason
 from chatrobot.plan.base import Step
+from chatrobot.plan.free_part import Most
 from chatrobot.plan.lowering import Walk
 from chatrobot.plan.rehearsal import Rehearsal
 from chatrobot.session.approval import Approval
@@ -83,6 +84,11 @@ class Job:
         return self.planned.certain if self.planned is not None else Extent()
 
     @property
+    def left(self) -> Most:
+        """What its budget leaves for what comes next."""
+        return self.account.left(self.stream.certain if self.stream is not None else Extent())
+
+    @property
     def length_m(self) -> float:
         """Of the whole way, as it was rehearsed."""
         if self.stream is not None:
@@ -136,10 +142,17 @@ class Job:
                 0.0,
                 0.0,
                 0.0,
+                planned_m=self._left_m,
                 possible=possible,
                 remaining=remaining,
             )
         )
+
+    @property
+    def _left_m(self) -> float:
+        """The way that was still to be driven, where a part of it was driven before a pause."""
+        so_far = self.so_far
+        return max(0.0, so_far.planned_m - so_far.path_m) if so_far is not None else 0.0
 
     def whole(self, finished: Finished) -> Finished:
         """Its end, together with what was done before it was paused."""

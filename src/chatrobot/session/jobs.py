@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Finished, Notice, Outcome
+from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import Priority
 from chatrobot.session.approval import Approval
@@ -17,7 +19,7 @@ from chatrobot.session.governed_robot import GovernedRobot
 from chatrobot.session.inbox import Inbox
 from chatrobot.session.intake import Intake
 from chatrobot.session.job import Job
-from chatrobot.session.paused import PausedJob, Pausing
+from chatrobot.session.paused import PausedJob, Pausing, is_foreign, why_not_kept
 from chatrobot.session.planner import Planned, Planner, refused
 from chatrobot.session.program_box import ProgramBox
 from chatrobot.session.program_job import ProgramJob, job_of, needs_approval
@@ -59,6 +61,8 @@ class Jobs:
         self._emit = emit
         self._pausing = pausing
         self._preparing: Job | None = None
+        self.why_unheard: Reason | None = None
+        """See `Motion.why_unheard`."""
 
     @property
     def current(self) -> Job | None:
@@ -160,14 +164,9 @@ class Jobs:
             return
         self._preparing = job = jobs.popleft()
         job.start = self._robot.pose
-
-        seen = self._robot.seen()
-
-        def rehearse() -> Planned:
-            if isinstance(job, ProgramJob):
-                return self._programs.rehearse(job, self._planner)
-            return self._planner.plan(job.turn, job.plan_text, job.start, job.plan_start, seen)
-
+        rehearse: Callable[[], Planned] = self._planning(job, job.plan_text, job.start, job.plan_start)
+        if isinstance(job, ProgramJob):
+            rehearse = partial(self._programs.rehearse, job, self._planner, self._robot.seen())
         self._inbox.fetch(rehearse, lambda planned: self._take_rehearsed(job, planned))
 
     def _is_waiting_for_odometry(self, job: Job, now_s: float) -> bool:
@@ -177,7 +176,7 @@ class Jobs:
         if now_s - job.received_s >= ODOMETRY_WAIT_S:
             self._intake.jobs.popleft()
             topic = self._robot.profile.wiring.odom_topic
-            self._finish(job, "failed", Reason("no_odometry", {"topic": topic}))
+            self._finish(job, "failed", self.why_unheard or Reason("no_odometry", {"topic": topic}))
         return True
 
     def _take_rehearsed(self, job: Job, planned: Planned) -> None:
@@ -221,11 +220,15 @@ class Jobs:
             return
         plan_text, start = stream.take(), stream.walk.end
         if plan_text is not None:
-            text, seen = plan_text, self._robot.seen()
-            self._inbox.fetch(
-                lambda: self._planner.plan(job.turn, text, start, job.plan_start or job.start, seen),
-                lambda planned: self._take_part(job, stream, planned),
-            )
+            rehearse = self._planning(job, plan_text, start, job.plan_start or job.start)
+            self._inbox.fetch(rehearse, lambda planned: self._take_part(job, stream, planned))
+
+    def _planning(
+        self, job: Job, plan_text: str, start: Pose, plan_start: Pose | None
+    ) -> Callable[[], Planned]:
+        """Rehearses that text of the job among what is seen now, for the background."""
+        seen, left = self._robot.seen(), job.left
+        return lambda: self._planner.plan(job.turn, plan_text, start, plan_start, seen, left)
 
     def _take_part(self, job: Job, stream: Stream, planned: Planned) -> None:
         if not self._driver.drives(job):
@@ -246,15 +249,13 @@ class Jobs:
             return  # it waits already
         measure = self._break_off(job, why) if job is not None else None
         if job is None or measure is None:
-            is_program = isinstance(job, ProgramJob)
-            self.end_stopped(Reason("program_not_paused") if is_program else why)
+            self.end_stopped(why_not_kept(job, self._robot) or why)
         else:
             self._pausing.begin(PausedJob(job, measure, now_s))
 
     def _break_off(self, job: Job, why: Reason) -> Callable[[], Finished] | None:
         """What tells how far it has come; None for what nobody could go on with."""
-        is_foreign = self._robot.governor.leases.priority_of(job.lease) <= Priority.FOREIGN
-        if isinstance(job, ProgramJob) or job.rehearse_only or is_foreign:
+        if job.rehearse_only or isinstance(job, ProgramJob) or is_foreign(job, self._robot):
             return None
         if self._preparing is None:
             return self._driver.break_off(why)

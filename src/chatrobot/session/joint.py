@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
 from chatrobot.core.clock import VirtualClock
-from chatrobot.core.events import Event
+from chatrobot.core.events import Event, Notice
 from chatrobot.governor.tick import TICK_S
 from chatrobot.session.envelope import Envelope, Word
 from chatrobot.session.guard_link import SimulatedGuard
@@ -134,10 +134,13 @@ class SimulatedJoint:
         self._advance(TICK_S)
 
     def live(self, duration_s: float) -> None:
-        """Let time pass; what is told meanwhile, nobody hears."""
+        """Let time pass; of what is told meanwhile only notices are kept, for who asks next."""
         until_s = self._clock.now_s() + duration_s
+        notices: list[Event] = []
         while (left_s := until_s - self._clock.now_s()) > TICK_S / 2.0:
-            self.next_event(left_s)
+            event = self.next_event(left_s)
+            notices += [event] if isinstance(event, Notice) else []
+        self._events.extendleft(reversed(notices))
 
     def abandon(self) -> None:
         self.beats = False

@@ -12,6 +12,7 @@ from chatrobot.core.wiring import Wiring
 from chatrobot.session.discovered import fit, is_complete
 from chatrobot.wire.connect import (
     Connect,
+    Endpoint,
     Returning,
     Surveying,
     advertise,
@@ -69,6 +70,13 @@ class PatientWire:
 
     def publishers_of(self, topic: str) -> list[str]:
         return publishers_of(self._wire, topic)
+
+    def survey(self) -> list[Endpoint]:
+        return self._wire.survey() if isinstance(self._wire, Surveying) else []
+
+    def rewire(self, wiring: Wiring) -> None:
+        if isinstance(self._wire, Surveying):
+            self._wire.rewire(wiring)
 
 
 def is_up(wire: Wire) -> bool:

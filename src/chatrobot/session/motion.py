@@ -18,7 +18,7 @@ from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
 from chatrobot.governor.priority import RELEASERS, Priority, priority_of
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.session.budgets import Budgets
+from chatrobot.session.budgets import Budgets, open_loop_notice
 from chatrobot.session.clearance import Clearance
 from chatrobot.session.driver import Driver
 from chatrobot.session.ends import Ends
@@ -87,7 +87,7 @@ class Motion:
             self._governor.leases, lambda lease: self._jobs.is_engaged(lease), self._intake.forget
         )
         self._inbox = Inbox(background)
-        self._ends = ends = Ends(emit)
+        self._ends = ends = Ends(emit, measured=profile.has_odometry)
         stops, inbox = self._stops, self._inbox
         self._driver = Driver(robot, self.clearance, stops, programs, inbox, clock, ends, emit)
         self._pausing = pausing = Pausing(robot, self._intake, self.clearance, stops, clock, ends, emit)
@@ -181,6 +181,9 @@ class Motion:
         wire.subscribe(RELAY_TOPIC, TwistMessage, self._relay.hear)
         wire.subscribe(JOYSTICK_TOPIC, TwistMessage, self._joystick.hear)
         self._guard.handshake()
+        open_loop = open_loop_notice(self._profile)
+        if open_loop is not None:
+            self._notice(open_loop)
 
     @property
     def is_busy(self) -> bool:
@@ -205,6 +208,15 @@ class Motion:
         return self._governor.latched
 
     @property
+    def why_unheard(self) -> Reason | None:
+        """Why no odometry comes, as far as those know who look after the wire; any thread may set it."""
+        return self._jobs.why_unheard
+
+    @why_unheard.setter
+    def why_unheard(self, reason: Reason | None) -> None:
+        self._jobs.why_unheard = reason
+
+    @property
     def has_left(self) -> bool:
         """A source has gone, and all is done."""
         return self._sources.some_have_left and not self.is_busy
@@ -218,8 +230,9 @@ class Motion:
         self._jobs.fail_all(why)
 
     def leave(self) -> None:
-        """Goodbye to the guard; where the robot is out of sight no word is said, so that it goes on sending zeros."""
-        if not self.zeroing.has_lost_sight:
+        """Goodbye to the guard; where the robot is out of sight, and may move, no word is said, so that it goes on
+        sending zeros."""
+        if not (self.zeroing.has_lost_sight and self._robot.may_move):
             self._guard.goodbye()
 
     def tick(self) -> None:
@@ -236,12 +249,17 @@ class Motion:
         while (action := self._inbox.take()) is not None:
             action()
             self._book_stop()
+        now_s = (
+            self._clock.now_s()
+        )  # an action may have launched a motion, whose first velocity is younger than `now_s`
         self._joystick.tick(now_s, self._is_clear)
         self._driver.tick(now_s)
         self._book_stop()
         self._jobs.expire_approval(now_s)
         if not self._driver.is_driving:
             self.zeroing.tick(now_s)
+            if self.zeroing.is_at_rest:
+                self._robot.may_move = False
         if not self.zeroing.is_watched:
             self._ends.tell_all()
         self._pausing.watch(now_s, is_standing=not self.zeroing.is_watched)

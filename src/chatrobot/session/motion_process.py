@@ -1,5 +1,5 @@
 """Motion's process under a console: `python -m chatrobot.session.motion_process --profile … --world … --wire …
---max-distance … --max-time … --fd N`.
+--max-distance … --max-time … --open-loop yes|"" --fd N`.
 
 Envelopes come over an inherited socket, and events go back over it; `MotionRunner` does the rest.
 """
@@ -85,7 +85,12 @@ def main(arguments: list[str]) -> int:
     try:
         budget = MotionBudget(*(read_limit_text(options[name]) for name in ("--max-distance", "--max-time")))
         runner = MotionRunner(
-            options["--wire"], options["--profile"], options["--world"], outbox.put, budget=budget
+            options["--wire"],
+            options["--profile"],
+            options["--world"],
+            outbox.put,
+            budget=budget,
+            open_loop=bool(options["--open-loop"]),
         )
         threading.Thread(target=SocketReader(line, runner).run, name="joint", daemon=True).start()
         line.send(READY)

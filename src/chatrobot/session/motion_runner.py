@@ -30,7 +30,9 @@ from chatrobot.guard.departure import Departure
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import load_profile
+from chatrobot.robots.open_loop import as_chosen
 from chatrobot.robots.profile import RobotProfile
+from chatrobot.session.budgets import open_loop_notice
 from chatrobot.session.envelope import Envelope
 from chatrobot.session.guard_link import GuardProcess
 from chatrobot.session.link import PatientWire, reach
@@ -43,6 +45,7 @@ from chatrobot.session.stop_socket import remove_stop_socket, serve_stop
 from chatrobot.session.stops import PAUSED
 from chatrobot.session.topics import STOP, USER_INPUT
 from chatrobot.sim.load import load_world
+from chatrobot.sim.start import check_known
 from chatrobot.wire.connect import (
     Connect,
     Knowing,
@@ -73,6 +76,7 @@ class MotionRunner:
         on_robot: no network lies between this machine and the base, whatever the address looks like.
         releasers: the sources that may release an emergency stop.
         budget: the motion budget as the command line chose it; what it leaves open the profile chooses.
+        open_loop: drive a robot that has no odometry (`chatrobot.robots.open_loop`).
         connect: how our end of the wire is made; the guard has one of its own, at `address`.
 
     Raises:
@@ -92,12 +96,15 @@ class MotionRunner:
         on_robot: bool = False,
         releasers: Collection[str] = RELEASERS,
         budget: MotionBudget = NOT_CHOSEN,
+        open_loop: bool = False,
         connect: Connect = connect_wire,
     ) -> None:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         prefer(MOTION)
         wake_promptly()
-        given, known_world = load_profile(profile).with_budget(budget), load_world(world)
+        given = as_chosen(load_profile(profile), budget, open_loop=open_loop)
+        known_world = load_world(world)
+        check_known(known_world, given)
         self.wire, self.profile, said = _meet(connect, address, given, node, on_robot=on_robot)
         self._emit = emit
         self._wake = threading.Event()
@@ -118,16 +125,22 @@ class MotionRunner:
             releasers,
             self.programs,
         )
-        self._rivals = Rivals(self.wire, node, self.profile.wiring.cmd_vel_topic)
+        self._rivals = Rivals(
+            self.wire, node, self.profile.wiring.cmd_vel_topic, open_loop_notice(self.profile)
+        )
         self._lookout = Lookout(
             self.wire,
             self._rivals,
             self.motion,
+            self.profile,
             self.notice,
-            blind_mps=self.profile.safety.blind_speed_mps,
             accept_others=accept_others,
         )
-        self._open(said)
+        try:
+            self._open(said)
+        except BaseException:  # Ctrl-C, too: nothing has been driven that a guard would have to halt
+            self._guard.goodbye()
+            raise
 
     def _open(self, said: list[Reason]) -> None:
         """Begin to listen, once the guard is there; what a person should know of the robot is told first."""

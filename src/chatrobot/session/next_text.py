@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from chatrobot.core.reason import Reason
 from chatrobot.session.early import EarlyAnswers
 from chatrobot.session.options import Options
 from chatrobot.session.resuming import Resuming
@@ -59,6 +60,15 @@ class NextText:
         """A pause was said, and Motion has not told yet what came of it."""
         is_moving = self._book.is_any_with_motion or self._thinking.is_moving
         return self._said.is_holding and self._resuming.paused is None and is_moving
+
+    def drop_held(self) -> None:
+        """Drop what waits behind a pause where nothing is paused any more, or something new is done instead."""
+        said, thinking = self._said, self._thinking
+        has_begun = self._book.is_any_with_motion or thinking.is_busy
+        is_moving = self._book.is_any_with_motion or thinking.is_moving
+        is_unbegun = said.is_unbegun_held
+        if said.is_holding and (has_begun if is_unbegun else not is_moving):
+            said.drop_held(Reason("replaced") if is_unbegun else self._resuming.ended_by)
 
     def _overtakes(self, said: Said) -> bool:
         """It needs no model, and the one that is being asked says nothing."""

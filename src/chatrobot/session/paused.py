@@ -13,6 +13,7 @@ from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Finished, Notice, Paused
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
+from chatrobot.governor.priority import Priority
 from chatrobot.session.approval import LAPSES_AFTER_M, LAPSES_AFTER_RAD
 from chatrobot.session.clearance import Clearance
 from chatrobot.session.ends import Ends
@@ -20,6 +21,7 @@ from chatrobot.session.envelope import Envelope
 from chatrobot.session.governed_robot import GovernedRobot
 from chatrobot.session.intake import Intake
 from chatrobot.session.job import Job
+from chatrobot.session.program_job import ProgramJob
 from chatrobot.session.stops import Stops
 
 KEPT_S = 600.0
@@ -90,6 +92,22 @@ class PausedJob:
         """The time since it was paused counts as paused."""
         so_far = self._so_far or self._measure()
         return replace(so_far, paused_s=so_far.paused_s + now_s - self._since_s)
+
+
+def is_foreign(job: Job, robot: GovernedRobot) -> bool:
+    """It came without a sender: nobody could go on with it."""
+    return robot.governor.leases.priority_of(job.lease) <= Priority.FOREIGN
+
+
+def why_not_kept(job: Job | None, robot: GovernedRobot) -> Reason | None:
+    """Why a pause ended that job as a stop does; None where it was nothing to go on with."""
+    if job is None or job.rehearse_only:
+        return None
+    if isinstance(job, ProgramJob):
+        return Reason("program_not_paused")
+    if is_foreign(job, robot):
+        return Reason("foreign_not_paused")
+    return Reason("nothing_to_keep" if robot.sensors.has_odometry else "pause_unmeasured")
 
 
 class Pausing:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -13,17 +13,30 @@ from chatrobot.core.events import Event, FindingSeen, Rehearsed
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.governor.kernel import Kernel, make_kernel
-from chatrobot.plan.known_world import Floats, SeenWorld
+from chatrobot.plan.context import RoutePlanner
+from chatrobot.plan.free_part import ANY_WAY, Most
+from chatrobot.plan.known_world import Floats
 from chatrobot.plan.lowering import CoreWalk
 from chatrobot.plan.rehearsal import Rehearsal, rehearse
 from chatrobot.plan.route import GridRoutePlanner
+from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.session.budgets import Extent
+from chatrobot.session.seen_routes import RoutesAroundSeen
+from chatrobot.session.seen_world import SeenPoints, seen_but_unknown
 from chatrobot.sim.world import World
 
 DRAWN_POINTS = 400
 """The path an event carries is thinned to about this many points: enough for any screen."""
+
+
+@dataclass(frozen=True)
+class Offer:
+    """What can be done of a plan that is refused, rehearsed itself. `limits`: what the motion budget left for it."""
+
+    plan: Plan | None = None
+    limits: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -33,6 +46,7 @@ class Planned:
     turn: int
     rehearsal: Rehearsal | None
     unreadable: Reason | None = None
+    offer: Offer = Offer()
 
     @property
     def ok(self) -> bool:
@@ -43,13 +57,15 @@ class Planned:
         """Why it may not run."""
         if self.rehearsal is None:
             return self.unreadable
-        return self.rehearsal.refusal.reason if self.rehearsal.refusal is not None else None
+        found = self.rehearsal.refusal
+        if found is None:
+            return None
+        return Reason(found.reason.code, {**found.reason.values, **self.offer.limits})
 
     @property
     def possible(self) -> str:
         """Plan text of what can be done of it if it is refused; empty where nothing is worth a question."""
-        possible = self.rehearsal.possible if self.rehearsal is not None else None
-        return format_plan(possible) if possible is not None else ""
+        return format_plan(self.offer.plan) if self.offer.plan is not None else ""
 
     @property
     def duration_s(self) -> float:
@@ -187,26 +203,51 @@ class Planner:
         plan_text: str,
         start: Pose,
         plan_start: Pose | None = None,
-        seen: SeenWorld | None = None,
+        seen: SeenPoints | None = None,
+        left: Most = ANY_WAY,
     ) -> Planned:
         """Read and rehearse `plan_text` from `start` (odom frame). Never raises for what a person or model wrote.
 
         Args:
             plan_start: where the whole began that this is a part of, if it did not begin here.
             seen: what the governor knows by its lidar.
+            left: of the motion budget: what is offered instead of a refused plan drives no more.
         """
         try:
             plan = parse_plan(plan_text)
         except PlanTextError as error:
             return Planned(turn, None, Reason("plan_text", {"problem": str(error)}))
-        rehearsal = rehearse(
-            plan,
-            self._profile,
-            self._world,
-            start,
-            self._kernel,
-            plan_start=plan_start,
-            route_planner=self._routes,
+        rehearsing = partial(
+            rehearse,
+            profile=self._profile,
+            world=self._world,
+            start_pose=start,
+            governor=self._kernel,
+            route_planner=self._routes if seen is None else self._around(seen),
             seen=seen,
         )
-        return Planned(turn, rehearsal)
+        rehearsal = rehearsing(plan, plan_start=plan_start)
+        if rehearsal.possible is None:
+            return Planned(turn, rehearsal)
+        return Planned(turn, rehearsal, offer=_offer(rehearsal.possible, rehearsing, left))
+
+    def _around(self, seen: SeenPoints) -> RoutePlanner | None:
+        """Finds ways around what was seen, too."""
+        unknown = seen_but_unknown(self._world, seen.points)
+        if not len(unknown):
+            return self._routes
+        return RoutesAroundSeen(self._profile, self._world, unknown, self._routes)
+
+
+def _offer(plan: Plan, rehearsing: Callable[..., Rehearsal], left: Most) -> Offer:
+    """The plan, or the part of it that the budget allows; nothing where its own rehearsal refuses it."""
+    whole = rehearsing(plan, most=left)
+    if not whole.ok or left.allows(whole.path):
+        return Offer(plan if whole.ok else None)
+    is_too_far = not Most(left.length_m).allows(whole.path)
+    limits = {"limit_m": round(left.length_m, 2)} if is_too_far else {"limit_s": round(left.driving_s, 1)}
+    part = whole.possible
+    over_s = driving_s(rehearsing(part).path) - left.driving_s if part is not None else 0.0
+    if over_s > 0.0:  # to stop earlier takes time, too
+        part = rehearsing(plan, most=Most(left.length_m, left.driving_s - over_s)).possible
+    return Offer(part, limits)

@@ -24,14 +24,23 @@ class MotionProcess:
     line: socket.socket
 
     @classmethod
-    def start(cls, wire: str, profile: str, world: str, budget: MotionBudget = NOT_CHOSEN) -> MotionProcess:
-        """`budget` is the motion budget as the command line chose it."""
+    def start(
+        cls,
+        wire: str,
+        profile: str,
+        world: str,
+        budget: MotionBudget = NOT_CHOSEN,
+        *,
+        open_loop: bool = False,
+    ) -> MotionProcess:
+        """`budget` is the motion budget as the command line chose it, `open_loop` that it chose open loop."""
         return cls(
             *spawn_with_line(
                 "chatrobot.session.motion_process",
                 *("--profile", profile, "--world", world, "--wire", wire),
                 *("--max-distance", limit_text(budget.max_distance_m)),
                 *("--max-time", limit_text(budget.max_time_s)),
+                *("--open-loop", "yes" if open_loop else ""),
                 kind=socket.SOCK_SEQPACKET,
             )
         )
@@ -47,7 +56,9 @@ class Processes:
     is_taken: bool = False
 
     @classmethod
-    def start(cls, profile: str, world: str, sim: str, budget: MotionBudget) -> Processes:
+    def start(
+        cls, profile: str, world: str, sim: str, budget: MotionBudget, *, open_loop: bool = False
+    ) -> Processes:
         """Both at once: Motion loads while the robot does."""
         wire_path = runtime_dir() / f"sim-{uuid.uuid4().hex[:12]}.wire"
         robot = spawn(
@@ -55,7 +66,8 @@ class Processes:
             *("--socket", str(wire_path), "--profile", profile),
             *("--world", world, "--sim", sim),
         )
-        return cls(wire_path, robot, MotionProcess.start(str(wire_path), profile, world, budget))
+        motion = MotionProcess.start(str(wire_path), profile, world, budget, open_loop=open_loop)
+        return cls(wire_path, robot, motion)
 
     def end(self) -> None:
         """Nobody needs them: nothing has been asked of them, so nothing moves."""

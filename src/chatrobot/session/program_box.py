@@ -11,6 +11,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.session.planner import Planned, Planner
 from chatrobot.session.program_job import ProgramJob
 from chatrobot.session.program_run import LiveProgram
+from chatrobot.session.seen_world import SeenPoints
 from chatrobot.wire.wire import Wire
 
 
@@ -21,8 +22,8 @@ class ProgramBox(Protocol):
         """Hear the robot's sensors, for programs that listen to them."""
         ...
 
-    def rehearse(self, job: ProgramJob, planner: Planner) -> Planned:
-        """Run it on virtual time, in the world that is known, from where the job starts."""
+    def rehearse(self, job: ProgramJob, planner: Planner, seen: SeenPoints | None) -> Planned:
+        """Run it on virtual time, among what is known and what the lidar has seen, from where the job starts."""
         ...
 
     def launch(self, job: ProgramJob) -> LiveProgram | Reason:
@@ -36,7 +37,7 @@ class NoBox:
     def attach(self, wire: Wire) -> None:
         """There is nothing to hear for."""
 
-    def rehearse(self, job: ProgramJob, planner: Planner) -> Planned:  # noqa: ARG002
+    def rehearse(self, job: ProgramJob, planner: Planner, seen: SeenPoints | None) -> Planned:  # noqa: ARG002
         return Planned(job.turn, None, Reason("no_programs_here"))
 
     def launch(self, job: ProgramJob) -> LiveProgram | Reason:  # noqa: ARG002

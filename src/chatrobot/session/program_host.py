@@ -15,6 +15,7 @@ from chatrobot.session.program_job import ProgramJob
 from chatrobot.session.program_rehearsal import rehearse_program
 from chatrobot.session.program_run import LiveProgram
 from chatrobot.session.program_senses import Senses
+from chatrobot.session.seen_world import SeenPoints
 from chatrobot.wire.wire import Wire
 
 
@@ -34,7 +35,7 @@ class ProgramHost:
     def attach(self, wire: Wire) -> None:
         self._senses.attach(wire, self._profile.wiring)
 
-    def rehearse(self, job: ProgramJob, planner: Planner) -> Planned:
+    def rehearse(self, job: ProgramJob, planner: Planner, seen: SeenPoints | None) -> Planned:
         try:
             self._warm()
             rehearsal = rehearse_program(
@@ -46,10 +47,11 @@ class ProgramHost:
                 name=_file_name(job.name),
                 remaps=job.remap,
                 args=job.args,
+                seen=seen,
             )
         except BoxError as error:
             return Planned(job.turn, None, error.reason)
-        return PlannedProgram(job.turn, None, None, rehearsal, job.name, job.strict)
+        return PlannedProgram(job.turn, None, program=rehearsal, name=job.name, strict=job.strict)
 
     def launch(self, job: ProgramJob) -> LiveProgram | Reason:
         settings = ProgramSettings(

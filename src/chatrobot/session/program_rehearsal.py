@@ -17,7 +17,7 @@ from chatrobot.box.limits import BoxLimits
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.plan.findings import Finding, Severity
-from chatrobot.plan.known_world import Floats
+from chatrobot.plan.known_world import Contact, Floats
 from chatrobot.plan.rehearsal import MARGIN_M
 from chatrobot.plan.sweep import area_clearance, first_contact
 from chatrobot.programs.boxed import BoxedProgram, Launcher
@@ -27,6 +27,7 @@ from chatrobot.programs.raised import raised_reason
 from chatrobot.programs.settings import ProgramSettings, robot_topics
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.session.program_stage import ProgramStage, limited_reason
+from chatrobot.session.seen_world import SeenPoints, with_seen
 from chatrobot.sim.world import EMPTY_WORLD, World
 
 HORIZON_S = 60.0
@@ -97,8 +98,12 @@ def rehearse_program(
     remaps: Mapping[str, str] | None = None,
     args: tuple[str, ...] = (),
     wall_limit_s: float = WALL_LIMIT_S,
+    seen: SeenPoints | None = None,
 ) -> ProgramRehearsal:
-    """Rehearse `source` from `start` (odom frame), at most to `horizon_s` of its own time. Raises BoxError."""
+    """Rehearse `source` from `start` (odom frame), at most to `horizon_s` of its own time. Raises BoxError.
+
+    `seen` is what the lidar has seen: the program sees it, too.
+    """
     settings = ProgramSettings(
         source,
         name=name,
@@ -108,7 +113,9 @@ def rehearse_program(
         horizon_s=horizon_s,
     )
     area = world.allowed_area.points if world.allowed_area is not None else None
-    stage = ProgramStage(profile, world, start)
+    stage = ProgramStage(
+        profile, with_seen(world, seen.clear_of(start)) if seen is not None else world, start
+    )
     played = play(BoxedProgram(server, settings, LIMITS), stage, wall_limit_s)
     stage.finish()
     path = np.array(stage.path)
@@ -117,7 +124,7 @@ def rehearse_program(
         *_about_motion(played, stage),
         *_about_topics(played, settings),
     ]
-    findings += _about_the_way(path, profile, world, area)
+    findings += _about_the_way(path, profile, world, area, seen)
     steps = np.diff(path, axis=0)
     long_enough = steps[steps[:, 0] > 1e-3]
     speeds = np.hypot(long_enough[:, 1], long_enough[:, 2]) / long_enough[:, 0]
@@ -196,25 +203,29 @@ def _about_topics(played: Played, settings: ProgramSettings) -> Iterator[Finding
             yield _found("warn", "program_topic_silent", topic=topic)
 
 
-def _about_the_way(path: Floats, profile: RobotProfile, world: World, area: Any) -> Iterator[Finding]:
+def _about_the_way(
+    path: Floats, profile: RobotProfile, world: World, area: Any, seen: SeenPoints | None
+) -> Iterator[Finding]:
+    poses, footprint = path[:, 1:], profile.footprint
     if not world.is_empty:
-        yield from _contact("would_collide", path, profile, world, None)
+        known = first_contact(poses, footprint, world.clearance_m, MARGIN_M)
+        if known is not None:
+            name = world.obstacle_name_at(known.x_m, known.y_m)
+            yield _contact(
+                "would_collide", path, known, margin_m=MARGIN_M, **({"obstacle": name} if name else {})
+            )
+    unknown = seen.first_contact(poses) if seen is not None else None
+    if unknown is not None:
+        yield _contact("would_collide", path, unknown, margin_m=MARGIN_M)
     if area is not None:
-        yield from _contact("leaves_area", path, profile, world, area)
+        left = first_contact(poses, footprint, area_clearance(area), 0.0, core_stays_clear=False)
+        if left is not None:
+            yield _contact("leaves_area", path, left)
 
 
-def _contact(code: str, path: Floats, profile: RobotProfile, world: World, area: Any) -> Iterator[Finding]:
-    solid = area is None
-    clearance = world.clearance_m if solid else area_clearance(area)
-    margin_m = MARGIN_M if solid else 0.0
-    contact = first_contact(path[:, 1:], profile.footprint, clearance, margin_m, core_stays_clear=solid)
-    if contact is None:
-        return
+def _contact(code: str, path: Floats, contact: Contact, **about: float | str) -> Finding:
     row = path[contact.row]
     driven_m = float(np.hypot(*np.diff(path[: contact.row + 1, 1:3], axis=0).T).sum())
-    values: dict[str, float | int | str] = {"distance_m": driven_m, "total_m": driven_m}
-    name = world.obstacle_name_at(contact.x_m, contact.y_m) if solid else ""
-    if name:
-        values["obstacle"] = name
+    values: dict[str, float | int | str] = {"distance_m": driven_m, "total_m": driven_m, **about}
     pose = Pose(*(float(value) for value in row[1:]))
-    yield Finding("refuse", Reason(code, values), t_s=float(row[0]), where=pose)
+    return Finding("refuse", Reason(code, values), t_s=float(row[0]), where=pose)

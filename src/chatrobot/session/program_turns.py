@@ -11,6 +11,7 @@ from chatrobot.core.events import (
     Finished,
     Interpreted,
     ModelCalled,
+    Notice,
     ProgramRehearsed,
     Rehearsed,
     Started,
@@ -70,6 +71,7 @@ class ProgramTurns:
         self._is_void_turn = is_void_turn
         self._turns: dict[int, _Turn] = {}
         self._shown: dict[str, Draft] = {}
+        self._ran: dict[int, Draft] = {}
 
     def begin(self, turn: int, text: str, *, is_asked_for: bool = False, name: str = "") -> bool:
         """Take the turn if it is about a program; `name` is what it is to be called.
@@ -109,8 +111,28 @@ class ProgramTurns:
         self._send(turn, about)
 
     def run_edited(self, turn: int, name: str, source: str) -> None:
-        """Have what a person made of the program of that name rehearsed, and asked about."""
-        self.run(turn, name, self.authoring.edited(self._shown[name], source))
+        """Have what a person made of the program of that name rehearsed, and asked about; what cannot be read leaves
+        it as it was."""
+        before = self._shown[name]
+        draft = self.authoring.edited(before, source)
+        unreadable = draft.checked.refusal
+        if unreadable is not None and before.checked.refusal is None:
+            problem = render_reason(unreadable.reason, self._understanding.language)
+            self._emit(Notice(turn, Reason("edit_unreadable", {"problem": problem})))
+            draft = self.authoring.edited(before, before.program.source)
+        self.run(turn, name, draft)
+
+    def has_run(self, turn: int) -> bool:
+        """A program was started in that turn."""
+        return turn in self._turns and self._turns[turn].has_started
+
+    def run_again(self, turn: int, text: str, of_turn: int) -> None:
+        """Have the program that was run in an earlier turn rehearsed and run once more, as one that is kept."""
+        draft = self._ran[of_turn]
+        kept = self.authoring.library.find(draft.program.name)
+        is_same = kept is not None and kept.source == draft.program.source
+        program = kept if kept is not None and is_same else draft.program
+        self.run(turn, text, replace(draft, program=program, is_new=False, asks=False, diff="", messages=()))
 
     def hear(self, event: Event) -> bool:
         """Take in Motion's event; True where Motion is done with the turn, and we are not."""
@@ -124,6 +146,7 @@ class ProgramTurns:
             self.authoring.note_rehearsal(about.draft, about.rehearsal)
         elif isinstance(event, Started):
             about.has_started = True
+            self._ran[event.turn] = about.draft
         elif isinstance(event, Finished) and about.has_started:
             self.authoring.note_run(about.draft, event)
         elif isinstance(event, Finished):

@@ -37,10 +37,9 @@ class Proposals:
         self._is_void_turn = is_void_turn
         self._offered: _Offered | None = None
 
-    @property
-    def is_open(self) -> bool:
-        """An offer waits for its answer. From any thread."""
-        return self._offered is not None
+    def declines_motion(self, text: str) -> bool:
+        """Whether `text` says no to what moves, and not to an offer. From any thread."""
+        return self._offered is None and read_consent(text) is False
 
     def hear(self, event: Event) -> None:
         """A result may offer a plan; a motion makes an earlier offer void."""

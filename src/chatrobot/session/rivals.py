@@ -7,8 +7,9 @@ import os
 import socket
 import time
 import uuid
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
+from chatrobot.core.reason import Reason
 from chatrobot.session.topics import CONTROL
 from chatrobot.wire.connect import advertise, publishers_of
 from chatrobot.wire.messages import Text
@@ -30,13 +31,21 @@ class Rivals:
     Args:
         node: our own name on the wire.
         topic: where velocities go.
+        open_loop: what a person should know of a robot that is driven open loop; None for any other.
     """
 
-    def __init__(self, wire: Wire, node: str, topic: str) -> None:
+    def __init__(self, wire: Wire, node: str, topic: str, open_loop: Reason | None = None) -> None:
         self._wire = wire
         self._topic = topic
         self._id = uuid.uuid4().hex
-        self._about = {"id": self._id, "node": node, "host": socket.gethostname(), "pid": os.getpid()}
+        self._about: dict[str, Any] = {
+            "id": self._id,
+            "node": node,
+            "host": socket.gethostname(),
+            "pid": os.getpid(),
+        }
+        if open_loop is not None:
+            self._about["open_loop"] = dict(open_loop.values)
         self._hears: dict[str, None] = {}
         self._heard: dict[str, tuple[float, str]] = {}
         advertise(wire, CONTROL, Text)
@@ -75,11 +84,13 @@ class Rivals:
 
 
 class MotionBeat(NamedTuple):
-    """What a Motion says of itself. `hears`: the leases of the sources it has heard."""
+    """What a Motion says of itself. `hears`: the leases of the sources it has heard. `open_loop`: the limits it drives
+    within where it drives open loop, else None."""
 
     id: str
     name: str
     hears: frozenset[str]
+    open_loop: dict[str, float] | None = None
 
 
 def read_beat(text: str) -> MotionBeat | None:
@@ -93,7 +104,14 @@ def read_beat(text: str) -> MotionBeat | None:
     name = f"{data['node']} (process {data['pid']} on {data['host']})"
     hears = data.get("hears")
     leases = frozenset(map(str, hears)) if isinstance(hears, list) else frozenset[str]()
-    return MotionBeat(str(data["id"]), name[:120], leases)
+    return MotionBeat(str(data["id"]), name[:120], leases, _numbers(data.get("open_loop")))
+
+
+def _numbers(values: object) -> dict[str, float] | None:
+    """The numbers by their names, where it is that."""
+    if not isinstance(values, dict):
+        return None
+    return {str(name): float(value) for name, value in values.items() if isinstance(value, (int, float))}
 
 
 def _node(name: str) -> str:

@@ -22,8 +22,8 @@ INSTRUCTIONS: tuple[Kind, ...] = ("text", "plan", "edited_plan", "program", "dra
 
 @dataclass(frozen=True)
 class Said:
-    """One text. `at_s` is when it was said (monotonic), `about` a program that is there, the name of one to be, or
-    what a person made of the source of the one that `text` names."""
+    """One text. `at_s` is when it was said (monotonic), `about` a program that is there, the name of one to be, what a
+    person made of the source of the one that `text` names, or the plan that `text` was made of."""
 
     turn: int
     text: str
@@ -55,7 +55,9 @@ class SaidTexts:
         self._void_turn = self._dropped_turn = 0
         self._hold = self._released = _Hold(0, 0)
         self.stopped_by = Reason("cause_unknown")
-        """Why what was said is void."""
+        """The last stop."""
+        self._dropped_by = Reason("cause_unknown")
+        self._gone_on_turn = 0
 
     def add(self, text: str, kind: Kind, about: Draft | str = "", *, is_moving: bool) -> int:
         """Take in a text; the number of its turn. Where too many wait for a moving robot it is one too many."""
@@ -107,15 +109,25 @@ class SaidTexts:
     def release(self) -> None:
         """What was paused is gone on with: what waits behind it waits its turn again."""
         self._released = self._hold
+        self._gone_on_turn = self._hold.turn
 
-    def drop_held(self) -> None:
-        """What was paused is not gone on with: what waits behind it is not done."""
+    def drop_held(self, why: Reason) -> None:
+        """What was paused is not gone on with, for that reason: what waits behind it is not done."""
         hold = self._hold
+        self._dropped_by = why
         self._dropped_turn, self._released = hold.turn, hold
 
     def is_void_turn(self, turn: int) -> bool:
         """A stop came after that turn was said."""
         return turn <= max(self._void_turn, self._dropped_turn)
+
+    def why_void(self, turn: int) -> Reason:
+        """Why that turn, which is void, is not done."""
+        return self.stopped_by if turn <= self._void_turn else self._dropped_by
+
+    def waited_behind_pause(self, turn: int) -> bool:
+        """That turn was said before a pause that was not gone on with."""
+        return self._gone_on_turn < turn <= self._hold.turn
 
     def is_void(self, said: Said) -> bool:
         """A stop came after it was said; what is no instruction is answered all the same."""

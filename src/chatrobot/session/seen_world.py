@@ -20,17 +20,27 @@ from chatrobot.governor.seen import Seen
 from chatrobot.plan import rehearsal
 from chatrobot.plan.known_world import Contact
 from chatrobot.robots.profile import Lidar, RobotProfile
+from chatrobot.sim.shapes import Circle
+from chatrobot.sim.world import Obstacle, World
 
 APART_M = 0.01
 """Poses of a path that are nearer to each other than this are looked at once."""
+
+APART_IN_WORLD_M = 0.02
+"""As near to each other as obstacles are that stand for seen points."""
 
 CHUNK = 200
 POINT_RADIUS_M = 0.03
 """What was seen is at least so large: the gaps between beams are nothing to drive through."""
 
 
+TOUCHES_M = 0.02
+"""A point that is no farther from the footprint than this may be of what the robot stands at."""
+
+
 class Sight:
     """How much the governor allows where the lidar does not see, by its own rule.
+
 
     Args:
         look: where the lidar looked last; None where it shows nothing, not even that nothing is there.
@@ -65,7 +75,7 @@ class SeenPoints:
         self._sight = sight
         self._footprint = Footprint(profile.footprint)
         self._corners = np.array(profile.footprint)
-        self._points = points
+        self.points = points
 
     def allowed_share(self, twist: Twist, pose: Pose) -> float:
         """How much the governor will allow of a twist at that pose."""
@@ -78,7 +88,7 @@ class SeenPoints:
         sides_m = self._corners @ np.array([-forward[1], forward[0]])
         heading_rad = pose.yaw_rad + direction_rad
         cos, sin = math.cos(heading_rad), math.sin(heading_rad)
-        x, y = self._points[:, 0] - pose.x_m, self._points[:, 1] - pose.y_m
+        x, y = self.points[:, 0] - pose.x_m, self.points[:, 1] - pose.y_m
         ahead_m, side_m = cos * x + sin * y - front_m, cos * y - sin * x
         inside = (side_m > sides_m.min() - POINT_RADIUS_M) & (side_m < sides_m.max() + POINT_RADIUS_M)
         return float(ahead_m[inside & (ahead_m > 0.0)].min(initial=math.inf))
@@ -93,7 +103,7 @@ class SeenPoints:
         most_m = -math.inf
         for begin in range(0, len(rows), CHUNK):
             chunk = rows[begin : begin + CHUNK]
-            near = self._points[self._near(poses[chunk])]
+            near = self.points[self._near(poses[chunk])]
             clearance = self._clearance_m(poses[chunk], near)
             least = clearance.min(axis=1, initial=math.inf)
             most = np.maximum(np.maximum.accumulate(least), most_m)
@@ -104,11 +114,17 @@ class SeenPoints:
                 return Contact(int(chunk[hits[0]]), float(x_m), float(y_m))
         return None
 
+    def clear_of(self, pose: Pose) -> Floats:
+        """The points [n, 2] that a robot at `pose` does not touch."""
+        clearance = self._clearance_m(np.array([pose]), self.points)[0]
+        found: Floats = self.points[clearance > TOUCHES_M]
+        return found
+
     def _near(self, poses: Floats) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
         """The points that the footprint may come near to on these poses."""
         reach_m = self._footprint.radius_m + 2.0 * rehearsal.MARGIN_M
         low, high = poses[:, :2].min(axis=0) - reach_m, poses[:, :2].max(axis=0) + reach_m
-        return np.flatnonzero(((self._points >= low) & (self._points <= high)).all(axis=1))
+        return np.flatnonzero(((self.points >= low) & (self.points <= high)).all(axis=1))
 
     def _clearance_m(self, poses: Floats, points: Floats) -> Floats:
         """[poses, points]: of each point from the footprint at each pose."""
@@ -128,3 +144,18 @@ def _apart(poses: Floats, radius_m: float) -> np.ndarray[tuple[int], np.dtype[np
     moved = np.hypot(*np.diff(poses[:, :2], axis=0).T) + radius_m * np.abs(np.diff(poses[:, 2]))
     square = np.floor(np.append(0.0, np.cumsum(moved)) / APART_M)
     return np.unique(np.append(np.flatnonzero(np.diff(square, prepend=-1.0)), len(poses) - 1))
+
+
+def with_seen(world: World, points: Floats) -> World:
+    """The world with small obstacles where points [n, 2] were seen that it does not know."""
+    unknown = seen_but_unknown(world, points)
+    cells = np.unique(np.rint(unknown / APART_IN_WORLD_M), axis=0) * APART_IN_WORLD_M
+    added = (Obstacle("", Circle(x, y, TOUCHES_M / 2.0)) for x, y in cells.tolist())
+    return replace(world, obstacles=(*world.obstacles, *added)) if len(cells) else world
+
+
+def seen_but_unknown(world: World, points: Floats) -> Floats:
+    """Those of the seen points [n, 2] that are no obstacle of the map."""
+    if world.is_empty or not len(points):
+        return points
+    return points[world.clearance_m(points) >= rehearsal.KNOWN_WITHIN_M]

@@ -7,15 +7,16 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 from chatrobot.core.errors import JointError
-from chatrobot.core.events import Event, Finished, Remembered, Result, Telemetry
+from chatrobot.core.events import Event, Finished, Notice, Paused, Remembered, Result, Telemetry
 from chatrobot.core.reason import Reason
-from chatrobot.language.consent import read_consent
 from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.session.authoring import Authoring
+from chatrobot.session.budgets import OPEN_LOOP
 from chatrobot.session.dispatch import Dispatch
 from chatrobot.session.draft import Draft
 from chatrobot.session.early import EarlyAnswers
@@ -27,7 +28,7 @@ from chatrobot.session.options import Options
 from chatrobot.session.orders import Orders
 from chatrobot.session.program_turns import ProgramTurns
 from chatrobot.session.proposals import Proposals
-from chatrobot.session.replies import offered
+from chatrobot.session.replies import with_offer
 from chatrobot.session.resuming import Resuming
 from chatrobot.session.said import Kind, Said, SaidTexts
 from chatrobot.session.thinking import Mind, Thinking
@@ -82,13 +83,12 @@ class Session:
             self._resuming,
             EarlyAnswers(understanding, self._thinking, self._book, authoring),
         )
-        self._programs = (
-            ProgramTurns(
-                authoring, understanding, self._book, self._orders, self._emit, self._said.is_void_turn
+        self._programs: ProgramTurns | None = None
+        if authoring is not None:
+            is_void = self._said.is_void_turn
+            self._programs = ProgramTurns(
+                authoring, understanding, self._book, self._orders, self._emit, is_void
             )
-            if authoring is not None
-            else None
-        )
         self._dispatch = Dispatch(
             joint,
             self._orders,
@@ -133,16 +133,15 @@ class Session:
         return self._take_in(text, kind)
 
     def _declines_motion(self, text: str) -> bool:
-        """Whether `text` says no to what moves, and not to a question."""
-        return not (self.is_paused or self._proposals.is_open) and read_consent(text) is False
+        return not self.is_paused and self._proposals.declines_motion(text)
 
     def say_plan(self, plan_text: str) -> int:
         """Take in a plan that a person or a program wrote itself; the number of its turn."""
         return self._take_in(plan_text, "plan")
 
-    def say_edited_plan(self, plan_text: str) -> int:
-        """Take in what a person made of a plan that waited for a yes: it is asked about anew, whatever the options."""
-        return self._take_in(plan_text, "edited_plan")
+    def say_edited_plan(self, plan_text: str, instead_of: str = "") -> int:
+        """What a person made of a plan that waited for a yes: it, or `instead_of` if it is none, is asked about."""
+        return self._take_in(plan_text, "edited_plan", instead_of)
 
     def say_program(self, text: str, name: str = "") -> int:
         """Take in what a program is to do, asked for as one; the number of its turn."""
@@ -288,18 +287,12 @@ class Session:
         for said in self._said.take_too_many():
             # Who said one too many hears so now, not when the ten before it are done.
             self._book.conclude(said.turn, "refused", self.understanding.say("queue_full", said.text))
-        self._drop_held()
+        self._next.drop_held()
         while (found := self._find_next()) is not None:
             self._orders.pauses = self._said.pauses
             if (taken := self._said.take(found)) is not None:
                 self._dispatch.take(taken)
-                self._drop_held()
-
-    def _drop_held(self) -> None:
-        """Drop what waits behind a pause where nothing is paused any more, or something new is done instead."""
-        is_new = self._book.is_any_with_motion or self._thinking.is_busy
-        if self._said.is_holding and (is_new if self._said.is_unbegun_held else not self.is_moving):
-            self._said.drop_held()
+                self._next.drop_held()
 
     # --- what Motion and the model tell ---
 
@@ -316,7 +309,9 @@ class Session:
 
     def _conclude_model_turn(self, turn: int, text: str, ended: Ended) -> None:
         reply = self.understanding.note_model_turn(text, ended, self.options.rehearse_only)
-        self._book.conclude(turn, ended.outcome, reply, ended.finished, ended.reason)
+        refused = ended.finished if ended.outcome == "refused" and not self.options.rehearse_only else None
+        reply, proposal = with_offer(reply, refused, self.understanding.language)
+        self._book.conclude(turn, ended.outcome, reply, ended.finished, ended.reason, proposal)
 
     def _hear(self, event: Event) -> None:
         if isinstance(event, Telemetry):
@@ -324,10 +319,17 @@ class Session:
             self.understanding.note_telemetry(event, is_ours=is_ours)
         elif isinstance(event, Remembered):
             self.understanding.note_place(event)
+        elif isinstance(event, Paused) and self._book.has(event.turn):
+            event = replace(event, waiting=self._dispatch.texts_behind(event.turn))
+        elif isinstance(event, Notice) and event.reason.code == OPEN_LOOP:
+            self.understanding.note_open_loop()
         self._emit(event)
         if self._book.has(event.turn) or self._thinking.has(event.turn):
+            was_paused = self.is_plan_paused
             self._resuming.hear(event)
             self._orders.is_paused = self.is_plan_paused
+            if was_paused and not self.is_plan_paused:
+                self._said.drop_held(self._resuming.ended_by)
         if self._programs is not None and self._programs.hear(event):
             return  # the next version of a program is on its way
         self._thinking.hear(event)
@@ -340,11 +342,12 @@ class Session:
         if instruction is None:
             return
         text, meant, _ = instruction
-        reply = self.understanding.note_finished(text, meant, event, self.options.rehearse_only)
-        if self._programs is not None:
-            reply = self._programs.ending(event.turn, reply)
+        programs, rehearse_only = self._programs, self.options.rehearse_only
+        program = event.turn if programs is not None and programs.has_run(event.turn) else 0
+        reply = self.understanding.note_finished(text, meant, event, rehearse_only, program)
+        if programs is not None:
+            reply = programs.ending(event.turn, reply)
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         self._thinking.note(text, plan_text, f"{event.outcome}: {measured(event)}")
-        proposal = offered(event, meant.language) if not self.options.rehearse_only else None
-        reply = f"{reply} {proposal.say}" if proposal is not None else reply
+        reply, proposal = with_offer(reply, event if not rehearse_only else None, meant.language)
         self._book.conclude(event.turn, event.outcome, reply, event, proposal=proposal)

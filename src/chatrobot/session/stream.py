@@ -23,13 +23,14 @@ class Stream:
     """The parts of one turn's plan, and the walk through those that were accepted. Belongs to the control thread.
 
     `is_open` while more may come; `refusal` is why a part was not accepted: those after it are dropped, those before
-    it are still done.
+    it are still done. `possible` is what can be done of that part.
     """
 
     def __init__(self, longest_s: float, account: Account) -> None:
         self.is_open = True
         self._planning: str | None = None
         self.refusal: Reason | None = None
+        self.possible = ""
         self.duration_s = self.length_m = 0.0
         self.certain = Extent()
         self.accepted: tuple[Step, ...] = ()
@@ -92,6 +93,7 @@ class Stream:
         # The first part that is too much is refused; a later one ends what is under way.
         refusal = refusal or (self._account.refusal if self.walk is None else self._account.end)(certain)
         if refusal is not None:
+            self.possible = planned.possible if refusal == planned.refusal else ""
             self.refuse(refusal)
             return refusal
         assert planned.rehearsal is not None

@@ -14,6 +14,7 @@ from chatrobot.core.errors import JointError, WireError
 from chatrobot.core.events import (
     Finished,
     Interpreted,
+    Notice,
     Outcome,
     ProgramWritten,
     Result,
@@ -25,6 +26,7 @@ from chatrobot.core.process import own_identity
 from chatrobot.core.reason import Reason
 from chatrobot.core.scheduling import wake_promptly
 from chatrobot.governor.lease import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S
+from chatrobot.session.budgets import OPEN_LOOP
 from chatrobot.session.envelope import Envelope, Word
 from chatrobot.session.event_queue import EventQueue
 from chatrobot.session.joint import Sender
@@ -124,6 +126,8 @@ class TopicJoint(EventQueue):
         if about is not None:
             with self._control_came:
                 if self._sender.lease in about.hears:
+                    if about.open_loop is not None and about.id not in self._controls:
+                        self._events.put(Notice(0, Reason(OPEN_LOOP, about.open_loop)))
                     self._controls[about.id] = time.monotonic()
                     self._control_came.notify_all()
 
@@ -145,6 +149,8 @@ class TopicJoint(EventQueue):
             return  # whoever wrote that is none of ours
         if isinstance(event, (Interpreted, ProgramWritten, Result)):
             return  # a base's own, ours among them
+        if isinstance(event, Notice) and event.reason.code == OPEN_LOOP:
+            return  # its beats tell, also whoever comes later
         if isinstance(event, Telemetry):
             self._pose = event.pose
         elif isinstance(event, Finished):

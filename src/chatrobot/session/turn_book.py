@@ -29,6 +29,10 @@ class TurnBook:
         """What Motion has, in the order it was said."""
         return tuple(self._with_motion.values())
 
+    def texts_but(self, turn: int) -> tuple[str, ...]:
+        """What Motion has besides that turn, in the order it was said."""
+        return tuple(one.text for number, one in self._with_motion.items() if number != turn)
+
     def has(self, turn: int) -> bool:
         """That turn is with Motion."""
         return turn in self._with_motion
@@ -57,7 +61,9 @@ class TurnBook:
         unkept = understanding.places.take_unkept()
         if unkept:
             self._emit(Notice(turn, Reason("places_not_kept", {"why": unkept})))
-        result = Result(turn, outcome, reply, pose, reason=reason, proposal=proposal)
+        result = Result(
+            turn, outcome, reply, pose, reason=reason, proposal=proposal, measured=understanding.is_measured
+        )
         if finished is not None:
             result = Result(
                 turn,
@@ -70,6 +76,7 @@ class TurnBook:
                 finished.paused_s,
                 reason or finished.reason,
                 proposal,
+                finished.measured,
             )
         self.results[turn] = result
         self._emit(result)

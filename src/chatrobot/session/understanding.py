@@ -11,12 +11,13 @@ from typing import TYPE_CHECKING, NamedTuple
 from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Finished, Outcome, Remembered, Telemetry
 from chatrobot.core.geometry import ZERO_TWIST, Pose
+from chatrobot.core.reason import Reason
 from chatrobot.language.context import Context, Dialogue, RobotState
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.interpreter import OfflineInterpreter
-from chatrobot.language.ledger import TurnRecord
+from chatrobot.language.ledger import Entry, TurnRecord
 from chatrobot.language.normalise import has_chinese
-from chatrobot.language.phrases import describe_steps, say
+from chatrobot.language.phrases import describe_steps, render_reason, say
 from chatrobot.plan.steps import Plan, Step
 from chatrobot.plan.text import parse_plan
 from chatrobot.robots.profile import RobotProfile
@@ -54,7 +55,7 @@ class Understanding:
     def __init__(self, profile: RobotProfile, world: World, folder: Path | None) -> None:
         self._interpreter = OfflineInterpreter(profile)
         self._dialogue = Dialogue()
-        self._state = RobotState(has_said_so=False)
+        self._state = RobotState(has_said_so=False, is_measured=profile.has_odometry)
         self._world_places = {alias: world.places[main] for alias, main in world.aliases.items()}
         self._main_places = dict(world.places)
         self._names = tuple(world.names_of(name) for name in world.places)
@@ -107,7 +108,8 @@ class Understanding:
         meant = self._interpreter.interpret(text, self._context(dialogue))
         self.language = meant.language
         if meant.remember_place and not self.hears_robot:  # nobody knows which place this is
-            meant = Interpretation("refused", say(self.language, UNHEARD), self.language)
+            code = UNHEARD if self.is_measured else "answer_unmeasured"
+            meant = Interpretation("refused", say(self.language, code), self.language)
         return meant
 
     def _context(self, dialogue: Dialogue) -> Context:
@@ -125,6 +127,15 @@ class Understanding:
         return [*((name,) for name in own), *(names for names in self._names if names[0] not in own)]
 
     @property
+    def is_measured(self) -> bool:
+        """The robot has odometry, as far as is known."""
+        return self._state.is_measured
+
+    def note_open_loop(self) -> None:
+        """Motion has said that it drives without odometry, whatever our profile says."""
+        self._state = replace(self._state, is_measured=False)
+
+    @property
     def hears_robot(self) -> bool:
         """Whether the robot has said where it is."""
         return self._started
@@ -132,6 +143,24 @@ class Understanding:
     def misses_robot(self, meant: Interpretation) -> bool:
         """What was said cannot be answered before the robot has said where it is."""
         return not self.hears_robot and meant.reply == say(meant.language, UNHEARD)
+
+    def tells_it_stands(self, meant: Interpretation) -> bool:
+        """The answer is that the robot stands and is ready."""
+        return meant.reply == say(meant.language, "answer_standing")
+
+    @property
+    def last_done(self) -> Step | None:
+        """The last step of the last turn that moved."""
+        done = (turn.way for turn in reversed(self._dialogue.turns) if turn.moved)
+        way = next(done, None)
+        return way[-1] if way else None
+
+    def undone_programs(self, meant: Interpretation) -> Entry | None:
+        """The entry of the ledger that `meant` does again, where it was undone whole and programs are in it."""
+        if meant.walk is None or meant.walk.kind != "redo":
+            return None
+        entry = self._dialogue.ledger.redoes()
+        return entry if entry is not None and entry.programs and not entry.back else None
 
     def accept(self, plan: Plan) -> Interpretation:
         """A plan as it is: there is nothing to understand."""
@@ -141,6 +170,11 @@ class Understanding:
         """A phrase in the language of `text`, what the person said."""
         self.hear_language(text)
         return say(self.language, code, text=text[:80], **values)
+
+    def say_because(self, code: str, text: str, why: Reason) -> str:
+        """A phrase in the language of `text` that gives a reason."""
+        self.hear_language(text)
+        return say(self.language, code, text=text[:80], reason=render_reason(why, self.language))
 
     def hear_language(self, text: str) -> None:
         """Answer in the language of `text`, where it has one."""
@@ -176,14 +210,16 @@ class Understanding:
         pending = text if meant.outcome == "unclear" else ""
         self._dialogue = replace(self._dialogue, pending=pending)
 
-    def note_finished(self, text: str, meant: Interpretation, finished: Finished, rehearse_only: bool) -> str:
-        """A plan's turn has ended: remember it as it really went. Returns the reply."""
+    def note_finished(
+        self, text: str, meant: Interpretation, finished: Finished, rehearse_only: bool, program: int = 0
+    ) -> str:
+        """A plan's turn, or that of a program, has ended: remember it as it really went. Returns the reply."""
         if finished.outcome == "completed":
             self._learn(meant)
         self._state = replace(self._state, pose=finished.pose, twist=ZERO_TWIST, moving=False)
         outcome: Outcome = finished.outcome
         plan = meant.plan if outcome in ("completed", "stopped", "failed") and not rehearse_only else None
-        self._record_measured(TurnRecord(text, outcome, plan, walk=meant.walk), finished)
+        self._record_measured(TurnRecord(text, outcome, plan, walk=meant.walk, program=program), finished)
         self._dialogue = replace(self._dialogue, pending="")
         if rehearse_only and outcome == "completed":
             return say(meant.language, "only_rehearsed")

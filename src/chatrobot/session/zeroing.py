@@ -59,6 +59,11 @@ class Zeroing:
         """A robot that was told to stand is in sight, and not seen standing yet: what it measures still changes."""
         return self.is_active and self.disobeyed is None and self.sight != "unseen"
 
+    @property
+    def is_at_rest(self) -> bool:
+        """It is seen standing, and nobody has told it to stand since."""
+        return not self.is_active and self.sight == "standing"
+
     def begin(self, now_s: float) -> None:
         self._since_s = now_s
         self._was_out_of_sight = False

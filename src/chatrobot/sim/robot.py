@@ -225,7 +225,7 @@ class SimRobot:
     def _measure(self) -> None:
         stamp_s = self._start_s + self._ticks * TICK_S
         odometry = self._odometry.read(stamp_s, stamp_s - self._start_s)
-        if odometry is not None:
+        if odometry is not None and self._wiring.odom_topic:
             self._send(self._wiring.odom_topic, odometry)
         if self._wiring.imu_topic:
             # The mean over the tick, as the chip's low-pass filter gives it: summed up it is the angle

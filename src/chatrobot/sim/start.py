@@ -1,16 +1,30 @@
-"""Whether a simulated robot can stand where its run begins. Plain Python: every start of the console asks it."""
+"""Whether a robot can be where its run begins. Plain Python: every start of the console asks it."""
 
 from __future__ import annotations
 
 import math
 
-from chatrobot.core.errors import WorldError
+from chatrobot.core.errors import UsageError, WorldError
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.shapes import Circle, Point, Polygon, Shape
 from chatrobot.sim.world import World
 
 SPACING_M = 0.02
 """Of the points of the outline that are looked at; no obstacle is a bar as thin as this."""
+
+
+def check_known(world: World, profile: RobotProfile) -> None:
+    """Refuse a world for a robot that is driven open loop: where in it the robot is, nobody knows.
+
+    Raises:
+        UsageError: it is driven open loop, and the world is not empty.
+    """
+    if profile.open_loop and not (world.is_empty and world.allowed_area is None):
+        raise UsageError(
+            "without odometry nobody knows where in it the robot is",
+            where=f"world {world.name}",
+            allowed="empty",
+        )
 
 
 def check_start(world: World, profile: RobotProfile, where: str) -> None:

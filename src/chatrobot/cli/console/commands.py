@@ -64,7 +64,7 @@ def nearest(word: str) -> str:
 def _unknown(talk: Talk, word: str) -> None:
     near = nearest(word)
     if near:
-        talk.tell("did_you_mean", command=f"/{word}", nearest=f"/{near}")
+        talk.tell("nearest_command", command=f"/{word}", nearest=f"/{near}")
     else:
         talk.face.print(
             Text("  ").append(talk.words.say("no_such_command", command=f"/{word}")).append(" ")
@@ -138,6 +138,9 @@ def _program(talk: Talk, argument: str) -> None:
 
 
 def _map(talk: Talk, argument: str) -> None:
+    if not talk.ride.is_measured:  # nobody knows where on it the robot is
+        talk.tell("not_measured")
+        return
     if argument.casefold() in ("big", "大"):
         talk.face.print(big_map(talk.ride, talk.connection.world, talk.face.width))
         return

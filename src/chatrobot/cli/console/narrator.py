@@ -30,10 +30,11 @@ from chatrobot.core.events import (
 )
 from chatrobot.core.geometry import Twist
 from chatrobot.core.shown import fixed
-from chatrobot.language.phrases import describe_text, render_reason, say
+from chatrobot.language.phrases import render_reason, say
 from chatrobot.plan.folded import folded_plan
 from chatrobot.plan.shown import shown_plan
 from chatrobot.session.program_text import body, headline
+from chatrobot.session.replies import describe_left
 
 PLAN_LINES = 16
 """A longer plan is shown in part; `/plan` shows it whole."""
@@ -47,7 +48,7 @@ _MARKS: dict[Outcome, tuple[str, str]] = {
     "failed": ("✗", "bold red"),
 }
 _FINDINGS = {"refuse": ("✗", "red"), "warn": ("!", "yellow"), "note": ("·", "dim")}
-_LEAST_M, _LEAST_RAD = 0.005, math.radians(0.5)
+_LEAST_MPS = 0.005
 
 
 class Narrator:
@@ -176,9 +177,7 @@ class Narrator:
 
     def _paused(self, event: Paused) -> Iterator[RenderableType]:
         language = self._words.language
-        yield marked(
-            "‖", "yellow", say(language, "paused_now", plan=describe_text(event.plan_text, language))
-        )
+        yield marked("‖", "yellow", say(language, "paused_now", plan=describe_left(event, language)))
 
     def _notice(self, event: Notice) -> Iterator[RenderableType]:
         yield marked("!", "yellow", event.text or render_reason(event.reason, self._words.language))
@@ -189,7 +188,7 @@ class Narrator:
         mark, style = _MARKS[event.outcome]
         asks = f" {say(self._words.language, 'yes_or_no')}" if event.proposal is not None else ""
         yield marked(mark, style, f"{event.reply}{asks}")
-        if event.path_m > _LEAST_M or abs(event.turned_rad) > _LEAST_RAD:
+        if event.has_moved:
             measured = self._words.say(
                 "measured", pose=self._words.pose(event.pose), duration=f"{event.duration_s:.1f}"
             )
@@ -197,7 +196,7 @@ class Narrator:
 
     def _twist(self, twist: Twist) -> str:
         parts = []
-        if twist.speed_mps >= _LEAST_M:
+        if twist.speed_mps >= _LEAST_MPS:
             parts.append(self._words.say("speed", speed=f"{twist.speed_mps:.2f}"))
         rate = fixed(math.degrees(twist.wz_radps), 0)
         if float(rate):

@@ -10,6 +10,7 @@ from chatrobot.core.events import (
     Event,
     Finished,
     Interpreted,
+    Notice,
     Paused,
     ProgramWritten,
     Progress,
@@ -19,6 +20,7 @@ from chatrobot.core.events import (
     Telemetry,
 )
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
+from chatrobot.session.budgets import OPEN_LOOP
 
 XY = tuple[float, float]
 TRAIL_SPACING_M = 0.03
@@ -28,11 +30,12 @@ TRAIL_LIMIT = 2000
 @dataclass
 class Ride:
     """`path` is the predicted way of the last plan, `trail` what was driven of it, in `odom`; `program` the last
-    one written, where no plan came after it."""
+    one written, where no plan came after it. `is_measured`: not so, nobody knows pose and velocity."""
 
     pose: Pose = ORIGIN
     twist: Twist = ZERO_TWIST
     is_moving: bool = False
+    is_paused: bool = False
     step: int = 0
     of: int = 0
     fraction: float | None = 0.0
@@ -44,6 +47,7 @@ class Ride:
     program: ProgramWritten | None = None
     rehearsed: Rehearsed | None = None
     turn: int = 0
+    is_measured: bool = True
     _streamed: int = 0
 
     def hear(self, event: Event) -> None:
@@ -67,14 +71,18 @@ class Ride:
             self.path = (*self.path, *path) if goes_on else path
         elif isinstance(event, Started):
             self.turn, self.is_moving, self.step, self.of = event.turn, True, 0, 0
+            self.is_paused = False
             self.fraction = None if self.rehearsed is not None and self.rehearsed.open_ended else 0.0
             self.pose, self.trail = event.pose, ((event.pose.x_m, event.pose.y_m),)
         elif isinstance(event, Paused):
             self.pose = event.pose
             if event.turn == self.turn:
                 self.is_moving, self.twist = False, ZERO_TWIST
+            self.is_paused = True
         elif isinstance(event, Finished):
             self._finish(event)
+        elif isinstance(event, Notice) and event.reason.code == OPEN_LOOP:
+            self.is_measured = False
 
     def _grow(self, event: Streamed) -> None:
         """A plan that comes in step by step."""
@@ -90,5 +98,6 @@ class Ride:
     def _finish(self, event: Finished) -> None:
         self.pose = event.pose
         if event.turn == self.turn:
+            self.is_paused = False
             self._follow(event.pose)
             self.is_moving, self.twist = False, ZERO_TWIST

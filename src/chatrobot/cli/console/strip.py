@@ -59,7 +59,7 @@ class Strip:
             return [("class:strip.alarm", f" {self._words.say('latched')} ")]
         if not self._ride.is_moving:
             return self._standing(width, thinking_s)
-        has_map = self.shows_map and width >= LEAST_WIDTH
+        has_map = self.shows_map and self._ride.is_measured and width >= LEAST_WIDTH
         room = width - MAP_COLUMNS - 2 if has_map else width
         lines = [_cut(line, room) for line in self._words_beside(room, thinking_s)]
         if has_map:
@@ -70,8 +70,11 @@ class Strip:
         return joined
 
     def _standing(self, width: int, thinking_s: float | None) -> Fragments:
-        state = self._thinking(thinking_s) or self._words.say("standing")
-        words = f" {state} · {self._words.pose(self._ride.pose)}"
+        is_measured, state = self._ride.is_measured, self._thinking(thinking_s)
+        if not state and (is_measured or self._ride.is_paused):
+            state = self._words.say("paused" if self._ride.is_paused else "standing")
+        where = self._words.pose(self._ride.pose) if is_measured else self._words.say("not_measured")
+        words = f" {state} · {where}" if state else f" {where}"
         hints = self._words.say("strip_idle").split("  ")
         while hints and cell_len(f"{words}   {'  '.join(hints)}") > width:
             hints.pop()
@@ -86,6 +89,8 @@ class Strip:
             say("at_pose", pose=self._words.pose(ride.pose)),
             say("speed", speed=f"{ride.twist.speed_mps:.2f}"),
         ]
+        if not ride.is_measured:
+            facts = [say("not_measured")]
         if abs(ride.twist.wz_radps) > math.radians(1.0):
             facts.append(say("rate", rate=f"{math.degrees(ride.twist.wz_radps):+.0f}"))
         more = [say("nearest", distance=f"{ride.nearest_m:.2f}")] if ride.nearest_m is not None else []

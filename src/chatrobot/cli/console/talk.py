@@ -30,6 +30,7 @@ from chatrobot.cli.console.pump import Pump
 from chatrobot.cli.console.ride import Ride
 from chatrobot.cli.console.strip import Strip
 from chatrobot.cli.console.words import Words
+from chatrobot.cli.edited import Edited
 from chatrobot.cli.lines import texts_in
 from chatrobot.compose import Connection
 from chatrobot.core.clock import Clock
@@ -37,7 +38,7 @@ from chatrobot.core.errors import JointError
 from chatrobot.core.events import Event, Interpreted, Notice, Result, Started, Telemetry
 from chatrobot.language.consent import read_consent, wants_to_edit
 from chatrobot.programs.check import MAX_SOURCE_CHARS
-from chatrobot.reflex import is_emergency_stop, is_stop, leads_with_stop
+from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.session.parting import is_parting
 from chatrobot.session.question import Question
 
@@ -73,11 +74,13 @@ class Talk:
         self._release_is_due = False
         self._clock = clock
         self._question = Question()
+        self._edited = Edited()
         self._pasted = Pasted()
         self._muted: set[int] = set()
         self._leaving = False
         self._interrupted_s = float("-inf")
         self._said_stopped = False
+        self._pauses_again = False
         self._order = threading.Lock()  # a line is printed before what it brings about
 
     # --- what a person does ---
@@ -141,23 +144,24 @@ class Talk:
 
     def take_edited(self, edited: str) -> None:
         """The plan or the program that `Face.edit` was asked for."""
-        program = self.ride.program
-        text = edited.rstrip() if program is not None else clean(edited).strip()
-        if len(edited) > (LONGEST_CHARS if program is None else MAX_SOURCE_CHARS):
-            self.tell("line_too_long", limit=LONGEST_CHARS)
-        elif text and program is None:
-            self.say_plan(text, self.words.say("edited"), is_edited=True)
-        elif text and program is not None:
-            with self._order:
-                self.attempt(lambda: self.session.say_source(program.program, f"{text}\n"))
-                self._echo(self.words.say("edited"))
+        is_program = self._edited.is_program
+        text = f"{edited.rstrip()}\n" if is_program else clean(edited).strip()
+        limit = MAX_SOURCE_CHARS if is_program else LONGEST_CHARS
+        if len(edited) > limit:
+            self.tell("line_too_long", limit=limit)
+        elif text.strip():
+            self._say_as_one(lambda: self._edited.say(self.session, text), self.words.say("edited"))
+        else:
+            self.tell("edited_away")
 
-    def say_plan(self, plan_text: str, shown: str = "", *, is_edited: bool = False) -> None:
+    def say_plan(self, plan_text: str, shown: str = "") -> None:
         """Have a plan driven that is there as text; `shown` is what its line looks like, if it has not been shown."""
-        say = self.session.say_edited_plan if is_edited else self.session.say_plan
+        self._say_as_one(lambda: self.session.say_plan(plan_text), shown)
+
+    def _say_as_one(self, say: Callable[[], object], shown: str) -> None:
         with self._order:
             undone = self._pasted.drop()
-            self.attempt(lambda: say(plan_text))
+            self.attempt(say)
             if shown:
                 self._echo(shown)
         self._tell_undone(undone)
@@ -206,6 +210,7 @@ class Talk:
     def _say(self, text: str) -> None:
         """What was typed takes the place of all that runs and waits."""
         self.words.follow(text)
+        self._pauses_again = is_pause(text) and self.session.is_plan_paused
         if self._is_stop(
             text
         ):  # it waits for no lock: the other thread may hang in a terminal that was halted
@@ -247,8 +252,7 @@ class Talk:
         self._echo(text)
         if edits:
             self._muted.add(turn)
-            program = self.ride.program
-            self.face.edit(program.source if program is not None else self.ride.plan_text)
+            self.face.edit(self._edited.begin(self.ride.plan_text, self.ride.program))
         self.attempt(lambda: self._question.answer(self.session, yes is True))
         return True
 
@@ -264,6 +268,7 @@ class Talk:
     def hear(self, event: Event) -> None:
         """Take an event in and show it."""
         self.ride.hear(event)
+        self._edited.hear(event)
         if isinstance(event, Notice) and event.reason.code == "released":
             self._hear_release(str(event.reason.values.get("source")))
         with self._order:
@@ -277,11 +282,12 @@ class Talk:
                 isinstance(event, Interpreted)
                 and event.by == "reflex"
                 and (self.ride.is_moving or self._said_stopped or self.session.is_plan_paused)
+                and not self._pauses_again
             ):
                 self._muted.add(event.turn)  # what was moving says how it ended
             if isinstance(event, Result):
                 self._said_stopped = event.outcome == "stopped"
-            if lines and event.turn not in self._muted:
+            if lines and not self._is_muted(event):
                 self.face.print(*lines)
         if isinstance(event, Result):
             self._go_on_after(event)
@@ -294,6 +300,10 @@ class Talk:
             self.ride.is_moving or not isinstance(event, Telemetry)
         ):
             self.face.refresh()
+
+    def _is_muted(self, event: Event) -> bool:
+        """It only tells what is told otherwise; what a plan drove before it was edited is told."""
+        return event.turn in self._muted and not (isinstance(event, Result) and event.has_moved)
 
     def _hear_release(self, by: str) -> None:
         """No alarm goes by a release that was asked for before it was raised."""

@@ -31,6 +31,7 @@ class Face(Step):
 class FacePrimitive(Primitive[Face]):
     kind = verb = "face"
     step_type = Face
+    needs_pose = True
     usage = "face ANGLE [from start] [at RATE]"
     help = "Turn the short way to a heading of the map, or ('from start') of where this plan began."
     examples = ("face 90 deg", "face 0 deg from start")

@@ -52,6 +52,7 @@ class Go(Step):
 class GoPrimitive(Primitive[Go]):
     kind = verb = "go"
     step_type = Go
+    needs_pose = True
     usage = 'go to X Y [from start] [facing ANGLE] [named "PLACE"] [at SPEED]'
     help = "Go to a point of the map (metres), or ('from start') counted from where this plan began, around obstacles."
     examples = ("go to 1.2 -0.4", "go to 0 0 from start facing 0 deg", 'go to 3 1 named "kitchen"')

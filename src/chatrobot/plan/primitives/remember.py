@@ -30,6 +30,7 @@ class Remember(Step):
 class RememberPrimitive(Primitive[Remember]):
     kind = verb = "remember"
     step_type = Remember
+    needs_pose = True
     usage = 'remember "PLACE"'
     help = "Remember where the robot stands now under a name."
     examples = ('remember "dock"',)

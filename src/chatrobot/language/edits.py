@@ -1,0 +1,288 @@
+"""`Once more, but leave out the last turn`: the last motion read as a change of what was done, and changed.
+
+An utterance is an edit if all of it is: what it keeps of the motion before, and what it changes. Anything that names a
+motion of its own makes it none, and the clause reader has it.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from chatrobot.language.context import Dialogue
+from chatrobot.language.frames import DIRECTIONS, GO, SIDES, TURN
+from chatrobot.language.inverse import inverse
+from chatrobot.language.meant import is_correction
+from chatrobot.language.tokens import Atom
+from chatrobot.language.unclear import Unclear
+from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
+
+_IDLE = frozenset({"filler", "glue", "sep", "reason"})
+_POINTING = frozenset({"again", "same_amount", "more", "both", "do_this"})
+_CHANGING = frozenset(
+    {"other_way", "leave_out", "swapped", "complete", "amounts", "overshot", "instead", "all", "first"}
+)
+_KINDS: dict[str, type[Step]] = {
+    **dict.fromkeys(GO, Drive),
+    "slide": Drive,
+    **dict.fromkeys(TURN, Turn),
+    "curve": Arc,
+}
+_SCALES, _SIZES = ("scale", "fold"), ("length", "angle", "turns", "time", "speed", "rate")
+_TAKERS: dict[str, tuple[type[Step], ...]] = {
+    "length": (Drive,), "angle": (Turn,), "turns": (Turn,), "time": (Drive, Turn, Wait),
+    "radius": (Arc,), "speed": (Drive, Arc), "rate": (Turn,),
+}  # fmt: skip
+"""What a new amount may be for."""
+_OF_ONE = frozenset({"length", "angle", "turns", "time"})
+"""Amounts that are for one step, where nothing tells that they are of each."""
+
+
+@dataclass
+class Edit:
+    """What is said of the motion before. `instead` is what stood in place of the amount before it."""
+
+    flags: set[str] = field(default_factory=set)
+    kinds: list[type[Step]] = field(default_factory=list)
+    amounts: list[Atom] = field(default_factory=list)
+    instead: Atom | None = None
+    roles: set[str] = field(default_factory=set)
+    way: str = ""
+    nth: int = 0
+    slides: bool = False
+
+    def amount(self, *names: str) -> Atom | None:
+        return next((atom for atom in self.amounts if atom.value in names), None)
+
+
+def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
+    """The steps of the last motion as they are to be now; None where `atoms` change none, or not for sure.
+
+    Raises:
+        Unclear: where two readings are as likely.
+    """
+    last = dialogue.last_motion
+    if last is None or last.plan is None or is_correction(last):
+        return None
+    edit = _read(atoms)
+    return _applied(edit, list(last.plan.steps)) if edit is not None else None
+
+
+def _read(atoms: Sequence[Atom]) -> Edit | None:
+    edit, denied = Edit(), False
+    for i, atom in enumerate(atoms):
+        if atom.kind in _IDLE or (atom.kind == "pace" and any(a.value == "speed" for a in atoms)):
+            continue
+        if atom.kind == "negation" and edit.amounts and edit.instead is None:
+            denied = True
+        elif atom.kind == "flag" and atom.value in _POINTING | _CHANGING:
+            edit.flags.add(atom.value)
+        elif atom.kind == "q" and denied:
+            edit.instead, denied = atom, False
+        elif atom.kind == "q" and (
+            atom.value in (*_SCALES, *_SIZES) or (atom.value == "number" and _is_told(atoms))
+        ):
+            edit.amounts.append(atom)
+        elif atom.kind == "verb" and atom.value in _KINDS:
+            edit.kinds.append(_KINDS[atom.value])
+            edit.slides |= atom.value == "slide"
+        elif atom.kind in ("dir", "rot") and edit.way in ("", atom.value):
+            edit.way = atom.value
+        elif atom.kind == "role" or (atom.kind == "counter" and atom.value == "side"):
+            edit.roles.add(atom.value)
+        elif atom.kind == "nth":
+            edit.nth = int(atom.value)
+        elif not (atom.kind == "conn" and (i == 0 or "first" in edit.flags)) and atom.value != "make":
+            return None
+    return None if denied else edit
+
+
+def _is_told(atoms: Sequence[Atom]) -> bool:
+    """Whether a bare number may be the one that is to stand for another, or belong to `the two distances`."""
+    return any(atom.kind == "negation" or atom.value == "amounts" for atom in atoms)
+
+
+def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
+    flags, scale = edit.flags, edit.amount(*_SCALES)
+    if "complete" in flags:
+        return _rest_of_shape(steps, edit.nth)
+    if "leave_out" in flags:
+        return _without(steps, edit)
+    if "swapped" in flags:
+        return _swapped(steps)
+    if "first" in flags:
+        return _reordered(steps, edit)
+    points_back = edit.way == "back" and (scale is not None or edit.slides)
+    if flags & {"same_amount", "overshot"} or points_back:
+        return _one_way(edit, steps, scale)
+    if edit.instead is not None and "again" in flags:
+        return _replaced(steps, edit.amounts[0], edit.instead)
+    if scale is not None and "amounts" in flags:
+        return [_scaled(step, scale.number) for step in steps]
+    if "again" not in flags or flags - {"again", "instead", "all"} or scale is not None:
+        return None
+    if edit.way in SIDES and len(steps) > 1:
+        return _mirrored(steps, edit.way == "left") if not edit.amounts else None
+    return resized(steps, edit) if edit.amounts and not edit.way else None
+
+
+def _one_way(edit: Edit, steps: list[Step], scale: Atom | None) -> list[Step] | None:
+    """`The same distance in the opposite direction`, `half of that distance back`, `too much, slide back 25 cm`."""
+    step, size = steps[-1], edit.amount("length", "angle")
+    if not isinstance(step, (Drive, Turn)) or any(kind is not type(step) for kind in edit.kinds):
+        return None
+    if len(edit.amounts) > 1 or (len(steps) > 1 and len({type(step) for step in steps}) == 1):
+        return None
+    if edit.way not in ("", "back") or (edit.slides and not _is_sideways(step)):
+        return None
+    if "other_way" in edit.flags or edit.way == "back" or "overshot" in edit.flags:
+        [step] = inverse([step])
+    if "overshot" in edit.flags or edit.slides:
+        return [_with_value(step, size.number)] if size is not None and _takes(step, size) else None
+    return [_scaled(step, scale.number if scale is not None else 1.0)] if size is None else None
+
+
+def _is_sideways(step: Step) -> bool:
+    return isinstance(step, Drive) and step.direction_rad not in (DIRECTIONS["forward"], DIRECTIONS["back"])
+
+
+def _reordered(steps: list[Step], edit: Edit) -> list[Step] | None:
+    """`Now turn first and then drive`: the same steps in the order in which they are named now."""
+    kinds = [type(step) for step in steps]
+    alike = len(set(kinds)) == len(kinds) and set(kinds) == set(edit.kinds) and len(edit.kinds) == len(kinds)
+    plain = not (edit.amounts or edit.way or edit.roles)
+    return [steps[kinds.index(kind)] for kind in edit.kinds] if alike and plain else None
+
+
+def _scaled(step: Step, factor: float) -> Step:
+    if isinstance(step, Drive):
+        seconds = step.duration_s * factor if step.duration_s else None
+        length = step.distance_m * factor if step.distance_m else None
+        return dataclasses.replace(step, distance_m=length, duration_s=seconds)
+    if isinstance(step, Turn):
+        seconds = step.duration_s * factor if step.duration_s else None
+        angle = step.angle_rad * factor if step.angle_rad else None
+        return dataclasses.replace(step, angle_rad=angle, duration_s=seconds)
+    return dataclasses.replace(step, radius_m=step.radius_m * factor) if isinstance(step, Arc) else step
+
+
+def _takes(step: Step, size: Atom) -> bool:
+    return isinstance(step, Drive if size.value == "length" else Turn)
+
+
+def resized(steps: list[Step], edit: Edit) -> list[Step] | None:
+    """`Again with radius 1 m`, `the same but 50 cm sides`, `again, at 0.6 m/s`: where all that take it are alike."""
+    out = list(steps)
+    for size in edit.amounts:
+        role = "radius" if {"radius", "diameter"} & edit.roles else size.value
+        number = size.number / 2 if "diameter" in edit.roles else size.number
+        taken = [i for i, step in enumerate(out) if isinstance(step, _TAKERS[role])]
+        alike = role in ("speed", "rate") or len({_size(out[i]) for i in taken}) == 1
+        if not taken or not alike or (len(taken) > 1 and role in _OF_ONE and not edit.roles):
+            return None
+        for i in taken:
+            out[i] = _changed_to(out[i], role, number)
+    return out
+
+
+def _size(step: Step) -> float:
+    named = (getattr(step, name, None) for name in ("radius_m", "distance_m", "angle_rad", "duration_s"))
+    return round(next((value for value in named if value), 0.0), 6)
+
+
+def _changed_to(step: Step, role: str, number: float) -> Step:
+    if role == "speed" and isinstance(step, (Drive, Arc)):
+        return dataclasses.replace(step, speed_mps=number)
+    if role == "rate" and isinstance(step, Turn):
+        return dataclasses.replace(step, rate_radps=number)
+    if role == "time" and isinstance(step, Drive):
+        return dataclasses.replace(step, duration_s=number, distance_m=None)
+    if role == "time" and isinstance(step, Turn):
+        return dataclasses.replace(step, duration_s=number, angle_rad=None)
+    if role == "radius" and isinstance(step, Arc):
+        return dataclasses.replace(step, radius_m=number)
+    return Wait(number) if isinstance(step, Wait) else _with_value(step, number)
+
+
+def _replaced(steps: list[Step], new: Atom, old: Atom) -> list[Step] | None:
+    """`Once more with 90 instead of 45`: wherever that amount was."""
+    out, taken = list(steps), 0
+    for i, step in enumerate(steps):
+        turn = isinstance(step, Turn)
+        value = (
+            step.angle_rad if isinstance(step, Turn) else step.distance_m if isinstance(step, Drive) else None
+        )
+        unit = math.radians(1.0) if turn and old.value == "number" else 1.0
+        if (
+            value is not None
+            and abs(value - old.number * unit) < 1e-6
+            and (old.value == "number" or _takes(step, old))
+        ):
+            out[i] = _with_value(step, new.number * (unit if new.value == "number" else 1.0))
+            taken += 1
+    kinds = {type(new_step) for new_step, step in zip(out, steps) if new_step is not step}
+    return out if taken and len(kinds) == 1 else None
+
+
+def _without(steps: list[Step], edit: Edit) -> list[Step] | None:
+    """`Leave out the last turn`, `without the second step`."""
+    kind = edit.kinds[0] if edit.kinds else None
+    at = [i for i, step in enumerate(steps) if kind is None or isinstance(step, kind)]
+    n = edit.nth - 1 if edit.nth > 0 else len(at) - 1
+    if edit.nth == 0 or not 0 <= n < len(at) or edit.amounts or len(edit.kinds) > 1 or len(steps) < 2:
+        return None
+    return [*steps[: at[n]], *steps[at[n] + 1 :]]
+
+
+def _swapped(steps: list[Step]) -> list[Step] | None:
+    """The two distances, or the two angles, one for the other."""
+    for kind, name in ((Drive, "distance_m"), (Turn, "angle_rad")):
+        at = [i for i, step in enumerate(steps) if isinstance(step, kind) and getattr(step, name)]
+        if len(at) == 2:
+            out, (one, two) = list(steps), at
+            out[one] = _with_value(steps[one], getattr(steps[two], name))
+            out[two] = _with_value(steps[two], getattr(steps[one], name))
+            return out
+    return None
+
+
+def _with_value(step: Step, value: float) -> Step:
+    """The step over that distance, or by that angle."""
+    if isinstance(step, Drive):
+        return dataclasses.replace(step, distance_m=value, duration_s=None)
+    return dataclasses.replace(step, angle_rad=value, duration_s=None) if isinstance(step, Turn) else step
+
+
+def _mirrored(steps: list[Step], left: bool) -> list[Step] | None:
+    """`The same, but turning right`: where all that turned to one side now turn to the other."""
+    turning = [step for step in steps if isinstance(step, (Turn, Arc))]
+    if len({step.left for step in turning}) > 1:
+        raise Unclear("nothing_before")  # they went to both sides: which is meant?
+    if not turning:
+        return None
+    flip = turning[0].left != left
+    return [_flipped(step) for step in steps] if flip else list(steps)
+
+
+def _flipped(step: Step) -> Step:
+    if isinstance(step, (Turn, Arc)):
+        return dataclasses.replace(step, left=not step.left)
+    if isinstance(step, Drive) and _is_sideways(step):
+        return dataclasses.replace(step, direction_rad=-step.direction_rad)
+    return step
+
+
+def _rest_of_shape(steps: list[Step], sides: int) -> list[Step] | None:
+    """What is missing to a whole circle, or to a polygon of equal sides and turns; `sides` if it was named by them."""
+    last = steps[-1]
+    if len(steps) == 1 and isinstance(last, Arc) and not sides:
+        left = 2 * math.pi - last.angle_rad
+        return [dataclasses.replace(last, angle_rad=left)] if left > 1e-3 else None
+    side, turn = steps[:2] if len(steps) > 1 else (None, None)
+    if not isinstance(side, Drive) or not isinstance(turn, Turn) or not turn.angle_rad:
+        return None
+    whole = [side, turn] * (sides or round(2 * math.pi / turn.angle_rad))
+    fits = abs(len(whole) / 2 * turn.angle_rad - 2 * math.pi) < 1e-6 and whole[: len(steps)] == steps
+    return whole[len(steps) :] or None if fits else None

@@ -1,0 +1,81 @@
+"""What changes the motion before: an amount, a side, a step left out, two swapped, the rest of a shape."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.language.test_likeliest import done
+
+SQUARE = "drive {0} m\nturn {1} 90 deg\n" * 4
+
+
+def square(side: str, way: str = "left") -> str:
+    return SQUARE.format(side, way).strip()
+
+
+@pytest.mark.parametrize(
+    ("turns", "plan"),
+    [
+        (["forward 2 m, left 30", "once more with 60 instead of 30"], "drive 2 m\nturn left 60 deg"),
+        (
+            ["forward 30 cm, left 40 degrees", "again, with all the amounts doubled"],
+            "drive 0.6 m\nturn left 80 deg",
+        ),
+        (["forward 1 m, left 90, back 1 m", "the same without the last step"], "drive 1 m\nturn left 90 deg"),
+        (["前进一米，左转90度，后退半米", "再来一遍，去掉第二步"], "drive 1 m\ndrive 0.5 m back"),
+        (["back 40 cm", "the same distance again"], "drive 0.4 m back"),
+        (["slide left 50 cm", "the same distance in the opposite direction"], "drive 0.5 m right"),
+        (["左转60度", "反方向转同样的角度"], "turn right 60 deg"),
+        (["slide to the right 2 m", "go half of that distance back"], "drive 1 m left"),
+        (["slide right 1 m", "slide back 20 cm"], "drive 0.2 m left"),
+        (["向左平移一米", "多了,移回三十公分"], "drive 0.3 m right"),
+        (["draw a square of 1 m turning left", "same again, but turning right"], square("1", "right")),
+        (["draw a square of 1 m", "the same but with sides of 2 m"], square("2")),
+        (["走一个边长一米的正方形", "再来一次，边长半米"], square("0.5")),
+        (["curve left 90 degrees, radius 1 m", "again with radius 2 m"], "arc left 90 deg radius 2 m"),
+        (["forward 2 m at 0.3 m/s", "again but faster, 0.5 m/s"], "drive 2 m at 0.5 m/s"),
+        (["half a circle to the right, radius 1 m", "now finish the circle"], "arc right 180 deg radius 1 m"),
+        (["向左走半圆，半径一米", "把圆走完"], "arc left 180 deg radius 1 m"),
+        (
+            ["forward 1 m, left 90, forward 1 m", "finish the square"],
+            "turn left 90 deg\n" + "drive 1 m\nturn left 90 deg\n" * 2,
+        ),
+        (["forward 2 m, slide left 1 m", "now with the two distances swapped"], "drive 1 m\ndrive 2 m left"),
+        (["drive 1 m and turn left 90", "now turn first and then drive"], "turn left 90 deg\ndrive 1 m"),
+        (["右移一米", "回到刚才的位置"], "drive 1 m left"),
+        (["forward 2 m", "undo that movement"], "drive 2 m back"),
+    ],
+)
+def test_the_motion_before_is_changed_as_said(turns: list[str], plan: str) -> None:
+    assert done(*turns) == plan.strip()
+
+
+@pytest.mark.parametrize(
+    "turns",
+    [
+        ["forward 1 m, left 90, forward 2 m", "again with 3 m"],  # which of them?
+        ["left 90, right 90", "again but turning left"],  # turned both ways
+        ["forward 1 m", "without the second step"],
+        ["forward 1 m, left 45", "finish the square"],
+        ["forward 1 m", "once more with 90 instead of 45"],
+    ],
+)
+def test_a_change_that_fits_nothing_or_several_is_asked_about(turns: list[str]) -> None:
+    assert done(*turns) in ("unclear", "answered")
+
+
+@pytest.mark.parametrize(
+    ("turns", "plan"),
+    [
+        (["go forward 2"], "drive 2 m"),
+        (["turn left 20"], "turn left 20 deg"),
+        (["后退1"], "drive 1 m back"),
+        (["forward 50 cm", "back 20"], "drive 0.2 m back"),
+        (["drive 50"], "unclear: drive 0.5 m"),
+        (["forward 5"], "unclear: drive 5 m"),
+        (["前进半"], "unclear"),
+        (["turn left 2"], "unclear"),
+    ],
+)
+def test_a_bare_number_has_the_unit_that_makes_sense_or_is_proposed(turns: list[str], plan: str) -> None:
+    assert done(*turns) == plan
