@@ -16,6 +16,7 @@ from chatrobot.plan.split import Parts, split
 from chatrobot.plan.steps import Drive, ObstacleWithin, Plan, Turn
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.robots.load import load_profile
+from chatrobot.robots.open_loop import driven_open_loop
 from chatrobot.sim.shapes import rectangle
 
 PLANS = [
@@ -121,5 +122,5 @@ def test_a_condition_that_came_true_leaves_the_distance_that_was_driven() -> Non
 
 def test_without_odometry_nothing_is_told() -> None:
     profile = load_profile("wheeltec_mini_mec")
-    blind = replace(profile, wiring=replace(profile.wiring, odom_topic=None))
+    blind = driven_open_loop(replace(profile, wiring=replace(profile.wiring, odom_topic=None)))
     assert Rig(blind).run(parse_plan("drive 1 m")).reached is None
