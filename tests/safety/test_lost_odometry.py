@@ -14,6 +14,7 @@ from chatrobot.programs.events import ProgramEvent, TwistAsked
 from chatrobot.robots.profile import Circle, RobotProfile
 from chatrobot.session.planner import Planned, Planner
 from chatrobot.session.program_job import ProgramJob
+from chatrobot.session.seen_world import SeenPoints
 from chatrobot.wire.messages import TwistMessage
 from tests.session.far_robot import Rig
 
@@ -37,7 +38,7 @@ class Box:
     def attach(self, wire: Any) -> None:
         pass
 
-    def rehearse(self, job: ProgramJob, planner: Planner) -> Planned:
+    def rehearse(self, job: ProgramJob, planner: Planner, seen: SeenPoints | None) -> Planned:  # noqa: ARG002
         return planner.plan(job.turn, "drive 0.5 m", job.start)
 
     def launch(self, job: ProgramJob) -> Drives:  # noqa: ARG002 - the protocol's

@@ -151,10 +151,15 @@ def test_a_pause_of_a_robot_that_measures_nothing_says_that_it_was_stopped() -> 
     from tests.session.undo_rig import UndoRig
 
     from chatrobot.robots.load import load_profile
+    from chatrobot.robots.open_loop import driven_open_loop
 
     profile = load_profile("wheeltec_mini_mec")
-    blind = replace(
-        profile, wiring=replace(profile.wiring, odom_topic=""), safety=replace(profile.safety, requires=())
+    blind = driven_open_loop(
+        replace(
+            profile,
+            wiring=replace(profile.wiring, odom_topic=""),
+            safety=replace(profile.safety, requires=()),
+        )
     )
     rig = UndoRig(profile=blind)
     rig.session.say("forward 1 m")

@@ -16,6 +16,12 @@ MOST = 1e9
 NONE = "none"
 """How no limit is written: on the command line, in profiles and in envelopes."""
 
+OPEN_LOOP = "open_loop"
+"""The code of the notice that a robot is driven open loop."""
+
+EXCEEDED = frozenset({"over_max_distance", "over_max_time", "over_open_loop_time"})
+"""The refusals of what is known to exceed its budget."""
+
 
 @dataclass(frozen=True)
 class MotionBudget:

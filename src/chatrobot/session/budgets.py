@@ -13,19 +13,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from chatrobot.core.geometry import ZERO_TWIST, Twist
-from chatrobot.core.motion_budget import MotionBudget, read_limit
+from chatrobot.core.motion_budget import OPEN_LOOP, MotionBudget, read_limit
 from chatrobot.core.reason import Reason
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.priority import RELEASERS, Priority, priority_of
 from chatrobot.governor.tick import TICK_S
 from chatrobot.plan.free_part import Most
 from chatrobot.robots.profile import Limits, RobotProfile
-
-OPEN_LOOP = "open_loop"
-"""The code of the notice that a robot is driven open loop."""
-
-EXCEEDED = frozenset({"over_max_distance", "over_max_time", "over_open_loop_time"})
-"""The refusals of what is known to exceed its budget."""
 
 REACHED = frozenset(
     {"max_distance_reached", "max_time_reached", "open_loop_time_reached", "endless_program_stopped"}

@@ -21,12 +21,12 @@ from chatrobot.core.events import (
     Outcome,
     Rehearsed,
 )
+from chatrobot.core.motion_budget import EXCEEDED
 from chatrobot.core.reason import Reason
 from chatrobot.models.seam import Message, Model
 from chatrobot.plan.base import Step
 from chatrobot.plan.primitives.say import Say
 from chatrobot.plan.text import format_step
-from chatrobot.session.budgets import EXCEEDED
 from chatrobot.session.model_call import CallEnd
 from chatrobot.session.model_look import ModelLook
 from chatrobot.session.model_round import ModelRound

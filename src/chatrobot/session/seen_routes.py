@@ -34,10 +34,11 @@ class _Field:
         low, high = points.min(axis=0) - 2.0 * ENOUGH_M, points.max(axis=0) + 2.0 * ENOUGH_M
         cell_m = max(CELL_M, math.sqrt(float(np.prod(high - low)) / MOST_CELLS))
         nx, ny = (math.ceil(extent_m / cell_m) + 1 for extent_m in (high - low).tolist())
-        reach = math.ceil(ENOUGH_M / cell_m)
-        around = cell_m * np.arange(-reach, reach + 1)
         # A seen point, and a place that is asked about, are each at most half a cell's diagonal from their cells.
-        disc = np.hypot(around[:, None], around[None, :]) - math.sqrt(2.0) * cell_m - POINT_RADIUS_M
+        less_m = math.sqrt(2.0) * cell_m + POINT_RADIUS_M
+        reach = math.ceil((ENOUGH_M + less_m) / cell_m)
+        around = cell_m * np.arange(-reach, reach + 1)
+        disc = np.hypot(around[:, None], around[None, :]) - less_m
         field = np.full((ny, nx), ENOUGH_M)
         cells = np.unique(np.rint((points - low) / cell_m).astype(np.intp), axis=0)
         for j, i in cells.tolist():

@@ -12,11 +12,11 @@ from typing import Any
 
 from chatrobot.core.errors import JointError
 from chatrobot.core.events import Event, Finished, Notice, Paused, Remembered, Result, Telemetry
+from chatrobot.core.motion_budget import OPEN_LOOP
 from chatrobot.core.reason import Reason
 from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.session.authoring import Authoring
-from chatrobot.session.budgets import OPEN_LOOP
 from chatrobot.session.dispatch import Dispatch
 from chatrobot.session.draft import Draft
 from chatrobot.session.early import EarlyAnswers

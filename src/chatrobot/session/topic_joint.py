@@ -22,11 +22,11 @@ from chatrobot.core.events import (
     event_from_json,
 )
 from chatrobot.core.geometry import ORIGIN, Pose
+from chatrobot.core.motion_budget import OPEN_LOOP
 from chatrobot.core.process import own_identity
 from chatrobot.core.reason import Reason
 from chatrobot.core.scheduling import wake_promptly
 from chatrobot.governor.lease import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S
-from chatrobot.session.budgets import OPEN_LOOP
 from chatrobot.session.envelope import Envelope, Word
 from chatrobot.session.event_queue import EventQueue
 from chatrobot.session.joint import Sender
