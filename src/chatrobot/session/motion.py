@@ -181,8 +181,7 @@ class Motion:
         wire.subscribe(RELAY_TOPIC, TwistMessage, self._relay.hear)
         wire.subscribe(JOYSTICK_TOPIC, TwistMessage, self._joystick.hear)
         self._guard.handshake()
-        open_loop = open_loop_notice(self._profile)
-        if open_loop is not None:
+        if (open_loop := open_loop_notice(self._profile)) is not None:
             self._notice(open_loop)
 
     @property
@@ -249,9 +248,7 @@ class Motion:
         while (action := self._inbox.take()) is not None:
             action()
             self._book_stop()
-        now_s = (
-            self._clock.now_s()
-        )  # an action may have launched a motion, whose first velocity is younger than `now_s`
+        now_s = self._clock.now_s()  # an action may have sent the first velocity of a motion meanwhile
         self._joystick.tick(now_s, self._is_clear)
         self._driver.tick(now_s)
         self._book_stop()
@@ -265,9 +262,7 @@ class Motion:
         self._pausing.watch(now_s, is_standing=not self.zeroing.is_watched)
         self._relay.tick(now_s, self._is_free)
         self._begin_next(now_s)
-        self._freeze.beat(
-            self._clock.now_s()
-        )  # after the velocity: it wakes the guard, which may take this processor
+        self._freeze.beat(self._clock.now_s())  # last: it wakes the guard, which may take this processor
         self._telling.tick(now_s)
 
     def _book_stop(self) -> None:
@@ -348,9 +343,7 @@ class Motion:
         who = {"source": envelope.source}
         released = self._governor.release(envelope.source)
         newer = self._emergency
-        if (
-            newer is not None and newer is not emergency
-        ):  # it came in between, and may have seen the old one set
+        if newer is not None and newer is not emergency:  # it came in between, and may have seen the old one
             self._governor.latch(newer.source, str(newer.payload.get("why", "")))
         elif not released:
             self._emit(Notice(envelope.turn, Reason("release_refused", who)))

@@ -309,8 +309,10 @@ class Session:
 
     def _conclude_model_turn(self, turn: int, text: str, ended: Ended) -> None:
         reply = self.understanding.note_model_turn(text, ended, self.options.rehearse_only)
-        refused = ended.finished if ended.outcome == "refused" and not self.options.rehearse_only else None
-        reply, proposal = with_offer(reply, refused, self.understanding.language)
+        is_refused = ended.outcome == "refused" and not self.options.rehearse_only
+        reply, proposal = with_offer(
+            reply, ended.finished if is_refused else None, self.understanding.language
+        )
         self._book.conclude(turn, ended.outcome, reply, ended.finished, ended.reason, proposal)
 
     def _hear(self, event: Event) -> None:
@@ -341,8 +343,7 @@ class Session:
         instruction = self._book.take(event.turn)
         if instruction is None:
             return
-        text, meant, _ = instruction
-        programs, rehearse_only = self._programs, self.options.rehearse_only
+        (text, meant, _), programs, rehearse_only = instruction, self._programs, self.options.rehearse_only
         program = event.turn if programs is not None and programs.has_run(event.turn) else 0
         reply = self.understanding.note_finished(text, meant, event, rehearse_only, program)
         if programs is not None:
