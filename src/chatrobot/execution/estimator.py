@@ -7,7 +7,6 @@ measured while the robot is at rest. So distances come from the wheels and headi
 from __future__ import annotations
 
 import math
-from collections import deque
 from dataclasses import dataclass
 
 from chatrobot.core.geometry import Pose, Twist, wrap_angle
@@ -48,7 +47,7 @@ class Estimate:
 class PoseEstimator:
     """Fuses odometry and gyro, corrected as a person measured.
 
-    Feed it messages as they come; read `estimate`, `fault`, `wheel_yaw_rad`.
+    Feed it messages as they come, on one thread; on any, read `pose_at`, `estimate`, `fault`, `wheel_yaw_rad`.
     """
 
     def __init__(self, limits: Limits, calibration: Calibration = Calibration()) -> None:  # noqa: B008
@@ -59,7 +58,8 @@ class PoseEstimator:
         self._heading = Heading(self._turn_scale)
         self._turned_rad = 0.0
         self.estimate: Estimate | None = None
-        self._history: deque[Estimate] = deque(maxlen=HISTORY)
+        self._history: tuple[Estimate, ...] = ()
+        """Made anew with each sample: it is read on another thread than the one that hears odometry."""
         self.wheel_yaw_rad = 0.0
         """Total turn by the wheels alone: where it parts from the gyro's, wheels slip."""
         self.fault: Reason | None = None
@@ -69,10 +69,11 @@ class PoseEstimator:
 
     def pose_at(self, stamp_s: float) -> Pose | None:
         """Where the robot was at `stamp_s`, to one odometry sample; None before the first."""
-        for estimate in reversed(self._history):
+        history = self._history
+        for estimate in reversed(history):
             if estimate.stamp_s <= stamp_s:
                 return estimate.pose
-        return self._history[0].pose if self._history else None
+        return history[0].pose if history else None
 
     def on_imu(self, message: Imu) -> None:
         """A gyro sample; it counts with the next odometry."""
@@ -119,7 +120,7 @@ class PoseEstimator:
         self.rest.see(message)
         self._turn(message)
         self.estimate = Estimate(message.stamp_s, Pose(*message[1:4]), Twist(*message[4:7]), 0.0)
-        self._history.append(self.estimate)
+        self._history = (*self._history[1 - HISTORY :], self.estimate)
 
     def _turn(self, message: Odometry) -> float:
         """How much it has turned since the message before."""
@@ -147,7 +148,7 @@ class PoseEstimator:
             Twist(scale * message.vx_mps, scale * message.vy_mps, rate),
             before.path_m + scale * math.hypot(step.x_m, step.y_m),
         )
-        self._history.append(self.estimate)
+        self._history = (*self._history[1 - HISTORY :], self.estimate)
 
 
 def _off_course(step: Pose, before: Twist, limits: Limits, gap_s: float) -> tuple[float, float]:

@@ -100,7 +100,7 @@ class SaidTexts:
     @property
     def held(self) -> tuple[Said, ...]:
         """What waits behind the pause, oldest first."""
-        return tuple(said for said in self._texts if self.is_held(said) and not self.is_void(said))
+        return tuple(said for said in self.waiting if self.is_held(said) and not self.is_void(said))
 
     def is_held(self, said: Said) -> bool:
         """It waits behind what is paused."""
