@@ -29,6 +29,7 @@ TALK = [
     "were you going to turn left just now?", "why did you go forward?", "tomorrow we drive a square",
     "she told me to go back two metres", "if it rains, go home", "don't turn left", "kids, take two steps back",
     "back in a minute", "a square has four sides", "you went 20 centimetres too far", "I always turn left there",
+    "right, that was good", "right, you did well", "right, so that's how it works",
     "刚才走得不错", "正方形有四条边", "他昨天往前开了三米", "你会不会原地转圈", "如果我说前进你会怎么样",
     "明天再往前走两米", "老师说等会儿再前进", "不用再往左转了", "我左转的时候摔了一跤", "两米有多远啊",
 ]  # fmt: skip

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from chatrobot.language.data_files import DATA
+from chatrobot.language.data_files import DATA, LANGUAGES, load_table
 from chatrobot.language.signs import Clause, Names, Sign, clauses_of, is_strong
 
 SLOTS = 1 << 16
@@ -51,8 +51,21 @@ def read_acts(text: str, names: Names = ()) -> list[Read]:
 
 def order_log_odds(reads: Sequence[Read]) -> float:
     """The odds that any clause orders something; only those with a word of motion are asked, if there are any."""
-    moving = [read.log_odds for read in reads if read.clause.moves] or [read.log_odds for read in reads]
+    meant = reads[1:] if _begins_talk(reads) else reads
+    moving = [read.log_odds for read in meant if read.clause.moves] or [read.log_odds for read in meant]
     return max(moving, default=-60.0)
+
+
+def _begins_talk(reads: Sequence[Read]) -> bool:
+    """`right, that was good`: a word of motion that only agrees, because nothing but talk comes after it."""
+    if len(reads) < 2 or any(read.clause.moves for read in reads[1:]) or not reads[1].clause.talks:
+        return False
+    return tuple(sign.text for sign in reads[0].clause.signs) in _agreeing()
+
+
+@lru_cache(maxsize=1)
+def _agreeing() -> frozenset[tuple[str, ...]]:
+    return frozenset((word,) for code in LANGUAGES for word in load_table(code, "agreeing").get("words", ()))
 
 
 def orders(text: str, names: Names = ()) -> bool:
