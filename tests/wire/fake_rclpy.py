@@ -209,6 +209,7 @@ class Node:
     def get_logger(self) -> Any:
         name = f"{self.namespace}/{self.name}".strip("/").replace("/", ".")
         return SimpleNamespace(
+            name=name,
             info=lambda text: self.ros.log.append(("info", name, text)),
             warning=lambda text: self.ros.log.append(("warn", name, text)),
             error=lambda text: self.ros.log.append(("error", name, text)),
@@ -301,6 +302,8 @@ class SingleThreadedExecutor:
 def _read_arguments(context: Context, arguments: list[str]) -> None:
     words = iter(arguments[arguments.index("--ros-args") + 1 :])
     for word in words:
+        if word == "--disable-stdout-logs":
+            continue
         left, separator, right = next(words, "").partition(":=")
         if word not in ("-p", "-r") or not separator:
             raise RCLError(f"Couldn't parse arguments: {word}")

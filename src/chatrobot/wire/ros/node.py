@@ -7,6 +7,7 @@ end it stops the robot first, and then calls `close`.
 from __future__ import annotations
 
 import contextlib
+import sys
 import threading
 import time
 from collections.abc import Sequence
@@ -21,6 +22,9 @@ from rclpy.signals import SignalHandlerOptions
 from chatrobot.core.errors import UsageError, WireError
 
 JOIN_S = 5.0
+
+_NOT_TO_THE_TERMINAL = "--disable-stdout-logs"
+"""rclpy's logger publishes on /rosout and writes its file; `RosNode.log` writes to the terminal."""
 
 
 class RosNode:
@@ -46,7 +50,7 @@ class RosNode:
         domain_id: int | None = None,
     ) -> None:
         self.context = Context()
-        arguments = ["chatrobot", "--ros-args", *ros_args] if ros_args else None
+        arguments = ["chatrobot", "--ros-args", _NOT_TO_THE_TERMINAL, *ros_args]
         try:
             rclpy.init(
                 args=arguments,
@@ -97,8 +101,17 @@ class RosNode:
         return True
 
     def log(self, severity: str, text: str) -> None:
-        """Into ROS's log: `severity` is info, warn or error."""
+        """Into ROS's log, and on standard error as ROS writes it there: `severity` is info, warn or error.
+
+        Blocks its thread, and no other, where the terminal is held up (Ctrl-S) or nobody reads the pipe: rclpy itself
+        would write with Python's lock held, and with it stop the whole process.
+        """
         logger = self.handle.get_logger()
+        stamp = self.handle.get_clock().now().nanoseconds
+        seconds, nanoseconds = divmod(stamp, 1_000_000_000)
+        with contextlib.suppress(OSError):
+            line = f"[{severity.upper()}] [{seconds}.{nanoseconds:09d}] [{logger.name}]: {text}"
+            print(line, file=sys.stderr, flush=True)
         if severity == "info":  # on lines of their own: rclpy keeps one severity for each line that calls it
             logger.info(text)
         elif severity == "warn":
