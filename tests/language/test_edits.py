@@ -44,6 +44,22 @@ def square(side: str, way: str = "left") -> str:
         (["drive 1 m and turn left 90", "now turn first and then drive"], "turn left 90 deg\ndrive 1 m"),
         (["右移一米", "回到刚才的位置"], "drive 1 m left"),
         (["forward 2 m", "undo that movement"], "drive 2 m back"),
+        (["draw a square of 1 m", "three times as big"], square("3")),
+        (["draw a square of 1 m", "half the size"], square("0.5")),
+        (["走一个边长一米的正方形", "大一倍"], square("2")),
+        (["turn right 40 degrees, then back 2 m", "half of that"], "turn right 40 deg\ndrive 1 m back"),
+        (["forward 1 m, right 20 degrees", "twice the angle"], "drive 1 m\nturn right 40 deg"),
+        (["turn right 40 degrees", "twice as far"], "turn right 80 deg"),
+        (["back 1 m, turn right 30 degrees", "once more, mirrored"], "drive 1 m back\nturn left 30 deg"),
+        (["forward 2 m, slide right 40 cm", "mirror that"], "drive 2 m\ndrive 0.4 m left"),
+        (["draw a square of 1 m", "mirror image"], square("1", "right")),
+        (["前进两米，右转30度", "镜像"], "drive 2 m\nturn left 30 deg"),
+        (["forward 1 m, left 45", "mirrored to the right"], "drive 1 m\nturn right 45 deg"),
+        (["back 2 m", "again but 30 cm further"], "drive 2.3 m back"),
+        (["back 2 m", "the same but go 30 cm further"], "drive 2.3 m back"),
+        (["turn right 40 degrees", "the same but 5 degrees more"], "turn right 45 deg"),
+        (["后退一米", "再来一次，多30厘米"], "drive 1.3 m back"),
+        (["back 2 m", "30 cm further"], "drive 0.3 m back"),
     ],
 )
 def test_the_motion_before_is_changed_as_said(turns: list[str], plan: str) -> None:
@@ -56,6 +72,13 @@ def test_the_motion_before_is_changed_as_said(turns: list[str], plan: str) -> No
         ["forward 1 m, left 90, forward 2 m", "again with 3 m"],  # which of them?
         ["left 90, right 90", "again but turning left"],  # turned both ways
         ["forward 1 m", "without the second step"],
+        ["forward 1 m", "mirror that"],  # nothing was to a side
+        ["forward 1 m, left 45", "mirrored to the left"],
+        ["forward 1 m, left 45", "turn half of that"],
+        ["forward 1 m, left 90, forward 2 m", "the same but 20 cm further"],
+        ["forward 1 m", "again, another 20 cm"],
+        ["forward 1 m, left 30, then the same mirrored"],
+        ["forward 1 m, then draw a triangle and do that twice"],  # the triangle, or all of it?
         ["forward 1 m, left 45", "finish the square"],
         ["forward 1 m", "once more with 90 instead of 45"],
     ],
@@ -79,3 +102,16 @@ def test_a_change_that_fits_nothing_or_several_is_asked_about(turns: list[str]) 
 )
 def test_a_bare_number_has_the_unit_that_makes_sense_or_is_proposed(turns: list[str], plan: str) -> None:
     assert done(*turns) == plan
+
+
+@pytest.mark.parametrize(
+    ("whole", "once", "count"),
+    [
+        ("draw a square, then a pentagon and do all that three times", "draw a square, then a pentagon", 3),
+        ("back 1 m, then draw a triangle and do all of it twice", "back 1 m, then draw a triangle", 2),
+        ("先走一个正方形，再走一个三角形，全部做两遍", "先走一个正方形，再走一个三角形", 2),
+        ("draw a square, then a triangle, and repeat all that", "draw a square, then a triangle", 2),
+    ],
+)
+def test_all_that_is_the_whole_sentence_with_its_figures(whole: str, once: str, count: int) -> None:
+    assert done(whole) == "\n".join([done(once)] * count)

@@ -89,14 +89,22 @@ def test_redo_after_an_undo_does_again_what_was_executed(rig: UndoRig, undo: str
     assert rig.is_at(stopped)
 
 
-def test_redo_without_an_undo_before_does_the_last_motion_again(rig: UndoRig) -> None:
+@pytest.mark.parametrize(("redo", "reply"), [("redo", "nothing to redo"), ("重做", "没有可以重做")])
+def test_redo_without_an_undo_before_says_that_there_is_none_and_again_repeats(
+    rig: UndoRig, redo: str, reply: str
+) -> None:
     rig.do("forward 0.5 m")
-    rig.do("redo")
+    assert reply in rig.do(redo).reply
+    assert rig.x_m == pytest.approx(0.5, abs=0.01)
+    rig.do("undo")
+    rig.do(redo)
+    assert reply in rig.do(redo).reply
+    rig.do("again")
     assert rig.x_m == pytest.approx(1.0, abs=0.01)
     rig.do("undo")
     rig.do("turn left 90 degrees")
-    rig.do("redo")
-    assert math.degrees(rig.pose.yaw_rad) == pytest.approx(180.0, abs=1.0)
+    assert reply in rig.do(redo).reply
+    assert math.degrees(rig.pose.yaw_rad) == pytest.approx(90.0, abs=1.0)
 
 
 def test_everything_is_undone_and_done_again_at_once(rig: UndoRig) -> None:

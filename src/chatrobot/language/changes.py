@@ -4,15 +4,23 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
-from chatrobot.language.edits import Edit, resized
-from chatrobot.language.frames import DIRECTIONS, GO, SIDES, Frame
+from chatrobot.language.edits import Edit, flipped, resized
+from chatrobot.language.frames import DIRECTIONS, GO, SIDES, TURN, Frame
 from chatrobot.language.manner import Pace
 from chatrobot.language.numbers import is_chinese
-from chatrobot.language.tokens import quantity
+from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Repeat, Step, Turn
+from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Repeat, Step, Turn, Wait
+
+
+class Factors(NamedTuple):
+    """What distances, radii and times are multiplied by, and what angles are."""
+
+    distance: float
+    angle: float
 
 
 def is_change(whole: Frame) -> bool:
@@ -38,6 +46,8 @@ def is_change(whole: Frame) -> bool:
 
 def _only_points_back(whole: Frame) -> bool:
     """`turn the other way`, `go again`, `turn half of that`: a verb that names no motion of its own."""
+    if {"again", "more"} <= whole.flags and whole.verb in (*GO, *TURN) and not whole.direction:
+        return True  # `the same but go 20 cm further`
     if whole.has_extent or whole.verb not in (*GO, "turn", "spin", "curve"):
         return False
     if whole.verb in (*GO, "turn"):
@@ -61,22 +71,86 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
         name = "speed" if "速" in fold.text else "scale"
         usual = pace.speed_mps or pace.profile.defaults.speed_mps
         whole.q[name] = quantity(name, fold.number * (usual if name == "speed" else 1.0), fold.text)
+    before, whole = _mirrored(before, whole)
     factor = whole.q["scale"].number if "scale" in whole.q else 1.0
     if "percent" in whole.q and not whole.pace:
         factor = whole.q["percent"].number
+    factors = _factors(before, whole, factor)
     if "number" in whole.q or "count" in whole.q or "clock" in whole.q:
         raise Unclear("no_unit", next(whole.q[n].text for n in ("number", "count", "clock") if n in whole.q))
-    steps = [_step(step, whole, factor, pace) for step in before]
+    steps = [_step(step, whole, factors, pace) for step in before]
     count = whole.q.get("times")
     if count is not None:
         if count.number != int(count.number) or not 1 <= count.number <= 100:
             raise Unclear("bad_count", count.text)
         return steps * int(count.number)
     sizes = [whole.q[name] for name in ("length", "angle", "turns", "time") if name in whole.q]
+    if "more" in whole.flags and sizes:
+        sizes = [_added(steps, whole, size) for size in sizes]
     out = resized(steps, Edit(amounts=sizes))
     if out is None:
         raise Unclear("nothing_before", whole.text)
     return out
+
+
+def _factors(steps: Sequence[Step], whole: Frame, factor: float) -> Factors:
+    """`Twice as big`: distances and radii; the angles of a motion that only turned, or where the angle is named.
+
+    Raises:
+        Unclear: for `turn half of that` where the motion also drove.
+    """
+    only_turned = all(isinstance(step, (Turn, Wait)) for step in _leaves(steps))
+    scale = whole.q.get("scale")
+    if scale is not None and any(word in scale.text for word in ("angle", "角")):
+        return Factors(1.0, factor)
+    if only_turned or factor == 1.0:
+        return Factors(factor, factor)
+    if whole.verb in TURN:
+        raise Unclear("nothing_before", whole.text)
+    return Factors(factor, 1.0)
+
+
+def _leaves(steps: Sequence[Step]) -> Iterator[Step]:
+    for step in steps:
+        if isinstance(step, Repeat):
+            yield from _leaves(step.steps)
+        else:
+            yield step
+
+
+def _added(steps: Sequence[Step], whole: Frame, size: Atom) -> Atom:
+    """`The same but 20 cm further`: the amount as it was, and so much more.
+
+    Raises:
+        Unclear: where no amount or several could be meant.
+    """
+    kind, name = {"length": (Drive, "distance_m"), "time": (Wait, "duration_s")}.get(
+        size.value, (Turn, "angle_rad")
+    )
+    old = [getattr(step, name) for step in steps if isinstance(step, kind)]
+    if len(old) != 1 or old[0] is None:
+        raise Unclear("unclear_motion", whole.text)
+    return quantity(size.value, old[0] + size.number, size.text, size.role)
+
+
+def _mirrored(steps: Sequence[Step], whole: Frame) -> tuple[Sequence[Step], Frame]:
+    """`Again, mirrored`: the steps with left and right exchanged, and what else is said of them.
+
+    Raises:
+        Unclear: where nothing was to a side, or another side is named than the one they go to then.
+    """
+    if "mirrored" not in whole.flags:
+        return steps, whole
+    out, whole = [flipped(step) for step in steps], whole.copy()
+    if out == list(steps):
+        raise Unclear("nothing_before", whole.text)
+    side = whole.rot or whole.direction
+    turning = [step for step in _leaves(out) if isinstance(step, (Turn, Arc))]
+    if side and (not turning or any(step.left != (side == "left") or side not in SIDES for step in turning)):
+        raise Unclear("contradiction", whole.text)
+    whole.rot = whole.direction = ""
+    whole.flags -= {"mirrored", "other_way"}
+    return out, whole
 
 
 def _speed_said(whole: Frame, steps: Sequence[Step]) -> Frame:
@@ -91,10 +165,10 @@ def _speed_said(whole: Frame, steps: Sequence[Step]) -> Frame:
     return whole
 
 
-def _step(step: Step, whole: Frame, factor: float, pace: Pace) -> Step:
+def _step(step: Step, whole: Frame, factors: Factors, pace: Pace) -> Step:
     if isinstance(step, Repeat):
-        return Repeat(step.count, tuple(_step(inner, whole, factor, pace) for inner in step.steps))
-    opposite = "other_way" in whole.flags
+        return Repeat(step.count, tuple(_step(inner, whole, factors, pace) for inner in step.steps))
+    factor, opposite = factors.distance, "other_way" in whole.flags
     side = whole.rot or (whole.direction if whole.direction in SIDES else "")
     if isinstance(step, Drive):
         angle = step.direction_rad
@@ -115,8 +189,8 @@ def _step(step: Step, whole: Frame, factor: float, pace: Pace) -> Step:
         if whole.direction and not side:
             raise Unclear("contradiction", whole.text)
         left = side == "left" if side else step.left != opposite
-        angle_rad = step.angle_rad * factor if step.angle_rad else None
-        seconds = step.duration_s * factor if step.duration_s else None
+        angle_rad = step.angle_rad * factors.angle if step.angle_rad else None
+        seconds = step.duration_s * factors.angle if step.duration_s else None
         said = pace.rate(whole)
         return dataclasses.replace(
             step, angle_rad=angle_rad, duration_s=seconds, left=left, rate_radps=said or step.rate_radps
@@ -131,7 +205,7 @@ def _step(step: Step, whole: Frame, factor: float, pace: Pace) -> Step:
         return RawTwist(
             sign * step.vx_mps, sign * step.vy_mps, sign * step.wz_radps, step.duration_s * factor
         )
-    if isinstance(step, (Go, Face)) and (factor != 1.0 or opposite or side):
+    if isinstance(step, (Go, Face)) and (factors != (1.0, 1.0) or opposite or side):
         raise Unclear("nothing_before", whole.text)
     return step
 

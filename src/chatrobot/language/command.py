@@ -161,7 +161,9 @@ def _is_stop(plain: str, reading: Reading) -> bool:
         return False
     others = [a for clause, stop in zip(clauses, stops) if not stop for a in reading.atoms(clause)]
     return not any(
-        a.kind in _MOVING or a.value == "other_way" or (a.kind == "verb" and a.value not in (*STILL, "make"))
+        a.kind in _MOVING
+        or a.value in ("other_way", "mirrored")
+        or (a.kind == "verb" and a.value not in (*STILL, "make"))
         for a in others
     )
 

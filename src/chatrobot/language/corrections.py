@@ -23,6 +23,7 @@ _UNIT_FACTOR = re.compile(r"\d[\d.e+-]*")
 _PIECE = ("dir", "rot", "q", "pace", "verb", "shape")
 MEANT = "meant"
 """The flag of what corrects the turn before."""
+_OPPOSITE = ("other_way", "mirrored")
 _BEFORE_MEANT = frozenset({"sep", "filler", "glue", "negation", "correction"})
 
 
@@ -53,7 +54,7 @@ def _of_the_turn_before(atoms: list[Atom]) -> list[Atom]:
     Amounts alone are a total: what is missing to it is done.
     """
     at = 0
-    while at < len(atoms) and (atoms[at].kind in _BEFORE_MEANT or atoms[at].value == "other_way"):
+    while at < len(atoms) and (atoms[at].kind in _BEFORE_MEANT or atoms[at].value in _OPPOSITE):
         at += 1
     real = [a for a in atoms[at:] if a.kind not in ("sep", "filler", "glue")]
     ways = any(a.kind in ("dir", "rot") for a in real)
@@ -68,7 +69,7 @@ def _of_the_turn_before(atoms: list[Atom]) -> list[Atom]:
     )
     denied = len(atoms) > 1 and atoms[0].text in _DENIED and atoms[1].kind == "sep"
     negated = any(a.kind == "negation" and a.text == "not" for a in atoms) and len(real) > 1
-    opposite = [a for a in atoms[:at] if a.value == "other_way"]
+    opposite = [a for a in atoms[:at] if a.value in _OPPOSITE]
     if said and opposite and not real:
         return [Atom("flag", MEANT, said[0].text), opposite[0]]  # 不对，反方向
     if amounts and (said or denied):

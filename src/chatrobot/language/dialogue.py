@@ -56,6 +56,8 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     more = _more_of_before(whole, context, pace)
     if more is not None:
         return more
+    if {"again", "more"} <= whole.flags and any("another" in frame.texts for frame in frames):
+        raise Unclear("unclear_motion", whole.text)  # `again, another 20 cm`: so much more, or only so much?
     if is_change(whole):
         if is_correction(context.dialogue.last_motion):
             raise Unclear("unclear_motion", whole.text)  # what was done, or what was meant?
@@ -87,8 +89,9 @@ def _walked(whole: Frame, frames: Sequence[Frame], context: Context, profile: Ro
         again = redone(context, profile)
         if again and (whole.moves or set(whole.q) - PACES):
             raise Unclear("unclear_motion", whole.text)  # `redo that twice`: what was undone, or the undo?
-        if again is None and "restore" in whole.flags:
-            raise Unclear("nothing_undone")
+        changes = whole.moves or whole.pace or whole.q
+        if again is None and ("restore" in whole.flags or not changes):
+            raise Unclear("nothing_undone")  # `redo that slower` still repeats the last motion
         return again
     back = whole.direction == "back" or (not whole.direction and whole.verb in ("return", "", "go", "uturn"))
     if "same_way" not in whole.flags or not back:

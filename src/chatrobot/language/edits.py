@@ -17,7 +17,7 @@ from chatrobot.language.inverse import inverse
 from chatrobot.language.meant import is_correction
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
+from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Repeat, Step, Turn, Wait
 
 _IDLE = frozenset({"filler", "glue", "sep", "reason"})
 _POINTING = frozenset({"again", "same_amount", "more", "both", "do_this"})
@@ -263,10 +263,21 @@ def _mirrored(steps: list[Step], left: bool) -> list[Step] | None:
     if not turning:
         return None
     flip = turning[0].left != left
-    return [_flipped(step) for step in steps] if flip else list(steps)
+    return [flipped(step) for step in steps] if flip else list(steps)
 
 
-def _flipped(step: Step) -> Step:
+def flipped(step: Step) -> Step:
+    """The step with left and right exchanged.
+
+    Raises:
+        Unclear: for a step that is to a place or a heading.
+    """
+    if isinstance(step, Repeat):
+        return Repeat(step.count, tuple(flipped(inner) for inner in step.steps))
+    if isinstance(step, RawTwist):
+        return dataclasses.replace(step, vy_mps=-step.vy_mps, wz_radps=-step.wz_radps)
+    if isinstance(step, (Go, Face)):
+        raise Unclear("nothing_before")
     if isinstance(step, (Turn, Arc)):
         return dataclasses.replace(step, left=not step.left)
     if isinstance(step, Drive) and _is_sideways(step):

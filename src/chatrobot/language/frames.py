@@ -32,6 +32,9 @@ DIRECTIONS = {
 }  # fmt: skip
 """Where each lies from the robot's front, radians, counter-clockwise."""
 
+_IMPLIED = {"redo": ("again",), "mirrored": ("other_way",)}
+"""Flags that say another one as well."""
+
 SLOTTED = frozenset({"verb", "dir", "rot", "q", "pace", "flag", "role", "shape", "place", "defined"})
 """Kinds of atoms that a frame has a slot for. Every other kind must have been dealt with before."""
 
@@ -130,7 +133,7 @@ class Frame:
                 return False
             self.pace = self.pace if self.pace in ("max", "half_max") else atom.value
         elif atom.kind == "flag":
-            self.flags |= {atom.value, "again"} if atom.value == "redo" else {atom.value}
+            self.flags |= {atom.value, *_IMPLIED.get(atom.value, ())}
         elif atom.kind == "role":
             self.roles.append(atom.value)
         elif atom.kind == "shape":

@@ -12,6 +12,8 @@ from chatrobot.language.script import Script, count_of, whole_count
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import MAX_REPEAT, Drive, Repeat, Step, Turn, Wait
 
+_ALL = ("all", "whole", "everything", "both", "lot", "sequence", "steps", "routine", "pattern", "combination")
+
 
 def leading_count(frames: list[Frame]) -> tuple[int | None, list[Frame]]:
     """`Twice: …`, `the following three times: …`."""
@@ -29,7 +31,23 @@ def loop_end(frames: list[Frame]) -> int:
 
 def is_plain_again(frame: Frame) -> bool:
     """`again`: each one adds what was said before it once."""
-    return "again" in frame.flags and not frame.moves and not frame.has_extent
+    told = frame.moves or frame.has_extent or "other_way" in frame.flags
+    return "again" in frame.flags and not told
+
+
+def is_repetition(frame: Frame) -> bool:
+    """`do all that twice`, `repeat all that`: said of what came before, and no measure of a shape."""
+    told = frame.moves or frame.has_extent or frame.roles
+    if "times" in frame.q:
+        return not told and bool({"again", "all"} & frame.flags)
+    # `The whole thing` alone repeats nothing.
+    repeats = "again" in frame.flags and frame.text.startswith("repeat")
+    return not told and repeats and repeats_all(frame) and not (frame.pace or frame.q)
+
+
+def repeats_all(frame: Frame) -> bool:
+    """`do all that twice`, not `do that twice`."""
+    return "all" in frame.flags or any(word in _ALL for text in frame.texts for word in text.split())
 
 
 def is_moves_only(script: Script, frame: Frame) -> bool:

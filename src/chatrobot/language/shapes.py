@@ -8,6 +8,7 @@ from chatrobot.language.ellipsis import State
 from chatrobot.language.frames import GO, SIDES, STILL, TURN, Frame
 from chatrobot.language.manner import Pace
 from chatrobot.language.measures import measured, whole_number
+from chatrobot.language.repeats import is_repetition
 from chatrobot.language.shape_sides import tells_side
 from chatrobot.plan.steps import Step
 
@@ -36,6 +37,8 @@ def draw(frames: list[Frame], i: int, pace: Pace) -> tuple[int, list[Step]]:
 
 
 def _is_part(head: Frame, frame: Frame) -> bool:
+    if is_repetition(frame):
+        return False
     if head.shape == "plus" and ("way" in [q.role for q in frame.q.values()] or frame.verb == "return"):
         return True
     if head.shape == "spiral" and "between" in frame.flags and "angle" in frame.q:

@@ -14,12 +14,14 @@ from chatrobot.language.repeats import (
     is_heading_back,
     is_moves_only,
     is_plain_again,
+    is_repetition,
     is_way_back,
     leading_count,
     lists_lengths,
     loop_end,
     period,
     repeated,
+    repeats_all,
     round_trips,
     with_measure,
 )
@@ -158,6 +160,9 @@ def _shape(script: Script, frames: list[Frame], i: int) -> int | None:
     if not frames[i].shape:
         return None
     end, steps = draw(frames, i, script.pace)
+    after = frames[end] if end < len(frames) else None
+    if script.units and after is not None and is_repetition(after) and not repeats_all(after):
+        raise Unclear("unclear_motion", after.text)  # the shape, or all of it?
     script.add(steps)
     return end
 
