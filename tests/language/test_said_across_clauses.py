@@ -6,7 +6,8 @@ import math
 
 import pytest
 
-from chatrobot.plan.steps import Drive, Step, Turn
+from chatrobot.plan.steps import Drive, Plan, Step, Turn
+from chatrobot.plan.text import format_plan
 from tests.language.dialogue_runner import Conversation
 
 
@@ -180,3 +181,43 @@ def test_numbered_items_may_stand_on_one_line() -> None:
 )
 def test_a_rectangle_begins_with_the_side_that_is_said_first(said: str, first: float) -> None:
     assert [abs(metres) for metres in _lengths(said)] == [first, 3.0 - first] * 2
+
+
+@pytest.mark.parametrize(
+    ("said", "plan"),
+    [
+        ("turn left, but only after 3 seconds", "wait 3 s\nturn left 90 deg"),
+        ("drive forward 1 m, but only after 5 seconds", "wait 5 s\ndrive 1 m"),
+        ("back up 50 cm, only after two seconds", "wait 2 s\ndrive 0.5 m back"),
+        ("turn right 45 degrees, after 3 s", "wait 3 s\nturn right 45 deg"),
+        ("forward, and after 3 seconds stop", "drive 3 s"),
+    ],
+)
+def test_a_delay_said_after_a_comma_comes_first(said: str, plan: str) -> None:
+    assert format_plan(Plan(tuple(_after(said)))) == plan
+
+
+@pytest.mark.parametrize("said", ["左转，但是3秒之后", "右转，但两秒之后"])
+def test_a_text_that_ends_with_a_delay_in_chinese_is_asked_about(said: str) -> None:
+    assert not _after(said)
+
+
+@pytest.mark.parametrize(
+    ("said", "plan"),
+    [
+        (
+            "forward 1 m, then go back to the start and face where you started",
+            "{way}drive 1 m back\nface 0 deg",
+        ),
+        (
+            "forward 1 m, turn left, then return to the start and face your original direction",
+            "{turned}face 0 deg",
+        ),
+        ("forward 1 m, turn left, back to the start, facing the way you started", "{turned}face 0 deg"),
+        ("前进一米，左转，然后回到起点，面向最初的方向", "{turned}face 0 deg"),
+    ],
+)
+def test_the_return_to_the_start_comes_before_the_facing(said: str, plan: str) -> None:
+    way = "drive 1 m\n"
+    whole = plan.format(way=way, turned=f"{way}turn left 90 deg\ngo to 0 0 from start\n")
+    assert format_plan(Plan(tuple(_after(said)))) == f"{whole} from start"

@@ -62,6 +62,33 @@ def test_a_yes_is_approved_where_approval_is_asked() -> None:
     assert (talk.results()[turn].outcome, talk.results()[turn].path_m) == ("refused", 0.0)
 
 
+@pytest.mark.parametrize(
+    ("answer", "plan"),
+    [
+        ("sure, but slowly", "drive 0.5 m at 0.15 m/s"),
+        ("Yes, slowly please", "drive 0.5 m at 0.15 m/s"),
+        ("go ahead at 0.1 m/s", "drive 0.5 m at 0.1 m/s"),
+        ("好的，慢一点", "drive 0.5 m at 0.15 m/s"),
+    ],
+)
+def test_a_yes_may_say_how_fast(answer: str, plan: str) -> None:
+    talk = Talk()
+    assert talk.session.do("forward 50").proposal is not None
+    result = talk.session.do(answer)
+    assert result.outcome == "completed"
+    plans = [event.plan_text for event in talk.events if isinstance(event, Interpreted) and event.turn == 2]
+    assert plans == [plan]
+    talk.session.do("forward 10 cm")
+    assert [e.plan_text for e in talk.events if isinstance(e, Interpreted)][-1] == "drive 0.1 m"
+
+
+@pytest.mark.parametrize("answer", ["好慢", "sure, slowly?", "yes, but quietly", "sure, but turn left first"])
+def test_what_says_more_than_yes_and_how_fast_runs_no_offer(answer: str) -> None:
+    talk = Talk()
+    talk.session.do("forward 50")
+    assert talk.session.do(answer).path_m == 0.0
+
+
 @pytest.mark.parametrize("word", ["no", "n", "No, thanks.", "不用了"])
 def test_a_no_drops_it(word: str) -> None:
     talk = asked()

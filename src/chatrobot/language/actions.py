@@ -6,7 +6,7 @@ from chatrobot.language.arcs import about, arc
 from chatrobot.language.bearings import by_clock, by_compass
 from chatrobot.language.driving import drive
 from chatrobot.language.ellipsis import State, completed
-from chatrobot.language.frames import GO, STILL, Frame
+from chatrobot.language.frames import GO, RETURNS, STILL, Frame
 from chatrobot.language.manner import Pace
 from chatrobot.language.returning import goes_back, partly_back, way_back
 from chatrobot.language.slots import OUTLINES, check_all_used, check_extents
@@ -58,6 +58,9 @@ def _acted(frame: Frame, state: State, pace: Pace) -> list[Step]:
         return partly_back(frame, state, pace)
     told = bool(frame.direction) and "length" in frame.q
     to_start = "to_start" in frame.flags and frame.verb in (*GO, "", "uturn") and not told
+    if RETURNS in frame.flags:
+        back = way_back(Frame(verb="return", pace=frame.pace), state, pace)
+        return [*back, *face(frame, state, pace)]
     if frame.verb == "return" or to_start:
         return way_back(frame, state, pace)
     if frame.verb == "face" or "original_heading" in frame.flags:

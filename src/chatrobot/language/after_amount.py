@@ -23,7 +23,9 @@ def ended_by_amount(head: Sequence[Atom], tail: Sequence[Atom]) -> list[Atom] | 
     amount, rest = _lone_amount(tail)
     if amount is None:
         return None
-    before, clause = _cut(_with_stop(list(head)))
+    # A comma before a delay that ends the text begins no clause of its own: `turn left, but only | after 3 s`.
+    delays = amount.value == "time" and not rest
+    before, clause = _cut(_without_end(list(head)) if delays else _with_stop(list(head)))
     if not any(a.kind in _MOVING for a in before):
         delayed = amount.value == "time" and any(a.kind in _MOVING and a.value not in STILL for a in clause)
         return [Atom("verb", "wait", "wait"), amount, _THEN, *clause, *rest] if delayed else None
@@ -41,7 +43,13 @@ def ended_by_amount(head: Sequence[Atom], tail: Sequence[Atom]) -> list[Atom] | 
 
 
 def with_after(atoms: Sequence[Atom]) -> list[Atom]:
-    """`…, and after 2 m stop`: no `and then`, for an amount follows."""
+    """`…, and after 2 m stop`: no `and then`, for an amount follows.
+
+    Raises:
+        Unclear: where it ends with a time after which nothing is said.
+    """
+    if len(atoms) > 2 and _ends_open(atoms):
+        raise Unclear("unclear_motion", " ".join(a.text for a in atoms[-2:]))
     out: list[Atom] = []
     for i, atom in enumerate(atoms):
         amount = i + 1 < len(atoms) and _is_extent(atoms[i + 1])
@@ -52,11 +60,27 @@ def with_after(atoms: Sequence[Atom]) -> list[Atom]:
     return out
 
 
+def _ends_open(atoms: Sequence[Atom]) -> bool:
+    """左转，但是3秒之后: to begin then, or to do something else then?"""
+    time, after, at = atoms[-2], atoms[-1], len(atoms) - 3
+    while at > 0 and atoms[at].kind in ("filler", "glue"):
+        at -= 1
+    return (time.kind, time.value, after.kind) == ("q", "time", "conn") and atoms[at].kind == "sep"
+
+
 def _with_stop(head: list[Atom]) -> list[Atom]:
     """`Reverse and stop after half a metre`: here the stop, which elsewhere goes without saying, says when."""
     last = head[-1]
     if last.kind == "filler" and last.text.split()[-1] in _STOPS:
         return [*head[:-1], Atom("verb", "halt", last.text)]
+    return head
+
+
+def _without_end(head: list[Atom]) -> list[Atom]:
+    """The atoms without the punctuation and light words at their end."""
+    head = _with_stop(head)
+    while head and head[-1].kind in ("sep", "glue", "filler"):
+        del head[-1]
     return head
 
 

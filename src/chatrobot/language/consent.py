@@ -7,6 +7,8 @@ from functools import cache
 
 from chatrobot.language.data_files import LANGUAGES, load_table
 
+_MARK = r"[\s,.!，。！、]"
+_GAP = f"{_MARK}*"
 _APOSTROPHE = str.maketrans("’", "'")
 
 
@@ -22,6 +24,13 @@ def wants_to_edit(text: str) -> bool:
     return _consists_of("edit", text)
 
 
+def after_consent(text: str) -> str | None:
+    """What is said after a yes, `but slowly` of `sure, but slowly`; None where there is no yes, or a question."""
+    said = text.strip().casefold().translate(_APOSTROPHE)
+    found = _leading_yes().fullmatch(said)
+    return found["rest"] if found and not said.endswith(("?", "？", "吗")) else None
+
+
 def _consists_of(answer: str, text: str) -> bool:
     return _pattern(answer).fullmatch(text.strip().casefold().translate(_APOSTROPHE)) is not None
 
@@ -29,10 +38,18 @@ def _consists_of(answer: str, text: str) -> bool:
 @cache
 def _pattern(answer: str) -> re.Pattern[str]:
     """One of that answer's phrases or more, with courtesy and punctuation around them."""
-    phrase, courtesy = _any_of(answer), _any_of("courtesy")
-    gap = r"[\s,.!，。！、]*"
-    beside = f"(?:{courtesy}{gap})*"
-    return re.compile(f"{gap}{beside}(?:{phrase}{gap}{beside})+")
+    return re.compile(f"{_GAP}{_beside()}(?:{_any_of(answer)}{_GAP}{_beside()})+")
+
+
+@cache
+def _leading_yes() -> re.Pattern[str]:
+    """Chinese is written without spaces: only a comma or a `but` tells 好，慢一点 from 好慢."""
+    ends = rf"(?:(?<={_MARK})|(?={_any_of('but')}))"
+    return re.compile(f"{_GAP}{_beside()}(?:{_any_of('yes')}{_GAP}{_beside()})+{ends}(?P<rest>.+)")
+
+
+def _beside() -> str:
+    return f"(?:{_any_of('courtesy')}{_GAP})*"
 
 
 def _any_of(name: str) -> str:

@@ -16,6 +16,9 @@ STILL = frozenset({"wait", "halt"})
 PLACE_HEADING = "place_heading"
 """The flag of `facing its heading`: the one that a place was given."""
 
+RETURNS = "returns"
+"""The flag of `return to the start and face …`: it drives there before it turns."""
+
 EXTENTS = ("length", "angle", "time", "turns", "clock")
 
 SIDES = ("left", "right")
@@ -186,6 +189,7 @@ class Frame:
         """A verb beside another one: `go and face`, `turn in a curve`; else it begins a motion of its own."""
         old, extent = self.verb, self.has_extent
         if verb == "face" and old in ("return", "turn", "spin") and not extent:
+            self.flags |= {RETURNS} if old == "return" and "to_start" in self.flags else set()
             return self._set_verb(verb)
         if verb == "make":
             return not extent

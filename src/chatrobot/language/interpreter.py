@@ -19,6 +19,7 @@ from chatrobot.language.acts import (
     without_requests,
     without_talk,
 )
+from chatrobot.language.answers import changes_nothing_said, with_answered_amount, with_manner
 from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
 from chatrobot.language.context import Context
@@ -41,6 +42,7 @@ from chatrobot.language.tokens import tokenise
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.unfinished import check_consistent
+from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan
 from chatrobot.robots.profile import RobotProfile
 
@@ -66,6 +68,15 @@ class OfflineInterpreter:
             reading = Reading(language, context, self._profile)
             asked = _did_you_mean(problem, text, reading) or self._likeliest(problem, text, reading)
             return replace(asked or asked_back(problem, language), corrects=says_meant(text))
+
+    def with_manner(self, plan: Plan, said: str, context: Context) -> Plan | None:
+        """The plan as fast or as slow as `said`; None where that says anything else. Never raises."""
+        language: LanguageCode = "zh" if has_chinese(said) else "en"
+        try:
+            plain = rephrased(normalise(said), language)
+            return with_manner(plan, plain, Reading(language, context, self._profile))
+        except Unclear:
+            return None
 
     def _likeliest(self, problem: Unclear, text: str, reading: Reading) -> Interpretation | None:
         def read(part: str, context: Context = reading.context) -> Interpretation:
@@ -200,12 +211,17 @@ def _pending(plain: str, reading: Reading) -> Interpretation | None:
     pending = reading.context.dialogue.pending
     if not pending or len(pending) + len(plain) > MAX_CHARACTERS or not orders(normalise(pending)):
         return None
+    if changes_nothing_said(normalise(pending), reading):
+        return None  # it was to change a plan, and did not: nothing is to stay of it
     before = rephrased(normalise(pending), reading.language)
     atoms = tidy(reading.atoms(plain))
     ways = [k for k, a in enumerate(atoms) if k and a.kind == "dir" and atoms[k - 1].text == a.text]
     verbs = [a for k, a in enumerate(atoms) if k + 1 not in ways and a.text not in ("say",)]
     if any(a.kind in ("verb", "shape", "place") for a in verbs):
         return None
+    amended = with_answered_amount(before, plain, reading)
+    if amended is not None:
+        return amended
     sided = rephrased(with_side(normalise(pending), plain, reading.language), reading.language)
     for joined in filter(None, (sided, f"{before} {plain}", f"{before}, {plain}")):
         try:

@@ -1,4 +1,7 @@
-"""The plan that the last reply offered: a yes as the very next text runs it, anything else drops it."""
+"""The plan that the last reply offered: a yes as the very next text runs it, anything else drops it.
+
+A yes may say how fast: `sure, but slowly`.
+"""
 
 from __future__ import annotations
 
@@ -8,9 +11,10 @@ from typing import NamedTuple
 
 from chatrobot.core.events import Event, Result, Started
 from chatrobot.core.proposal import Proposal
-from chatrobot.language.consent import read_consent
+from chatrobot.language.consent import after_consent, read_consent
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import render_reason, say
+from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import parse_plan
 from chatrobot.session.approval import Approval
 from chatrobot.session.said import Said
@@ -52,13 +56,21 @@ class Proposals:
     def answered(self, said: Said) -> Interpretation | None:
         """What `said` means as the answer to the offer; None where it is none. The offer is over in any case."""
         offered, self._offered = self._offered, None
-        yes = read_consent(said.text) if said.kind == "text" else None
-        if offered is None or yes is None or self._is_void_turn(offered.turn):
+        if offered is None or said.kind != "text" or self._is_void_turn(offered.turn):
+            return None
+        yes, plan = read_consent(said.text), parse_plan(offered.proposal.plan_text)
+        changed = self._changed(plan, said.text) if yes is None else plan
+        if changed is None:
             return None
         language = self._understanding.language
-        if not yes:
+        if yes is False:
             return Interpretation("answered", say(language, "offer_declined"), language)
         lapse = offered.approval.lapsed(said.at_s, self._understanding.pose)
         if lapse is not None:
             return Interpretation("refused", render_reason(lapse, language), language)
-        return self._understanding.accept(parse_plan(offered.proposal.plan_text))
+        return self._understanding.accept(changed)
+
+    def _changed(self, plan: Plan, text: str) -> Plan | None:
+        """The plan as a yes with a manner wants it (`sure, but slowly`); None for anything else."""
+        manner = after_consent(text)
+        return self._understanding.with_manner(plan, manner) if manner else None

@@ -162,6 +162,10 @@ class Understanding:
         entry = self._dialogue.ledger.redoes()
         return entry if entry is not None and entry.programs and not entry.back else None
 
+    def with_manner(self, plan: Plan, said: str) -> Plan | None:
+        """The plan as fast or as slow as `said`; None where that says anything else."""
+        return self._interpreter.with_manner(plan, said, self._context(self._dialogue))
+
     def accept(self, plan: Plan) -> Interpretation:
         """A plan as it is: there is nothing to understand."""
         return Interpretation("plan", "", self.language, plan)

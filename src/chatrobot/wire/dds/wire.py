@@ -119,7 +119,8 @@ class DdsWire:
     def publishers_of(self, topic: str) -> list[str]:
         """Who publishes on `topic` besides the processes of our own session, by name."""
         graph = self._graph
-        return [] if graph is None else graph.publishers_of(self._name(topic))
+        with _as_wire_error(f"cannot see who publishes {topic}"):
+            return [] if graph is None else graph.publishers_of(self._name(topic))
 
     def rewire(self, wiring: Wiring) -> None:
         """Take the robot to be wired like this; before anything is published or listened to."""
@@ -128,7 +129,8 @@ class DdsWire:
     def survey(self) -> list[Endpoint]:
         """The endpoints of other participants, found so far."""
         graph = self._graph
-        return [] if graph is None else graph.endpoints()
+        with _as_wire_error("cannot see who is there"):
+            return [] if graph is None else graph.endpoints()
 
     @property
     def namespace(self) -> str:
