@@ -163,7 +163,7 @@ class Thinking:
             return meant
         if connects_to_the_robot(text):
             return replace(meant, outcome="answered", reply=say(meant.language, "tutorial_without_model"))
-        if self._interpreter == "offline" or meant.code == "nothing_to_undo":
+        if self._interpreter == "offline" or meant.code in ("nothing_to_undo", "nothing_undone"):
             return meant
         return replace(meant, reply=f"{meant.reply} {say(meant.language, 'no_model_hint')}")
 
