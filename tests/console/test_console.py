@@ -117,7 +117,7 @@ def test_the_commands_show_robot_world_and_plan(chat, tmp_path):
     chat.enter(f"/run-plan {tmp_path / 'mine.plan'}")
     chat.wait_for(r"now at .* (39|4[01])°")
     chat.enter("/run-plan")
-    chat.wait_for("Which plan? /run-plan FILE")
+    chat.wait_for(r"Which plan\? /run-plan FILE")
 
 
 def test_after_an_emergency_stop_nothing_moves_until_it_is_released(chat):
@@ -320,11 +320,12 @@ def test_a_narrow_terminal_gets_plain_lines(tmp_path):
 
 def test_fast_is_refused_because_a_talk_is_in_real_time():
     from chatrobot.cli.console.app import run_console
+    from chatrobot.cli.typed_ahead import TypedAhead
     from chatrobot.compose import Setup
     from chatrobot.core.errors import UsageError
 
     with pytest.raises(UsageError, match="real time"):
-        run_console(Setup(fast=True))
+        run_console(Setup(fast=True), TypedAhead())
 
 
 @pytest.mark.parametrize("terminal", ["xterm-256color", "dumb"])

@@ -35,6 +35,7 @@ TESTS = {
         (*ROS, "launch_ros"),
         "namespaces, /rosout, quiet topics, /tf_static, exit codes of ros2 run",
     ),
+    "test_logs_that_nobody_reads.py": (("rclpy",), "a node whose terminal is held up (Ctrl-S)"),
     "test_turtlesim.py": (
         (*ROS, "launch_ros", "turtlesim"),
         "turtlesim drives a square; DDS without ROS drives it, either started first, LOCALHOST and SUBNET",
