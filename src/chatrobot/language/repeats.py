@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 
 from chatrobot.language.actions import act
+from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.frames import TURN, Frame
 from chatrobot.language.inverse import inverse
 from chatrobot.language.joining import is_times_only
@@ -12,7 +14,10 @@ from chatrobot.language.script import Script, count_of, whole_count
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import MAX_REPEAT, Drive, Repeat, Step, Turn, Wait
 
-_ALL = ("all", "whole", "everything", "both", "lot", "sequence", "steps", "routine", "pattern", "combination")
+
+@cache
+def _whole() -> frozenset[str]:
+    return frozenset(word for code in LANGUAGES for word in load_table(code, "repeats").get("whole", ()))
 
 
 def leading_count(frames: list[Frame]) -> tuple[int | None, list[Frame]]:
@@ -47,7 +52,7 @@ def is_repetition(frame: Frame) -> bool:
 
 def repeats_all(frame: Frame) -> bool:
     """`do all that twice`, not `do that twice`."""
-    return "all" in frame.flags or any(word in _ALL for text in frame.texts for word in text.split())
+    return "all" in frame.flags or any(word in _whole() for text in frame.texts for word in text.split())
 
 
 def is_moves_only(script: Script, frame: Frame) -> bool:
