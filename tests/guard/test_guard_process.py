@@ -68,6 +68,10 @@ def test_it_echoes_what_it_hears(guard: Watched) -> None:
     assert guard.answer_to(BEAT) == BEAT
 
 
+def test_a_handshake_that_comes_with_beats_is_what_it_echoes(guard: Watched) -> None:
+    assert guard.answer_to(BEAT + HANDSHAKE + BEAT) == HANDSHAKE
+
+
 def test_who_cannot_halt_the_robot_does_not_say_it_could(guard: Watched) -> None:
     assert guard.answer_to(HANDSHAKE) == HANDSHAKE
     guard.wire.is_connected = False

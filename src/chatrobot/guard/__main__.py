@@ -20,7 +20,7 @@ from chatrobot.core.memory_pressure import GUARD, prefer
 from chatrobot.core.scheduling import wake_promptly
 from chatrobot.core.wiring import Wiring
 from chatrobot.guard.departure import Departure
-from chatrobot.guard.watch import BEAT_S, GOODBYE, TRIPPED, Watch
+from chatrobot.guard.watch import BEAT_S, GOODBYE, HANDSHAKE, TRIPPED, Watch
 from chatrobot.wire.connect import Returning, advertise, comes_back, connect_wire
 from chatrobot.wire.messages import Odometry, TwistMessage
 from chatrobot.wire.wire import Wire
@@ -132,7 +132,8 @@ class Guard:
             self._watch.hear(bytes([word]), awake_or_not_s())
         if not self._could_halt():
             return False  # Motion takes our silence for what it is: nobody would halt the robot in its place
-        answer = TRIPPED if self._watch.state == "tripped" else words[-1:]
+        echo = HANDSHAKE if HANDSHAKE in words else words[-1:]
+        answer = TRIPPED if self._watch.state == "tripped" else echo
         with contextlib.suppress(OSError):
             self._line.send(answer, socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
         return False

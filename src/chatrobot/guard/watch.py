@@ -19,7 +19,7 @@ ECHO_LOST_S = 0.15
 """Motion takes a guard that does not echo for this long as dead, and does not move without one."""
 
 HANDSHAKE, BEAT, GOODBYE = b"H", b"B", b"G"
-"""What Motion says to the guard, one byte each. The guard echoes each handshake and beat."""
+"""What Motion says to the guard, one byte each. The guard echoes them; a handshake among beats is what it echoes."""
 
 TRIPPED = b"T"
 """What the guard answers to a beat that comes too late."""

@@ -191,7 +191,7 @@ class BaseNode:
             self._session.stop("~/stop")
         except JointError as error:
             return False, str(error)
-        return True, "stopped"
+        return True, "stop sent to control"
 
     def _diagnose(self) -> Diagnosis:
         from chatrobot.nodes.citizen import Diagnosis

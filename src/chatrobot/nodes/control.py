@@ -22,6 +22,7 @@ from chatrobot.nodes.foreign import Foreign
 from chatrobot.session.envelope import Envelope, Word
 from chatrobot.session.motion_runner import MotionRunner
 from chatrobot.session.topics import CHATGPT_NODE, EVENTS, TELEMETRY
+from chatrobot.session.zeroing import Sight
 from chatrobot.wire.connect import Connect, advertise, connect_wire, resolved
 from chatrobot.wire.messages import Text
 
@@ -35,6 +36,12 @@ SERVICE = "service"
 RELEASE_S = 0.5
 LEAVE_S = 5.0
 ODOMETRY_LATE_S = 1.0
+STOP_SENT: dict[Sight, str] = {
+    "moving": "stop sent: odometry shows the robot still moving",
+    "standing": "stop sent: odometry shows the robot standing",
+    "unseen": "stop sent: no odometry shows whether the robot stands",
+}
+"""What the services answer, by what odometry shows at that moment."""
 
 
 @dataclass(frozen=True)
@@ -137,11 +144,12 @@ class ControlNode:
 
     def _serve_stop(self) -> tuple[bool, str]:
         self._runner.halt(SERVICE, "~/stop")
-        return True, "stopped"
+        return True, STOP_SENT[self._runner.motion.zeroing.sight]
 
     def _serve_emergency_stop(self) -> tuple[bool, str]:
         self._runner.receive(self._service_envelope("emergency_stop", SERVICE))
-        return True, "stopped; nothing moves until it is released"
+        sent = STOP_SENT[self._runner.motion.zeroing.sight]
+        return True, f"{sent}; nothing moves until the emergency stop is released"
 
     def _serve_release(self) -> tuple[bool, str]:
         # Who started this node with allow_release has given the right of the local console to this service.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable
 
 from chatrobot.core.clock import Clock
@@ -15,6 +16,8 @@ FROZEN_S = MISSED_S
 """A gap this long between two ticks of a moving robot means that this process stood still: the plan is over."""
 LATE_S = 2.0 * TICK_S
 """A gap between two ticks up to this is nothing unusual."""
+ANSWERED_TICKS = 10
+"""The guard tells of a trip within so many ticks, or it is taken for dead."""
 
 
 class FreezeWatch:
@@ -26,7 +29,7 @@ class FreezeWatch:
         self._halt = halt
         self._last_tick_s: float | None = None
         self._last_beat_s: float | None = None
-        self._beat_gap_s = 0.0
+        self._beat_gaps_s = deque([0.0], maxlen=ANSWERED_TICKS)
         self._suspended_s = clock.suspended_s()
         self._is_driven = False
         self._was_stopped = False
@@ -52,8 +55,9 @@ class FreezeWatch:
             is_starved = not (was_stopped or suspended_s > FROZEN_S) and is_machine_busy()
             self._halt(_late(gap_s) if is_starved else Reason("motion_froze", {"gap_s": round(gap_s, 2)}))
         elif is_driven and tripped:  # we were there, and our beats came late all the same
-            is_busy = self._beat_gap_s > LATE_S and is_machine_busy()
-            self._halt(_late(self._beat_gap_s) if is_busy else Reason("beats_missed"))
+            beat_gap_s = max(self._beat_gaps_s)
+            is_busy = beat_gap_s > LATE_S and is_machine_busy()
+            self._halt(_late(beat_gap_s) if is_busy else Reason("beats_missed"))
         if tripped or gap_s > FROZEN_S:
             self._guard.handshake()
         return gap_s - TICK_S if gap_s > LATE_S else 0.0
@@ -62,7 +66,7 @@ class FreezeWatch:
         """Say to the guard that we are there."""
         self._guard.beat()
         if self._last_beat_s is not None:
-            self._beat_gap_s = now_s - self._last_beat_s
+            self._beat_gaps_s.append(now_s - self._last_beat_s)
         self._last_beat_s = now_s
 
     def thaw(self, now_s: float) -> Reason | None:

@@ -31,31 +31,23 @@ class GuardLink(Protocol):
     def goodbye(self) -> None: ...
 
 
-class GuardProcess:
-    """A guard in a process and session of its own.
+class GuardLine:
+    """The line to a guard in another process, whose answers come when it gets a processor.
 
     Args:
-        wire_address: the robot's wire (`chatrobot.wire.connect`).
-        wiring: names the topics it halts and watches, and the namespace it lives in.
-        is_near: the robot's process is on this machine.
+        line: our end of a stream socket; never blocks.
     """
 
-    def __init__(self, wire_address: str, wiring: Wiring, clock: Clock, *, is_near: bool = False) -> None:
+    def __init__(self, line: socket.socket, clock: Clock) -> None:
         self._clock = clock
-        self._echo_at_s = float("-inf")
-        self._tripped = False
-        self.process, self._line = spawn_with_line(
-            "chatrobot.guard",
-            *("--wire", wire_address),
-            *("--topic", wiring.cmd_vel_topic, "--type", wiring.cmd_vel_type),
-            *("--odom", wiring.odom_topic, "--odom-type", wiring.odom_type),
-            *("--namespace", wiring.namespace, "--near", "yes" if is_near else "no"),
-            kind=socket.SOCK_STREAM,
-        )
+        self._line = line
         self._line.setblocking(False)
+        self._echo_at_s = float("-inf")
+        self._is_shaking_hands = False
+        self._tripped = False
 
     def handshake(self) -> None:
-        self._tripped = False
+        self._tripped, self._is_shaking_hands = False, True
         self._say(HANDSHAKE)
 
     def beat(self) -> None:
@@ -98,7 +90,34 @@ class GuardProcess:
             answers = b""
         # Its end is closed: it is dead, and nobody has to wait to see that.
         self._echo_at_s = self._clock.now_s() if answers else float("-inf")
+        if (
+            self._is_shaking_hands
+        ):  # what it said before it heard our handshake is about a trip that we know of
+            _, handshake, answers = answers.rpartition(HANDSHAKE)
+            self._is_shaking_hands = not handshake
+            answers = answers if handshake else b""
         self._tripped = self._tripped or TRIPPED in answers
+
+
+class GuardProcess(GuardLine):
+    """A guard in a process and session of its own.
+
+    Args:
+        wire_address: the robot's wire (`chatrobot.wire.connect`).
+        wiring: names the topics it halts and watches, and the namespace it lives in.
+        is_near: the robot's process is on this machine.
+    """
+
+    def __init__(self, wire_address: str, wiring: Wiring, clock: Clock, *, is_near: bool = False) -> None:
+        self.process, line = spawn_with_line(
+            "chatrobot.guard",
+            *("--wire", wire_address),
+            *("--topic", wiring.cmd_vel_topic, "--type", wiring.cmd_vel_type),
+            *("--odom", wiring.odom_topic, "--odom-type", wiring.odom_type),
+            *("--namespace", wiring.namespace, "--near", "yes" if is_near else "no"),
+            kind=socket.SOCK_STREAM,
+        )
+        super().__init__(line, clock)
 
 
 class SimulatedGuard:
