@@ -81,6 +81,7 @@ class Thinking:
     ) -> None:
         self._pauses = pauses
         self._mind = mind if interpreter != "offline" else None
+        self._has_hinted = False
         self._interpreter = interpreter
         self._joint = joint
         self._understanding = understanding
@@ -158,13 +159,16 @@ class Thinking:
         return self._is_tutorial and meant.outcome == "plan" and not is_form(text)
 
     def without_model(self, text: str, meant: Interpretation) -> Interpretation:
-        """What was not understood, with how to set up a model; the tutorial's first instruction is answered."""
+        """What was not understood, the first time with how to set up a model; the tutorial's first instruction is
+        answered."""
         if meant.outcome != "unclear" or meant.proposal is not None or self._mind is not None:
             return meant
         if connects_to_the_robot(text):
             return replace(meant, outcome="answered", reply=say(meant.language, "tutorial_without_model"))
-        if self._interpreter == "offline" or meant.code in ("nothing_to_undo", "nothing_undone"):
+        has_hinted = self._has_hinted or meant.code in ("nothing_to_undo", "nothing_undone")
+        if self._interpreter == "offline" or has_hinted:
             return meant
+        self._has_hinted = True
         return replace(meant, reply=f"{meant.reply} {say(meant.language, 'no_model_hint')}")
 
     def begin(

@@ -137,7 +137,8 @@ class Chat:
         self._console.print(*lines, sep="\n")
 
     def refresh(self) -> None:
-        self._prompt.app.invalidate()
+        # Never in the caller's thread: prompt_toolkit looks its loop up twice, and the prompt may end in between.
+        self._soon(self._prompt.app.invalidate)
 
     def edit(self, plan_text: str) -> None:
         self._soon(lambda: self._begin_editing(plan_text))
