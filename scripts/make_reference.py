@@ -43,6 +43,7 @@ KINDS = {
 }  # fmt: skip
 VARIABLES = {
     "CHATROBOT_MODEL": "the language model, as `--model` (which goes before it)",
+    "CHATROBOT_CONVERSATION": "with `openai-responses`: the conversation on the server to go on with",
     "CHATROBOT_PEERS": "with `--on dds`: addresses to look for robots at, where there is no multicast; comma between",
     "CHATROBOT_DEBUG": "any value: an unexpected error shows its traceback",
     "ROS_DOMAIN_ID, ROS_AUTOMATIC_DISCOVERY_RANGE": "as in ROS 2; with `--on dds` the range is LOCALHOST by default",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
@@ -24,6 +25,8 @@ COMMANDS: dict[str, dict[str, Any]] = MEANINGS["commands"]
 TYPES: dict[str, tuple[type, ...]] = {
     "s": (str,), "i": (int,), "n": (float, int), "b": (bool,), "l": (list,), "o": (dict,),
 }  # fmt: skip
+FOR_OURSELVES = {"CHATROBOT_ID"}
+"""What our processes tell each other."""
 CORPUS = """\
 - {id: t-1, category: primitive, say: forward 1 m, expect: {x: 1.0}}
 """
@@ -49,6 +52,15 @@ def test_no_meaning_is_of_a_key_that_is_gone() -> None:
     assert set(MEANINGS) == {"every", "commands"} | {name for name in MEANINGS if name in known}
     assert set(MEANINGS["every"]) <= everywhere
     assert not [f"{name}.{key}" for name in known for key in MEANINGS.get(name, {}) if key not in known[name]]
+
+
+def test_every_variable_of_ours_that_a_person_sets_is_told() -> None:
+    ours = {
+        name
+        for file in (reference.ROOT / "src").rglob("*.py")
+        for name in re.findall(r"\bCHATROBOT_[A-Z_]+\b", file.read_text(encoding="utf-8"))
+    }
+    assert ours - FOR_OURSELVES == {name for name in reference.VARIABLES if name.startswith("CHATROBOT_")}
 
 
 @pytest.fixture
