@@ -2,13 +2,14 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: help setup run test lint bench pictures lock clean faults busy fuzz soak undos coverage mutants try-llamacpp
+.PHONY: help setup run test lint bench pictures reference lock clean faults busy fuzz soak undos coverage mutants try-llamacpp
 
 help:
 	@echo "make setup   .venv with everything in it        make run    talk to the simulated robot"
 	@echo "make test    lint, types, layers, tests         make lint   ruff and mypy alone"
 	@echo "make bench   how fast it is, measured           make lock   write requirements.lock anew"
 	@echo "make pictures   draw docs/images anew, from the real program"
+	@echo "make reference  write docs/cli.md and docs/events.md anew, from the code"
 	@echo "make faults  kill and freeze each process 20 times; worst time to zero"
 	@echo "make busy    200 motions beside 8 busy processes, and kills and freezes: BUSY='--motions 40 --busy 4'"
 	@echo "make fuzz    a million sequences of 50 nasty commands at the governor: FUZZ='--sequences 1000 --seed 2'"
@@ -77,6 +78,9 @@ mutants: setup
 # Needs DejaVu Sans Mono and a font with Chinese on the system.
 pictures: setup
 	$(BIN)/python scripts/make_pictures.py
+
+reference: setup
+	$(BIN)/python -m scripts.make_reference
 
 # Builds for about five minutes the first time.
 try-llamacpp: setup

@@ -21,17 +21,20 @@ NAMED = {
     "brightblack": (128, 137, 152), "default": INK,
 }  # fmt: skip
 FAINT = "8a93a3"
-_FAINT_SGR = re.compile(rb"\x1b\[2(;[0-9;]*)?m")
+FAINT_SGR = re.compile(rb"\x1b\[2(;[0-9;]*)?m")
+_GREY = b"\x1b[38;2;138;147;163m"
 _DOT_BITS = ((0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (0, 3), (1, 3))
+
+
+def grey(sgr: re.Match[bytes]) -> bytes:
+    """What stands for faint text, with the rest of what it was."""
+    return _GREY + (b"\x1b[" + sgr.group(1)[1:] + b"m" if sgr.group(1) else b"")
 
 
 def replay(raw: bytes, columns: int, rows: int) -> pyte.Screen:
     """The screen after `raw`. pyte knows no faint text: it becomes grey here."""
     screen = pyte.Screen(columns, rows)
-    grey = b"\x1b[38;2;138;147;163m"
-    pyte.ByteStream(screen).feed(
-        _FAINT_SGR.sub(lambda sgr: grey + (b"\x1b[" + sgr.group(1)[1:] + b"m" if sgr.group(1) else b""), raw)
-    )
+    pyte.ByteStream(screen).feed(FAINT_SGR.sub(grey, raw))
     return screen
 
 
@@ -55,14 +58,14 @@ def draw_screen(screen: pyte.Screen, title: str, path: Path) -> None:
 
 
 def _cell(draw: ImageDraw.ImageDraw, x: float, y: float, char: Char) -> None:
-    ink, paper = _colour(char.fg, INK), _colour(char.bg, PAPER)
+    ink, paper = colour(char.fg, INK), colour(char.bg, PAPER)
     if char.reverse:
         ink, paper = paper, ink
     if paper != PAPER:
         draw.rectangle([v * SCALE for v in (x, y, x + CELL_W, y + CELL_H)], fill=paper)
     for letter in char.data.strip():
         if "\u2800" <= letter <= "\u28ff":
-            _braille(draw, x, y, ord(letter) - 0x2800, ink)
+            _braille(draw, x, y, letter, ink)
         elif "█" <= letter <= "▏":
             share = (0x2590 - ord(letter)) / 8
             draw.rectangle([v * SCALE for v in (x, y + 4, x + CELL_W * share, y + CELL_H - 4)], fill=ink)
@@ -84,14 +87,19 @@ def _letter(
     draw.text(baseline, letter, fill=ink, font=font, anchor="ls", **stroke)
 
 
-def _braille(draw: ImageDraw.ImageDraw, x: float, y: float, bits: int, ink: tuple[int, int, int]) -> None:
-    for bit, (column, row) in enumerate(_DOT_BITS):
-        if bits & (1 << bit):
-            cx, cy, r = x + CELL_W * (0.25 + 0.5 * column), y + CELL_H * (0.125 + 0.25 * row), 1.65
-            draw.ellipse([v * SCALE for v in (cx - r, cy - r, cx + r, cy + r)], fill=ink)
+def braille_dots(letter: str) -> list[tuple[int, int]]:
+    """Column and row of each dot of a Braille letter."""
+    return [at for bit, at in enumerate(_DOT_BITS) if (ord(letter) - 0x2800) & (1 << bit)]
 
 
-def _colour(name: str, default: tuple[int, int, int]) -> tuple[int, int, int]:
+def _braille(draw: ImageDraw.ImageDraw, x: float, y: float, letter: str, ink: tuple[int, int, int]) -> None:
+    for column, row in braille_dots(letter):
+        cx, cy, r = x + CELL_W * (0.25 + 0.5 * column), y + CELL_H * (0.125 + 0.25 * row), 1.65
+        draw.ellipse([v * SCALE for v in (cx - r, cy - r, cx + r, cy + r)], fill=ink)
+
+
+def colour(name: str, default: tuple[int, int, int]) -> tuple[int, int, int]:
+    """A colour of pyte, as red, green and blue."""
     if name == "default":
         return default
     if name in NAMED:

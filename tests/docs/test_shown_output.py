@@ -33,10 +33,12 @@ def commands(page: Path) -> list[tuple[str, str]]:
 SHOWN = [shown for page in PAGES for shown in commands(page)]
 LINKS = sorted(
     (page, link)
-    for page in PAGES
-    for link in set(re.findall(r"\]\(([^)#]+)\)", page.read_text(encoding="utf-8")))
+    for page in (*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md"))
+    for link in set(re.findall(r"\]\(([^)\s]+)\)", page.read_text(encoding="utf-8")))
     if "://" not in link
 )
+NAMED = re.compile(r'<a name="([^"]+)">')
+HEADING = re.compile(r"^#+ (.+)$", re.MULTILINE)
 
 
 @pytest.mark.parametrize(("command", "expected"), SHOWN, ids=[command for command, _ in SHOWN])
@@ -71,7 +73,16 @@ def test_the_pages_have_commands_to_check() -> None:
 
 @pytest.mark.parametrize(("page", "link"), LINKS, ids=[f"{page.name}:{link}" for page, link in LINKS])
 def test_what_a_page_links_to_is_there(page: Path, link: str) -> None:
-    assert (page.parent / link).exists()
+    path, _, anchor = link.partition("#")
+    target = page.parent / path if path else page
+    assert target.exists()
+    text = target.read_text(encoding="utf-8") if anchor else ""
+    assert not anchor or anchor in {*map(slug, HEADING.findall(text)), *NAMED.findall(text)}
+
+
+def slug(heading: str) -> str:
+    """What code hosts make of a heading."""
+    return re.sub(r"[^\w\- ]", "", heading.casefold()).replace(" ", "-")
 
 
 def test_the_python_of_the_readme_runs() -> None:
