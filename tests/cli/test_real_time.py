@@ -106,8 +106,15 @@ def test_chatrobot_stop_clears_away_what_a_killed_robot_left(chatrobot: Command,
     assert not left.exists()
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-@pytest.mark.parametrize("arguments", [["do", "forward 10 m", "back 1 m"], []], ids=["do", "piped"])
+@pytest.mark.parametrize(
+    ("number", "arguments"),
+    [
+        (signal.SIGINT, ["do", "forward 10 m", "back 1 m"]),
+        (signal.SIGHUP, ["do", "forward 10 m", "back 1 m"]),
+        (signal.SIGTERM, []),
+    ],
+    ids=["Ctrl-C in do", "hang-up in do", "termination of a pipe"],
+)
 def test_a_signal_stops_the_robot_then_reports_it(
     chatrobot: Command, number: signal.Signals, arguments: list[str]
 ) -> None:
