@@ -20,7 +20,7 @@ pytestmark = pytest.mark.realtime
 
 
 def test_doctor_measures_what_works_and_says_what_does_not_yet(chatrobot: Command) -> None:
-    done = chatrobot("doctor", "--json")
+    done = chatrobot.apart("doctor", "--json")
     states = {event["name"]: event["state"] for event in done.events}
     assert done.code == 0
     assert states["simulated robot"] == states["in real time"] == states["settings folder"] == "ok"
@@ -31,13 +31,13 @@ def test_doctor_measures_what_works_and_says_what_does_not_yet(chatrobot: Comman
 def test_doctor_fails_where_something_has_to_be_mended(chatrobot: Command, tmp_path: Path) -> None:
     file = tmp_path / "file"
     file.write_text("", encoding="utf-8")
-    done = chatrobot("doctor", "--config-dir", str(file))
+    done = chatrobot.apart("doctor", "--config-dir", str(file))
     assert done.code == 1
     assert "✗ settings folder" in done.out
 
 
 def test_doctor_tells_an_error_once_and_looks_at_the_rest(chatrobot: Command) -> None:
-    done = chatrobot("doctor", "--robot", "r2d2", "--model", "clippy:95")
+    done = chatrobot.apart("doctor", "--robot", "r2d2", "--model", "clippy:95")
     assert done.code == 1
     assert (done.out + done.err).count("no robot profile is called 'r2d2'") == 1
     assert "✓ simulated robot" in done.out
@@ -48,7 +48,7 @@ def test_doctor_knows_a_profile_of_ones_own(chatrobot: Command, tmp_path: Path) 
     (tmp_path / "robots").mkdir()
     built_in = next(entry.file for entry in list_profiles() if entry.name == "turtlebot4")
     shutil.copy(built_in, tmp_path / "robots" / "mine.toml")
-    done = chatrobot("doctor", "--robot", "mine", "--config-dir", str(tmp_path))
+    done = chatrobot.apart("doctor", "--robot", "mine", "--config-dir", str(tmp_path))
     assert "✓ robot profile     mine: TurtleBot 4" in done.out
     assert "✓ in real time" in done.out
 

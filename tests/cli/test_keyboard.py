@@ -9,10 +9,7 @@ from tests.console.terminal import Terminal
 
 
 def command(folder, *arguments):
-    return Terminal(
-        [sys.executable, "-m", "chatrobot", *arguments, "--config-dir", str(folder)],
-        environment={"EDITOR": "sed -i s/1/0.5/"},
-    )
+    return Terminal([sys.executable, "-m", "chatrobot", *arguments, "--config-dir", str(folder)])
 
 
 @pytest.mark.realtime
@@ -32,16 +29,6 @@ def test_a_yes_that_was_typed_before_the_question_is_no_answer(tmp_path):
         terminal.enter("n")
         assert terminal.wait_for_end() == 4
         assert "Done" not in terminal.text
-
-
-def test_the_question_can_be_answered_with_an_edited_plan(tmp_path):
-    with command(tmp_path, "do", "forward 1 m", "--approve", "--fast") as terminal:
-        terminal.wait_for(r"\[y/N\]")
-        terminal.enter("e")
-        terminal.wait_for(r"\[y/N\]", times=2)
-        terminal.enter("y")
-        assert terminal.wait_for_end() == 0
-        assert "0.50 m of 0.50 m" in terminal.text
 
 
 def test_the_end_of_file_is_a_no(tmp_path):

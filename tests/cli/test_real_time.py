@@ -28,7 +28,7 @@ def moving(robot: Running) -> None:
 
 
 def test_a_pipe_is_done_to_its_end_in_real_time(chatrobot: Command) -> None:
-    done = chatrobot("--json", *EMPTY, stdin="forward 30 cm\nturn left 30 degrees\n")
+    done = chatrobot.apart("--json", *EMPTY, stdin="forward 30 cm\nturn left 30 degrees\n")
     assert [event["outcome"] for event in done.named("result")] == ["completed", "completed"]
     assert done.code == 0
 
@@ -67,7 +67,7 @@ def test_ten_texts_may_wait_and_the_next_is_refused(chatrobot: Command) -> None:
 def test_chatrobot_stop_stops_what_runs_elsewhere(chatrobot: Command) -> None:
     with chatrobot.start("do", "forward 10 m", "--json", *EMPTY) as robot:
         moving(robot)
-        done = chatrobot("stop")
+        done = chatrobot.apart("stop")
         assert done.code == 0
         assert "stopped: it was moving" in done.out
         assert robot.event("result")["outcome"] == "stopped"
@@ -78,20 +78,20 @@ def test_chatrobot_stop_says_of_a_robot_that_stood_that_it_stood(chatrobot: Comm
     with chatrobot.start("--json", *EMPTY) as robot:
         robot.say("where are you?")
         robot.event("result")
-        done = chatrobot("stop")
+        done = chatrobot.apart("stop")
         assert (done.code, done.out.partition(": ")[2]) == (
             0,
             "it was standing already; zeros were sent all the same\n",
         )
         robot.say("wait 60 s")
         robot.event("started")
-        done = chatrobot("stop")
+        done = chatrobot.apart("stop")
         assert "it was standing; what it was told to do is not done any more" in done.out
         assert robot.event("result")["outcome"] == "stopped"
 
 
 def test_chatrobot_stop_with_nothing_running_says_so(chatrobot: Command) -> None:
-    done = chatrobot("stop")
+    done = chatrobot.apart("stop")
     assert (done.code, done.out) == (0, "nothing is running\n")
 
 
@@ -102,12 +102,19 @@ def test_chatrobot_stop_clears_away_what_a_killed_robot_left(chatrobot: Command,
     code = f"import socket; socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET).bind({str(left)!r})"
     subprocess.run([sys.executable, "-c", code], check=True)
     assert left.exists()
-    assert chatrobot("stop").out == "nothing is running\n"
+    assert chatrobot.apart("stop").out == "nothing is running\n"
     assert not left.exists()
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-@pytest.mark.parametrize("arguments", [["do", "forward 10 m", "back 1 m"], []], ids=["do", "piped"])
+@pytest.mark.parametrize(
+    ("number", "arguments"),
+    [
+        (signal.SIGINT, ["do", "forward 10 m", "back 1 m"]),
+        (signal.SIGHUP, ["do", "forward 10 m", "back 1 m"]),
+        (signal.SIGTERM, []),
+    ],
+    ids=["Ctrl-C in do", "hang-up in do", "termination of a pipe"],
+)
 def test_a_signal_stops_the_robot_then_reports_it(
     chatrobot: Command, number: signal.Signals, arguments: list[str]
 ) -> None:

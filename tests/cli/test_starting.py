@@ -41,7 +41,7 @@ def test_the_console_shows_that_it_starts_and_then_is_there(tmp_path: Path) -> N
 
 @pytest.mark.realtime
 def test_what_programs_read_has_no_such_line(chatrobot: Command) -> None:
-    done = chatrobot("do", "forward 0.1 m", "--world", "empty", "--json")
+    done = chatrobot.apart("do", "forward 0.1 m", "--world", "empty", "--json")
     assert done.code == 0
     assert done.named("result")[0]["outcome"] == "completed"
     assert "starting" not in done.out + done.err
@@ -57,7 +57,7 @@ def test_what_programs_read_has_no_such_line(chatrobot: Command) -> None:
 def test_what_was_started_for_a_command_that_cannot_run_is_ended(
     chatrobot: Command, options: list[str], problem: str
 ) -> None:
-    done = chatrobot("do", "forward 1 m", *options)
+    done = chatrobot.apart("do", "forward 1 m", *options)
     assert done.code == 2
     assert problem in done.err
     until_s = time.monotonic() + 10.0

@@ -58,9 +58,7 @@ def test_progress_is_one_line_that_is_written_over(terminal: Terminal) -> None:
     assert child.before.count("\n") == 4
 
 
-@pytest.mark.parametrize(
-    ("answer", "outcome"), [("y", 0), ("yes", 0), ("是", 0), ("n", 4), ("", 4), ("what?", 4)]
-)
+@pytest.mark.parametrize(("answer", "outcome"), [("是", 0), ("", 4), ("what?", 4)])
 def test_approval_is_asked_for_and_only_a_yes_is_one(terminal: Terminal, answer: str, outcome: int) -> None:
     child = terminal("do", "forward 1 m", "--approve", "--fast", *EMPTY)
     child.expect_exact("[y/N]")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import shlex
 import subprocess
@@ -10,6 +9,8 @@ import sys
 from pathlib import Path
 
 import pytest
+
+from tests.cli.running import Command
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = (ROOT / "README.md", ROOT / "docs" / "tutorial.md")
@@ -43,18 +44,10 @@ HEADING = re.compile(r"^#+ (.+)$", re.MULTILINE)
 
 @pytest.mark.parametrize(("command", "expected"), SHOWN, ids=[command for command, _ in SHOWN])
 def test_a_command_prints_what_the_page_shows(command: str, expected: str, tmp_path: Path) -> None:
-    arguments = [*shlex.split(command)[1:], "--config-dir", str(tmp_path)]
-    run = subprocess.run(
-        [sys.executable, "-m", "chatrobot", *arguments],
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        env={**os.environ, "PYTHONPATH": str(ROOT / "src"), "PYTHONUTF8": "1"},
-        timeout=60.0,
-    )
-    assert run.stderr == ""
+    run = Command(tmp_path)(*shlex.split(command)[1:], "--config-dir", str(tmp_path))
+    assert run.err == ""
     # Progress is shown for those who wait; a tutorial leaves it out.
-    printed = [line for line in run.stdout.splitlines() if not PROGRESS.match(line)]
+    printed = [line for line in run.out.splitlines() if not PROGRESS.match(line)]
     assert words(printed) == words(expected.splitlines())
     assert numbers(printed) == pytest.approx(numbers(expected.splitlines()), rel=0.01, abs=0.2)
 

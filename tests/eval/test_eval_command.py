@@ -8,7 +8,7 @@ from pathlib import Path
 import pexpect
 import pytest
 
-from chatrobot.cli.eval.corpus import Expect, Item, Meant, Turn
+from chatrobot.cli.eval.corpus import Expect, Item, Meant, Turn, load_corpus
 from chatrobot.cli.eval.run import run_items
 from chatrobot.compose import Setup
 from chatrobot.plan.text import parse_plan
@@ -119,11 +119,15 @@ def test_what_was_asked_back_is_driven_as_a_yes_would(monkeypatch: pytest.Monkey
         assert judged.was_proposed is is_right
 
 
-def test_the_shipped_corpora_are_valid_and_run_quickly(chatrobot: Command) -> None:
-    files = [str(file) for file in sorted((Path(__file__).parent.parent / "corpus").glob("*.yaml"))]
-    done = chatrobot("eval", *files, "--json")
-    assert done.code == 0
-    assert done.events[-1]["items"] >= 200
+def test_the_shipped_corpora_are_valid_and_nothing_of_them_is_done_wrongly() -> None:
+    """All is said to an ideal robot by `tests/language/test_corpus.py`; here every eighth is driven."""
+    files = sorted((Path(__file__).parent.parent / "corpus").glob("*.yaml"))
+    items = [item for file in files for item in load_corpus(file)]
+    assert len(items) >= 200
+    wrong = [
+        one.item.id for one in run_items(items[::8], Setup(world="empty")) if one.verdict.kind == "wrong"
+    ]
+    assert wrong == []
 
 
 @pytest.mark.parametrize("output", [[], ["--json"]], ids=["table", "json"])

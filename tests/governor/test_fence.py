@@ -28,7 +28,7 @@ def farthest_m(rig: Rig) -> float:
     return max(math.hypot(corner.x_m, corner.y_m) for corner in corners)
 
 
-@pytest.mark.parametrize("speed", [0.2, 0.6, 1.0])
+@pytest.mark.parametrize("speed", [0.2, 1.0])
 @pytest.mark.parametrize("direction_deg", [0, 45, 90, 180, -100])
 @pytest.mark.parametrize("fence", [CIRCLE, SQUARE, CORNER], ids=["circle", "square", "corner"])
 def test_the_robot_stops_before_the_fence(

@@ -98,7 +98,7 @@ WORDS = [
 ]
 
 
-@settings(max_examples=500, deadline=None)
+@settings(max_examples=200, deadline=None)
 @given(st.lists(st.sampled_from(WORDS), max_size=14))
 def test_no_salad_of_known_words_raises(words: list[str]) -> None:
     assert OfflineInterpreter(MECANUM).interpret(" ".join(words), Context()).reply

@@ -1,6 +1,7 @@
 """Whichever node dies or freezes, the robot stands within 250 ms, at a subscriber that is none of ours.
 
-One set of processes for all: what was killed is replaced, what was frozen thaws.
+One set of processes for all: what was killed is replaced, what was frozen thaws. One blow of each kind here, some more
+beside busy processes in test_busy_machine.py; `make faults` strikes twenty times.
 """
 
 from __future__ import annotations
@@ -15,8 +16,6 @@ from tests.nodes.node_rig import NodeRig, running
 pytestmark = [pytest.mark.realtime, pytest.mark.alone]
 
 PROMISE_S = 0.25
-TIMES = 2
-"""`make faults` does twenty of each."""
 NODES = ("base", "control", "input")
 REPLACEMENT = {"control": ("--accept-others",)}
 """One that was killed is still seen on DDS for ten seconds."""
@@ -43,13 +42,12 @@ def test_a_second_control_is_named_and_nothing_moves_until_it_is_gone(rig: NodeR
 
 @pytest.mark.parametrize("whom", NODES)
 def test_when_one_freezes_the_robot_stands_within_250_ms(rig: NodeRig, whom: str) -> None:
-    for _ in range(TIMES):
-        rig.drive()
-        took_s = rig.seconds_to_zero(rig.nodes[whom].strike("SIGSTOP"))
-        rig.nodes[whom].strike("SIGCONT")
-        rig.rest()
-        print(f"SIGSTOP {whom}: {took_s * 1e3:.0f} ms")
-        assert took_s <= PROMISE_S
+    rig.drive()
+    took_s = rig.seconds_to_zero(rig.nodes[whom].strike("SIGSTOP"))
+    rig.nodes[whom].strike("SIGCONT")
+    rig.rest()
+    print(f"SIGSTOP {whom}: {took_s * 1e3:.0f} ms")
+    assert took_s <= PROMISE_S
 
 
 def test_a_base_that_thaws_drives_again_when_told_and_not_before(rig: NodeRig) -> None:
@@ -63,33 +61,28 @@ def test_a_base_that_thaws_drives_again_when_told_and_not_before(rig: NodeRig) -
 
 @pytest.mark.parametrize("whom", NODES)
 def test_when_one_is_killed_the_robot_stands_within_250_ms(rig: NodeRig, whom: str) -> None:
-    for _ in range(TIMES):
-        rig.drive()
-        took_s = rig.seconds_to_zero(rig.nodes[whom].strike("SIGKILL"))
-        rig.replace(whom, *REPLACEMENT.get(whom, ()))
-        rig.rest()
-        print(f"SIGKILL {whom}: {took_s * 1e3:.0f} ms")
-        assert took_s <= PROMISE_S
+    rig.drive()
+    struck_s = rig.nodes[whom].strike("SIGKILL")
+    took_s = rig.seconds_to_zero(struck_s)
+    if whom == "control":
+        assert rig.result(struck_s)["reason"]["code"] == "control_silent"
+    rig.replace(whom, *REPLACEMENT.get(whom, ()))
+    rig.drive()  # who took its place does its work
+    rig.rest()
+    print(f"SIGKILL {whom}: {took_s * 1e3:.0f} ms")
+    assert took_s <= PROMISE_S
 
 
-@pytest.mark.parametrize("whom", NODES)
+@pytest.mark.parametrize("whom", ["base", "input"])
 def test_ctrl_c_stops_the_robot_first(rig: NodeRig, whom: str) -> None:
+    """Of control, which stops it itself, test_leaving.py says the same."""
     rig.drive()
     took_s = rig.seconds_to_zero(rig.nodes[whom].strike("SIGINT"))
     exit_code = rig.nodes[whom].process.wait(10.0)
-    rig.replace(whom, *REPLACEMENT.get(whom, ()))
+    rig.replace(whom)
     rig.rest()
     assert took_s <= PROMISE_S
     assert exit_code == 5
-
-
-def test_a_control_that_is_gone_is_told_and_a_new_one_obeys(rig: NodeRig) -> None:
-    rig.drive()
-    struck_s = rig.nodes["control"].strike("SIGKILL")
-    assert rig.result(struck_s)["reason"]["code"] == "control_silent"
-    rig.replace("control", "--accept-others")
-    rig.drive()
-    rig.rest()
 
 
 def test_a_base_without_control_says_so(rig: NodeRig) -> None:

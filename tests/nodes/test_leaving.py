@@ -35,9 +35,8 @@ def end_the_launch(rig: NodeRig) -> float:
     return took_s
 
 
-@pytest.mark.parametrize("namespace", ["", "robot1"])
-def test_ctrl_c_for_all_while_the_robot_drives(tmp_path: Path, namespace: str) -> None:
-    with running(tmp_path, namespace=namespace) as rig:
+def test_ctrl_c_for_all_while_the_robot_drives(tmp_path: Path) -> None:
+    with running(tmp_path, namespace="robot1") as rig:
         rig.drive()
         took_s = end_the_launch(rig)
     assert took_s <= PROMISE_S

@@ -36,9 +36,12 @@ def test_nothing_moves_before_it_begins(robot: Driven) -> None:
     assert robot.stands
 
 
-@pytest.mark.parametrize("huge", [2.0, 99.0, 1e300])
-def test_no_axis_and_no_combination_is_ever_above_the_profile(robot: Driven, huge: float) -> None:
-    robot.begin()
+@pytest.mark.parametrize(("huge", "source"), [(2.0, "console"), (99.0, "agent"), (1e300, SOURCES[-1])])
+def test_no_axis_and_no_combination_is_ever_above_the_profile(
+    profile: RobotProfile, huge: float, source: str
+) -> None:
+    """Of every source a test below says the same of narrowed limits; `test_fuzz.py` mixes them."""
+    robot = Driven(profile, source).begin()
     limits, before = robot.profile.limits, TwistMessage(0.0, 0.0, 0.0)
     for signs in (
         (1, 1, 1),

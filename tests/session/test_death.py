@@ -1,10 +1,13 @@
 """Whoever dies or freezes, the robot stands within 250 ms. In real time, over a real wire, against a robot that
-holds its last command for ever."""
+holds its last command for ever.
+
+One blow of each kind; `make faults` strikes twenty times."""
 
 from __future__ import annotations
 
 import os
 import signal
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -15,8 +18,6 @@ from tests.realtime import RunningRobot
 pytestmark = [pytest.mark.realtime, pytest.mark.alone]
 
 PROMISE_S = 0.25
-TIMES = 2
-"""`make faults` does twenty of each."""
 
 
 @pytest.fixture
@@ -27,8 +28,6 @@ def robot(tmp_path: Path) -> Iterator[RunningRobot]:
 
 
 def seconds_to_zero_after(robot: RunningRobot, strike: Callable[[], object]) -> float:
-    import time
-
     said_s = robot.say("forward 100 m at 0.3 m/s")
     robot.ear.wait_for_motion(said_s)
     began_s = time.monotonic()
@@ -43,10 +42,9 @@ def guard_of(robot: RunningRobot) -> int:
     return guard
 
 
-@pytest.mark.parametrize("_", range(TIMES))
 @pytest.mark.parametrize("whom", ["console", "motion", "guard"])
 @pytest.mark.parametrize("how", ["SIGKILL", "SIGSTOP"])
-def test_the_robot_stands_within_250_ms(robot: RunningRobot, whom: str, how: str, _: int) -> None:
+def test_the_robot_stands_within_250_ms(robot: RunningRobot, whom: str, how: str) -> None:
     pid = {"console": robot.console.pid, "motion": robot.motion_pid, "guard": guard_of(robot)}[whom]
     assert seconds_to_zero_after(robot, lambda: os.kill(pid, getattr(signal, how))) <= PROMISE_S
 
@@ -58,20 +56,12 @@ def test_two_at_once_leave_one_who_stops_the_robot(robot: RunningRobot) -> None:
 
 def test_a_motion_that_thaws_does_not_drive_on(robot: RunningRobot) -> None:
     seconds_to_zero_after(robot, lambda: os.kill(robot.motion_pid, signal.SIGSTOP))
-    import time
-
     thawed_s = time.monotonic()
     os.kill(robot.motion_pid, signal.SIGCONT)
     result = robot.wait_for_event("result", turn=1)
     assert result["outcome"] == "failed"
     assert robot.ear.seconds_to_zero(thawed_s) <= 0.1
-
-
-def test_after_a_thaw_the_robot_obeys_again(robot: RunningRobot) -> None:
-    seconds_to_zero_after(robot, lambda: os.kill(robot.motion_pid, signal.SIGSTOP))
-    os.kill(robot.motion_pid, signal.SIGCONT)
-    robot.wait_for_event("result", turn=1)
-    robot.say("forward 10 cm")
+    robot.say("forward 10 cm")  # told anew, it does
     assert robot.wait_for_event("result", turn=2)["outcome"] == "completed"
 
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-import subprocess
-import sys
 from pathlib import Path
+
+from tests.under_signals import see_every_wait_end
 
 import chatrobot
 from chatrobot.core.events import Notice
@@ -13,26 +13,12 @@ from chatrobot.core.reason import Reason
 from chatrobot.session.event_queue import EventQueue
 
 SOURCES = Path(chatrobot.__file__).parent
-WAITS_UNDER_SIGNALS = """
-import signal, time
-from chatrobot.session.event_queue import EventQueue
-
-def dawdle(_number, _frame):
-    ends_s = time.monotonic() + 0.004
-    while time.monotonic() < ends_s:
-        pass
-
-signal.signal(signal.SIGALRM, dawdle)
-signal.setitimer(signal.ITIMER_REAL, 0.013, 0.0131)
-events = EventQueue()
-for _ in range(200):
-    assert events.next_event(0.002) is None
-signal.setitimer(signal.ITIMER_REAL, 0.0)
-"""
 
 
 def test_a_signal_in_the_last_moment_of_a_wait_does_not_make_it_wait_for_ever() -> None:
-    subprocess.run([sys.executable, "-c", WAITS_UNDER_SIGNALS], check=True, timeout=20.0)
+    see_every_wait_end(
+        "from chatrobot.session.event_queue import EventQueue", "EventQueue()", "next_event(0.002)"
+    )
 
 
 def test_events_come_in_order_and_a_wake_ends_one_wait() -> None:

@@ -199,18 +199,6 @@ def test_a_question_leaves_it_paused(text: str) -> None:
     assert talk.results()[1].outcome == "completed"
 
 
-def test_it_is_dropped_after_ten_minutes() -> None:
-    talk = Talk()
-    talk.session.say("forward 2 m")
-    pause(talk)
-    run_s(talk, 590.0)
-    assert talk.session.is_paused
-    run_s(talk, 15.0)
-    assert talk.results()[1].outcome == "stopped"
-    assert talk.results()[1].reason is not None
-    assert talk.results()[1].reason.code == "pause_too_long"
-
-
 @pytest.mark.parametrize("moved", [Pose(0.06, 0.0, 0.0), Pose(0.0, 0.0, math.radians(6.0))])
 def test_it_is_dropped_where_the_robot_is_moved(moved: Pose) -> None:
     from chatrobot.session.job import Job

@@ -66,9 +66,14 @@ def test_what_waited_behind_a_pause_says_why_it_is_not_done(word: str, code: str
     assert dropped.reason.code == code
 
 
-def test_a_pause_that_lapses_says_so_for_what_waited_behind_it() -> None:
+def test_a_pause_lapses_after_ten_minutes_and_says_so_for_what_waited_behind_it_too() -> None:
     talk = paused_before()
-    run_s(talk, 610.0)
+    run_s(talk, 590.0)
+    assert talk.session.is_paused
+    run_s(talk, 15.0)
+    assert talk.results()[1].outcome == "stopped"
+    assert talk.results()[1].reason is not None
+    assert talk.results()[1].reason.code == "pause_too_long"
     assert "paused for more than 600 s" in talk.results()[2].reply
 
 

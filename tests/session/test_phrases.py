@@ -26,9 +26,9 @@ def reason_codes() -> Iterator[str]:
 
 
 @pytest.mark.parametrize("language", ["en", "zh"])
-@pytest.mark.parametrize("code", sorted(set(reason_codes())))
-def test_every_reason_is_a_sentence(code: str, language: str) -> None:
-    assert any(code in load_table(language, table) for table in TABLES)
+def test_every_reason_is_a_sentence(language: str) -> None:
+    known = {code for table in TABLES for code in load_table(language, table)}
+    assert set(reason_codes()) - known == set()
 
 
 @pytest.mark.parametrize("language", ["en", "zh"])

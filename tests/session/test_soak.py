@@ -49,8 +49,8 @@ def test_what_was_turned_before_a_stop_is_told_as_it_stands(player: Player) -> N
 
 @pytest.mark.slow
 @pytest.mark.parametrize("world", soak.WORLDS)
-@pytest.mark.parametrize("seed", range(3))
-def test_a_long_session_ends_where_it_says(world: str, seed: int) -> None:
-    session = soak.play(world, seed)
+def test_a_long_session_ends_where_it_says(world: str) -> None:
+    """One of each; `make soak` plays a hundred."""
+    session = soak.play(world, seed=0)
     assert session.is_within, f"{session.off_m} m, {session.off_deg} degrees off"
     assert session.outcomes["completed"] > 10

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 import threading
 from collections.abc import Mapping
 from dataclasses import replace
@@ -11,6 +9,7 @@ from typing import Any
 
 import pytest
 from sim_rig import PROFILE
+from tests.under_signals import see_every_wait_end
 
 from chatrobot.core.errors import WireError
 from chatrobot.robots.profile import Lidar
@@ -56,27 +55,11 @@ def test_callbacks_come_on_the_thread_that_polls_and_in_order() -> None:
     assert heard == [(1.0, threading.current_thread()), (2.0, threading.current_thread())]
 
 
-POLLS_UNDER_SIGNALS = """
-import signal, time
-from chatrobot.sim.marshalled import MarshalledWire
-from chatrobot.wire.memory import MemoryHub
-
-def dawdle(_number, _frame):
-    ends_s = time.monotonic() + 0.004
-    while time.monotonic() < ends_s:
-        pass
-
-signal.signal(signal.SIGALRM, dawdle)
-signal.setitimer(signal.ITIMER_REAL, 0.013, 0.0131)
-wire = MarshalledWire(MemoryHub().connect())
-for _ in range(200):
-    wire.poll(0.002)
-signal.setitimer(signal.ITIMER_REAL, 0.0)
-"""
-
-
 def test_a_signal_in_the_last_moment_of_a_wait_does_not_make_it_wait_for_ever() -> None:
-    subprocess.run([sys.executable, "-c", POLLS_UNDER_SIGNALS], check=True, timeout=20.0)
+    imports = (
+        "from chatrobot.sim.marshalled import MarshalledWire\nfrom chatrobot.wire.memory import MemoryHub"
+    )
+    see_every_wait_end(imports, "MarshalledWire(MemoryHub().connect())", "poll(0.002)")
 
 
 def test_a_robot_lives_on_while_its_network_is_gone() -> None:
