@@ -47,6 +47,12 @@ from chatrobot.plan.text import format_plan
 from chatrobot.robots.profile import RobotProfile
 
 
+_OF_AN_ORDER = frozenset(
+    {"which_side", "which_way", "which_size", "which_place", "how_far", "how_long", "no_unit", "unclear_motion"}
+)
+"""What is asked back about an order, and never about a remark: `nice turn` leaves no question open."""
+
+
 class OfflineInterpreter:
     """Understands English and Chinese by rules over data. Keeps no state.
 
@@ -105,10 +111,11 @@ class OfflineInterpreter:
             meant = self._interpreted(text, language, context)
         except Unclear as problem:
             asked = "" if problem.refused else without_requests(rest or plain, names)
-            if not asked:
-                raise
-            with contextlib.suppress(Unclear):
-                return self._interpreted(asked, language, context)
+            if asked:
+                with contextlib.suppress(Unclear):
+                    return self._interpreted(asked, language, context)
+            if problem.code in _OF_AN_ORDER and order_log_odds(read_acts(plain, names)) < MAYBE_ORDER:
+                raise Unclear("nothing_to_do") from None
             raise
         if meant.outcome != "plan" or read_twists(plain):
             return meant
