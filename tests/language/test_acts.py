@@ -104,7 +104,9 @@ def test_remarks_about_a_motion_that_is_seen_and_questions_without_a_verb_move_n
     assert [text for text in still if Conversation().say(text).plan is not None] == []
 
 
-@pytest.mark.parametrize("text", ["nice turn", "you turn too fast", "left, right?", "now it turns left, I see"])
+@pytest.mark.parametrize(
+    "text", ["nice turn", "you turn too fast", "left, right?", "now it turns left, I see"]
+)
 def test_a_remark_leaves_no_question_open(text: str) -> None:
     assert Conversation().say(text).code == "nothing_to_do"
 

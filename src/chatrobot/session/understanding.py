@@ -21,6 +21,7 @@ from chatrobot.language.phrases import describe_steps, render_reason, say
 from chatrobot.plan.steps import Plan, Step
 from chatrobot.plan.text import parse_plan
 from chatrobot.robots.profile import RobotProfile
+from chatrobot.session.map_ways import MapWays
 from chatrobot.session.places import Places
 from chatrobot.session.replies import describe_end, describe_model_end
 from chatrobot.session.rest_watch import UNMEASURED, RestWatch
@@ -58,6 +59,7 @@ class Understanding:
         self._state = RobotState(has_said_so=False, is_measured=profile.has_odometry)
         self._world_places = {alias: world.places[main] for alias, main in world.aliases.items()}
         self._main_places = dict(world.places)
+        self._ways = MapWays(world, profile) if world.obstacles else None
         self._names = tuple(world.names_of(name) for name in world.places)
         self._without_heading = frozenset(
             alias for alias, main in world.aliases.items() if main in world.without_heading
@@ -114,7 +116,7 @@ class Understanding:
 
     def _context(self, dialogue: Dialogue) -> Context:
         without_heading = self._without_heading - dialogue.places.keys()
-        return Context(dialogue, self._state, self._world_places, without_heading, self._names)
+        return Context(dialogue, self._state, self._world_places, without_heading, self._names, self._ways)
 
     def can_do(self, text: str) -> bool:
         """Whether `text` would be driven if it were said now. From any thread: nothing is noted."""
