@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import uuid
 from collections.abc import Sequence
 from dataclasses import replace
@@ -149,6 +150,15 @@ class Understanding:
     def tells_it_stands(self, meant: Interpretation) -> bool:
         """The answer is that the robot stands and is ready."""
         return meant.reply == say(meant.language, "answer_standing")
+
+    def tells_it_moves(self, meant: Interpretation) -> bool:
+        """The answer is that the robot moves, and how fast."""
+        return meant.reply == say(meant.language, "answer_moving", speed_mps=self.speed_mps)
+
+    @property
+    def speed_mps(self) -> float:
+        """How fast the robot last said it was."""
+        return math.hypot(self._state.twist.vx_mps, self._state.twist.vy_mps)
 
     @property
     def last_done(self) -> Step | None:
