@@ -194,8 +194,13 @@ class Understanding:
 
     def hear_language(self, text: str) -> None:
         """Answer in the language of `text`, where it has one."""
-        if any(character.isalpha() for character in text):
-            self.language = "zh" if has_chinese(text) else "en"
+        self.language = self.language_of(text)
+
+    def language_of(self, text: str) -> LanguageCode:
+        """The language of `text`; of what was said last, where it has none."""
+        if not any(character.isalpha() for character in text):
+            return self.language
+        return "zh" if has_chinese(text) else "en"
 
     def note_telemetry(self, event: Telemetry, *, is_ours: bool) -> None:
         """`is_ours`: a turn of ours moves the robot, or may."""
@@ -246,7 +251,8 @@ class Understanding:
         return describe_steps(steps, self.language)
 
     def note_model_turn(self, text: str, ended: Ended, rehearse_only: bool) -> str:
-        """A turn that a model planned has ended. Returns the reply."""
+        """A turn that a model planned has ended. Returns the reply, in the language of the order."""
+        language = self.language_of(text)
         finished = ended.finished
         plan = _plan_of(ended.steps) if not rehearse_only else None
         if finished is not None:
@@ -256,8 +262,8 @@ class Understanding:
             self._record(TurnRecord(text, ended.outcome))
         self._dialogue = replace(self._dialogue, pending="")
         if rehearse_only and ended.outcome == "completed":
-            return say(self.language, "only_rehearsed")
-        return describe_model_end(ended, self.language)
+            return say(language, "only_rehearsed")
+        return describe_model_end(ended, language)
 
     def _learn(self, meant: Interpretation) -> None:
         dialogue = self._dialogue
