@@ -177,16 +177,18 @@ class Rows:
         for number, example in enumerate(given):
             plain = normalise(example.text)
             clauses = clauses_of(plain)
-            any_moves = any(clause.moves for clause in clauses)
+            moving = sum(clause.moves for clause in clauses)
+            is_frame = example.source.startswith("frames")
             for i, clause in enumerate(clauses):
                 beside = plain[clause.start : clause.stop].strip() in example.talk
-                if example.orders and any_moves and not clause.moves and not beside:
-                    continue
+                unsure = not clause.moves or (clause.talks and moving > 1 and not is_frame)
+                if example.orders and moving and unsure and not beside:
+                    continue  # which clause of a real sentence orders nobody has marked
                 slots.append([slot_of(name) for name in features(clauses, i)])
                 self.label.append(example.orders and not beside)
                 self.weight.append(example.weight)
                 self.of.append(number)
-                self.moves.append(clause.moves or not any_moves)
+                self.moves.append(clause.moves or not moving)
         self.columns = np.fromiter(itertools.chain.from_iterable(slots), np.int64)
         self.rows = np.repeat(np.arange(len(slots)), [len(row) for row in slots])
         self.count = len(slots)

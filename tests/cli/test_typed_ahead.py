@@ -52,5 +52,5 @@ def test_in_a_pipe_a_pause_keeps_the_line_before_it(chatrobot: Command) -> None:
     done = chatrobot("--fast", "--world", "empty", "--json", stdin="forward 1 m\npause\ncontinue\n")
     assert {result["turn"]: result["outcome"] for result in done.named("result")}[1] == "completed"
     cut_off = chatrobot("--fast", "--world", "empty", stdin="forward 1 m\npause\n")
-    assert "Paused. Left: “forward 1 m”" in cut_off.out
+    assert "Paused. Still to do: “forward 1 m”" in cut_off.out
     assert cut_off.code == 5

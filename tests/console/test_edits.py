@@ -52,8 +52,10 @@ def test_a_second_pause_says_what_is_left_and_a_stop_is_told_once(talk, log):
             talk.session.is_plan_paused = True
             talk.hear(Paused(1, Pose(), "drive 1 m"))
         talk.hear(Interpreted(turn, "reflex", "", ""))
-        talk.hear(Result(turn, "stopped", "Stopped." if turn == 4 else "Paused. Left: drive forward 1 m."))
-        assert shown(log).count("Paused. Left: drive forward 1 m.") == (turn < 4), "told once"
+        talk.hear(
+            Result(turn, "stopped", "Stopped." if turn == 4 else "Paused. Still to do: drive forward 1 m.")
+        )
+        assert shown(log).count("Paused. Still to do: drive forward 1 m.") == (turn < 4), "told once"
         assert "Stopped." not in shown(log), "the plan tells its own end"
 
 

@@ -14,6 +14,7 @@ if sys.version_info >= (3, 11):
 else:
     import tomli as tomllib
 
+from chatrobot.cli.eval.corpus import load_corpus
 from chatrobot.language.acts import SLOTS, features, orders, read_acts, without_talk
 from chatrobot.language.data_files import DATA
 from chatrobot.language.lexicon import lexicon
@@ -93,6 +94,21 @@ def test_no_word_of_motion_moves_anything_in_a_frame_that_orders_nothing(languag
     moved = [text for text in said if Conversation().say(text).plan is not None]
     assert len(said) > 500
     assert len(moved) <= 0.01 * len(said), moved
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_remarks_about_a_motion_that_is_seen_and_questions_without_a_verb_move_nothing(language: str) -> None:
+    items = load_corpus(FRAMES.parent / "sources" / f"dev_lead_moves_{language}.yaml")
+    still = [item.turns[0].say for item in items if item.must_stand]
+    assert len(still) >= 30
+    assert [text for text in still if Conversation().say(text).plan is not None] == []
+
+
+@pytest.mark.parametrize(
+    "text", ["nice turn", "you turn too fast", "left, right?", "now it turns left, I see"]
+)
+def test_a_remark_leaves_no_question_open(text: str) -> None:
+    assert Conversation().say(text).code == "nothing_to_do"
 
 
 def test_a_text_is_cut_at_its_marks_and_its_words_are_labelled() -> None:

@@ -89,3 +89,12 @@ def test_a_proposal_names_what_was_left_out() -> None:
 )
 def test_what_was_misread_once(turns: list[str], plan: str) -> None:
     assert done(*turns) == plan.strip()
+
+
+@pytest.mark.parametrize(
+    ("said", "plan"), [("往前走50", "drive 0.5 m"), ("后退30", "drive 0.3 m back"), ("往前走5", "drive 5 m")]
+)
+def test_a_number_without_a_unit_is_proposed_in_chinese_too(said: str, plan: str) -> None:
+    meant = Conversation().say(said)
+    assert meant.proposal is not None
+    assert meant.proposal.plan_text.strip() == plan

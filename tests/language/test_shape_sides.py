@@ -60,3 +60,11 @@ def test_a_turn_after_then_comes_after_the_shape(said: str) -> None:
 )
 def test_a_turn_that_may_be_the_side_or_come_after_the_shape_is_asked_about(said: str) -> None:
     assert Conversation().say(said).outcome == "unclear"
+
+
+@pytest.mark.parametrize("said", ["forward 1 m, turn left and draw a triangle", "前进一米，左转，画个三角形"])
+def test_a_turn_before_a_shape_is_a_turn_of_its_own(said: str) -> None:
+    plan = Conversation().say(said).plan
+    assert plan is not None
+    assert [type(step).__name__ for step in plan.steps][:3] == ["Drive", "Turn", "Drive"]
+    assert len(plan.steps) == 8

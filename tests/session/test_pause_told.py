@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -99,6 +100,19 @@ def test_what_are_you_doing_is_answered_with_the_pause(question: str, word: str)
     assert answer.outcome == "answered"
     assert answer.reply.startswith(word)
     assert talk.session.is_paused
+
+
+def test_what_are_you_doing_names_the_motion_that_runs_and_what_is_left() -> None:
+    talk = Talk(options=Options(while_moving="replace"))
+    talk.session.say("forward 2 m, then turn left 90 degrees")
+    run_s(talk, 4.0)
+    reply = talk.session.do("what are you doing?").reply
+    told = re.fullmatch(
+        r"Under way: drive forward 2 m, now at 0\.\d\d m/s\. Still to do: drive forward ([\d.]+) m, turn left 90°\.",
+        reply,
+    )
+    assert told is not None, reply
+    assert 0.6 < float(told[1]) < 1.2
 
 
 # --- keep going ---

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 
+from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.numbers import is_kind
 from chatrobot.language.tokens import Atom, quantity
-
-_LESS, _MORE = frozenset({"minus", "less", "take away", "减", "减去"}), frozenset({"plus", "+", "加", "加上"})
 
 _TIMES, _OVER = (
     frozenset({"times", "multiplied by", "*", "乘", "乘以"}),
@@ -17,6 +17,23 @@ _TIMES, _OVER = (
 _FACTORS = frozenset({"double", "triple", "treble", "quadruple"})
 
 _SUMS = ("length", "angle", "time")
+
+
+@lru_cache(maxsize=1)
+def _signs() -> dict[str, float]:
+    signs = {"plus": 1.0, "minus": -1.0}
+    tables = [(load_table(code, "more_or_less"), name) for code in LANGUAGES for name in signs]
+    return {word: signs[name] for table, name in tables for word in table[name]}
+
+
+def sign_of(atom: Atom) -> float:
+    """1 for `plus`, -1 for `minus` or `shorter`, else 0."""
+    return _signs().get(atom.text, 0.0) if atom.kind != "q" else 0.0
+
+
+def is_another(atom: Atom) -> bool:
+    """`another 20 cm`: it may be added to what was said, or stand by itself."""
+    return any(atom.text in load_table(code, "more_or_less").get("another", ()) for code in LANGUAGES)
 
 
 def calculated(atoms: list[Atom]) -> list[Atom]:
@@ -49,7 +66,7 @@ def _added(out: list[Atom], atoms: list[Atom], i: int) -> tuple[Atom, int] | Non
     if is_kind(atoms, i, "q", first.value) and atom.number < 0:  # `2 m minus 50 cm`, as a number below zero
         text = f"{first.text} {atom.text}"
         return quantity(first.value, first.number + atom.number, text, first.role), i + 1
-    sign = -1.0 if atom.text in _LESS else 1.0 if atom.text in _MORE else 0.0
+    sign = sign_of(atom)
     if not sign or not is_kind(atoms, i + 1, "q", first.value):
         return None
     text = f"{first.text} {atom.text} {atoms[i + 1].text}"

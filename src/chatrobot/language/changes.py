@@ -11,7 +11,7 @@ from chatrobot.language.edits import Edit, flipped, resized
 from chatrobot.language.frames import DIRECTIONS, GO, SIDES, TURN, Frame
 from chatrobot.language.manner import Pace
 from chatrobot.language.numbers import is_chinese
-from chatrobot.language.tokens import Atom, quantity
+from chatrobot.language.tokens import quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Repeat, Step, Turn, Wait
 
@@ -85,9 +85,7 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
             raise Unclear("bad_count", count.text)
         return steps * int(count.number)
     sizes = [whole.q[name] for name in ("length", "angle", "turns", "time") if name in whole.q]
-    if "more" in whole.flags and sizes:
-        sizes = [_added(steps, whole, size) for size in sizes]
-    out = resized(steps, Edit(amounts=sizes))
+    out = resized(steps, Edit(amounts=sizes)) if "more" not in whole.flags or not sizes else None
     if out is None:
         raise Unclear("nothing_before", whole.text)
     return out
@@ -116,21 +114,6 @@ def _leaves(steps: Sequence[Step]) -> Iterator[Step]:
             yield from _leaves(step.steps)
         else:
             yield step
-
-
-def _added(steps: Sequence[Step], whole: Frame, size: Atom) -> Atom:
-    """`The same but 20 cm further`: the amount as it was, and so much more.
-
-    Raises:
-        Unclear: where no amount or several could be meant.
-    """
-    kind, name = {"length": (Drive, "distance_m"), "time": (Wait, "duration_s")}.get(
-        size.value, (Turn, "angle_rad")
-    )
-    old = [getattr(step, name) for step in steps if isinstance(step, kind)]
-    if len(old) != 1 or old[0] is None:
-        raise Unclear("unclear_motion", whole.text)
-    return quantity(size.value, old[0] + size.number, size.text, size.role)
 
 
 def _mirrored(steps: Sequence[Step], whole: Frame) -> tuple[Sequence[Step], Frame]:

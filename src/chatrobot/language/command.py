@@ -15,6 +15,7 @@ from chatrobot.language.heeded import check_heeded
 from chatrobot.language.interpretation import Interpretation, planned, stopped
 from chatrobot.language.names import names_in
 from chatrobot.language.phrases import say
+from chatrobot.language.place_questions import answer_about_places
 from chatrobot.language.reading import Reading, frames_of
 from chatrobot.language.sounds import mended
 from chatrobot.language.starting import check_start
@@ -218,6 +219,8 @@ def _check_no_question_beside(plain: str, reading: Reading) -> None:
 def _is_only_asked(sentence: str, reading: Reading) -> bool:
     """Whether it is a question that a fact answers, and nothing to be done."""
     language = reading.language
+    if answer_about_places(sentence, language, reading.context) is not None:
+        return True
     if not questions.is_question(sentence, language) or not questions.is_plain_question(sentence, language):
         return False
     atoms = reading.atoms(sentence)

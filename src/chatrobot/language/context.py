@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -65,7 +65,8 @@ class Context:
     """All that an interpretation depends on besides the text.
 
     `world_places` are names the world's map knows, `place_names` the same put together, place by place;
-    `places_without_heading` are those of them that it gives no heading.
+    `places_without_heading` are those of them that it gives no heading. `ways` tells how long the way from one pose to
+    another is on the map, metres; None where there is no map.
     """
 
     dialogue: Dialogue = field(default_factory=Dialogue)
@@ -73,3 +74,13 @@ class Context:
     world_places: Mapping[str, Pose] = field(default_factory=dict)
     places_without_heading: frozenset[str] = frozenset()
     place_names: tuple[tuple[str, ...], ...] = ()
+    ways: Callable[[Pose, Pose], float | None] | None = None
+
+    @property
+    def has_ways(self) -> bool:
+        """Whether there is a map to find ways on."""
+        return self.ways is not None
+
+    def way_m(self, goal: Pose) -> float | None:
+        """How long the way is that the robot would drive to a place from here; None where none is known."""
+        return self.ways(self.state.pose, goal) if self.ways is not None else None

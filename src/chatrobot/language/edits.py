@@ -11,11 +11,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from chatrobot.language.arithmetic import is_another, sign_of
 from chatrobot.language.context import Dialogue
 from chatrobot.language.frames import DIRECTIONS, GO, SIDES, TURN
 from chatrobot.language.inverse import inverse
 from chatrobot.language.meant import is_correction
-from chatrobot.language.tokens import Atom
+from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Repeat, Step, Turn, Wait
 
@@ -42,7 +43,8 @@ _OF_ONE = frozenset({"length", "angle", "turns", "time"})
 
 @dataclass
 class Edit:
-    """What is said of the motion before. `instead` is what stood in place of the amount before it."""
+    """What is said of the motion before. `instead` is what stood in place of the amount before it; with `sign` below
+    zero the amount is so much less."""
 
     flags: set[str] = field(default_factory=set)
     kinds: list[type[Step]] = field(default_factory=list)
@@ -52,6 +54,7 @@ class Edit:
     way: str = ""
     nth: int = 0
     slides: bool = False
+    sign: float = 1.0
 
     def amount(self, *names: str) -> Atom | None:
         return next((atom for atom in self.amounts if atom.value in names), None)
@@ -63,6 +66,8 @@ def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
     Raises:
         Unclear: where two readings are as likely.
     """
+    if any(atom.kind == "q" and atom.number < 0.0 for atom in atoms):
+        atoms = [part for atom in atoms for part in _signed(atom)]
     last = dialogue.last_motion
     if last is None or last.plan is None or is_correction(last):
         return None
@@ -70,13 +75,28 @@ def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
     return _applied(edit, list(last.plan.steps)) if edit is not None else None
 
 
+def _signed(atom: Atom) -> list[Atom]:
+    """`minus 20 cm` as a minus and 20 cm."""
+    if atom.kind != "q" or atom.number >= 0.0:
+        return [atom]
+    return [Atom("unknown", "minus", "minus"), quantity(atom.value, -atom.number, atom.text, atom.role)]
+
+
 def _read(atoms: Sequence[Atom]) -> Edit | None:
     edit, denied = Edit(), False
+    is_again = any(atom.kind == "flag" and atom.value == "again" for atom in atoms)
+    has_more = any(atom.kind == "flag" and atom.value == "more" for atom in atoms)
     for i, atom in enumerate(atoms):
-        if atom.kind in _IDLE or (atom.kind == "pace" and any(a.value == "speed" for a in atoms)):
+        sign = sign_of(atom)
+        if is_again and sign:
+            edit.flags.add("more")
+            edit.sign = sign
+        elif atom.kind in _IDLE or (atom.kind == "pace" and any(a.value == "speed" for a in atoms)):
             continue
-        if atom.kind == "negation" and edit.amounts and edit.instead is None:
+        elif atom.kind == "negation" and edit.amounts and edit.instead is None:
             denied = True
+        elif is_another(atom):
+            return None  # `again, another 20 cm`: so much more, or a motion of its own?
         elif atom.kind == "flag" and atom.value in _POINTING | _CHANGING:
             edit.flags.add(atom.value)
         elif atom.kind == "q" and denied:
@@ -94,7 +114,10 @@ def _read(atoms: Sequence[Atom]) -> Edit | None:
             edit.roles.add(atom.value)
         elif atom.kind == "nth":
             edit.nth = int(atom.value)
-        elif not (atom.kind == "conn" and (i == 0 or "first" in edit.flags)) and atom.value != "make":
+        elif (
+            not (atom.kind == "conn" and (i == 0 or "first" in edit.flags or (is_again and has_more)))
+            and atom.value != "make"
+        ):
             return None
     return None if denied else edit
 
@@ -121,6 +144,8 @@ def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
         return _replaced(steps, edit.amounts[0], edit.instead)
     if scale is not None and "amounts" in flags:
         return [_scaled(step, scale.number) for step in steps]
+    if flags == {"again", "more"} and len(edit.amounts) == 1 and not edit.way and scale is None:
+        return _lengthened(steps, edit)
     if "again" not in flags or flags - {"again", "instead", "all"} or scale is not None:
         return None
     if edit.way in SIDES and len(steps) > 1:
@@ -185,6 +210,30 @@ def resized(steps: list[Step], edit: Edit) -> list[Step] | None:
         for i in taken:
             out[i] = _changed_to(out[i], role, number)
     return out
+
+
+def _lengthened(steps: list[Step], edit: Edit) -> list[Step] | None:
+    """`The same but 20 cm further`, `the same minus 10 degrees`: the amount as it was, and so much more or less.
+
+    Raises:
+        Unclear: where no amount or several could be meant, or nothing would be left.
+    """
+    [size] = edit.amounts
+    fits = _TAKERS.get(size.value, ())
+    taken = [step for step in steps if isinstance(step, fits) and (size.value != "time" or _is_timed(step))]
+    if len(taken) != 1 or any(kind is not type(taken[0]) for kind in edit.kinds):
+        raise Unclear("unclear_motion", size.text)
+    names = {"length": "distance_m", "angle": "angle_rad", "turns": "angle_rad", "time": "duration_s"}
+    old = getattr(taken[0], names[size.value]) if size.value in names else None
+    value = (old or 0.0) + edit.sign * size.number
+    if old is None or value <= 0.0:
+        raise Unclear("unclear_motion", size.text)
+    whole = quantity(size.value, value, size.text, size.role)
+    return resized(steps, dataclasses.replace(edit, amounts=[whole]))
+
+
+def _is_timed(step: Step) -> bool:
+    return bool(getattr(step, "duration_s", None))
 
 
 def _size(step: Step) -> float:

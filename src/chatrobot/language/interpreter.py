@@ -32,6 +32,7 @@ from chatrobot.language.meant import says_meant
 from chatrobot.language.names import misspelt_place, names_in
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
 from chatrobot.language.phrases import describe_plan, say
+from chatrobot.language.place_questions import answer_about_places
 from chatrobot.language.program_request import read_program_request
 from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
@@ -45,6 +46,20 @@ from chatrobot.language.unfinished import check_consistent
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan
 from chatrobot.robots.profile import RobotProfile
+
+_OF_AN_ORDER = frozenset(
+    {
+        "which_side",
+        "which_way",
+        "which_size",
+        "which_place",
+        "how_far",
+        "how_long",
+        "no_unit",
+        "unclear_motion",
+    }
+)
+"""What is asked back about an order, and never about a remark: `nice turn` leaves no question open."""
 
 
 class OfflineInterpreter:
@@ -96,6 +111,9 @@ class OfflineInterpreter:
             Unclear: where nothing is ordered, or what is ordered is not understood.
         """
         plain = normalise(text)
+        told = answer_about_places(plain, language, context)
+        if told is not None:
+            return told
         names = names_in(context)
         rest = without_talk(plain, names)
         if rest:
@@ -105,10 +123,11 @@ class OfflineInterpreter:
             meant = self._interpreted(text, language, context)
         except Unclear as problem:
             asked = "" if problem.refused else without_requests(rest or plain, names)
-            if not asked:
-                raise
-            with contextlib.suppress(Unclear):
-                return self._interpreted(asked, language, context)
+            if asked:
+                with contextlib.suppress(Unclear):
+                    return self._interpreted(asked, language, context)
+            if problem.code in _OF_AN_ORDER and order_log_odds(read_acts(plain, names)) < MAYBE_ORDER:
+                raise Unclear("nothing_to_do") from None
             raise
         if meant.outcome != "plan" or read_twists(plain):
             return meant

@@ -91,12 +91,19 @@ def _completes(last: Frame, first: Frame) -> bool:
     return not (first.has_extent and last.has_extent) and (not (first.direction or first.rot) or lacks_way)
 
 
+def _is_by_the_way(turn: Frame) -> bool:
+    """`turning left, draw a triangle`."""
+    return turn.text.split()[0].endswith("ing")
+
+
 def _belongs(last: Frame, first: Frame) -> bool:
     """Across a comma or an `and`."""
     if "count" in last.q and "length" in first.q and "each" not in first.flags and not last.shape:
         return False
     if last.shape and _is_laps(first):
         return True
+    if first.shape and first.verb and last.verb == "turn" and last.sided and not _is_by_the_way(last):
+        return False  # `turn left and draw a triangle`
     if last.shape or first.shape:
         return not (last.shape and first.verb in (*GO, *TURN, *STILL, "return") and first.has_extent)
     if first.joined == "and" and last.verb in STILL and first.moves:

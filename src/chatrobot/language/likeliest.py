@@ -112,7 +112,7 @@ def proposed(
 
 def _with_unit(plain: str, number: str, language: LanguageCode, read: Reader) -> Interpretation | None:
     """`Drive 50`: in metres, or in centimetres where that would be far."""
-    at = [found.start() for found in re.finditer(rf"(?<![\w.]){re.escape(number)}(?![\w.])", plain)]
+    at = [found.start() for found in re.finditer(rf"(?<![a-z\d_.]){re.escape(number)}(?![a-z\d_.])", plain)]
     if len(at) != 1 or not _DECIMAL.fullmatch(number):
         return None
     unit = "m" if float(number) <= FAR_M else "cm"

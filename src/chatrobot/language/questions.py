@@ -116,12 +116,17 @@ def _turned(pose: Pose, language: str) -> str:
     return say(language, "turned_to_left" if yaw_deg > 0.0 else "turned_to_right", deg=degrees.lstrip("-"))
 
 
-def _places(context: Context, language: str) -> list[str]:
+def places_known(context: Context, language: str) -> str:
     """The person's own places, then those of the world, each once and by its name in that language."""
     names = context.place_names or tuple((name,) for name in context.world_places)
-    return list(
-        dict.fromkeys((*context.dialogue.places, *(by_language(each, language)[0] for each in names)))
-    )
+    known = dict.fromkeys((*context.dialogue.places, *(by_language(each, language)[0] for each in names)))
+    return say(language, "join").join(known) or "-"
+
+
+def unknown_pose(context: Context) -> str:
+    """The code of the phrase that says why nobody knows where the robot is; an empty string where it is known."""
+    state = context.state
+    return "" if state.has_said_so else "answer_unheard" if state.is_measured else "answer_unmeasured"
 
 
 def answer(topic: str, language: str, context: Context, profile: RobotProfile) -> str:
@@ -137,11 +142,11 @@ def answer(topic: str, language: str, context: Context, profile: RobotProfile) -
         "max_rate_radps": profile.limits.max_rate_radps,
         "default_speed_mps": context.dialogue.default_speed_mps or profile.defaults.speed_mps,
         "title": profile.title,
-        "places": say(language, "join").join(_places(context, language)) or "-",
+        "places": places_known(context, language),
         "last": context.dialogue.turns[-1].text if context.dialogue.turns else "-",
     }
-    if topic in _MEASURED and not state.has_said_so:
-        return say(language, "answer_unheard" if state.is_measured else "answer_unmeasured")
+    if topic in _MEASURED and unknown_pose(context):
+        return say(language, unknown_pose(context))
     if topic == "battery":
         if state.battery_percent is None:
             return say(language, "answer_battery_unknown")

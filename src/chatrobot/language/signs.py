@@ -36,10 +36,10 @@ BINDING = frozenset(
 )
 """Labels of words that bear on what stands beside them, or ask for something: a clause with one of them is never
 passed over."""
-DEPENDING = frozenset({"condition", "contrast", "correction", "question", "ask", "later"})
+DEPENDING = frozenset({"condition", "contrast", "correction", "question", "ask", "later", "FLAG"})
 """Labels of words on which it may depend whether anything is to be done, or what."""
 TALKING = frozenset(
-    {"social", "praise", "complaint", "verdict", "mine", "did", "does", "earlier", "kin", "thing"}
+    {"social", "praise", "complaint", "verdict", "mine", "did", "does", "sees", "earlier", "kin", "thing"}
 )
 """Labels of words that an order to do something else would hardly begin with."""
 

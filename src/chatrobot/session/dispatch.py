@@ -192,6 +192,8 @@ class Dispatch:
         paused = self._resuming.paused
         if paused is not None and self._understanding.tells_it_stands(meant):
             meant = replace(meant, reply=self._told("paused_now", paused))
+        elif self._understanding.tells_it_moves(meant):
+            meant = replace(meant, reply=self._told_under_way(meant) or meant.reply)
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         interpreted = Interpreted(said.turn, "offline", plan_text, meant.reply)
         if meant.outcome == "plan":
@@ -207,6 +209,14 @@ class Dispatch:
             self._understanding.note_unmoved(said.text, meant)
             self._thinking.note(said.text, "", f"{meant.outcome}: {meant.reply}")
             self._book.conclude(said.turn, meant.outcome, meant.reply, None, parting(meant), meant.proposal)
+
+    def _told_under_way(self, meant: Interpretation) -> str:
+        """The motion that runs and what is left of it; an empty string where no plan of ours runs."""
+        running = self._book.first_with_motion
+        if running is None or running[1].meant.plan is None:
+            return ""
+        steps = running[1].meant.plan.steps
+        return self._resuming.under_way.told(running[0], steps, meant.language, self._understanding.speed_mps)
 
     def _ask_model(self, said: Said, meant: Interpretation) -> None:
         options, mode = self._orders.options, self._orders.mode

@@ -1,4 +1,4 @@
-"""What may be gone on with: the plan that is paused, or what is left of the one that was stopped last.
+"""What is under way, and what may be gone on with: what is paused, or what is left of what was stopped last.
 
 Motion keeps a paused plan and goes on with it on a word; the rest of a stopped one is offered as a plan of its own.
 """
@@ -14,6 +14,7 @@ from chatrobot.language.interpretation import Interpretation, planned
 from chatrobot.language.phrases import describe_text, say
 from chatrobot.plan.steps import Drive
 from chatrobot.session.replies import describe_left
+from chatrobot.session.under_way import UnderWay
 from chatrobot.session.understanding import Understanding
 
 
@@ -28,8 +29,10 @@ class Resuming:
         """Why the plan that was paused last is not gone on with."""
         self.paused: Paused | None = None
         """The plan that is paused, until it is gone on with or has ended."""
+        self.under_way = UnderWay()
 
     def hear(self, event: Event) -> None:
+        self.under_way.hear(event)
         if isinstance(event, Paused):
             self.paused = event
         elif isinstance(event, Finished):

@@ -311,7 +311,7 @@ class Session:
         reply = self.understanding.note_model_turn(text, ended, self.options.rehearse_only)
         is_refused = ended.outcome == "refused" and not self.options.rehearse_only
         reply, proposal = with_offer(
-            reply, ended.finished if is_refused else None, self.understanding.language
+            reply, ended.finished if is_refused else None, self.understanding.language_of(text)
         )
         self._book.conclude(turn, ended.outcome, reply, ended.finished, ended.reason, proposal)
 

@@ -33,6 +33,11 @@ class TurnBook:
         """What Motion has besides that turn, in the order it was said."""
         return tuple(one.text for number, one in self._with_motion.items() if number != turn)
 
+    @property
+    def first_with_motion(self) -> tuple[int, Instruction] | None:
+        """The turn that Motion is at, and what it is about."""
+        return next(iter(self._with_motion.items()), None)
+
     def has(self, turn: int) -> bool:
         """That turn is with Motion."""
         return turn in self._with_motion

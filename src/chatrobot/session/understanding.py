@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import uuid
 from collections.abc import Sequence
 from dataclasses import replace
@@ -21,6 +22,7 @@ from chatrobot.language.phrases import describe_steps, render_reason, say
 from chatrobot.plan.steps import Plan, Step
 from chatrobot.plan.text import parse_plan
 from chatrobot.robots.profile import RobotProfile
+from chatrobot.session.map_ways import MapWays
 from chatrobot.session.places import Places
 from chatrobot.session.replies import describe_end, describe_model_end
 from chatrobot.session.rest_watch import UNMEASURED, RestWatch
@@ -58,6 +60,7 @@ class Understanding:
         self._state = RobotState(has_said_so=False, is_measured=profile.has_odometry)
         self._world_places = {alias: world.places[main] for alias, main in world.aliases.items()}
         self._main_places = dict(world.places)
+        self._ways = MapWays(world, profile) if world.obstacles else None
         self._names = tuple(world.names_of(name) for name in world.places)
         self._without_heading = frozenset(
             alias for alias, main in world.aliases.items() if main in world.without_heading
@@ -114,7 +117,7 @@ class Understanding:
 
     def _context(self, dialogue: Dialogue) -> Context:
         without_heading = self._without_heading - dialogue.places.keys()
-        return Context(dialogue, self._state, self._world_places, without_heading, self._names)
+        return Context(dialogue, self._state, self._world_places, without_heading, self._names, self._ways)
 
     def can_do(self, text: str) -> bool:
         """Whether `text` would be driven if it were said now. From any thread: nothing is noted."""
@@ -147,6 +150,15 @@ class Understanding:
     def tells_it_stands(self, meant: Interpretation) -> bool:
         """The answer is that the robot stands and is ready."""
         return meant.reply == say(meant.language, "answer_standing")
+
+    def tells_it_moves(self, meant: Interpretation) -> bool:
+        """The answer is that the robot moves, and how fast."""
+        return meant.reply == say(meant.language, "answer_moving", speed_mps=self.speed_mps)
+
+    @property
+    def speed_mps(self) -> float:
+        """How fast the robot last said it was."""
+        return math.hypot(self._state.twist.vx_mps, self._state.twist.vy_mps)
 
     @property
     def last_done(self) -> Step | None:
@@ -182,8 +194,13 @@ class Understanding:
 
     def hear_language(self, text: str) -> None:
         """Answer in the language of `text`, where it has one."""
-        if any(character.isalpha() for character in text):
-            self.language = "zh" if has_chinese(text) else "en"
+        self.language = self.language_of(text)
+
+    def language_of(self, text: str) -> LanguageCode:
+        """The language of `text`; of what was said last, where it has none."""
+        if not any(character.isalpha() for character in text):
+            return self.language
+        return "zh" if has_chinese(text) else "en"
 
     def note_telemetry(self, event: Telemetry, *, is_ours: bool) -> None:
         """`is_ours`: a turn of ours moves the robot, or may."""
@@ -234,7 +251,8 @@ class Understanding:
         return describe_steps(steps, self.language)
 
     def note_model_turn(self, text: str, ended: Ended, rehearse_only: bool) -> str:
-        """A turn that a model planned has ended. Returns the reply."""
+        """A turn that a model planned has ended. Returns the reply, in the language of the order."""
+        language = self.language_of(text)
         finished = ended.finished
         plan = _plan_of(ended.steps) if not rehearse_only else None
         if finished is not None:
@@ -244,8 +262,8 @@ class Understanding:
             self._record(TurnRecord(text, ended.outcome))
         self._dialogue = replace(self._dialogue, pending="")
         if rehearse_only and ended.outcome == "completed":
-            return say(self.language, "only_rehearsed")
-        return describe_model_end(ended, self.language)
+            return say(language, "only_rehearsed")
+        return describe_model_end(ended, language)
 
     def _learn(self, meant: Interpretation) -> None:
         dialogue = self._dialogue

@@ -1,0 +1,146 @@
+"""Questions about places: where one is, how far, on which side, which is nearest. They are answered, and never move."""
+
+from __future__ import annotations
+
+import math
+import re
+from functools import cache
+from typing import NamedTuple
+
+from chatrobot.core.geometry import Pose
+from chatrobot.core.shown import fixed
+from chatrobot.language.context import Context
+from chatrobot.language.data_files import load_table
+from chatrobot.language.interpretation import Interpretation, LanguageCode
+from chatrobot.language.names import by_language
+from chatrobot.language.normalise import normalise
+from chatrobot.language.phrases import say
+from chatrobot.language.questions import places_known, topic_of, unknown_pose
+from chatrobot.language.typos import edit_distance
+
+_HERE_M = 0.25
+_ON_SIDE_RAD = math.radians(67.5)
+"""A place so near is here; one so far off a side is not on it."""
+_SIDES_DEG = {"ahead": 0.0, "left": 90.0, "behind": 180.0, "right": -90.0}
+_SECTORS = ("ahead", "ahead_left", "left", "behind_left", "behind", "behind_right", "right", "ahead_right")
+_FAR_OFF = 99
+_MOST_NAMED = 5
+
+
+class _Place(NamedTuple):
+    name: str
+    pose: Pose
+
+
+@cache
+def _patterns(language: str) -> tuple[tuple[str, re.Pattern[str]], ...]:
+    table = load_table(language, "places_asked")
+    name = rf"(?:{table['article']})*(?P<place>.+?)"
+    return tuple(
+        (kind, re.compile(f"(?:{table['before']})*(?:{said.replace('PLACE', name)})(?:{table['after']})*"))
+        for kind, said in table["asked"]
+    )
+
+
+def answer_about_places(plain: str, language: LanguageCode, context: Context) -> Interpretation | None:
+    """The answer to a normalised text that asks about places and nothing else; None for any other text."""
+    said = plain.strip(" ?!.。,~")
+    for kind, pattern in _patterns(language):
+        found = pattern.fullmatch(said)
+        if found is None:
+            continue
+        named = found.groupdict()
+        reply = _reply(kind, named.get("place") or "", named.get("side") or "", language, context)
+        if reply:
+            return Interpretation("answered", reply, language)
+    return None
+
+
+def _reply(kind: str, named: str, side: str, language: LanguageCode, context: Context) -> str:
+    if kind == "places":
+        return say(language, "answer_places", places=places_known(context, language))
+    known = _known(context, language)
+    place = known.get(_plain(named))
+    if kind != "nearest" and place is None:
+        return _unknown(named, list(known), language, context) if _may_be_a_place(named, language) else ""
+    unheard = unknown_pose(context)
+    if unheard:
+        return say(language, unheard)
+    if kind == "nearest":
+        # Places that are reached by no way that is known come after those that are.
+        order = sorted(
+            {place.name: place for place in known.values()}.values(), key=lambda p: _far(p, context)
+        )
+        order = [other for other in order if _straight_m(other, context) > _HERE_M]
+        return say(language, "place_nearest", text=_told(order[0], language, context)) if order else ""
+    assert place is not None
+    told = _told(place, language, context)
+    if not side:
+        return told
+    return say(language, "place_yes" if _is_on(place, side, language, context) else "place_no", text=told)
+
+
+def _plain(name: str) -> str:
+    return normalise(name).casefold().strip()
+
+
+def _may_be_a_place(named: str, language: str) -> bool:
+    """Whether it may be a name: no pronoun, no sentence of its own, and nothing that another answer is about."""
+    is_none = re.search(load_table(language, "places_asked")["no_place"], named) is not None
+    return bool(named) and not is_none and not topic_of(named, language)
+
+
+def _known(context: Context, language: str) -> dict[str, _Place]:
+    """Every name that may be said: of the start, of the places of the world, of those the person named."""
+    start = load_table(language, "places_asked")["start"]
+    found = {name: _Place(start[0], context.dialogue.start_pose) for name in start}
+    groups = context.place_names or tuple((name,) for name in context.world_places)
+    for names in groups:
+        shown = by_language(names, language)[0]
+        found |= {_plain(name): _Place(shown, context.world_places[name.casefold()]) for name in names}
+    own = {name: place for name, place in context.dialogue.places.items() if place.usable}
+    return found | {_plain(name): _Place(name, place.pose) for name, place in own.items()}
+
+
+def _unknown(named: str, known: list[str], language: str, context: Context) -> str:
+    reply = say(language, "no_such_place", part=named)
+    off = {name: edit_distance(_plain(named), name, _FAR_OFF) for name in known}
+    near = [name for name in sorted(off, key=lambda name: off[name]) if off[name] * 2 < len(name)]
+    if near:
+        return (
+            f"{reply} {say(language, 'places_near', places=say(language, 'join').join(near[:_MOST_NAMED]))}"
+        )
+    return f"{reply} {say(language, 'answer_places', places=places_known(context, language))}"
+
+
+def _straight_m(place: _Place, context: Context) -> float:
+    here = context.state.pose
+    return math.hypot(place.pose.x_m - here.x_m, place.pose.y_m - here.y_m)
+
+
+def _far(place: _Place, context: Context) -> tuple[bool, float]:
+    way_m = context.way_m(place.pose)
+    return (way_m is None and context.has_ways, _straight_m(place, context) if way_m is None else way_m)
+
+
+def _bearing_rad(place: _Place, context: Context) -> float:
+    seen = place.pose.relative_to(context.state.pose)
+    return math.atan2(seen.y_m, seen.x_m)
+
+
+def _is_on(place: _Place, side: str, language: str, context: Context) -> bool:
+    sides = load_table(language, "places_asked")["sides"]
+    asked = next(_SIDES_DEG[name] for name, said in sides.items() if re.fullmatch(said, side))
+    off = math.remainder(_bearing_rad(place, context) - math.radians(asked), 2 * math.pi)
+    return abs(off) < _ON_SIDE_RAD and _straight_m(place, context) > _HERE_M
+
+
+def _told(place: _Place, language: str, context: Context) -> str:
+    """`The kitchen is ahead to the left, 3.20 m by the way I would drive.`"""
+    if _straight_m(place, context) <= _HERE_M:
+        return say(language, "place_here", place=place.name)
+    sector = _SECTORS[round(math.degrees(_bearing_rad(place, context)) / 45.0) % 8]
+    way_m = context.way_m(place.pose)
+    code = "place_by_way" if way_m is not None else "place_no_way" if context.has_ways else "place_straight"
+    metres = fixed(_straight_m(place, context) if way_m is None else way_m, 2)
+    return say(language, code, place=place.name, side=say(language, f"sector_{sector}"), distance_m=metres)
