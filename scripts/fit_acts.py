@@ -33,6 +33,7 @@ from chatrobot.cli.eval.corpus import Item, load_corpus
 from chatrobot.language import interpreter
 from chatrobot.language.acts import SCALE, SLOTS, features, slot_of
 from chatrobot.language.data_files import DATA, LANGUAGES
+from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.normalise import normalise
 from chatrobot.language.signs import clauses_of
 from chatrobot.reflex import is_stop
@@ -66,8 +67,8 @@ def frames(language: str) -> Iterator[Example]:
     for orders in (False, True):
         for frame in table["orders" if orders else "still"]:
             filled = {_marked(_filled(frame, table, chance), chance) for _ in range(FRAMES_EACH)}
-            talk = tuple(normalise(part) for part in re.findall(r"\[(.*?)\]", frame))
             for text in sorted(filled):
+                talk = tuple(normalise(part) for part in re.findall(r"\[(.*?)\]", text))
                 plain = text.replace("[", "").replace("]", "")
                 weight = FRAME_WEIGHT / len(filled)
                 yield Example(plain, orders, weight, f"frames {language}", talk)
@@ -114,9 +115,15 @@ def _of_item(item: Item, source: str) -> Iterator[Example]:
 def _of_dialogue(turns: Iterable[str], source: str) -> Iterator[Example]:
     talk = Conversation()
     for turn in turns:
-        outcome = talk.say(turn).outcome
-        if outcome in ("plan", "answered"):
-            yield Example(turn, outcome == "plan", REAL_WEIGHT / 2, source)
+        meant = talk.say(turn)
+        if meant.outcome in ("plan", "answered"):
+            yield Example(turn, meant.plan is not None or is_set(meant), REAL_WEIGHT / 2, source)
+
+
+def is_set(meant: Interpretation) -> bool:
+    """Whether a speed, a word or a place is set for what comes: an order, though nothing moves."""
+    speeds = meant.default_speed_mps or meant.default_rate_radps
+    return bool(speeds or meant.define or meant.remember_place)
 
 
 def said_in_tests() -> Iterator[Example]:
@@ -131,7 +138,8 @@ def said_in_tests() -> Iterator[Example]:
             for text in sorted(_strings(node)):
                 line = kept.get(ledger.Text((text,)).key)
                 asked = line is not None and line.done in ("unclear", "refused")
-                outcome = Conversation().say(text).outcome
+                meant = Conversation().say(text)
+                outcome = "plan" if is_set(meant) else meant.outcome
                 if is_talk or outcome == "answered":
                     yield Example(text, False, REAL_WEIGHT / 2, "tests")
                 elif outcome == "plan" and not asked:

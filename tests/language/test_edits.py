@@ -60,6 +60,10 @@ def square(side: str, way: str = "left") -> str:
         (["turn right 40 degrees", "the same but 5 degrees more"], "turn right 45 deg"),
         (["后退一米", "再来一次，多30厘米"], "drive 1.3 m back"),
         (["forward 1 m", "the same plus 20 cm"], "drive 1.2 m"),
+        (
+            ["half a circle to the left, radius 1 m", "keep going till the circle is complete"],
+            "arc left 180 deg radius 1 m",
+        ),
         (["forward 1 m", "the same and 20 cm more"], "drive 1.2 m"),
         (["forward 1 m", "the same minus 20 cm"], "drive 0.8 m"),
         (["forward 1 m", "again but 20 cm shorter"], "drive 0.8 m"),
@@ -85,6 +89,8 @@ def test_the_motion_before_is_changed_as_said(turns: list[str], plan: str) -> No
         ["forward 1 m, left 90, forward 2 m", "the same but 20 cm further"],
         ["forward 1 m", "again, another 20 cm"],
         ["turn left 45", "the same minus 60 degrees"],
+        ["forward 1 m", "keep going till the circle is complete"],
+        ["curve left with radius 1 m until the circle is done"],  # the rest of what?
         ["forward 1 m, back 2 m", "the same plus 20 cm"],
         ["forward 1 m, left 30, then the same mirrored"],
         ["forward 1 m, then draw a triangle and do that twice"],  # the triangle, or all of it?

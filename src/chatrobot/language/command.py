@@ -94,6 +94,9 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     changed = edited(atoms, reading.context.dialogue)
     if changed is not None:
         return planned(changed, language, append=_appends(atoms))
+    rest = next((a for a in atoms if a.kind == "flag" and a.value == "complete"), None)
+    if rest is not None:  # the rest of what was no shape, or is told beside a motion of its own
+        raise Unclear("unclear_motion", rest.text)
     frames = frames_of(atoms)
     check_start(frames, reading.context.dialogue)
     default = _default(frames, reading)

@@ -24,7 +24,9 @@ _IDLE = frozenset({"filler", "glue", "sep", "reason"})
 _POINTING = frozenset({"again", "same_amount", "more", "both", "do_this"})
 _CHANGING = frozenset(
     {"other_way", "leave_out", "swapped", "complete", "amounts", "overshot", "instead", "all", "first"}
-)
+) | {"until", "original_heading"}
+_ROUND = frozenset({"until", "original_heading"})
+"""`Until the circle is closed`: said of a curve before, it asks for the rest of the circle."""
 _KINDS: dict[str, type[Step]] = {
     **dict.fromkeys(GO, Drive),
     "slide": Drive,
@@ -66,8 +68,6 @@ def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
     Raises:
         Unclear: where two readings are as likely.
     """
-    if any(atom.kind == "q" and atom.number < 0.0 for atom in atoms):
-        atoms = [part for atom in atoms for part in _signed(atom)]
     last = dialogue.last_motion
     if last is None or last.plan is None or is_correction(last):
         return None
@@ -75,22 +75,18 @@ def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
     return _applied(edit, list(last.plan.steps)) if edit is not None else None
 
 
-def _signed(atom: Atom) -> list[Atom]:
-    """`minus 20 cm` as a minus and 20 cm."""
-    if atom.kind != "q" or atom.number >= 0.0:
-        return [atom]
-    return [Atom("unknown", "minus", "minus"), quantity(atom.value, -atom.number, atom.text, atom.role)]
-
-
 def _read(atoms: Sequence[Atom]) -> Edit | None:
     edit, denied = Edit(), False
-    is_again = any(atom.kind == "flag" and atom.value == "again" for atom in atoms)
-    has_more = any(atom.kind == "flag" and atom.value == "more" for atom in atoms)
+    said = {atom.value for atom in atoms if atom.kind == "flag"}
     for i, atom in enumerate(atoms):
         sign = sign_of(atom)
-        if is_again and sign:
+        if "again" in said and sign:
             edit.flags.add("more")
             edit.sign = sign
+        elif atom.kind == "q" and atom.number < 0.0:  # `again minus 20 cm`
+            edit.flags.add("more")
+            edit.sign = -1.0
+            edit.amounts.append(quantity(atom.value, -atom.number, atom.text, atom.role))
         elif atom.kind in _IDLE or (atom.kind == "pace" and any(a.value == "speed" for a in atoms)):
             continue
         elif atom.kind == "negation" and edit.amounts and edit.instead is None:
@@ -115,7 +111,7 @@ def _read(atoms: Sequence[Atom]) -> Edit | None:
         elif atom.kind == "nth":
             edit.nth = int(atom.value)
         elif (
-            not (atom.kind == "conn" and (i == 0 or "first" in edit.flags or (is_again and has_more)))
+            not (atom.kind == "conn" and (i == 0 or "first" in edit.flags or {"again", "more"} <= said))
             and atom.value != "make"
         ):
             return None
@@ -129,6 +125,12 @@ def _is_told(atoms: Sequence[Atom]) -> bool:
 
 def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
     flags, scale = edit.flags, edit.amount(*_SCALES)
+    if flags & _ROUND:
+        if flags != _ROUND or edit.amounts or edit.way or Turn in edit.kinds:
+            return None
+        if not isinstance(steps[-1], Arc):
+            raise Unclear("nothing_before")
+        return _rest_of_shape(steps, edit.nth)
     if "complete" in flags:
         return _rest_of_shape(steps, edit.nth)
     if "leave_out" in flags:
@@ -219,21 +221,18 @@ def _lengthened(steps: list[Step], edit: Edit) -> list[Step] | None:
         Unclear: where no amount or several could be meant, or nothing would be left.
     """
     [size] = edit.amounts
-    fits = _TAKERS.get(size.value, ())
-    taken = [step for step in steps if isinstance(step, fits) and (size.value != "time" or _is_timed(step))]
+    names = {"length": "distance_m", "angle": "angle_rad", "turns": "angle_rad", "time": "duration_s"}
+    name = names.get(size.value, "")
+    taken = [
+        step for step in steps if isinstance(step, _TAKERS.get(size.value, ())) and getattr(step, name, None)
+    ]
     if len(taken) != 1 or any(kind is not type(taken[0]) for kind in edit.kinds):
         raise Unclear("unclear_motion", size.text)
-    names = {"length": "distance_m", "angle": "angle_rad", "turns": "angle_rad", "time": "duration_s"}
-    old = getattr(taken[0], names[size.value]) if size.value in names else None
-    value = (old or 0.0) + edit.sign * size.number
-    if old is None or value <= 0.0:
+    value = getattr(taken[0], name) + edit.sign * size.number
+    if value <= 0.0:
         raise Unclear("unclear_motion", size.text)
     whole = quantity(size.value, value, size.text, size.role)
     return resized(steps, dataclasses.replace(edit, amounts=[whole]))
-
-
-def _is_timed(step: Step) -> bool:
-    return bool(getattr(step, "duration_s", None))
 
 
 def _size(step: Step) -> float:

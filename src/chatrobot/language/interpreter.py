@@ -228,7 +228,9 @@ def _did_you_mean(problem: Unclear, text: str, reading: Reading) -> Interpretati
 def _pending(plain: str, reading: Reading) -> Interpretation | None:
     """A fragment answers what was asked back about the turn before."""
     pending = reading.context.dialogue.pending
-    if not pending or len(pending) + len(plain) > MAX_CHARACTERS or not orders(normalise(pending)):
+    if not pending or len(pending) + len(plain) > MAX_CHARACTERS:
+        return None
+    if order_log_odds(read_acts(normalise(pending))) < MAYBE_ORDER:
         return None
     if changes_nothing_said(normalise(pending), reading):
         return None  # it was to change a plan, and did not: nothing is to stay of it
