@@ -18,14 +18,14 @@ from typing import Any
 from tests.realtime import RunningRobot
 
 from bench.latency import percentile
+from chatrobot.dialogue.llm.model_call import ModelCall
+from chatrobot.dialogue.llm.prompt import request, system_prompt
 from chatrobot.models.config import ModelConfig
 from chatrobot.models.fake.script import read_script
 from chatrobot.models.fake.server import FakeModel
 from chatrobot.models.make import make_model, warm
 from chatrobot.models.seam import CallLimits, Message
 from chatrobot.robots.load import load_profile
-from chatrobot.session.model_call import ModelCall
-from chatrobot.session.prompt import request, system_prompt
 from chatrobot.sim.load import load_world
 
 STREAMS, WHOLE, CALLS, STOPS = 20, 3, 60, 60

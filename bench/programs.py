@@ -15,11 +15,11 @@ from pathlib import Path
 import numpy as np
 
 from chatrobot.box.warm_server import WarmServer
+from chatrobot.motion.programs.program_rehearsal import rehearse_program
 from chatrobot.programs.boxed import BoxedProgram, warm_server
 from chatrobot.programs.events import TwistAsked
 from chatrobot.programs.settings import ProgramSettings, robot_topics
 from chatrobot.robots.load import load_profile
-from chatrobot.session.program_rehearsal import rehearse_program
 from chatrobot.sim.load import load_world
 
 PROGRAMS = Path(__file__).parents[1] / "tests" / "programs" / "programs"

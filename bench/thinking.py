@@ -13,8 +13,8 @@ from chatrobot.core.geometry import ORIGIN
 from chatrobot.governor.governor import TICK_S
 from chatrobot.language.context import Context
 from chatrobot.language.interpreter import OfflineInterpreter
+from chatrobot.motion.planner import Planner
 from chatrobot.robots.load import load_profile
-from chatrobot.session.planner import Planner
 from chatrobot.sim.load import load_world
 
 RUNS = 100

@@ -25,7 +25,7 @@ from pathlib import Path
 
 from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.events import Event, Result, TruePose
-from chatrobot.session.options import Options
+from chatrobot.dialogue.options import Options
 
 TURNS = 30
 WORLDS = ("empty", "home")

@@ -12,7 +12,7 @@ import chatrobot
 from chatrobot.core.errors import PlanTextError, ProfileError, UsageError, WorldError
 from chatrobot.core.events import Event, Paused, Progress
 from chatrobot.plan.steps import Drive, Plan
-from tests.session.scripted_model import ScriptedModel
+from tests.dialogue.scripted_model import ScriptedModel
 
 
 @pytest.fixture

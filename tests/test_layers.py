@@ -16,14 +16,16 @@ LEVELS = {
     "robots": 1, "wire": 1,
     "sim": 2,
     "plan": 3, "box": 3,
-    "language": 4, "models": 4, "execution": 4, "governor": 4, "transports": 4, "programs": 4, "recording": 4,
-    "session": 5,
-    "compose": 6, "nodes": 6,
-    "cli": 7, "web": 7, "mcp": 7, "api": 7,
-    "__init__": 8, "__main__": 8,
+    "language": 4, "models": 4, "execution": 4, "governor": 4, "transports": 4, "programs": 4,
+    "link": 5,
+    "motion": 6, "dialogue": 6,
+    "link.in_process": 7,
+    "compose": 8, "nodes": 8,
+    "cli": 9, "api": 9,
+    "__init__": 10, "__main__": 10,
 }  # fmt: skip
 BESIDE = {"guard": {"core", "wire"}}
-"""Packages that stand beside the levels: what each may import. Of the levels, session alone knows them."""
+"""Packages that stand beside the levels: what each may import. Of the levels, motion alone knows them."""
 
 
 class Import(NamedTuple):
@@ -52,8 +54,9 @@ def modules() -> dict[str, ast.Module]:
 
 
 def package(module: str) -> str:
-    """The floor a module is on: `chatrobot.sim.robot` is on `sim`."""
-    return [*module.split("."), "__init__"][1]
+    """The level of a module: `chatrobot.sim.robot` is on `sim`. The in-process link, which sees Motion, has its own."""
+    inner = module.removeprefix("chatrobot.")
+    return inner if inner in LEVELS else [*module.split("."), "__init__"][1]
 
 
 @cache
@@ -105,7 +108,7 @@ def test_imports_go_down_only() -> None:
             if importer in BESIDE:
                 allowed = imported in BESIDE[importer]
             elif imported in BESIDE:
-                allowed = importer == "session"
+                allowed = importer == "motion"
             else:
                 allowed = LEVELS[imported] < LEVELS[importer]
             if not allowed:
@@ -131,8 +134,31 @@ def test_no_module_imports_itself_in_a_circle() -> None:
         visit(name, ())
 
 
-def test_session_itself_imports_nothing() -> None:
-    assert not [found for found in imports() if found.importer == "chatrobot.session"]
+@pytest.mark.parametrize("half", ["dialogue", "link", "motion"])
+def test_a_package_itself_imports_nothing(half: str) -> None:
+    assert not [found for found in imports() if found.importer == f"chatrobot.{half}"]
+
+
+@pytest.mark.parametrize(
+    ("half", "unknown"),
+    [
+        ("motion", {"dialogue", "language", "models"}),
+        ("dialogue", {"motion"}),
+        ("link", {"dialogue", "language"}),
+    ],
+)
+def test_neither_half_reaches_the_other(half: str, unknown: set[str]) -> None:
+    """By whatever way: nothing that it imports, at the start or late, leads there."""
+    reached = {name for name in modules() if package(name) == half}
+    waiting = list(reached)
+    while waiting:
+        importer = waiting.pop()
+        for found in imports():
+            if found.importer == importer:
+                new = {*targets(found)} - reached
+                reached |= new
+                waiting += new
+    assert not {name for name in reached if package(name) in unknown}
 
 
 def test_only_the_governor_mints_velocities() -> None:

@@ -30,16 +30,26 @@ def among(names: set[str], unwanted: tuple[str, ...]) -> list[str]:
 
 
 def test_motion_knows_no_language_no_model_and_no_screen() -> None:
-    loaded = loaded_by("import chatrobot.session.motion_process")
-    assert "chatrobot.session.motion" in loaded
-    assert not among(loaded, ("chatrobot.language", "chatrobot.models", "chatrobot.web", "chatrobot.cli"))
-    assert not among(loaded, ("prompt_toolkit", "rich", "chatrobot.session.understanding"))
+    loaded = loaded_by("import chatrobot.motion.motion_process")
+    assert "chatrobot.motion.motion" in loaded
+    assert not among(loaded, ("chatrobot.language", "chatrobot.models", "chatrobot.cli"))
+    assert not among(loaded, ("prompt_toolkit", "rich", "chatrobot.dialogue"))
 
 
 def test_the_guard_is_light() -> None:
     loaded = loaded_by("import chatrobot.guard.__main__")
     assert not among(loaded, HEAVY)
-    assert not among(loaded, ("chatrobot.session", "chatrobot.plan", "chatrobot.robots", "chatrobot.sim"))
+    assert not among(
+        loaded,
+        (
+            "chatrobot.dialogue",
+            "chatrobot.link",
+            "chatrobot.motion",
+            "chatrobot.plan",
+            "chatrobot.robots",
+            "chatrobot.sim",
+        ),
+    )
 
 
 @pytest.mark.parametrize("arguments", [["stop"], ["--version"]])
@@ -48,27 +58,36 @@ def test_stop_and_help_load_nothing_heavy(arguments: list[str]) -> None:
     loaded = loaded_by(f"import contextlib\nfrom chatrobot.cli.entry import main\n{run}")
     assert not among(loaded, HEAVY)
     assert not among(
-        loaded, ("chatrobot.session", "chatrobot.compose", "chatrobot.language", "chatrobot.sim")
+        loaded,
+        (
+            "chatrobot.dialogue",
+            "chatrobot.motion",
+            "chatrobot.compose",
+            "chatrobot.language",
+            "chatrobot.sim",
+        ),
     )
 
 
 def test_who_talks_needs_no_numpy() -> None:
     """Motion computes, in a process of its own; here it would cost a tenth of a second before the first prompt."""
     loaded = loaded_by("import chatrobot.cli.do, chatrobot.cli.console.app, chatrobot.cli.console.chat")
-    assert "chatrobot.session.session" in loaded
+    assert "chatrobot.dialogue.session" in loaded
     assert not among(loaded, ("numpy", "pydantic", "yaml", "PIL", "chatrobot.governor.governor"))
 
 
 def test_the_robots_processes_are_started_before_the_language_is_loaded() -> None:
     loaded = loaded_by(
-        "import sys\nfrom chatrobot.session.processes import Processes\n"
+        "import sys\nfrom chatrobot.link.processes import Processes\n"
         "def started(*_):\n print(*sys.modules, sep='\\n', flush=True)\n raise SystemExit\n"
         "Processes.start = started\n"
         "from chatrobot.cli.entry import main\nimport contextlib\n"
         "with contextlib.suppress(SystemExit):\n main(['do', 'forward 1 m'])"
     )
-    assert "chatrobot.session.processes" in loaded
-    assert not among(loaded, ("chatrobot.language", "chatrobot.session.session", "chatrobot.models", "numpy"))
+    assert "chatrobot.link.processes" in loaded
+    assert not among(
+        loaded, ("chatrobot.language", "chatrobot.dialogue.session", "chatrobot.models", "numpy")
+    )
 
 
 def test_stop_does_not_even_load_the_parser_of_arguments() -> None:
@@ -110,8 +129,8 @@ def test_importing_chatrobot_loads_nothing_yet_offers_its_names() -> None:
 
 def test_the_control_node_knows_no_language_either() -> None:
     loaded = loaded_by("import chatrobot.cli.node, chatrobot.nodes.control, chatrobot.robots.load")
-    assert "chatrobot.session.motion" in loaded
+    assert "chatrobot.motion.motion" in loaded
     assert not among(
         loaded, ("chatrobot.language", "chatrobot.models", "chatrobot.compose", "chatrobot.cli.con")
     )
-    assert not among(loaded, ("prompt_toolkit", "rich", "chatrobot.session.understanding"))
+    assert not among(loaded, ("prompt_toolkit", "rich", "chatrobot.dialogue"))

@@ -19,16 +19,16 @@ from chatrobot.compose import connect as compose_connect
 from chatrobot.core.errors import ChatRobotError, UsageError
 from chatrobot.core.events import Event, Result, Telemetry
 from chatrobot.core.geometry import ORIGIN, Pose
+from chatrobot.dialogue.llm.model_choice import chosen_model
+from chatrobot.dialogue.llm.thinking import Interpreter
+from chatrobot.dialogue.options import Options
+from chatrobot.dialogue.session import Session
 from chatrobot.language.phrases import render_reason
 from chatrobot.models.seam import Model, ModelError
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.robots.load import DEFAULT_PROFILE
 from chatrobot.robots.open_loop import NO_ODOMETRY
-from chatrobot.session.model_choice import chosen_model
-from chatrobot.session.options import Options
-from chatrobot.session.session import Session
-from chatrobot.session.thinking import Interpreter
 
 PUMP_S = 0.1
 Listener = Callable[[Event], None]

@@ -9,12 +9,21 @@ import threading
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.errors import JointError, UsageError
 from chatrobot.core.events import Event, TruePose
 from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
+from chatrobot.dialogue.llm.camera import Camera, PassedCamera, wire_camera
+from chatrobot.dialogue.llm.model_choice import warm_up
+from chatrobot.dialogue.llm.model_terms import ModelOptions
+from chatrobot.dialogue.llm.thinking import Mind
+from chatrobot.dialogue.options import Options
+from chatrobot.dialogue.programs.authoring import Authoring
+from chatrobot.dialogue.session import Session
+from chatrobot.dialogue.understanding import Understanding
+from chatrobot.link.in_process import SimulatedJoint
+from chatrobot.link.processes import SIMULATED, MotionProcess, Processes
 from chatrobot.models.seam import Model
 from chatrobot.plan.context import RoutePlanner
 from chatrobot.programs.library import Library
@@ -22,16 +31,6 @@ from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile, profile_argument
 from chatrobot.robots.open_loop import as_chosen
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.session.authoring import Authoring
-from chatrobot.session.camera import Camera, PassedCamera, wire_camera
-from chatrobot.session.joint import SimulatedJoint
-from chatrobot.session.model_choice import warm_up
-from chatrobot.session.model_terms import ModelOptions
-from chatrobot.session.options import Options
-from chatrobot.session.processes import SIMULATED, MotionProcess, Processes
-from chatrobot.session.session import Session
-from chatrobot.session.thinking import Mind
-from chatrobot.session.understanding import Understanding
 from chatrobot.sim.lies import SimLies
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import TRUTH_TOPIC, SimRobot
@@ -39,9 +38,6 @@ from chatrobot.sim.start import check_known, check_start
 from chatrobot.sim.world import World
 from chatrobot.wire.connect import connect_wire, is_on_this_machine, wire_address
 from chatrobot.wire.messages import Odometry
-
-if TYPE_CHECKING:
-    pass
 
 OnEvent = Callable[[Event], None]
 SETTLE_S = 0.5
@@ -179,10 +175,10 @@ def _authoring(
 def _connect_simulated(
     setup: Setup, profile: RobotProfile, world: World, understanding: Understanding, on_event: OnEvent
 ) -> Connection:
-    from chatrobot.session.guard_link import SimulatedGuard
-    from chatrobot.session.motion import Motion
-    from chatrobot.session.planner import Planner
-    from chatrobot.session.program_host import ProgramHost
+    from chatrobot.motion.motion import Motion
+    from chatrobot.motion.planner import Planner
+    from chatrobot.motion.programs.program_host import ProgramHost
+    from chatrobot.motion.safety.guard_link import SimulatedGuard
     from chatrobot.wire.memory import MemoryHub
 
     clock = VirtualClock()
@@ -217,7 +213,7 @@ def _connect_simulated(
 def _connect_real_time(
     setup: Setup, profile: RobotProfile, world: World, understanding: Understanding, on_event: OnEvent
 ) -> Connection:
-    from chatrobot.session.socket_joint import SocketJoint
+    from chatrobot.link.socket_joint import SocketJoint
     from chatrobot.wire.local import LocalWire
 
     processes = setup.processes or Processes.start(
@@ -263,7 +259,7 @@ def _connect_real_time(
 def _connect_wire(
     setup: Setup, profile: RobotProfile, world: World, understanding: Understanding, on_event: OnEvent
 ) -> Connection:
-    from chatrobot.session.socket_joint import SocketJoint
+    from chatrobot.link.socket_joint import SocketJoint
 
     address = wire_address(setup.on)
     for chosen, option in ((setup.fast, "--fast"), (setup.trace, "--trace"), (setup.sim, "--sim")):

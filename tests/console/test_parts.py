@@ -37,11 +37,11 @@ from chatrobot.core.events import (
 )
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.reason import Reason
+from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.context import Context, Place
 from chatrobot.language.data_files import load_table
 from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.robots.load import load_profile
-from chatrobot.session.understanding import Understanding
 from chatrobot.sim.load import load_world
 from chatrobot.sim.world import EMPTY_WORLD
 

@@ -15,10 +15,10 @@ import pytest
 
 from chatrobot.compose import Setup, connect
 from chatrobot.core.events import Event, Result, TruePose
+from chatrobot.dialogue.llm.model_terms import ModelOptions
 from chatrobot.models.fake.script import read_script
 from chatrobot.models.fake.server import FakeModel
 from chatrobot.robots.load import load_profile
-from chatrobot.session.model_terms import ModelOptions
 from tests.models.rig import KEY, model_at, serving
 
 ASKED = "surprise me, robot"

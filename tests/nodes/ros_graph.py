@@ -18,8 +18,9 @@ from chatrobot.cli import node as command
 from chatrobot.cli.arguments import parse
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.wiring import Wiring
-from chatrobot.session import link, motion_runner, zeroing
-from chatrobot.session.guard_link import SimulatedGuard
+from chatrobot.motion import motion_runner
+from chatrobot.motion.safety import link, zeroing
+from chatrobot.motion.safety.guard_link import SimulatedGuard
 from chatrobot.wire.connect import connect_wire
 
 PATIENCE_S = 10.0

@@ -19,7 +19,7 @@ from chatrobot.cli.entry import STOPPED
 from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import WireError
 from chatrobot.language.phrases import say
-from chatrobot.session import motion_runner
+from chatrobot.motion import motion_runner
 from chatrobot.wire.messages import Odometry, Text, TwistMessage
 from tests.nodes.ros_graph import PATIENCE_S, Guard, Silent, fake_rclpy, running, until
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from chatrobot.link.envelope import Envelope
+from chatrobot.link.joint import Sender
 from chatrobot.nodes.control import ControlNode
 from chatrobot.nodes.foreign import Foreign
-from chatrobot.session.envelope import Envelope
-from chatrobot.session.joint import Sender
 from chatrobot.wire.messages import Text
 
 

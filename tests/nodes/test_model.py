@@ -11,9 +11,9 @@ from collections.abc import Iterator
 import pytest
 
 from chatrobot.core.wiring import Wiring
+from chatrobot.link.envelope import Envelope
 from chatrobot.models.fake.server import FakeModel
 from chatrobot.robots.load import list_profiles
-from chatrobot.session.envelope import Envelope
 from chatrobot.wire.dds.discovery import Discovery
 from chatrobot.wire.dds.wire import DdsWire
 from chatrobot.wire.messages import Picture, Text

@@ -11,9 +11,9 @@ from typing import Any, NamedTuple
 import pytest
 
 from chatrobot.box.warm_server import WarmServer
+from chatrobot.motion.programs.program_rehearsal import ProgramRehearsal, rehearse_program
 from chatrobot.programs.events import Ended, Raised
 from chatrobot.robots.load import load_profile
-from chatrobot.session.program_rehearsal import ProgramRehearsal, rehearse_program
 
 MODULES = {
     "Node": "node", "Publisher": "publisher", "Subscription": "subscription", "Timer": "timer", "Rate": "timer",

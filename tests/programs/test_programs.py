@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from chatrobot.box.warm_server import WarmServer
+from chatrobot.motion.programs.program_rehearsal import rehearse_program
 from chatrobot.programs.events import Ended, Raised
 from chatrobot.robots.load import load_profile
-from chatrobot.session.program_rehearsal import rehearse_program
 from chatrobot.sim.load import load_world
 from tests.programs.expectations import Expected, all_programs, is_alike, phases_of
 

@@ -9,8 +9,8 @@ import pytest
 
 from chatrobot.box.warm_server import WarmServer
 from chatrobot.core.geometry import ORIGIN, Pose
+from chatrobot.motion.programs.program_rehearsal import ProgramRehearsal, rehearse_program
 from chatrobot.robots.load import load_profile
-from chatrobot.session.program_rehearsal import ProgramRehearsal, rehearse_program
 from chatrobot.sim.load import load_world
 
 MEC = load_profile("wheeltec_mini_mec")

@@ -11,6 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from chatrobot.box.warm_server import WarmServer
+from chatrobot.link.envelope import MAX_CODE_CHARS, Envelope
+from chatrobot.motion.programs.program_rehearsal import ProgramRehearsal, rehearse_program
 from chatrobot.programs.events import Ended, Raised
 from chatrobot.programs.ros_args import (
     MOST_ARGS,
@@ -21,8 +23,6 @@ from chatrobot.programs.ros_args import (
     read_ros_args,
 )
 from chatrobot.robots.load import load_profile
-from chatrobot.session.envelope import MAX_CODE_CHARS, Envelope
-from chatrobot.session.program_rehearsal import ProgramRehearsal, rehearse_program
 
 MEC = load_profile("wheeltec_mini_mec")
 DRIVER = """

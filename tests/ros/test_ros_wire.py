@@ -22,7 +22,7 @@ from wire_contract import CAMERA, Inbox, WireContract
 
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.core.wiring import Wiring
-from chatrobot.session.camera import wire_camera
+from chatrobot.dialogue.llm.camera import wire_camera
 from chatrobot.wire.connect import connect_ros
 from chatrobot.wire.messages import LaserScan, Message, Number, Odometry, Text, TwistMessage
 from chatrobot.wire.ros.convert import message_class

@@ -10,13 +10,13 @@ import pytest
 
 from chatrobot.core.events import Limited, Notice
 from chatrobot.core.geometry import Twist
+from chatrobot.motion.planner import Planned, Planner
+from chatrobot.motion.programs.program_job import ProgramJob
+from chatrobot.motion.seen_world import SeenPoints
 from chatrobot.programs.events import ProgramEvent, TwistAsked
 from chatrobot.robots.profile import Circle, RobotProfile
-from chatrobot.session.planner import Planned, Planner
-from chatrobot.session.program_job import ProgramJob
-from chatrobot.session.seen_world import SeenPoints
 from chatrobot.wire.messages import TwistMessage
-from tests.session.far_robot import Rig
+from tests.motion.far_robot import Rig
 
 ASKED = Twist(0.3, 0.0, 0.0)
 FENCE_M = 1.2

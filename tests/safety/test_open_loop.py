@@ -20,6 +20,11 @@ from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.core.reason import Reason
 from chatrobot.execution.executor import UNSEEN_S
 from chatrobot.governor.governor import TICK_S, Governor
+from chatrobot.link.in_process import SimulatedJoint
+from chatrobot.link.topic_joint import TopicJoint
+from chatrobot.motion.safety.lookout import Lookout
+from chatrobot.motion.safety.rivals import Rivals
+from chatrobot.motion.safety.zeroing import PATIENCE_S
 from chatrobot.robots.load import list_profiles, load_profile
 from chatrobot.robots.open_loop import (
     OPEN_LOOP_MPS,
@@ -29,17 +34,12 @@ from chatrobot.robots.open_loop import (
     driven_open_loop,
 )
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.session.joint import SimulatedJoint
-from chatrobot.session.lookout import Lookout
-from chatrobot.session.rivals import Rivals
-from chatrobot.session.topic_joint import TopicJoint
-from chatrobot.session.zeroing import PATIENCE_S
 from chatrobot.sim.load import load_world
 from chatrobot.sim.start import check_known
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import TwistMessage
-from tests.session.far_robot import Rig
-from tests.session.undo_rig import UndoRig
+from tests.dialogue.undo_rig import UndoRig
+from tests.motion.far_robot import Rig
 
 ZERO = TwistMessage(0.0, 0.0, 0.0)
 UNCONFIRMED = "Stop sent. There is no odometry, so I cannot confirm that the robot stopped."

@@ -15,7 +15,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.wire.messages import TwistMessage
 from tests.safety.test_who_drives import Crowd
 
-OURS = ("/session/", "/governor/", "/transports/", "/execution/")
+OURS = ("/motion/", "/link/", "/governor/", "/transports/", "/execution/")
 STRIDE = 211
 """Prime, so that it falls into step with no loop. With 1 every single line is tried, which takes minutes."""
 

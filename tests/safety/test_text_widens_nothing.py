@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 from chatrobot.core.events import Limited, Rehearsed
+from chatrobot.link.envelope import Envelope
 from chatrobot.robots.load import load_profile
-from chatrobot.session.envelope import Envelope
-from tests.session.joint_rigs import PROFILE, SimulatedRig, finished, send_plan
-from tests.session.test_session import Talk
+from tests.dialogue.test_session import Talk
+from tests.link.joint_rigs import PROFILE, SimulatedRig, finished, send_plan
 
 LIMITS = load_profile(PROFILE).limits
 EPSILON = 1e-9

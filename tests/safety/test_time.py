@@ -13,16 +13,16 @@ import chatrobot
 from chatrobot.core.clock import RealClock, VirtualClock, awake_or_not_s
 from chatrobot.core.events import Finished
 from chatrobot.execution.sensors import OLD_NEWS_S, Sensors
+from chatrobot.link.in_process import SimulatedJoint
 from chatrobot.plan.steps import Drive, Plan
 from chatrobot.robots.load import load_profile
-from chatrobot.session.joint import SimulatedJoint
 from chatrobot.sim.shapes import rectangle
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import Imu, LaserScan, Message, Odometry
 from chatrobot.wire.stamps import StampTranslator
 from chatrobot.wire.wire import M, Wire
+from tests.link.joint_rigs import SimulatedRig, finished, moving, send_plan
 from tests.rig import Rig
-from tests.session.joint_rigs import SimulatedRig, finished, moving, send_plan
 
 SOURCE = Path(chatrobot.__file__).parent
 WALL_CLOCKS = {"time", "time_ns", "now", "today", "utcnow", "localtime", "ctime"}
@@ -35,7 +35,9 @@ HOLDS_OR_MOVES = (
     "guard",
     "nodes",
     "plan",
-    "session",
+    "dialogue",
+    "link",
+    "motion",
     "sim",
     "transports",
     "wire",

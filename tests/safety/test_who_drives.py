@@ -9,9 +9,10 @@ import pytest
 
 from chatrobot.core.events import Event, Finished, Notice
 from chatrobot.governor.priority import RELEASERS
-from chatrobot.session.envelope import Envelope
-from chatrobot.session.joint import Sender, SimulatedJoint
-from tests.session.joint_rigs import SimulatedRig
+from chatrobot.link.envelope import Envelope
+from chatrobot.link.in_process import SimulatedJoint
+from chatrobot.link.joint import Sender
+from tests.link.joint_rigs import SimulatedRig
 
 
 class Crowd:

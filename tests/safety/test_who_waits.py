@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from chatrobot.wire.messages import TwistMessage
+from tests.motion.far_robot import Rig
 from tests.safety.test_who_drives import Crowd
-from tests.session.far_robot import Rig
 
 
 def standing_after_a_stop(folder: Path, *sources: str) -> Crowd:

@@ -8,16 +8,16 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import chatrobot
-from chatrobot.session.envelope import PAYLOADS
+from chatrobot.link.envelope import PAYLOADS
 
 SOURCE = Path(chatrobot.__file__).parent
-WRITERS = {"transports/transport.py", "guard/__main__.py", "session/joint.py"}
+WRITERS = {"transports/transport.py", "guard/__main__.py", "link/in_process.py"}
 """The transport; the guard, which knows zeros alone; the guard's rule on simulated time."""
 
-CARRIERS = {"session/link.py", "sim/marshalled.py", "sim/robot.py"}
+CARRIERS = {"motion/safety/link.py", "sim/marshalled.py", "sim/robot.py"}
 """Hand on what they were given: a wire around a wire, and the robot's own end with its sensors."""
 
-OTHER_GRAPHS = ("programs/", "session/program_stage.py", "session/program_run.py", "wire/")
+OTHER_GRAPHS = ("programs/", "motion/programs/program_stage.py", "motion/programs/program_run.py", "wire/")
 """A program publishes to the box it is in, and what it holds is governed like anything else; a backend is a wire."""
 
 HARMLESS = {"Text", "Flag", "Odometry"}
@@ -46,7 +46,7 @@ def test_the_writers_of_velocities_are_counted() -> None:
         ):
             found[file] += 1
     assert set(found) == WRITERS
-    assert found == {"transports/transport.py": 3, "guard/__main__.py": 1, "session/joint.py": 1}
+    assert found == {"transports/transport.py": 3, "guard/__main__.py": 1, "link/in_process.py": 1}
 
 
 def test_the_guard_can_make_no_velocity_but_zero() -> None:

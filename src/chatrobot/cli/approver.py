@@ -13,9 +13,9 @@ from chatrobot.cli.edited import Edited
 from chatrobot.cli.editor import edited_text
 from chatrobot.core.errors import UsageError
 from chatrobot.core.events import Event, Result
+from chatrobot.dialogue.question import Question
+from chatrobot.dialogue.session import Session
 from chatrobot.language.consent import read_consent, wants_to_edit
-from chatrobot.session.question import Question
-from chatrobot.session.session import Session
 from chatrobot.sim.world import World
 
 SayEdited = Callable[[Session], int]

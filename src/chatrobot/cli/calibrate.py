@@ -24,9 +24,11 @@ from chatrobot.cli.printer import Printer, printer_for
 from chatrobot.core.errors import UsageError
 from chatrobot.core.events import Event, Result, TruePose
 from chatrobot.core.geometry import wrap_angle
+from chatrobot.dialogue.options import Options
 from chatrobot.language.consent import read_consent
 from chatrobot.language.data_files import load_table
 from chatrobot.language.interpretation import LanguageCode
+from chatrobot.link.processes import SIMULATED
 from chatrobot.reflex import is_stop
 from chatrobot.robots.calibration import (
     DEGREES,
@@ -39,8 +41,6 @@ from chatrobot.robots.calibration import (
 )
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.session.options import Options
-from chatrobot.session.processes import SIMULATED
 
 _SKIP = ("skip", "跳过")
 

@@ -15,8 +15,8 @@ from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.errors import JointError
 from chatrobot.core.events import EXIT_CODES, Event, Notice, Result
 from chatrobot.core.reason import Reason
+from chatrobot.dialogue.parting import is_parting
 from chatrobot.language.interpretation import LanguageCode
-from chatrobot.session.parting import is_parting
 
 PUMP_S = 0.1
 

@@ -173,8 +173,8 @@ def _domain() -> str:
 def _who_is_on(address: str, args: argparse.Namespace) -> str:
     """Who tells the robot's odometry there, and who sends velocities."""
     from chatrobot.language.phrases import render_reason
+    from chatrobot.motion.hints import why_unheard
     from chatrobot.robots.load import load_profile
-    from chatrobot.session.hints import why_unheard
     from chatrobot.wire.connect import Surveying, connect_wire, publishers_of
 
     wiring = load_profile(args.robot, profile_folders(args)).wiring

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from chatrobot.cli.lines import has_keyboard
 from chatrobot.cli.typed_ahead import TypedAhead
 from chatrobot.core.motion_budget import MotionBudget
-from chatrobot.session.processes import SIMULATED, Processes
+from chatrobot.link.processes import SIMULATED, Processes
 
 if TYPE_CHECKING:
     from chatrobot.robots.profile import RobotProfile

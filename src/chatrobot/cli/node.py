@@ -45,10 +45,10 @@ def run(args: argparse.Namespace) -> int:
 
 def _run_control(args: argparse.Namespace, citizen: Citizen | None, connect: Connect) -> bool:
     from chatrobot.core.events import Event, Started
+    from chatrobot.link.topics import CHATGPT_NODE
     from chatrobot.nodes.control import ControlNode, ControlOptions
     from chatrobot.nodes.log import Log, on_stderr
     from chatrobot.nodes.told import told
-    from chatrobot.session.topics import CHATGPT_NODE
 
     log = Log(on_stderr if citizen is None else citizen.log)
 
@@ -94,10 +94,10 @@ def _run_control(args: argparse.Namespace, citizen: Citizen | None, connect: Con
 def _run_base(args: argparse.Namespace, citizen: Citizen | None, connect: Connect) -> bool:
     from chatrobot.cli.choices import model_from
     from chatrobot.cli.folders import config_folder
+    from chatrobot.dialogue.llm.model_terms import ModelOptions
+    from chatrobot.link.topics import CHATGPT_NODE, USER_INPUT
     from chatrobot.nodes.base import BaseNode, BaseOptions
     from chatrobot.nodes.log import Log
-    from chatrobot.session.model_terms import ModelOptions
-    from chatrobot.session.topics import CHATGPT_NODE, USER_INPUT
 
     log = Log((lambda _, text: _say(text)) if citizen is None else citizen.log)
     node = BaseNode(
@@ -130,9 +130,9 @@ def _run_input(args: argparse.Namespace, _: Citizen | None, connect: Connect) ->
     """On standard output alone: it is a person's terminal, and what is said is on topics already."""
     from chatrobot.cli.lines import LineReader
     from chatrobot.language.phrases import say
+    from chatrobot.link.topics import USER_INPUT
     from chatrobot.nodes.input import InputNode
     from chatrobot.robots.load import load_profile
-    from chatrobot.session.topics import USER_INPUT
 
     node = InputNode(_address(args), load_profile(_profile(args)).wiring, _say, connect)
 

@@ -12,9 +12,9 @@ from chatrobot.cli.printer import printer_for
 from chatrobot.compose import connect
 from chatrobot.core.errors import UsageError
 from chatrobot.core.events import EXIT_CODES, Event, Rehearsed
+from chatrobot.dialogue.options import Options
 from chatrobot.language.phrases import render_reason
-from chatrobot.session.options import Options
-from chatrobot.session.processes import SIMULATED
+from chatrobot.link.processes import SIMULATED
 
 
 def run(args: argparse.Namespace) -> int:

@@ -18,11 +18,11 @@ from chatrobot.cli.lines import has_keyboard
 from chatrobot.cli.parameter_files import with_parameter_files
 from chatrobot.cli.printer import printer_for
 from chatrobot.core.errors import UsageError
+from chatrobot.dialogue.options import Options
+from chatrobot.dialogue.programs.authoring import Authoring
+from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.programs.library import KeptProgram, Library, clean_name
 from chatrobot.programs.ros_args import RosArgumentsError, check_args
-from chatrobot.session.authoring import Authoring
-from chatrobot.session.draft import Draft
-from chatrobot.session.options import Options
 
 _READ_BYTES = 1_000_000
 
@@ -149,9 +149,9 @@ def _summary(program: KeptProgram) -> str:
 
 
 def _show(args: argparse.Namespace) -> int:
+    from chatrobot.dialogue.programs.program_text import numbered
     from chatrobot.programs.check import check
     from chatrobot.robots.load import load_profile
-    from chatrobot.session.program_text import numbered
 
     library = _library(args)
     program = library.get(args.name)

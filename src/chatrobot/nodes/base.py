@@ -25,8 +25,21 @@ from chatrobot.core.events import (
     Said,
 )
 from chatrobot.core.motion_budget import NOT_CHOSEN
+from chatrobot.dialogue.llm.camera import wire_camera
+from chatrobot.dialogue.llm.model_choice import warm_up
+from chatrobot.dialogue.llm.model_terms import ModelOptions
+from chatrobot.dialogue.llm.thinking import Interpreter, Mind
+from chatrobot.dialogue.options import Options
+from chatrobot.dialogue.programs.authoring import Authoring
+from chatrobot.dialogue.programs.program_text import body, headline
+from chatrobot.dialogue.question import Question
+from chatrobot.dialogue.session import Session
+from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.consent import read_consent
 from chatrobot.language.phrases import render_reason, say
+from chatrobot.link.approval import LAPSES_AFTER_S
+from chatrobot.link.topic_joint import TopicJoint
+from chatrobot.link.topics import CHATGPT_NODE, EVENTS, OPERATOR, REPLY, STOP, USER_INPUT
 from chatrobot.models.seam import Model
 from chatrobot.nodes.log import Severity, Write
 from chatrobot.nodes.operator import Operators
@@ -38,19 +51,6 @@ from chatrobot.reflex import is_release
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.open_loop import as_chosen
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.session.approval import LAPSES_AFTER_S
-from chatrobot.session.authoring import Authoring
-from chatrobot.session.camera import wire_camera
-from chatrobot.session.model_choice import warm_up
-from chatrobot.session.model_terms import ModelOptions
-from chatrobot.session.options import Options
-from chatrobot.session.program_text import body, headline
-from chatrobot.session.question import Question
-from chatrobot.session.session import Session
-from chatrobot.session.thinking import Interpreter, Mind
-from chatrobot.session.topic_joint import TopicJoint
-from chatrobot.session.topics import CHATGPT_NODE, EVENTS, OPERATOR, REPLY, STOP, USER_INPUT
-from chatrobot.session.understanding import Understanding
 from chatrobot.sim.load import load_world
 from chatrobot.sim.world import World
 from chatrobot.wire.connect import (

@@ -18,11 +18,11 @@ from chatrobot.core.events import Event, Finished, Telemetry
 from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import RELEASERS
+from chatrobot.link.envelope import Envelope, Word
+from chatrobot.link.topics import CHATGPT_NODE, EVENTS, TELEMETRY
+from chatrobot.motion.motion_runner import MotionRunner
+from chatrobot.motion.safety.zeroing import Sight
 from chatrobot.nodes.foreign import Foreign
-from chatrobot.session.envelope import Envelope, Word
-from chatrobot.session.motion_runner import MotionRunner
-from chatrobot.session.topics import CHATGPT_NODE, EVENTS, TELEMETRY
-from chatrobot.session.zeroing import Sight
 from chatrobot.wire.connect import Connect, advertise, connect_wire, resolved
 from chatrobot.wire.messages import Text
 

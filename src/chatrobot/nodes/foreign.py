@@ -13,13 +13,13 @@ from chatrobot.core.errors import PlanTextError
 from chatrobot.core.process import own_identity
 from chatrobot.core.reason import Reason
 from chatrobot.governor.lease import LOCAL_TERM_S
+from chatrobot.link.envelope import Envelope
+from chatrobot.link.joint import Sender
+from chatrobot.link.topics import CHATGPT_NODE
+from chatrobot.motion.motion_runner import MotionRunner
 from chatrobot.plan.steps import Plan, RawTwist
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.plan.tutorial_form import ImpossibleTwistError, read_tutorial_line
-from chatrobot.session.envelope import Envelope
-from chatrobot.session.joint import Sender
-from chatrobot.session.motion_runner import MotionRunner
-from chatrobot.session.topics import CHATGPT_NODE
 
 LONGEST_S = 10.0
 MAX_CHARACTERS = 2000

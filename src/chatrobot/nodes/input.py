@@ -6,9 +6,9 @@ import time
 from collections.abc import Callable
 
 from chatrobot.core.wiring import Wiring
+from chatrobot.link.topics import REPLY, STOP, USER_INPUT
 from chatrobot.nodes.operator import OperatorBeat
 from chatrobot.reflex import is_stop
-from chatrobot.session.topics import REPLY, STOP, USER_INPUT
 from chatrobot.wire.connect import (
     Connect,
     advertise,

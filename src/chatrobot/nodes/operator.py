@@ -17,7 +17,7 @@ from chatrobot.core.errors import WireError
 from chatrobot.core.process import own_identity, watch_process
 from chatrobot.core.scheduling import wake_promptly
 from chatrobot.governor.lease import BEAT_HZ, LATE_S, LOCAL_BEAT_HZ, LOCAL_TERM_S, LONGEST_S, TERM_S, Lease
-from chatrobot.session.topics import OPERATOR
+from chatrobot.link.topics import OPERATOR
 from chatrobot.wire.connect import advertise
 from chatrobot.wire.messages import Text
 from chatrobot.wire.wire import Wire

@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 from chatrobot.core.events import Event, Finished, Notice, ProgramLog, Started
 from chatrobot.core.reason import Reason
+from chatrobot.dialogue.replies import describe_end
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.nodes.log import Severity
-from chatrobot.session.replies import describe_end
 
 _GOOD_NEWS = frozenset(
     {"alone_again", "wire_back", "released", "sensor_found", "cmd_vel_type_found", "odom_type_found"}

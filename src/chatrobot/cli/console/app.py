@@ -22,7 +22,7 @@ from chatrobot.compose import Setup, connect
 from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import JointError, UsageError
 from chatrobot.core.events import Event
-from chatrobot.session.processes import SIMULATED
+from chatrobot.link.processes import SIMULATED
 
 HISTORY_FILE = "history"
 

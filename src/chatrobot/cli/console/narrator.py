@@ -30,11 +30,11 @@ from chatrobot.core.events import (
 )
 from chatrobot.core.geometry import Twist
 from chatrobot.core.shown import fixed
+from chatrobot.dialogue.programs.program_text import body, headline
+from chatrobot.dialogue.replies import describe_left
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.plan.folded import folded_plan
 from chatrobot.plan.shown import shown_plan
-from chatrobot.session.program_text import body, headline
-from chatrobot.session.replies import describe_left
 
 PLAN_LINES = 16
 """A longer plan is shown in part; `/plan` shows it whole."""

@@ -8,8 +8,8 @@ from textwrap import shorten
 
 from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Outcome
+from chatrobot.link.envelope import QUEUE_LIMIT
 from chatrobot.plan.text import parse_plan
-from chatrobot.session.envelope import QUEUE_LIMIT
 
 MOST_TEXTS = QUEUE_LIMIT + 1
 """One runs, the others wait."""

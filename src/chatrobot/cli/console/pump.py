@@ -7,7 +7,7 @@ import threading
 from collections.abc import Callable
 
 from chatrobot.core.errors import JointError
-from chatrobot.session.session import Session
+from chatrobot.dialogue.session import Session
 
 PUMP_S = 0.05
 

@@ -12,7 +12,7 @@ from chatrobot.cli.eval.corpus import Item, load_corpus
 from chatrobot.cli.eval.report import item_json, misses, table, totals_json
 from chatrobot.cli.eval.run import Judged, run_items
 from chatrobot.cli.json_lines import json_line
-from chatrobot.session.options import Options
+from chatrobot.dialogue.options import Options
 
 _REPORTED_EVERY_S = 0.2
 

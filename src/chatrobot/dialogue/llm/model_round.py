@@ -1,0 +1,105 @@
+"""One round of a turn that a model plans: one call, what the model said in it, and what became of the run of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from chatrobot.core.events import Finished
+from chatrobot.core.reason import Reason
+from chatrobot.dialogue.llm.model_call import CallEnd, ModelCall
+from chatrobot.dialogue.llm.model_reply import ReplyReader
+from chatrobot.models.seam import CallLimits, Message, Model
+from chatrobot.plan.base import Step
+from chatrobot.plan.primitives.say import Say
+from chatrobot.plan.steps import count_steps
+from chatrobot.plan.text import format_step
+
+
+class ModelRound:
+    """Begins the call at once. Belongs to the pumping thread, but for the call's `cancel`.
+
+    Args:
+        done: the steps of earlier rounds that this one corrects, and that are not to be done again.
+        wake: called when the model has said something.
+    """
+
+    def __init__(
+        self,
+        model: Model,
+        messages: Sequence[Message],
+        limits: CallLimits,
+        wake: Callable[[], None],
+        done: tuple[Step, ...],
+    ) -> None:
+        self._model = model
+        self._done = done
+        self.reader = ReplyReader()
+        self.steps: list[Step] = []
+        self.run: Finished | None = None
+        self.run_problem: Reason | None = None
+        """Why its run did not come to its end."""
+        self.is_plan_refused = False
+        self.call_end: CallEnd | None = None
+        self.call = ModelCall(model, messages, limits, wake)
+
+    @property
+    def is_calling(self) -> bool:
+        return not self.call.has_ended
+
+    @property
+    def asked_at_s(self) -> float | None:
+        """Since when the model is being asked (monotonic); None where it is not."""
+        return self.call.began_s if self.is_calling else None
+
+    @property
+    def is_in_vain(self) -> bool:
+        """What the model says from now on counts no more: its run is over."""
+        return self.run_problem is not None or self.is_plan_refused
+
+    @property
+    def moves(self) -> bool:
+        """It is more than an answer."""
+        return any(not isinstance(step, Say) for step in self.steps)
+
+    @property
+    def plan_text(self) -> str:
+        return "\n".join(map(format_step, self.steps))
+
+    @property
+    def problem(self) -> Reason | None:
+        """What is wrong with the reply."""
+        if self.call_end is not None and self.call_end.problem is not None:
+            return self.call_end.problem
+        if self.reader.error is not None:
+            return Reason("plan_text", {"problem": str(self.reader.error)})
+        if not self.steps and not self.reader.looks and not self._done:
+            return Reason("model_empty", {"model": self._model.name})
+        return None
+
+    def end_call(self, end: CallEnd, *, counts: bool) -> list[Step]:
+        """The model has said all; the steps that are complete only now. `counts`: what it said last does."""
+        self.call_end = end
+        return self.reader.finish() if counts and end.problem is None else []
+
+    def end_run(self, finished: Finished) -> None:
+        """Motion has told the end of its run."""
+        self.run = finished
+        if finished.outcome != "completed":
+            self.run_problem = finished.reason or Reason("cause_unknown")
+
+    def forget_what_is_done(self) -> None:
+        """A correction that begins with all that is done already is the whole plan once more: that part is left out."""
+        count = len(self._done)
+        if count and not self.reader.names_rest and tuple(self.steps[:count]) == self._done:
+            del self.steps[:count]
+
+    def steps_done(self) -> tuple[Step, ...]:
+        """The top-level steps that were done to their end."""
+        left = self.run.steps_done if self.run is not None else 0
+        done: list[Step] = []
+        for step in self.steps:
+            left -= count_steps((step,))
+            if left < 0:
+                break
+            done.append(step)
+        return tuple(done)

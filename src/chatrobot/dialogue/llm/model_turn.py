@@ -1,0 +1,350 @@
+"""One turn that a model plans: asked, streamed to Motion step by step, shown what it wants to see, asked again.
+
+Nothing that the model says is trusted: Motion rehearses and governs it like any other plan. What it gets wrong goes
+back to it with the error, at most twice; rounds, tokens and time are capped. Belongs to the pumping thread, but for
+`cancel`.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Literal
+
+from chatrobot.core.events import (
+    Event,
+    Finished,
+    Interpreted,
+    Looked,
+    ModelCalled,
+    Notice,
+    Outcome,
+    Rehearsed,
+)
+from chatrobot.core.motion_budget import EXCEEDED
+from chatrobot.core.reason import Reason
+from chatrobot.core.summed import summed
+from chatrobot.dialogue.llm.model_call import CallEnd
+from chatrobot.dialogue.llm.model_look import ModelLook
+from chatrobot.dialogue.llm.model_round import ModelRound
+from chatrobot.dialogue.llm.model_terms import Ended, ModelOptions, Surroundings, told
+from chatrobot.dialogue.llm.plan_feed import PlanFeed
+from chatrobot.dialogue.llm.prompt import correction
+from chatrobot.dialogue.llm.spending import Spending
+from chatrobot.dialogue.llm.tutorial_mode import is_short_form
+from chatrobot.dialogue.observations import without_pictures
+from chatrobot.dialogue.quoting import one_line
+from chatrobot.models.seam import Message, Model
+from chatrobot.plan.base import Step
+from chatrobot.plan.primitives.say import Say
+from chatrobot.plan.text import format_step
+
+if TYPE_CHECKING:
+    from chatrobot.link.joint import Joint
+
+MAX_RETRIES = 2
+"""A bad reply never causes more further calls than these."""
+
+WORTH_ANOTHER_TRY = frozenset({"model_empty", "model_called_tool"})
+"""What a model did, not what became of the call: it may do better when it is told."""
+
+PICTURE_REFUSED = frozenset({"model_rejected", "model_server_error", "model_not_found"})
+"""How providers say that a model cannot see: 400, 500 or, with OpenRouter, 404."""
+
+PLAN_REFUSED = frozenset({"lasts_too_long", "plan_too_large", "plan_text"})
+
+
+class ModelTurn:
+    """See the module. `pump` and `hear` until `ended` is there.
+
+    Args:
+        messages: what the model is told, the person's words last.
+        mode: what the first run does to one that is under way.
+        approve, rehearse_only: as in `Options`; either means that a plan goes to Motion as a whole.
+        frees_form: what stands wholly in the tutorial's form, and is short, needs no approval.
+    """
+
+    def __init__(
+        self,
+        turn: int,
+        messages: list[Message],
+        model: Model,
+        options: ModelOptions,
+        joint: Joint,
+        surroundings: Surroundings,
+        emit: Callable[[Event], None],
+        mode: Literal["queue", "replace", "append"],
+        *,
+        pauses: Callable[[], int],
+        approve: bool = False,
+        frees_form: bool = False,
+        rehearse_only: bool = False,
+        only_talks: bool = False,
+    ) -> None:
+        self.turn = turn
+        self.ended: Ended | None = None
+        self._messages = messages
+        self._model = model
+        self._options = options
+        self._joint = joint
+        self._surroundings = surroundings
+        self._emit = emit
+        self._comes_whole = approve or rehearse_only or only_talks or not options.streams
+        self._frees_form = frees_form
+        self._rehearse_only = rehearse_only
+        self._only_talks = only_talks
+        self._spending = Spending(options)
+        self._feed = PlanFeed(
+            turn, joint, emit, mode, approve=approve, rehearse_only=rehearse_only, pauses=pauses
+        )
+        self._cancelled: Reason | None = None
+        self._look: ModelLook | None = None
+        self._total: Finished | None = None
+        self._all_done: tuple[Step, ...] = ()
+        self._done: tuple[Step, ...] = ()
+        self._answers: list[str] = []
+        self._begin_round()
+
+    # --- from any thread ---
+
+    def cancel(self, why: Reason) -> None:
+        """A stop: end the call. What runs in Motion is stopped by the stop itself. Returns at once."""
+        self._cancelled = why
+        self._feed.cancel()
+        self._round.call.cancel()
+
+    # --- the pumping thread ---
+
+    @property
+    def began_s(self) -> float:
+        """When the model was first asked (monotonic)."""
+        return self._spending.began_s
+
+    @property
+    def is_moving(self) -> bool:
+        """A plan of it is with Motion."""
+        return self._feed.is_open
+
+    @property
+    def silent_s(self) -> float | None:
+        """How long the model has been silent since it was asked, None where it has spoken or is not being asked."""
+        call = self._round.call
+        if call.has_spoken or call.has_ended:
+            return None
+        return time.monotonic() - call.began_s
+
+    @property
+    def asked_at_s(self) -> float | None:
+        """Since when the model is being asked (monotonic); None where it is not. From any thread."""
+        return self._round.asked_at_s
+
+    def wait(self, timeout_s: float) -> None:
+        """Until the model says something: where time is simulated, it stands meanwhile."""
+        self._round.call.wait(timeout_s)
+
+    def replace(self) -> None:
+        """Something else is to be done instead; what runs has been told so, or will be, by Motion."""
+        why = Reason("replaced")
+        self._feed.close()
+        self.cancel(why)
+        if not self._feed.is_open:
+            self._conclude("stopped", why)
+
+    def pump(self) -> None:
+        """Take in what the model has said since."""
+        if self.ended is not None:
+            return
+        if self._cancelled is not None and not self._feed.is_open:
+            self._conclude("stopped", self._cancelled)
+            return
+        for item in self._round.call.take():
+            if isinstance(item, CallEnd):
+                self._end_call(item)
+            elif self._listens:
+                self._take(self._round.reader.feed(item))
+        self._end_look()
+
+    def hear(self, event: Event) -> None:
+        """An event of this turn."""
+        if self.ended is not None:
+            return
+        if isinstance(event, Rehearsed) and not event.ok:
+            self._round.is_plan_refused = True
+            self._round.call.cancel()  # what it would say after this counts no more
+        elif isinstance(event, Finished):
+            self._end_run(event)
+        elif isinstance(event, Looked) and self._look is not None:
+            self._look.hear(event)
+            self._end_look()
+
+    # --- a round: one call and the run that comes of it ---
+
+    def _begin_round(self) -> None:
+        self._spending.calls += 1
+        # A model that has been wrong once is read to its end before anything moves.
+        self._feed.begin(streams=not self._comes_whole and not self._spending.retries)
+        self._round = ModelRound(
+            self._model, self._messages, self._options.limits, self._joint.wake, self._done
+        )
+        if self._cancelled is not None:
+            self._round.call.cancel()
+
+    @property
+    def _listens(self) -> bool:
+        """What the model says now may still count."""
+        return self._cancelled is None and not self._round.is_in_vain
+
+    def _take(self, steps: list[Step]) -> None:
+        for step in steps:
+            self._round.steps.append(step)
+            self._feed.take(step)
+
+    def _end_call(self, end: CallEnd) -> None:
+        current = self._round
+        self._take(current.end_call(end, counts=self._listens))
+        self._note_usage(end)
+        current.forget_what_is_done()
+        plan_text = "" if self._only_talks else current.plan_text
+        if plan_text:
+            self._answers.append(plan_text)
+            reply = self._surroundings.describe(tuple(current.steps)) if current.moves else ""
+            self._emit(Interpreted(self.turn, "model", plan_text, reply))
+        elif current.reader.text:
+            self._emit(Interpreted(self.turn, "model", "", one_line(current.reader.text)))
+        self._feed.close()
+        if not self._feed.is_open and current.run is None and self._may_run:
+            free = self._frees_form and is_short_form(current.steps)
+            self._feed.send_whole(plan_text, unasked=free)
+        if not self._feed.is_open:
+            self._end_round()
+
+    def _note_usage(self, end: CallEnd) -> None:
+        usage = end.usage
+        self._spending.note(usage)
+        self._emit(
+            ModelCalled(
+                self.turn, self._model.name, self._spending.calls, usage.prompt_tokens, usage.cached_tokens,
+                usage.reply_tokens, usage.cost_usd, usage.counted, end.duration_s,
+            )
+        )  # fmt: skip
+
+    @property
+    def _may_run(self) -> bool:
+        """A plan that came whole: nothing was wrong with it, and it is more than an answer."""
+        is_wanted = not self._only_talks and self._cancelled is None
+        return is_wanted and self._round.problem is None and self._round.moves
+
+    # --- how a run and a round end ---
+
+    def _end_run(self, finished: Finished) -> None:
+        self._feed.end()
+        self._round.end_run(finished)
+        self._total = finished if self._total is None else summed(self._total, finished)
+        if not self._round.is_calling:
+            self._end_round()
+        elif finished.outcome != "completed":
+            self._round.call.cancel()  # the end of the call ends the round
+
+    def _end_round(self) -> None:
+        """The call has ended, and so has its run, if there was one."""
+        current, run = self._round, self._round.run
+        self._all_done = (*self._all_done, *current.steps_done())
+        if run is not None and run.outcome in ("stopped", "failed"):
+            self._conclude(run.outcome, run.reason)
+        elif self._cancelled is not None:
+            self._conclude("stopped", self._cancelled)
+        elif run is not None and run.outcome == "refused":
+            refused = current.run_problem or Reason("cause_unknown")
+            is_the_plans = current.is_plan_refused or refused.code in PLAN_REFUSED
+            # A shorter plan than the person asked for is no correction.
+            may_retry = is_the_plans and refused.code not in EXCEEDED
+            self._retry("refused", refused) if may_retry else self._conclude("refused", refused)
+        elif self._only_talks:
+            self._end_talk()
+        elif (problem := current.problem) is not None:
+            self._end_with(problem)
+        elif current.reader.looks and not self._rehearse_only:
+            self._begin_look()
+        elif run is None and self._total is None:
+            self._conclude("answered", None)
+        else:
+            self._feed.say_held()
+            self._conclude("completed", None)
+
+    def _end_talk(self) -> None:
+        """It was only to take note of something."""
+        end = self._round.call_end
+        problem = end.problem if end is not None else None
+        self._conclude("answered" if problem is None else "failed", problem)
+
+    def _end_with(self, problem: Reason) -> None:
+        """The reply could not be used, or only up to a line."""
+        if problem.code == "model_empty" and self._done:
+            self._conclude("completed", None)  # nothing is left to do
+        elif problem.code == "plan_text" or problem.code in WORTH_ANOTHER_TRY:
+            self._retry("unclear", problem)
+        elif problem.code in PICTURE_REFUSED and any(message.picture for message in self._messages):
+            self._ask_without_pictures()
+        else:
+            self._conclude("failed", problem)
+
+    def _ask_without_pictures(self) -> None:
+        """It may be the picture that this model cannot take: ask once more in words alone, and show it no other."""
+        self._surroundings.give_up_looking()
+        self._emit(Notice(self.turn, Reason("model_cannot_see", {"model": self._model.name})))
+        self._messages = without_pictures(self._messages)
+        self._begin_round()
+
+    def _retry(self, outcome: Outcome, problem: Reason) -> None:
+        """Tell the model what was wrong, and where to go on."""
+        if self._spending.retries >= MAX_RETRIES or self._spending.used_up() is not None:
+            self._conclude(outcome, problem)
+            return
+        self._spending.retries += 1
+        self._done = (*self._done, *self._round.steps_done())
+        done = [format_step(step) for step in self._done]
+        tries = {"try": self._spending.retries, "tries": MAX_RETRIES}
+        self._emit(Notice(self.turn, Reason("model_corrected", tries)))
+        words = correction(told(problem), done, self._surroundings.measured(self._total))
+        self._go_on(Message("user", words))
+
+    def _begin_look(self) -> None:
+        self._feed.say_held()
+        self._look = ModelLook(self._round.reader.looks, self.turn, self._joint, self._surroundings)
+        self._end_look()
+
+    def _end_look(self) -> None:
+        """Tell the model what there is to see, once it has been seen."""
+        look = self._look
+        if look is None or not look.is_over:
+            return
+        self._look = None
+        spent = self._spending.used_up() or self._spending.rounds_used_up()
+        if spent is not None:
+            self._conclude("stopped", spent)
+            return
+        self._done = ()
+        looks = self._round.reader.looks
+        at: dict[str, float | int | str] = {
+            "what": ", ".join(looks),
+            "round": self._spending.rounds + 1,
+            "rounds": self._options.rounds,
+        }
+        self._emit(Notice(self.turn, Reason("model_looks", at)))
+        self._go_on(self._surroundings.observation(looks, look.scan, self._round.run))
+
+    def _go_on(self, message: Message) -> None:
+        said = Message("assistant", self._round.reader.text[:2000] or "# nothing")
+        earlier = without_pictures(self._messages) if message.picture is not None else self._messages
+        self._messages = [*earlier, said, message]
+        self._begin_round()
+
+    def _conclude(self, outcome: Outcome, reason: Reason | None) -> None:
+        if self.ended is not None:
+            return
+        text = self._round.reader.text
+        says = "\n".join(step.text for step in self._round.steps if isinstance(step, Say))
+        is_answer = outcome == "answered" and not self._only_talks
+        said = says if is_answer else one_line(text)
+        answer = "\n".join(self._answers) or text
+        self.ended = Ended(outcome, reason, self._total, self._all_done, answer, said)

@@ -1,0 +1,28 @@
+"""How a session behaves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from chatrobot.dialogue.llm.thinking import Interpreter
+
+
+@dataclass(frozen=True)
+class Options:
+    """How a session behaves.
+
+    `while_moving` decides what a new instruction does to a running one: `queue` (pipes, programs) or `replace`
+    (a person at the keyboard). `approve` asks for a yes before each plan, `approve_models` before what a model wrote,
+    but for a few seconds of the tutorial's form; `rehearse_only` moves nothing. Of programs,
+    `ask_findings` asks where rehearsal found something, `ask_new` before each that was written just now.
+    `interpreter`: who understands; with `auto` a model is asked what is not understood without it.
+    """
+
+    while_moving: Literal["queue", "replace"] = "queue"
+    approve: bool = False
+    approve_models: bool = False
+    rehearse_only: bool = False
+    ask_findings: bool = True
+    ask_new: bool = False
+    interpreter: Interpreter = "auto"

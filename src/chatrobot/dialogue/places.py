@@ -1,0 +1,83 @@
+"""Places a person has named, kept between sessions, each with the odometry epoch its coordinates belong to."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+from chatrobot.core.errors import InputError
+from chatrobot.core.geometry import Pose
+from chatrobot.dialogue.quoting import one_line
+from chatrobot.language.context import Place
+from chatrobot.plan.primitives.go import MAX_PLACE_CHARS
+
+_FILE = "places.json"
+
+
+class Places:
+    """The named places of one robot.
+
+    Args:
+        folder: where they are kept; None keeps them for this session only.
+        robot: profile name; another robot's places mean nothing to this one.
+        epoch: names this run of odometry. Coordinates of another one are remembered but not usable.
+    """
+
+    def __init__(self, folder: Path | None, robot: str, epoch: str) -> None:
+        self._path = folder / _FILE if folder is not None else None
+        self._robot = robot
+        self._epoch = epoch
+        self._kept: dict[str, dict[str, object]] = self._load()
+        self._unkept = ""
+
+    def add(self, name: str, pose: Pose) -> None:
+        """Remember `pose` under `name`; an older place of that name is replaced."""
+        tidy = one_line(name, MAX_PLACE_CHARS)
+        self._kept[tidy] = {"x_m": pose.x_m, "y_m": pose.y_m, "yaw_rad": pose.yaw_rad, "epoch": self._epoch}
+        try:
+            self._save()
+        except OSError as error:  # a full disk is no reason to stop a robot
+            self._unkept = error.strerror or str(error)
+
+    def take_unkept(self) -> str:
+        """Why the last place is remembered for this session only; said once, empty where it was kept."""
+        unkept, self._unkept = self._unkept, ""
+        return unkept
+
+    def all(self) -> Mapping[str, Place]:
+        """Every place by name."""
+        return {name: self._place(entry) for name, entry in self._kept.items()}
+
+    def _place(self, entry: Mapping[str, object]) -> Place:
+        x, y, yaw = (float(str(entry[key])) for key in ("x_m", "y_m", "yaw_rad"))
+        return Place(Pose(x, y, yaw), usable=entry["epoch"] == self._epoch)
+
+    def _load(self) -> dict[str, dict[str, object]]:
+        if self._path is None or not self._path.exists():
+            return {}
+        try:
+            robots = json.loads(self._path.read_text(encoding="utf-8"))
+            found: dict[str, dict[str, object]] = dict(robots.get(self._robot, {}))
+            kept = {one_line(name, MAX_PLACE_CHARS): entry for name, entry in found.items()}
+            for entry in kept.values():
+                self._place(entry)
+        except (ValueError, KeyError, AttributeError, TypeError) as error:
+            raise InputError(
+                f"it cannot be read: {error}",
+                where=str(self._path),
+                allowed="remove the file to begin without remembered places",
+            ) from error
+        return kept
+
+    def _save(self) -> None:
+        """Write beside and rename: a full disk or a kill leaves the old file whole."""
+        if self._path is None:
+            return
+        self._path.parent.mkdir(parents=True, exist_ok=True)
+        robots = json.loads(self._path.read_text(encoding="utf-8")) if self._path.exists() else {}
+        robots[self._robot] = self._kept
+        beside = self._path.with_suffix(".new")
+        beside.write_text(json.dumps(robots, ensure_ascii=False, indent=1), encoding="utf-8")
+        os.replace(beside, self._path)

@@ -1,0 +1,310 @@
+"""Programs on the understanding side: asked for, written (offline or by a model), read through, mended, kept.
+
+Nothing here runs a program: its source goes to Motion, which rehearses it in the box.
+"""
+
+from __future__ import annotations
+
+import shlex
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from chatrobot.core.events import Finished, Outcome, ProgramRehearsed, Rehearsed
+from chatrobot.core.geometry import Pose
+from chatrobot.core.reason import Reason
+from chatrobot.dialogue.llm.model_call import estimated
+from chatrobot.dialogue.programs.draft import Draft
+from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.phrases import render_reason, say
+from chatrobot.language.program_request import ProgramRequest, read_program_name, read_request
+from chatrobot.models.seam import CallLimits, Message, Model, ModelError, Usage
+from chatrobot.plan.context import Impossible, RoutePlanner
+from chatrobot.plan.steps import Plan
+from chatrobot.programs.check import check
+from chatrobot.programs.extract import extract
+from chatrobot.programs.library import KeptProgram, Library, Provenance, RunRecord, clean_name, today
+from chatrobot.programs.prompts import mend_prompt, system_prompt
+from chatrobot.programs.writing.program import write_program
+from chatrobot.programs.writing.wanted import Wanted
+from chatrobot.robots.profile import RobotProfile
+
+MOST_REPAIRS = 2
+LIMITS = CallLimits(reply_tokens=4000)
+
+
+class NotWrittenError(Exception):
+    """No program came of it; `outcome` and `reply` are the turn's, in the person's language."""
+
+    def __init__(self, outcome: Outcome, reply: str) -> None:
+        self.outcome = outcome
+        self.reply = reply
+        super().__init__(reply)
+
+
+@dataclass(frozen=True)
+class Spent:
+    """What one call of the model that writes has used, and how long it took."""
+
+    model: str
+    usage: Usage
+    duration_s: float
+
+
+@dataclass
+class Rehearsal:
+    """What Motion told of one version, as it comes in."""
+
+    program: ProgramRehearsed | None = None
+    path: Rehearsed | None = None
+
+
+class Authoring:
+    """Writes programs for one robot. Used by the session's pumping thread; only `cancel` may come from any other.
+
+    Args:
+        library: where programs are kept.
+        interpret: reads a sentence as the session does.
+        model: writes what the offline language does not understand; None for no model.
+        prefers_model: the model writes all of them.
+        routes: makes who finds ways around what is known, for programs that go to places.
+    """
+
+    def __init__(
+        self,
+        profile: RobotProfile,
+        library: Library,
+        interpret: Callable[[str], Interpretation],
+        *,
+        model: Model | None = None,
+        prefers_model: bool = False,
+        routes: Callable[[], RoutePlanner | None] = lambda: None,
+    ) -> None:
+        self.library = library
+        self._profile = profile
+        self._interpret = interpret
+        self.model = model
+        self.prefers_model = prefers_model
+        self._routes = routes
+        self._spent: list[Spent] = []
+        self._cancels = 0
+        self._cancel_reply: Callable[[], None] | None = None
+        self.asked_at_s: float | None = None
+        """Since when a model is being asked (monotonic); None where none is."""
+
+    def cancel(self) -> None:
+        """Stop waiting for a model. From any thread; returns at once."""
+        self._cancels += 1
+        cancel = self._cancel_reply
+        if cancel is not None:
+            cancel()
+
+    # --- which program ---
+
+    def kept(self, text: str, language: str) -> Draft | None:
+        """The kept program that `text` asks to run, with the arguments behind a `--`; None where it asks for none.
+
+        Raises:
+            NotWrittenError: it cannot be given those arguments.
+        """
+        names = self.library.names()
+        if not names:
+            return None
+        said, _, command_line = text.partition(" -- ")
+        name = read_program_name(said, names)
+        if name is None:
+            return None
+        try:
+            return self.draft_of(self.library.get(name)).with_args(shlex.split(command_line))
+        except ValueError as error:
+            reason = Reason("program_arguments", {"problem": str(error)})
+            raise NotWrittenError("refused", render_reason(reason, language)) from error
+
+    def draft_of(self, program: KeptProgram) -> Draft:
+        """A program that is there already."""
+        checked = check(program.source, self._profile)
+        program = replace(program, remap=dict(checked.remap))
+        place = self.library.place(program.name)
+        return Draft(program, checked, place=place, version=program.provenance.versions)
+
+    def draft_of_file(self, path: Path, source: str) -> Draft:
+        """A program from a file, which is not kept."""
+        program = KeptProgram(path.stem, source, provenance=Provenance(f"from {path.name}"))
+        return replace(self.draft_of(program), place=str(path))
+
+    def edited(self, draft: Draft, source: str) -> Draft:
+        """What a person made of a program that was shown: its next version, or the same where nothing was changed.
+
+        It is asked about before it runs. One that came from a file is kept from now on: the file stays as it is.
+        """
+        if source == draft.program.source:
+            return replace(draft, asks=True)
+        if draft.place != self.library.place(draft.program.name):
+            name = self.library.free_name(draft.program.name)
+            draft = replace(draft, program=replace(draft.program, name=name))
+        new = draft.next(source, check(source, self._profile))
+        return replace(new, asks=True, place=self.library.place(new.program.name))
+
+    @staticmethod
+    def request(text: str, *, is_asked_for: bool = False) -> ProgramRequest | None:
+        """What program `text` asks for; None where it asks for none."""
+        return read_request(text, is_asked_for=is_asked_for)
+
+    # --- writing ---
+
+    def write(self, request: ProgramRequest, pose: Pose, language: str) -> Draft:
+        """The program for a request of somebody whose robot stands at `pose`. Blocks while a model writes.
+
+        Raises:
+            NotWrittenError: nobody could write it, and why.
+        """
+        if self.prefers_model and self.model is not None:
+            return self._by_model(request, language)
+        try:
+            return self._offline(request, pose, language)
+        except NotWrittenError as refusal:
+            if self.model is None or refusal.outcome != "unclear":
+                raise
+            return self._by_model(request, language)
+
+    def _offline(self, request: ProgramRequest, pose: Pose, language: str) -> Draft:
+        plan = self._plan(request, language)
+        name = clean_name(request.name) or "program"
+        source = self._written(plan, name, request, pose, language)
+        kept = self.library.find(name)
+        if kept is not None and kept.source != source:
+            name = self.library.free_name(name)
+            source = self._written(plan, name, request, pose, language)
+        program = KeptProgram(name, source, provenance=Provenance(request.text, "offline", "", today()))
+        return self._new(program, request)
+
+    def _written(self, plan: Plan, name: str, request: ProgramRequest, pose: Pose, language: str) -> str:
+        wanted = Wanted(
+            name, request.text, request.topic, request.uses_sleep, request.rest_s, pose, self._routes()
+        )
+        source = write_program(plan, self._profile, wanted)
+        if isinstance(source, Impossible):
+            raise NotWrittenError("refused", render_reason(source.reason, language))
+        return source
+
+    def _plan(self, request: ProgramRequest, language: str) -> Plan:
+        if request.steps:
+            return Plan(request.steps)
+        meant = self._interpret(request.body) if request.body else None
+        if meant is None or meant.outcome in ("unclear", "stop", "answered"):
+            raise NotWrittenError("unclear", say(language, "program"))
+        if meant.plan is None:
+            raise NotWrittenError("refused", meant.reply)
+        return meant.plan
+
+    def _new(self, program: KeptProgram, request: ProgramRequest, messages: Sequence[Message] = ()) -> Draft:
+        checked = check(program.source, self._profile)
+        program = replace(program, remap=dict(checked.remap))
+        return Draft(
+            program,
+            checked,
+            is_new=True,
+            place=self.library.place(program.name),
+            promises=request.promises,
+            messages=tuple(messages),
+        )
+
+    # --- with a model ---
+
+    def _by_model(self, request: ProgramRequest, language: str) -> Draft:
+        assert self.model is not None
+        messages = [Message("system", system_prompt(self._profile)), Message("user", request.text)]
+        reply = self._ask(messages, language)
+        found = extract(reply)
+        if found is None:
+            raise NotWrittenError("unclear", say(language, "no_program_in_reply", reply=reply.strip()[:200]))
+        provenance = Provenance(request.text, "model", self.model.name, today())
+        program = KeptProgram(
+            self.library.free_name(request.name), found.source, found.description, provenance
+        )
+        return self._new(program, request, [*messages, Message("assistant", reply)])
+
+    def mend(self, draft: Draft, problem: Reason, details: str, language: str) -> Draft | None:
+        """The next version of a model's program; None where it may not be mended any more. Blocks.
+
+        Raises:
+            NotWrittenError: the model did not answer with one.
+        """
+        if not draft.by_model or draft.version > MOST_REPAIRS or self.model is None:
+            return None
+        told = mend_prompt(render_reason(problem, "en"), details)
+        messages = [*draft.messages, Message("user", told)]
+        reply = self._ask(messages, language)
+        found = extract(reply)
+        if found is None:
+            raise NotWrittenError("failed", say(language, "no_program_in_reply", reply=reply.strip()[:200]))
+        checked = check(found.source, self._profile)
+        return draft.next(found.source, checked, (*messages, Message("assistant", reply)))
+
+    def _ask(self, messages: Sequence[Message], language: str) -> str:
+        assert self.model is not None
+        before = self._cancels
+        began_s = self.asked_at_s = time.monotonic()
+        reply = self.model.ask(messages, LIMITS)
+        self._cancel_reply = reply.cancel
+        pieces: list[str] = []
+        try:
+            if self._cancels == before:
+                pieces.extend(reply)
+        except ModelError as error:
+            found = extract("".join(pieces))
+            if found is None or not found.is_closed:  # half a program is not run, nor blamed on its writer
+                raise NotWrittenError("failed", render_reason(error.reason, language)) from error
+        finally:
+            self._cancel_reply = self.asked_at_s = None
+            usage = reply.usage or estimated(messages, "".join(pieces))
+            self._spent.append(Spent(self.model.name, usage, time.monotonic() - began_s))
+        if self._cancels != before:
+            raise NotWrittenError("stopped", say(language, "stopped_now"))
+        return "".join(pieces)
+
+    def take_spent(self) -> list[Spent]:
+        """The calls since this was asked last, given up ones too."""
+        spent, self._spent = self._spent, []
+        return spent
+
+    # --- what became of it ---
+
+    def keep(self, draft: Draft) -> None:
+        """Keep a new program; one that was kept before is left as it is."""
+        if draft.is_new:
+            self.library.keep(draft.program)
+
+    def note_rehearsal(self, draft: Draft, rehearsal: Rehearsal) -> None:
+        """What the last rehearsal of a kept program showed."""
+        program, path = rehearsal.program, rehearsal.path
+        if program is None or path is None:
+            return
+        self.library.note_rehearsal(
+            draft.program.name,
+            {
+                "date": today(),
+                "ok": path.ok,
+                "duration_s": round(path.duration_s, 2),
+                "length_m": round(path.length_m, 3),
+                "top_speed_mps": round(program.top_speed_mps, 3),
+                "top_rate_radps": round(program.top_rate_radps, 3),
+                "ended": program.ended,
+                "findings": [found.reason.to_json() for found in path.findings],
+            },
+        )
+
+    def note_run(self, draft: Draft, finished: Finished) -> None:
+        """How a run of a kept program ended."""
+        if finished.path_m or finished.duration_s or finished.outcome == "completed":
+            self.library.note_run(
+                draft.program.name,
+                RunRecord(
+                    today(),
+                    finished.outcome,
+                    round(finished.path_m, 3),
+                    round(finished.turned_rad, 4),
+                    round(finished.duration_s, 2),
+                ),
+            )

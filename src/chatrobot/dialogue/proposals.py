@@ -1,0 +1,76 @@
+"""The plan that the last reply offered: a yes as the very next text runs it, anything else drops it.
+
+A yes may say how fast: `sure, but slowly`.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import NamedTuple
+
+from chatrobot.core.events import Event, Result, Started
+from chatrobot.core.proposal import Proposal
+from chatrobot.dialogue.said import Said
+from chatrobot.dialogue.understanding import Understanding
+from chatrobot.language.consent import after_consent, read_consent
+from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.phrases import render_reason, say
+from chatrobot.link.approval import Approval
+from chatrobot.plan.steps import Plan
+from chatrobot.plan.text import parse_plan
+
+
+class _Offered(NamedTuple):
+    """`turn` offered the plan; `approval` says until when, and from where, a yes counts."""
+
+    turn: int
+    proposal: Proposal
+    approval: Approval
+
+
+class Proposals:
+    """Keeps the plan that waits for an answer. Belongs to the pumping thread.
+
+    Args:
+        is_void_turn: whether a stop came after that turn was said.
+    """
+
+    def __init__(self, understanding: Understanding, is_void_turn: Callable[[int], bool]) -> None:
+        self._understanding = understanding
+        self._is_void_turn = is_void_turn
+        self._offered: _Offered | None = None
+
+    def declines_motion(self, text: str) -> bool:
+        """Whether `text` says no to what moves, and not to an offer. From any thread."""
+        return self._offered is None and read_consent(text) is False
+
+    def hear(self, event: Event) -> None:
+        """A result may offer a plan; a motion makes an earlier offer void."""
+        if isinstance(event, Result) and event.proposal is not None:
+            approval = Approval(time.monotonic(), event.pose)
+            self._offered = _Offered(event.turn, event.proposal, approval)
+        elif isinstance(event, Started):
+            self._offered = None
+
+    def answered(self, said: Said) -> Interpretation | None:
+        """What `said` means as the answer to the offer; None where it is none. The offer is over in any case."""
+        offered, self._offered = self._offered, None
+        if offered is None or said.kind != "text" or self._is_void_turn(offered.turn):
+            return None
+        yes, plan = read_consent(said.text), parse_plan(offered.proposal.plan_text)
+        changed = self._changed(plan, said.text) if yes is None else plan
+        if changed is None:
+            return None
+        language = self._understanding.language
+        if yes is False:
+            return Interpretation("answered", say(language, "offer_declined"), language)
+        lapse = offered.approval.lapsed(said.at_s, self._understanding.pose)
+        if lapse is not None:
+            return Interpretation("refused", render_reason(lapse, language), language)
+        return self._understanding.accept(changed)
+
+    def _changed(self, plan: Plan, text: str) -> Plan | None:
+        """The plan as a yes with a manner wants it (`sure, but slowly`); None for anything else."""
+        manner = after_consent(text)
+        return self._understanding.with_manner(plan, manner) if manner else None

@@ -1,0 +1,183 @@
+"""The sentence at the end of a turn: what was measured, and why it ended, in the language of the question."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from chatrobot.core.events import LEAST_M, LEAST_RAD, Finished, Paused
+from chatrobot.core.geometry import wrap_angle
+from chatrobot.core.proposal import Proposal
+from chatrobot.core.reason import Reason
+from chatrobot.core.shown import fixed
+from chatrobot.dialogue.quoting import one_line
+from chatrobot.language.phrases import describe_plan, describe_steps, describe_text, render_reason, say
+from chatrobot.plan.steps import Face, Go, RawTwist, Step
+from chatrobot.plan.text import parse_plan
+
+if TYPE_CHECKING:
+    from chatrobot.dialogue.llm.model_terms import Ended
+
+SHOWN_CHARS = 60
+"""A text that is quoted is shortened to this."""
+
+_STOPPED_TWICE = re.compile(r"([.?!。？！])[.。]")
+"""A reason that is a sentence of its own has its full stop, or its question mark, already."""
+
+
+def describe_end(finished: Finished, language: str, steps: Sequence[Step] = ()) -> str:
+    """What a plan of those steps came to: outcome, measured motion, and the reason if it did not complete."""
+    if not finished.measured and finished.outcome != "refused":
+        return _ended_once(_commanded(finished, language, steps))
+    moved = _measured(finished, language)
+    if finished.outcome == "completed":
+        done = say(language, "done", moved=moved) if moved else _done_standing(steps, language)
+        heading, slowed = _heading_there(finished, steps, language), _slowed(finished, language)
+        return " ".join(filter(None, (done, heading, slowed)))
+    reason = render_reason(finished.reason, language) if finished.reason is not None else ""
+    if finished.outcome == "refused":
+        refused = " ".join(filter(None, (reason, _free(finished.reason, language))))
+        return (
+            say(language, "model_so_far", reason=refused, moved=moved)
+            if moved and finished.path_m
+            else refused
+        )
+    code = "stopped_after" if finished.outcome == "stopped" else "failed_after"
+    return _ended_once(say(language, code, moved=moved or say(language, "nothing_moved"), reason=reason))
+
+
+def _slowed(finished: Finished, language: str) -> str:
+    """That it was slowed because the machine was too busy."""
+    return say(language, "was_slowed", late_s=finished.late_s) if finished.late_s else ""
+
+
+def _commanded(finished: Finished, language: str, steps: Sequence[Step]) -> str:
+    """The end of a turn of a robot that measures nothing: what it was sent, never what it did."""
+    if finished.outcome == "completed":
+        if not finished.duration_s:
+            return say(language, "done_standing")
+        is_known = steps and not any(
+            isinstance(step, RawTwist) for step in steps
+        )  # those may have been scaled
+        plan = describe_steps(steps, language) if is_known else _velocities(finished, language)
+        return say(language, "commanded", plan=plan)
+    reason = render_reason(finished.reason, language) if finished.reason is not None else ""
+    return _stop_sent(finished, reason, language)
+
+
+def _stop_sent(finished: Finished, reason: str, language: str) -> str:
+    if not finished.duration_s:
+        return say(language, "nothing_commanded", reason=reason)
+    return say(language, "stop_unconfirmed", reason=reason, plan=_velocities(finished, language))
+
+
+def _velocities(finished: Finished, language: str) -> str:
+    """How long it was told to move, and how far that would be: all that is known where nothing is measured."""
+    way = {"of_m": finished.planned_m, "of_deg": math.degrees(finished.planned_turn_rad)}
+    return say(language, "commanded_velocities", duration_s=finished.duration_s, **way)
+
+
+def _done_standing(steps: Sequence[Step], language: str) -> str:
+    """It stood already where it was to go, or as it was to look; else it had something to do that moves nothing."""
+    only = steps[0] if len(steps) == 1 else None
+    if isinstance(only, Go):
+        return say(language, "there_already" if only.place else "there_already_unnamed", place=only.place)
+    return say(language, "already_facing" if isinstance(only, Face) else "done_standing")
+
+
+def describe_left(paused: Paused, language: str) -> str:
+    """What is left of a paused plan in a few words, and the texts that wait behind it."""
+    plan = describe_text(paused.plan_text, language)
+    if not paused.waiting:
+        return plan
+    return say(language, "left_and_waiting", plan=plan, texts=describe_waiting(paused.waiting, language))
+
+
+def describe_waiting(texts: Sequence[str], language: str) -> str:
+    """Texts that wait, in quotation marks."""
+    shown = (say(language, "quoted", text=one_line(text, SHOWN_CHARS)) for text in texts)
+    return say(language, "list_comma").join(shown)
+
+
+def with_offer(reply: str, finished: Finished | None, language: str) -> tuple[str, Proposal | None]:
+    """The reply with the question whether to do what is possible of a plan that was refused, and what it offers."""
+    proposal = offered(finished, language) if finished is not None else None
+    return (f"{reply} {proposal.say}", proposal) if proposal is not None else (reply, None)
+
+
+def _heading_there(finished: Finished, steps: Sequence[Step], language: str) -> str:
+    """How it looks at a place that it was to face the heading of: measured, beside what was asked."""
+    last = steps[-1] if steps else None
+    if not (isinstance(last, Go) and last.place and last.yaw_rad is not None and finished.measured):
+        return ""
+    degrees = (fixed(math.degrees(wrap_angle(yaw)), 0) for yaw in (finished.pose.yaw_rad, last.yaw_rad))
+    deg, asked_deg = ("180" if each == "-180" else each for each in degrees)
+    return say(language, "at_heading", deg=deg, place=last.place, asked_deg=asked_deg)
+
+
+def offered(finished: Finished, language: str) -> Proposal | None:
+    """The question whether to do what is possible of a plan that was refused."""
+    if not finished.possible:
+        return None
+    text = describe_plan(parse_plan(finished.possible), language)
+    values = finished.reason.values if finished.reason is not None else {}
+    limits = [say(language, code, **values) for code in ("limit_m", "limit_s") if code in values]
+    return Proposal(finished.possible, " ".join([*limits, say(language, "offer", text=text)]))
+
+
+def _free(reason: Reason | None, language: str) -> str:
+    """How far a way is free that is blocked."""
+    for code in ("free_m", "free_deg", "short_m"):
+        if reason is not None and code in reason.values:
+            return say(language, code, **reason.values)
+    return ""
+
+
+def _ended_once(sentences: str) -> str:
+    return _STOPPED_TWICE.sub(r"\1", sentences)
+
+
+def describe_model_end(ended: Ended, language: str) -> str:
+    """What a turn that a model planned came to."""
+    finished, reason = ended.finished, ended.reason
+    if ended.outcome == "answered":
+        return ended.said or say(language, "done_standing")
+    if ended.outcome == "completed":
+        return describe_end(finished, language, ended.steps) if finished else say(language, "done_standing")
+    why = render_reason(reason, language) if reason is not None else ""
+    if ended.outcome == "refused":
+        why = " ".join(filter(None, (why, _free(reason, language))))
+    moved = _measured(finished, language) if finished is not None else ""
+    if ended.outcome == "stopped" and finished is not None and not finished.measured:
+        return _ended_once(_stop_sent(finished, why, language))
+    if ended.outcome == "stopped":
+        return say(language, "stopped_after", moved=moved or say(language, "nothing_moved"), reason=why)
+    if ended.outcome == "failed" and finished is not None and finished.outcome == "failed":
+        return describe_end(finished, language)
+    if ended.outcome == "unclear":
+        why = say(language, "model_no_plan", problem=why, said=ended.said)
+    return _ended_once(say(language, "model_so_far", reason=why, moved=moved)) if moved else why
+
+
+def _measured(finished: Finished, language: str) -> str:
+    if not finished.measured:
+        return (
+            say(language, "commanded_so_far", plan=_velocities(finished, language))
+            if finished.duration_s
+            else ""
+        )
+    parts = []
+    if finished.planned_m > LEAST_M or (finished.open_ended and finished.path_m > LEAST_M):
+        code = "drove_open" if finished.open_ended else "drove"
+        parts.append(say(language, code, drove_m=f"{finished.path_m:.2f}", of_m=f"{finished.planned_m:.2f}"))
+    if abs(finished.planned_turn_rad) > LEAST_RAD or abs(finished.turned_rad) > math.radians(3.0):
+        parts.append(_turned(math.degrees(finished.turned_rad), language))
+    return say(language, "list_comma").join(parts)
+
+
+def _turned(turned_deg: float, language: str) -> str:
+    shown = fixed(turned_deg, 1)
+    code = "turned" if not float(shown) else "turned_left" if turned_deg > 0.0 else "turned_right"
+    return say(language, code, turned_deg=shown.lstrip("-"))

@@ -1,0 +1,354 @@
+"""One conversation with one robot: texts in, events out, whatever face is on top.
+
+`say`, `stop` and `emergency_stop` may be called from any thread; everything else belongs to the thread that pumps.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from chatrobot.core.errors import JointError
+from chatrobot.core.events import Event, Finished, Notice, Paused, Remembered, Result, Telemetry
+from chatrobot.core.motion_budget import OPEN_LOOP
+from chatrobot.core.reason import Reason
+from chatrobot.dialogue.dispatch import Dispatch
+from chatrobot.dialogue.early import EarlyAnswers
+from chatrobot.dialogue.llm.model_terms import Ended
+from chatrobot.dialogue.llm.thinking import Mind, Thinking
+from chatrobot.dialogue.next_text import NextText
+from chatrobot.dialogue.observations import measured
+from chatrobot.dialogue.options import Options
+from chatrobot.dialogue.orders import Orders
+from chatrobot.dialogue.programs.authoring import Authoring
+from chatrobot.dialogue.programs.draft import Draft
+from chatrobot.dialogue.programs.program_turns import ProgramTurns
+from chatrobot.dialogue.proposals import Proposals
+from chatrobot.dialogue.replies import with_offer
+from chatrobot.dialogue.resuming import Resuming
+from chatrobot.dialogue.said import Kind, Said, SaidTexts
+from chatrobot.dialogue.turn_book import TurnBook
+from chatrobot.dialogue.understanding import Understanding
+from chatrobot.link.joint import Joint
+from chatrobot.plan.text import format_plan
+from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
+
+FIRST_NEWS_LOOKS, FIRST_NEWS_LOOK_S = 10, 0.1
+"""How often and how long an answer waits for the first word of odometry."""
+
+
+class Session:
+    """See the module.
+
+    Args:
+        on_event: hears every event, in order; it only reads.
+        authoring: writes and keeps programs; None where requests for one are driven as plans.
+        mind: the language model to ask, None for none.
+    """
+
+    def __init__(
+        self,
+        joint: Joint,
+        understanding: Understanding,
+        on_event: Callable[[Event], None],
+        options: Options,
+        authoring: Authoring | None = None,
+        mind: Mind | None = None,
+    ) -> None:
+        self._joint = joint
+        self.understanding = understanding
+        self._on_event = on_event
+        self._orders = Orders(joint, options)
+        self._said = SaidTexts()
+        self._proposals = Proposals(understanding, self._said.is_void_turn)
+        self._book = TurnBook(understanding, self._emit)
+        self._thinking = Thinking(
+            mind,
+            options.interpreter,
+            joint,
+            understanding,
+            self._emit,
+            self._conclude_model_turn,
+            lambda: self._said.pauses,
+        )
+        self.authoring = authoring
+        self._resuming = Resuming(understanding)
+        self._next = NextText(
+            self._said,
+            self._book,
+            self._thinking,
+            understanding,
+            self._resuming,
+            EarlyAnswers(understanding, self._thinking, self._book, authoring),
+        )
+        self._programs: ProgramTurns | None = None
+        if authoring is not None:
+            is_void = self._said.is_void_turn
+            self._programs = ProgramTurns(
+                authoring, understanding, self._book, self._orders, self._emit, is_void
+            )
+        self._dispatch = Dispatch(
+            joint,
+            self._orders,
+            self._said,
+            understanding,
+            self._book,
+            self._proposals,
+            self._resuming,
+            self._thinking,
+            self._programs,
+            self._emit,
+            self.stop,
+            self._hears_robot_soon,
+        )
+
+    @property
+    def options(self) -> Options:
+        """They may be replaced between two turns, but for who interprets."""
+        return self._orders.options
+
+    @options.setter
+    def options(self, options: Options) -> None:
+        self._orders.options = options
+
+    @property
+    def results(self) -> dict[int, Result]:
+        """How each turn ended, by its number."""
+        return self._book.results
+
+    # --- from any thread ---
+
+    def say(self, text: str) -> int:
+        """Take in what a person said; the number of its turn. A stop is out before this returns."""
+        if is_emergency_stop(text):
+            self.emergency_stop(text.strip()[:80])
+            kind: Kind = "emergency_stop"
+        elif (leads_with_stop(text) or self._declines_motion(text)) if self.is_moving else is_stop(text):
+            kind = "pause" if is_pause(text) else "stop"
+            (self.pause if kind == "pause" else self.stop)(text.strip()[:80])
+        else:
+            kind = "text"
+        return self._take_in(text, kind)
+
+    def _declines_motion(self, text: str) -> bool:
+        return not self.is_paused and self._proposals.declines_motion(text)
+
+    def say_plan(self, plan_text: str) -> int:
+        """Take in a plan that a person or a program wrote itself; the number of its turn."""
+        return self._take_in(plan_text, "plan")
+
+    def say_edited_plan(self, plan_text: str, instead_of: str = "") -> int:
+        """What a person made of a plan that waited for a yes: it, or `instead_of` if it is none, is asked about."""
+        return self._take_in(plan_text, "edited_plan", instead_of)
+
+    def say_program(self, text: str, name: str = "") -> int:
+        """Take in what a program is to do, asked for as one; the number of its turn."""
+        return self._take_in(text, "program", name)
+
+    def say_draft(self, draft: Draft) -> int:
+        """Take in a program that is there; the number of its turn."""
+        return self._take_in(draft.program.name, "draft", draft)
+
+    def say_source(self, name: str, source: str) -> int:
+        """Take in what a person made of the program of that name: it is asked about before it runs."""
+        return self._take_in(name, "source", source)
+
+    def _take_in(self, text: str, kind: Kind, about: Draft | str = "") -> int:
+        turn = self._said.add(text, kind, about, is_moving=self.is_moving)
+        self._joint.wake()
+        return turn
+
+    def stop(self, why: str = "") -> None:
+        """Stop the robot and drop what was said before this moment."""
+        self._joint.send("stop", self._said.void(why), why=why)
+        self._cancel_asking()
+
+    def pause(self, why: str = "") -> None:
+        """Stop the robot as `stop` does, and keep what it was told; what cannot be kept ends as with a stop."""
+        self._said.hold(is_under_way=self.is_moving or self._thinking.is_busy)
+        self._joint.send("stop", why=why, keep=True)
+        self._thinking.cancel_unmoved(Reason("paused_by", {"why": why}))
+        if self.authoring is not None:
+            self.authoring.cancel()
+
+    def resume(self) -> int:
+        """Go on with what is paused; the number of the turn that says so."""
+        return self._take_in("", "resume")
+
+    def emergency_stop(self, why: str = "") -> None:
+        """Stop the robot and keep it stopped until `release`."""
+        self._joint.send("emergency_stop", self._said.void(why), why=why)
+        self._cancel_asking()
+
+    def _cancel_asking(self) -> None:
+        """End what models are being asked."""
+        self._thinking.cancel(self._said.stopped_by)
+        if self.authoring is not None:
+            self.authoring.cancel()
+
+    def release(self) -> None:
+        """Release an emergency stop. For the local console alone."""
+        self._joint.send("release")
+
+    def limit(self, **limits: Any) -> None:
+        """Change the motion budget, or ask for it: `max_distance_m`, `max_time_s`, each a number or `none`.
+
+        For the local console alone.
+        """
+        self._joint.send("limit", **limits)
+
+    def approve(self, turn: int, yes: bool) -> None:
+        """Answer a rehearsed plan that waits for a yes."""
+        self._joint.send("approve", turn, yes=yes)
+
+    @property
+    def is_moving(self) -> bool:
+        """True while a plan of ours runs, or is on its way to."""
+        return self._book.is_any_with_motion or self._thinking.is_moving
+
+    @property
+    def thinking_s(self) -> float | None:
+        """For how long a model has been asked by now, for a plan or a program; None where none is."""
+        writing_at_s = self.authoring.asked_at_s if self.authoring is not None else None
+        asked_at_s = writing_at_s if writing_at_s is not None else self._thinking.asked_at_s
+        return time.monotonic() - asked_at_s if asked_at_s is not None else None
+
+    @property
+    def is_paused(self) -> bool:
+        """A plan of ours is paused, or what was said and had not begun."""
+        return self.is_plan_paused or self._said.is_unbegun_held
+
+    @property
+    def is_plan_paused(self) -> bool:
+        """A plan of ours that had begun is paused."""
+        return self._resuming.paused is not None
+
+    @property
+    def is_being_paused(self) -> bool:
+        """A pause was said, and Motion has not told yet what came of it."""
+        return self._next.is_being_paused
+
+    @property
+    def waits_for_a_word(self) -> bool:
+        """A plan is paused, and nothing happens before somebody says something."""
+        return self.is_paused and not self._thinking.is_calling and self._find_next() is None
+
+    @property
+    def is_idle(self) -> bool:
+        return not self._book.is_any_with_motion and not self._said.waiting and not self._thinking.is_busy
+
+    # --- the pumping thread ---
+
+    def do(self, text: str) -> Result:
+        """Say it and see it through: the result of its turn."""
+        turn = self.say(text)
+        while turn not in self.results:
+            self.pump(0.1)
+        return self.results[turn]
+
+    def pump(self, timeout_s: float) -> None:
+        """Let things happen for up to `timeout_s`: texts are understood, events heard.
+
+        Raises:
+            JointError: Motion is gone.
+        """
+        self._thinking.pump()
+        self._take_texts()
+        if self._thinking.is_calling and self._joint.is_simulated and not self._book.is_any_with_motion:
+            self._thinking.wait(timeout_s)  # a model thinks in no time at all
+            self._thinking.pump()
+            timeout_s = 0.0
+        event = self._joint.next_event(0.0 if self._find_next() is not None else timeout_s)
+        while event is not None:
+            self._hear(event)
+            event = self._joint.next_event(0.0)
+        self._thinking.pump()
+        if self._joint.is_lost:
+            raise JointError("Motion is gone, and its guard sends the robot zeros. Start chatrobot again.")
+        self._take_texts()
+
+    def close(self) -> None:
+        """Goodbye: what runs is still done."""
+        self._joint.close()
+
+    def _emit(self, event: Event) -> None:
+        self._proposals.hear(event)
+        self._on_event(event)
+
+    # --- what was said ---
+
+    def _find_next(self) -> Said | None:
+        """The text to take now, if any."""
+        return self._next.find(self.options, self._dispatch.waits_for_end)
+
+    def _take_texts(self) -> None:
+        for said in self._said.take_too_many():
+            # Who said one too many hears so now, not when the ten before it are done.
+            self._book.conclude(said.turn, "refused", self.understanding.say("queue_full", said.text))
+        self._next.drop_held()
+        while (found := self._find_next()) is not None:
+            self._orders.pauses = self._said.pauses
+            if (taken := self._said.take(found)) is not None:
+                self._dispatch.take(taken)
+                self._next.drop_held()
+
+    # --- what Motion and the model tell ---
+
+    def _hears_robot_soon(self) -> bool:
+        """A robot that is there says where it is within a moment of the start."""
+        for _ in range(FIRST_NEWS_LOOKS):
+            event = self._joint.next_event(FIRST_NEWS_LOOK_S)
+            while event is not None:
+                self._hear(event)
+                event = self._joint.next_event(0.0)
+            if self.understanding.hears_robot:
+                return True
+        return False
+
+    def _conclude_model_turn(self, turn: int, text: str, ended: Ended) -> None:
+        reply = self.understanding.note_model_turn(text, ended, self.options.rehearse_only)
+        is_refused = ended.outcome == "refused" and not self.options.rehearse_only
+        reply, proposal = with_offer(
+            reply, ended.finished if is_refused else None, self.understanding.language_of(text)
+        )
+        self._book.conclude(turn, ended.outcome, reply, ended.finished, ended.reason, proposal)
+
+    def _hear(self, event: Event) -> None:
+        if isinstance(event, Telemetry):
+            is_ours = self._book.is_any_with_motion or self._thinking.is_busy
+            self.understanding.note_telemetry(event, is_ours=is_ours)
+        elif isinstance(event, Remembered):
+            self.understanding.note_place(event)
+        elif isinstance(event, Paused) and self._book.has(event.turn):
+            event = replace(event, waiting=self._dispatch.texts_behind(event.turn))
+        elif isinstance(event, Notice) and event.reason.code == OPEN_LOOP:
+            self.understanding.note_open_loop()
+        self._emit(event)
+        if self._book.has(event.turn) or self._thinking.has(event.turn):
+            was_paused = self.is_plan_paused
+            self._resuming.hear(event)
+            self._orders.is_paused = self.is_plan_paused
+            if was_paused and not self.is_plan_paused:
+                self._said.drop_held(self._resuming.ended_by)
+        if self._programs is not None and self._programs.hear(event):
+            return  # the next version of a program is on its way
+        self._thinking.hear(event)
+        if isinstance(event, Finished):
+            self._finish(event)
+
+    def _finish(self, event: Finished) -> None:
+        """Motion is done with a turn."""
+        instruction = self._book.take(event.turn)
+        if instruction is None:
+            return
+        (text, meant, _), programs, rehearse_only = instruction, self._programs, self.options.rehearse_only
+        program = event.turn if programs is not None and programs.has_run(event.turn) else 0
+        reply = self.understanding.note_finished(text, meant, event, rehearse_only, program)
+        if programs is not None:
+            reply = programs.ending(event.turn, reply)
+        plan_text = format_plan(meant.plan) if meant.plan is not None else ""
+        self._thinking.note(text, plan_text, f"{event.outcome}: {measured(event)}")
+        reply, proposal = with_offer(reply, event if not rehearse_only else None, meant.language)
+        self._book.conclude(event.turn, event.outcome, reply, event, proposal=proposal)

@@ -1,0 +1,319 @@
+"""The half that understands: text to a reply and a plan, with what was said and done before."""
+
+from __future__ import annotations
+
+import math
+import uuid
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from chatrobot.core.errors import PlanTextError
+from chatrobot.core.events import Finished, Outcome, Remembered, Telemetry
+from chatrobot.core.geometry import ZERO_TWIST, Pose
+from chatrobot.core.reason import Reason
+from chatrobot.dialogue.map_ways import MapWays
+from chatrobot.dialogue.places import Places
+from chatrobot.dialogue.replies import describe_end, describe_model_end
+from chatrobot.dialogue.rest_watch import UNMEASURED, RestWatch
+from chatrobot.language.context import Context, Dialogue, RobotState
+from chatrobot.language.interpretation import Interpretation, LanguageCode
+from chatrobot.language.interpreter import OfflineInterpreter
+from chatrobot.language.ledger import Entry, TurnRecord
+from chatrobot.language.normalise import has_chinese
+from chatrobot.language.phrases import describe_steps, render_reason, say
+from chatrobot.plan.steps import Plan, Step
+from chatrobot.plan.text import parse_plan
+from chatrobot.robots.profile import RobotProfile
+from chatrobot.sim.world import World
+
+if TYPE_CHECKING:
+    from chatrobot.dialogue.llm.model_terms import Ended
+
+
+class Instruction(NamedTuple):
+    """What was said, what it means, and where the robot stood then."""
+
+    text: str
+    meant: Interpretation
+    start: Pose
+
+
+REMEMBERED_TURNS = 50
+"""Older turns are forgotten: nobody says "again" about what was fifty instructions ago."""
+
+UNHEARD = "answer_unheard"
+
+
+class Understanding:
+    """Interprets texts and keeps the dialogue. Used by one thread.
+
+    Args:
+        world: its named places can be gone to.
+        folder: where places live between sessions; None for nowhere.
+    """
+
+    def __init__(self, profile: RobotProfile, world: World, folder: Path | None) -> None:
+        self._interpreter = OfflineInterpreter(profile)
+        self._dialogue = Dialogue()
+        self._state = RobotState(has_said_so=False, is_measured=profile.has_odometry)
+        self._world_places = {alias: world.places[main] for alias, main in world.aliases.items()}
+        self._main_places = dict(world.places)
+        self._ways = MapWays(world, profile) if world.obstacles else None
+        self._names = tuple(world.names_of(name) for name in world.places)
+        self._without_heading = frozenset(
+            alias for alias, main in world.aliases.items() if main in world.without_heading
+        )
+        # The simulated robot's odometry begins anew with every session, as a real one's does at power-on.
+        self._places = Places(folder, profile.name, uuid.uuid4().hex)
+        self._rest = RestWatch()
+        self._started = False
+        self.language: LanguageCode = "en"
+
+    @property
+    def pose(self) -> Pose:
+        """Where the robot last said it was."""
+        return self._state.pose
+
+    @property
+    def known_pose(self) -> Pose | None:
+        """The same; None where it has never said."""
+        return self._state.pose if self._state.has_said_so else None
+
+    @property
+    def places(self) -> Places:
+        return self._places
+
+    @property
+    def world_places(self) -> dict[str, Pose]:
+        return self._world_places
+
+    @property
+    def main_places(self) -> dict[str, Pose]:
+        """The places of the world, each once."""
+        return self._main_places
+
+    @property
+    def usable_places(self) -> dict[str, Pose]:
+        """The places a person has named, as far as their coordinates still hold."""
+        return {name: place.pose for name, place in self._places.all().items() if place.usable}
+
+    def warm(self) -> None:
+        """Load the words now, while somebody waits for something else anyway: the first sentence is then quick."""
+        for text in ("forward 1 m", "前进一米"):
+            self._interpreter.interpret(text, Context())
+
+    def interpret(self, text: str, under_way: Sequence[Instruction] = ()) -> Interpretation:
+        """What `text` means now. Instructions that are under way are read as turns before."""
+        turns = (*self._dialogue.turns, *map(self._as_if_done, under_way))
+        dialogue = replace(self._dialogue, turns=turns, places=self._places.all())
+        meant = self._interpreter.interpret(text, self._context(dialogue))
+        self.language = meant.language
+        if meant.remember_place and not self.hears_robot:  # nobody knows which place this is
+            code = UNHEARD if self.is_measured else "answer_unmeasured"
+            meant = Interpretation("refused", say(self.language, code), self.language)
+        return meant
+
+    def _context(self, dialogue: Dialogue) -> Context:
+        without_heading = self._without_heading - dialogue.places.keys()
+        return Context(dialogue, self._state, self._world_places, without_heading, self._names, self._ways)
+
+    def can_do(self, text: str) -> bool:
+        """Whether `text` would be driven if it were said now. From any thread: nothing is noted."""
+        dialogue = replace(self._dialogue, places=self._places.all())
+        return self._interpreter.interpret(text, self._context(dialogue)).outcome == "plan"
+
+    def place_names(self) -> list[tuple[str, ...]]:
+        """The names of each place that can be gone to, the person's own first."""
+        own = self.usable_places
+        return [*((name,) for name in own), *(names for names in self._names if names[0] not in own)]
+
+    @property
+    def is_measured(self) -> bool:
+        """The robot has odometry, as far as is known."""
+        return self._state.is_measured
+
+    def note_open_loop(self) -> None:
+        """Motion has said that it drives without odometry, whatever our profile says."""
+        self._state = replace(self._state, is_measured=False)
+
+    @property
+    def hears_robot(self) -> bool:
+        """Whether the robot has said where it is."""
+        return self._started
+
+    def misses_robot(self, meant: Interpretation) -> bool:
+        """What was said cannot be answered before the robot has said where it is."""
+        return not self.hears_robot and meant.reply == say(meant.language, UNHEARD)
+
+    def tells_it_stands(self, meant: Interpretation) -> bool:
+        """The answer is that the robot stands and is ready."""
+        return meant.reply == say(meant.language, "answer_standing")
+
+    def tells_it_moves(self, meant: Interpretation) -> bool:
+        """The answer is that the robot moves, and how fast."""
+        return meant.reply == say(meant.language, "answer_moving", speed_mps=self.speed_mps)
+
+    @property
+    def speed_mps(self) -> float:
+        """How fast the robot last said it was."""
+        return math.hypot(self._state.twist.vx_mps, self._state.twist.vy_mps)
+
+    @property
+    def last_done(self) -> Step | None:
+        """The last step of the last turn that moved."""
+        done = (turn.way for turn in reversed(self._dialogue.turns) if turn.moved)
+        way = next(done, None)
+        return way[-1] if way else None
+
+    def undone_programs(self, meant: Interpretation) -> Entry | None:
+        """The entry of the ledger that `meant` does again, where it was undone whole and programs are in it."""
+        if meant.walk is None or meant.walk.kind != "redo":
+            return None
+        entry = self._dialogue.ledger.redoes()
+        return entry if entry is not None and entry.programs and not entry.back else None
+
+    def with_manner(self, plan: Plan, said: str) -> Plan | None:
+        """The plan as fast or as slow as `said`; None where that says anything else."""
+        return self._interpreter.with_manner(plan, said, self._context(self._dialogue))
+
+    def accept(self, plan: Plan) -> Interpretation:
+        """A plan as it is: there is nothing to understand."""
+        return Interpretation("plan", "", self.language, plan)
+
+    def say(self, code: str, text: str, **values: float | str) -> str:
+        """A phrase in the language of `text`, what the person said."""
+        self.hear_language(text)
+        return say(self.language, code, text=text[:80], **values)
+
+    def say_because(self, code: str, text: str, why: Reason) -> str:
+        """A phrase in the language of `text` that gives a reason."""
+        self.hear_language(text)
+        return say(self.language, code, text=text[:80], reason=render_reason(why, self.language))
+
+    def hear_language(self, text: str) -> None:
+        """Answer in the language of `text`, where it has one."""
+        self.language = self.language_of(text)
+
+    def language_of(self, text: str) -> LanguageCode:
+        """The language of `text`; of what was said last, where it has none."""
+        if not any(character.isalpha() for character in text):
+            return self.language
+        return "zh" if has_chinese(text) else "en"
+
+    def note_telemetry(self, event: Telemetry, *, is_ours: bool) -> None:
+        """`is_ours`: a turn of ours moves the robot, or may."""
+        self._lose(self._rest.hear(event, is_ours=is_ours))
+        self._state = RobotState(
+            event.pose,
+            event.twist,
+            event.moving,
+            event.path_m,
+            event.battery_percent,
+            event.nearest_obstacle_m,
+        )
+        if not self._started:
+            self._started = True
+            self._dialogue = replace(self._dialogue, start_pose=event.pose)
+
+    def note_place(self, event: Remembered) -> None:
+        self._places.add(event.place, event.pose)
+
+    def note_unmoved(self, text: str, meant: Interpretation) -> None:
+        """A turn that ended without motion: refused, unclear or answered; it may still have taught us something."""
+        if meant.outcome == "answered":
+            self._learn(meant)
+            if meant.remember_place:
+                self._places.add(meant.remember_place, self._state.pose)
+        outcomes: dict[str, Outcome] = {"unclear": "unclear", "refused": "refused", "answered": "answered"}
+        self._record(TurnRecord(text, outcomes.get(meant.outcome, "stopped")))
+        pending = text if meant.outcome == "unclear" else ""
+        self._dialogue = replace(self._dialogue, pending=pending)
+
+    def note_finished(
+        self, text: str, meant: Interpretation, finished: Finished, rehearse_only: bool, program: int = 0
+    ) -> str:
+        """A plan's turn, or that of a program, has ended: remember it as it really went. Returns the reply."""
+        if finished.outcome == "completed":
+            self._learn(meant)
+        self._state = replace(self._state, pose=finished.pose, twist=ZERO_TWIST, moving=False)
+        outcome: Outcome = finished.outcome
+        plan = meant.plan if outcome in ("completed", "stopped", "failed") and not rehearse_only else None
+        self._record_measured(TurnRecord(text, outcome, plan, walk=meant.walk, program=program), finished)
+        self._dialogue = replace(self._dialogue, pending="")
+        if rehearse_only and outcome == "completed":
+            return say(meant.language, "only_rehearsed")
+        return describe_end(finished, meant.language, meant.plan.steps if meant.plan is not None else ())
+
+    def describe(self, steps: Sequence[Step]) -> str:
+        """Steps in a few words."""
+        return describe_steps(steps, self.language)
+
+    def note_model_turn(self, text: str, ended: Ended, rehearse_only: bool) -> str:
+        """A turn that a model planned has ended. Returns the reply, in the language of the order."""
+        language = self.language_of(text)
+        finished = ended.finished
+        plan = _plan_of(ended.steps) if not rehearse_only else None
+        if finished is not None:
+            self._state = replace(self._state, pose=finished.pose, twist=ZERO_TWIST, moving=False)
+            self._record_measured(TurnRecord(text, ended.outcome, plan), finished)
+        else:
+            self._record(TurnRecord(text, ended.outcome))
+        self._dialogue = replace(self._dialogue, pending="")
+        if rehearse_only and ended.outcome == "completed":
+            return say(language, "only_rehearsed")
+        return describe_model_end(ended, language)
+
+    def _learn(self, meant: Interpretation) -> None:
+        dialogue = self._dialogue
+        self._dialogue = replace(
+            dialogue,
+            words={**dialogue.words, **meant.define},
+            default_speed_mps=meant.default_speed_mps or dialogue.default_speed_mps,
+            default_rate_radps=meant.default_rate_radps or dialogue.default_rate_radps,
+        )
+
+    def _as_if_done(self, instruction: Instruction) -> TurnRecord:
+        text, meant, start = instruction
+        plan, pose = meant.plan, self._state.pose
+        return TurnRecord(text, "completed", plan, start, pose, executed=plan, walk=meant.walk)
+
+    def _record_measured(self, record: TurnRecord, finished: Finished) -> None:
+        """Enter a turn that Motion has ended into the ledger, as it was measured."""
+        self._lose(self._rest.begin(finished))
+        measured = replace(
+            record,
+            start_pose=finished.start,
+            end_pose=finished.pose,
+            executed=_plan_in(finished.executed),
+            remaining=_plan_in(finished.remaining),
+            lost="" if finished.measured else UNMEASURED,
+        )
+        self._record(measured)
+        self._lose(self._rest.end(finished))
+
+    def _lose(self, code: str) -> None:
+        """Nobody can tell any more how to get back to where the turns up to now began."""
+        if code:
+            turns = tuple(replace(turn, lost=turn.lost or code) for turn in self._dialogue.turns)
+            self._dialogue = replace(self._dialogue, turns=turns)
+
+    def _record(self, record: TurnRecord) -> None:
+        turns = (*self._dialogue.turns, record)[-REMEMBERED_TURNS:]
+        self._dialogue = replace(self._dialogue, turns=turns)
+
+
+def _plan_in(text: str) -> Plan | None:
+    try:
+        return parse_plan(text) if text else None
+    except PlanTextError:  # more than a plan may have: the parts of many runs of one turn
+        return None
+
+
+def _plan_of(steps: Sequence[Step]) -> Plan | None:
+    """All of them as one plan; None where there is none, or it would be too large for one."""
+    try:
+        return Plan(tuple(steps))
+    except ValueError:
+        return None

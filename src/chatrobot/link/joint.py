@@ -1,0 +1,62 @@
+"""The joint between the two halves: envelopes one way, events the other. Three carriers, one contract suite."""
+
+from __future__ import annotations
+
+import itertools
+import uuid
+from typing import Any, Protocol
+
+from chatrobot.core.events import Event
+from chatrobot.link.envelope import Envelope, Word
+
+
+class Joint(Protocol):
+    """What a session holds of Motion. `send` may be called from any thread.
+
+    `beats` is true while the source keeps its lease; a source that is to be taken for frozen sets it to false.
+    """
+
+    beats: bool
+    is_simulated: bool
+    """Time passes only while somebody waits for an event."""
+
+    def send(self, word: Word, turn: int = 0, **payload: Any) -> None:
+        """Say one word.
+
+        Raises:
+            JointError: Motion is gone.
+        """
+        ...
+
+    def next_event(self, timeout_s: float) -> Event | None:
+        """The next event, waiting up to `timeout_s` (of simulated time where time is simulated)."""
+        ...
+
+    def wake(self) -> None:
+        """Have a waiting `next_event` return None at once."""
+        ...
+
+    @property
+    def is_lost(self) -> bool:
+        """Motion is gone, and we did not ask it to go."""
+        ...
+
+    def abandon(self) -> None:
+        """Leave without a goodbye, as a crash would: Motion stops the robot at once."""
+        ...
+
+    def close(self) -> None:
+        """Say goodbye, let what is queued be done, and end. Closing twice does no harm."""
+        ...
+
+
+class Sender:
+    """Makes the envelopes of one source."""
+
+    def __init__(self, source: str) -> None:
+        self.source = source
+        self.lease = uuid.uuid4().hex
+        self._sequence = itertools.count(1)
+
+    def envelope(self, word: Word, turn: int = 0, **payload: Any) -> Envelope:
+        return Envelope(word, self.source, self.lease, next(self._sequence), turn, payload)

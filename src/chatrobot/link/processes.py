@@ -1,0 +1,76 @@
+"""The processes that a session stands on. This module is light: they are started while the rest is still loaded."""
+
+from __future__ import annotations
+
+import socket
+import subprocess
+import uuid
+from dataclasses import dataclass
+from pathlib import Path
+
+from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget, limit_text
+from chatrobot.link.child import spawn, spawn_with_line
+from chatrobot.wire.runtime_dir import runtime_dir
+
+SIMULATED = ("auto", "sim")
+"""`--on auto` never picks a real robot unasked."""
+
+
+@dataclass
+class MotionProcess:
+    """Motion in a session of its own, so that no terminal signal reaches it, and our end of the line to it."""
+
+    process: subprocess.Popen[bytes]
+    line: socket.socket
+
+    @classmethod
+    def start(
+        cls,
+        wire: str,
+        profile: str,
+        world: str,
+        budget: MotionBudget = NOT_CHOSEN,
+        *,
+        open_loop: bool = False,
+    ) -> MotionProcess:
+        """`budget` is the motion budget as the command line chose it, `open_loop` that it chose open loop."""
+        return cls(
+            *spawn_with_line(
+                "chatrobot.motion.motion_process",
+                *("--profile", profile, "--world", world, "--wire", wire),
+                *("--max-distance", limit_text(budget.max_distance_m)),
+                *("--max-time", limit_text(budget.max_time_s)),
+                *("--open-loop", "yes" if open_loop else ""),
+                kind=socket.SOCK_SEQPACKET,
+            )
+        )
+
+
+@dataclass
+class Processes:
+    """A simulated robot in real time, and the Motion that waits for it. `is_taken`: a session stands on them."""
+
+    wire_path: Path
+    robot: subprocess.Popen[bytes]
+    motion: MotionProcess
+    is_taken: bool = False
+
+    @classmethod
+    def start(
+        cls, profile: str, world: str, sim: str, budget: MotionBudget, *, open_loop: bool = False
+    ) -> Processes:
+        """Both at once: Motion loads while the robot does."""
+        wire_path = runtime_dir() / f"sim-{uuid.uuid4().hex[:12]}.wire"
+        robot = spawn(
+            "chatrobot.sim",
+            *("--socket", str(wire_path), "--profile", profile),
+            *("--world", world, "--sim", sim),
+        )
+        motion = MotionProcess.start(str(wire_path), profile, world, budget, open_loop=open_loop)
+        return cls(wire_path, robot, motion)
+
+    def end(self) -> None:
+        """Nobody needs them: nothing has been asked of them, so nothing moves."""
+        self.motion.process.kill()
+        self.robot.terminate()
+        self.motion.line.close()

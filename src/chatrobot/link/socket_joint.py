@@ -1,0 +1,107 @@
+"""The joint to a Motion in a process of its own, over an inherited socket."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import socket
+import subprocess
+import threading
+import time
+from typing import Any
+
+from chatrobot.core.errors import JointError
+from chatrobot.core.events import event_from_json
+from chatrobot.core.process import own_identity
+from chatrobot.core.scheduling import wake_promptly
+from chatrobot.governor.lease import LOCAL_BEAT_HZ, LOCAL_TERM_S
+from chatrobot.link.envelope import READY, Word
+from chatrobot.link.event_queue import EventQueue
+from chatrobot.link.joint import Sender
+from chatrobot.link.processes import MotionProcess
+from chatrobot.wire.local import PACKET_BYTES
+
+START_TIMEOUT_S = 20.0
+END_TIMEOUT_S = 5.0
+
+
+class SocketJoint(EventQueue):
+    """Talks to a Motion that has been started.
+
+    A thread beats the lease; a thread reads events. If this process freezes or dies, the beats end and Motion
+    stops the robot.
+
+    Raises:
+        JointError: Motion does not start.
+    """
+
+    def __init__(self, motion: MotionProcess, source: str = "console") -> None:
+        super().__init__()
+        self._sender = Sender(source)
+        self._closed = threading.Event()
+        self.is_lost = False
+        self.is_simulated = False
+        self.beats = True
+        self.process, self._line = motion.process, motion.line
+
+    def wait_until_ready(self) -> None:
+        """Block until Motion has its robot and its guard; then begin to beat."""
+        self._line.settimeout(START_TIMEOUT_S)
+        try:
+            ready = self._line.recv(PACKET_BYTES)
+        except OSError:
+            ready = b""
+        if ready != READY:
+            self.process.kill()
+            raise JointError("Motion did not start")
+        self._line.settimeout(None)
+        self.send("hello", term_s=LOCAL_TERM_S, process=own_identity())
+        threading.Thread(target=self._beat, name="beat", daemon=True).start()
+        threading.Thread(target=self._read, name="joint", daemon=True).start()
+
+    def send(self, word: Word, turn: int = 0, **payload: Any) -> None:
+        packet = self._sender.envelope(word, turn, **payload).to_bytes()
+        try:
+            self._line.send(packet, socket.MSG_NOSIGNAL)
+        except OSError as error:
+            raise JointError("Motion is gone") from error
+
+    def abandon(self) -> None:
+        self._closed.set()
+        with contextlib.suppress(OSError):
+            self._line.shutdown(socket.SHUT_RDWR)
+
+    def close(self) -> None:
+        if self._closed.is_set():
+            return
+        with contextlib.suppress(JointError):
+            self.send("goodbye")
+        self._closed.set()
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            self.process.wait(END_TIMEOUT_S)
+        self._line.close()
+
+    def _beat(self) -> None:
+        wake_promptly()
+        period_s = 1.0 / LOCAL_BEAT_HZ
+        next_s = time.monotonic()
+        while not self._closed.wait(max(0.0, next_s - time.monotonic())):
+            next_s = max(next_s + period_s, time.monotonic())
+            try:
+                if self.beats:
+                    self.send("beat")
+            except JointError:
+                return
+
+    def _read(self) -> None:
+        while True:
+            try:
+                packet = self._line.recv(PACKET_BYTES)
+            except OSError:
+                packet = b""
+            if not packet:
+                self.is_lost = not self._closed.is_set()
+                self.wake()
+                return
+            with contextlib.suppress(ValueError):
+                self._events.put(event_from_json(json.loads(packet)))

@@ -1,0 +1,194 @@
+"""Drives one job at a time: launched once it has been rehearsed and approved, ticked at 50 Hz, ended as measured.
+
+A motion ends at once, and its end is told once the robot stands: a robot that was stopped rolls on until it has braked,
+and only then do pose, turn and path say what became of the motion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from chatrobot.core.clock import Clock
+from chatrobot.core.events import Event, Finished, Outcome, Progress, Started
+from chatrobot.core.reason import Reason
+from chatrobot.execution.health import is_seen_moving
+from chatrobot.motion.budgets import REACHED
+from chatrobot.motion.ends import Ends
+from chatrobot.motion.governed_robot import GovernedRobot
+from chatrobot.motion.inbox import Inbox
+from chatrobot.motion.job import Job
+from chatrobot.motion.programs.program_box import ProgramBox
+from chatrobot.motion.programs.program_job import ProgramJob
+from chatrobot.motion.programs.program_run import LiveProgram, ProgramRun
+from chatrobot.motion.run import Run
+from chatrobot.motion.safety.clearance import Clearance
+from chatrobot.motion.safety.stops import Stops
+
+FAILURES = frozenset(
+    {"guard_lost", "bumped", "motion_froze", "motion_late", "beats_missed", "beat_late", "wire_gone"}
+)
+"""A stop for one of these is no wish of anybody's: what ran has failed."""
+
+
+class Driver:
+    """Has the `job` it was given from `launch` until its end is told. Belongs to the control thread."""
+
+    def __init__(
+        self,
+        robot: GovernedRobot,
+        clearance: Clearance,
+        stops: Stops,
+        programs: ProgramBox,
+        inbox: Inbox,
+        clock: Clock,
+        ends: Ends,
+        emit: Callable[[Event], None],
+    ) -> None:
+        self._robot = robot
+        self._ends = ends
+        self._clearance = clearance
+        self._stops = stops
+        self._programs = programs
+        self._inbox = inbox
+        self._clock = clock
+        self._emit = emit
+        self._run: Run | ProgramRun | None = None
+        self.job: Job | None = None
+        """What is being launched or driven."""
+
+    @property
+    def is_driving(self) -> bool:
+        return self._run is not None
+
+    def drives(self, job: Job) -> bool:
+        """Whether that job is under way."""
+        return self._run is not None and self._run.job is job
+
+    # --- begin ---
+
+    def launch(self, job: Job) -> None:
+        """Begin to drive what has been rehearsed, or refuse it. Nothing else may be under way."""
+        now_s = self._clock.now_s()
+        self.job = job
+        barrier = self._clearance.barrier_for(job.lease, now_s) or self._robot.begin(job.lease, now_s)
+        if barrier is not None:
+            self._give_up("refused", barrier)
+        elif self._stops.is_unbooked:
+            return  # stopped a moment ago, from another thread: the wheel was taken after it; it will end as stopped
+        elif isinstance(job, ProgramJob):
+            self._launch_program(job)
+        else:
+            self._set_out(Run(job, self._robot, self._emit, now_s), now_s)
+
+    def _launch_program(self, job: ProgramJob) -> None:
+        """Start it in its box, off this thread; it runs from the moment it is there."""
+
+        def take(program: LiveProgram | Reason) -> None:
+            if isinstance(program, Reason):
+                if self.job is job:
+                    self._give_up("refused", program)
+            elif self.job is not job:
+                program.close()  # stopped meanwhile
+            else:
+                now_s = self._clock.now_s()
+                self._set_out(ProgramRun(job, program, self._robot, self._emit, now_s), now_s)
+
+        self._inbox.fetch(lambda: self._programs.launch(job), take)
+
+    def _set_out(self, run: Run | ProgramRun, now_s: float) -> None:
+        self._run = run
+        self._emit(Started(run.job.turn, run.job.start, self._robot.sensors.has_odometry))
+        self.tick(now_s)
+
+    # --- under way ---
+
+    def tick(self, now_s: float) -> None:
+        """One period of what is under way. Where it may not go on the robot is halted; that stop is to be booked."""
+        run = self._run
+        if run is None:
+            return
+        barrier = self._clearance.barrier_for(run.job.lease, now_s)
+        if barrier is None and self._robot.sensors.bumped:
+            barrier = Reason("bumped")
+        if barrier is not None:
+            self._stops.halt(barrier)
+            return
+        run.tick(now_s)
+        if run.is_done:
+            outcome, reason = run.outcome, run.reason
+            is_waited_for = outcome == "completed"  # it has been told to stand
+            if is_waited_for and is_seen_moving(self._robot.sensors):
+                outcome, reason = "failed", Reason("moves_on")
+            if outcome != "completed":
+                self._stops.halt_and_book(reason or Reason("cause_unknown"))
+            self._end(run, outcome, reason)
+            if is_waited_for:
+                self._ends.tell_all()
+
+    def expect(self, duration_s: float) -> None:
+        """The plan under way has become longer: so long in all."""
+        if isinstance(self._run, Run):
+            self._run.expect(duration_s)
+
+    def progress(self, now_s: float) -> Progress | None:
+        """How far it is; None where nothing is under way."""
+        return self._run.progress(now_s) if self._run is not None else None
+
+    # --- end ---
+
+    def ramp_down(self, why: Reason) -> None:
+        """A controlled stop; what is only being launched ends at once."""
+        if self._run is not None:
+            self._run.ramp_down(why)
+        elif self.job is not None:
+            self._give_up("stopped", why)
+
+    def end_stopped(self, why: Reason) -> None:
+        """The robot has been stopped: end what was under way."""
+        if self._run is not None:
+            self._end(self._run, "failed" if why.code in FAILURES else "stopped", why)
+        elif self.job is not None:
+            self._give_up("stopped", why)
+
+    def break_off(self, why: Reason) -> Callable[[], Finished] | None:
+        """The robot has been paused: what tells how much was done of the plan under way, and is left of it.
+
+        None, and nothing is done, where it cannot be gone on with.
+        """
+        run = self._run
+        if not isinstance(run, Run) or not run.finished("stopped", why).remaining:
+            return None
+        self._let_go(run)
+        return lambda: run.job.whole(run.finished("stopped", why))
+
+    def fail(self, why: Reason) -> None:
+        """The way to the robot is gone for good: what was under way has failed."""
+        if self._run is not None:
+            self._end(self._run, "failed", why)
+        elif self.job is not None:
+            self._give_up("failed", why)
+        self._ends.tell_all()
+
+    def _end(self, run: Run | ProgramRun, outcome: Outcome, reason: Reason | None) -> None:
+        self._let_go(run)
+        stream, possible = run.job.stream, ""
+        if outcome == "completed" and stream is not None and stream.refusal is not None:
+            reason = stream.refusal  # what came before it has been done
+            outcome = "stopped" if reason.code in REACHED else "refused"
+            possible = stream.possible
+        self._ends.tell_later(
+            lambda: replace(run.job.whole(run.finished(outcome, reason)), possible=possible)
+        )
+
+    def _let_go(self, run: Run | ProgramRun) -> None:
+        self.job = self._run = None
+        run.close()
+        self._robot.governor.end(run.job.lease)
+
+    def _give_up(self, outcome: Outcome, reason: Reason) -> None:
+        """End what has not begun to move. It may have the wheel already: a program that is being launched."""
+        job, self.job = self.job, None
+        assert job is not None
+        self._robot.governor.end(job.lease)
+        self._ends.tell(lambda: job.unmoved(outcome, reason, self._robot.pose))

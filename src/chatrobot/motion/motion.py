@@ -1,0 +1,351 @@
+"""The half that moves: plan text in, a moving robot and events out. Knows no language, no model, no screen.
+
+One `Motion` serves both joints: a process of its own in real time, or the caller's thread on a virtual clock. All
+methods belong to the control thread but for `halt`, `receive` and `lose`, which any thread may call at any moment, and
+`post`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+
+from chatrobot.core.clock import Clock
+from chatrobot.core.events import Event, Looked, Notice
+from chatrobot.core.governed import StopEpoch
+from chatrobot.core.reason import Reason
+from chatrobot.core.wiring import JOYSTICK_TOPIC, RELAY_TOPIC
+from chatrobot.execution.sensors import Sensors
+from chatrobot.governor.governor import Governor
+from chatrobot.governor.priority import RELEASERS, Priority, priority_of
+from chatrobot.link.envelope import Envelope
+from chatrobot.motion.budgets import Budgets, open_loop_notice
+from chatrobot.motion.driver import Driver
+from chatrobot.motion.ends import Ends
+from chatrobot.motion.governed_robot import GovernedRobot
+from chatrobot.motion.inbox import Inbox
+from chatrobot.motion.intake import Intake
+from chatrobot.motion.jobs import Jobs
+from chatrobot.motion.paused import Pausing
+from chatrobot.motion.planner import Planner
+from chatrobot.motion.programs.program_box import NoBox, ProgramBox
+from chatrobot.motion.relay import Relay
+from chatrobot.motion.safety.clearance import Clearance
+from chatrobot.motion.safety.freeze import FreezeWatch
+from chatrobot.motion.safety.guard_link import GuardLink
+from chatrobot.motion.safety.stops import PAUSED, Stops
+from chatrobot.motion.safety.zeroing import Zeroing
+from chatrobot.motion.sectors import sectors_m
+from chatrobot.motion.sources import Sources
+from chatrobot.motion.telling import Telling
+from chatrobot.robots.profile import RobotProfile
+from chatrobot.transports.transport import WireTransport
+from chatrobot.wire.messages import TwistMessage
+from chatrobot.wire.wire import Wire
+
+JOYSTICK = "joystick"
+"""The source in whose name a joystick drives."""
+
+
+class Motion:
+    """See the module. It takes in envelopes, and does with each tick what is due; others do the work.
+
+    Args:
+        planner: makes `Planned` from plan text: parsed, lowered, rehearsed.
+        background: runs a function off the control thread; a simulation runs it at once.
+        programs: where programs are rehearsed and run; None refuses them.
+        emit: takes events; called on the control thread only.
+        releasers: the sources that may release an emergency stop.
+    """
+
+    def __init__(
+        self,
+        profile: RobotProfile,
+        wire: Wire,
+        clock: Clock,
+        planner: Planner,
+        guard: GuardLink,
+        emit: Callable[[Event], None],
+        background: Callable[[Callable[[], None]], None],
+        releasers: Collection[str] = RELEASERS,
+        programs: ProgramBox | None = None,
+    ) -> None:
+        self._profile = profile
+        self._clock = clock
+        self._guard = guard
+        self._emit = emit
+        self._programs = programs = programs or NoBox()
+        epoch = StopEpoch()
+        transport = WireTransport(wire, profile.wiring, epoch)
+        self._governor = Governor(profile, epoch, planner.allowed_area, releasers)
+        self.sensors = Sensors(profile, clock)
+        self._robot = robot = GovernedRobot(profile, self.sensors, self._governor, transport)
+        self.zeroing = Zeroing(self.sensors, robot.send_zero, self._notice)
+        self._stops = Stops(epoch, transport, self.zeroing, clock)
+        self.clearance = Clearance(self._governor, guard)
+        self._intake = Intake()
+        self._sources = Sources(
+            self._governor.leases, lambda lease: self._jobs.is_engaged(lease), self._intake.forget
+        )
+        self._inbox = Inbox(background)
+        self._ends = ends = Ends(emit, measured=profile.has_odometry)
+        stops, inbox = self._stops, self._inbox
+        self._driver = Driver(robot, self.clearance, stops, programs, inbox, clock, ends, emit)
+        self._pausing = pausing = Pausing(robot, self._intake, self.clearance, stops, clock, ends, emit)
+        self._budgets = Budgets(profile.safety.budget)
+        self._jobs = Jobs(
+            robot,
+            self._intake,
+            self._driver,
+            planner,
+            programs,
+            self._budgets,
+            stops,
+            inbox,
+            clock,
+            pausing,
+            ends,
+            emit,
+        )
+        self._relay = Relay(
+            clock,
+            robot,
+            self.see_it_stand,
+            self._notice,
+            takes_over=lambda: pausing.drop(Reason("other_drove", {"source": RELAY_TOPIC})),
+        )
+        self._joystick = Relay(
+            clock,
+            robot,
+            self.see_it_stand,
+            self._notice,
+            source=JOYSTICK,
+            takes_over=lambda: self._jobs.hand_over(JOYSTICK),
+        )
+        self._freeze = FreezeWatch(clock, guard, self.halt)
+        self._telling = Telling(self.sensors, self._driver, emit)
+        self._emergency: Envelope | None = None
+
+    # --- from any thread -------------------------------------------------------------------------------------
+
+    def halt(self, why: Reason) -> None:
+        """Stop now: the zero is out before this returns. What runs and what is queued ends as `stopped`."""
+        self._stops.halt(why)
+
+    def thaw(self) -> None:
+        """This process was stopped by a signal (SIGSTOP) and goes on: what drove does not. For a signal handler."""
+        why = self._freeze.thaw(self._clock.now_s())
+        if why is not None:
+            self._stops.void(why)
+
+    def post(self, action: Callable[[], None]) -> None:
+        """Have `action` done on the control thread with the next tick."""
+        self._inbox.post(action)
+
+    def receive(self, envelope: Envelope, said_in: int | None = None) -> None:
+        """Take in an envelope. A stop is out before this returns; the rest is done with the next tick.
+
+        Args:
+            said_in: what `stops` was when it was said, where that was before it came here.
+        """
+        if envelope.word == "emergency_stop":
+            self._emergency = envelope
+            self._governor.latch(envelope.source, str(envelope.payload.get("why", "")))
+        if envelope.word in ("stop", "emergency_stop"):
+            self._heed_stop(envelope)
+        # What was said before a stop must not run after it, however late it is handled.
+        epoch = self._stops.count if said_in is None else said_in
+        emergency = self._emergency
+        came_s = self._clock.now_s()
+        self.post(lambda: self._handle(envelope, epoch, emergency, came_s))
+
+    def _heed_stop(self, envelope: Envelope) -> None:
+        keeps = envelope.word == "stop" and envelope.payload.get("keep") is True
+        if keeps:
+            self._intake.pause(envelope.lease)
+        else:
+            self._intake.void_turn(envelope.lease, envelope.turn)
+        about = {"source": envelope.source, "why": str(envelope.payload.get("why", ""))}
+        self.halt(Reason(PAUSED if keeps else "stopped_by", about))
+
+    def lose(self, lease: str) -> None:
+        """The source behind `lease` is gone without a goodbye: a loss, and it stops."""
+        self.halt(Reason("source_lost", {"source": self._governor.leases.source_of(lease)}))
+        self._sources.lose(lease)
+
+    # --- control thread --------------------------------------------------------------------------------------
+
+    def start(self, wire: Wire) -> None:
+        """Listen to the robot and shake hands with the guard."""
+        self.sensors.attach(wire)
+        self._programs.attach(wire)
+        wire.subscribe(RELAY_TOPIC, TwistMessage, self._relay.hear)
+        wire.subscribe(JOYSTICK_TOPIC, TwistMessage, self._joystick.hear)
+        self._guard.handshake()
+        if (open_loop := open_loop_notice(self._profile)) is not None:
+            self._notice(open_loop)
+
+    @property
+    def is_busy(self) -> bool:
+        """True while anything is moving, queued, being rehearsed, awaited or zeroed."""
+        is_zeroed = self.zeroing.is_active and self.zeroing.disobeyed is None
+        is_ending = is_zeroed or not self._ends.are_told
+        return not self._jobs.are_done or bool(self._inbox) or self._stops.is_unbooked or is_ending
+
+    @property
+    def has_work(self) -> bool:
+        """Something is driven, prepared or queued. From any thread."""
+        return not self._jobs.are_done
+
+    @property
+    def stops(self) -> int:
+        """Changes with every stop: what was asked before it does not count any more."""
+        return self._stops.count
+
+    @property
+    def latched(self) -> Reason | None:
+        """The emergency stop that has not been released."""
+        return self._governor.latched
+
+    @property
+    def why_unheard(self) -> Reason | None:
+        """Why no odometry comes, as far as those know who look after the wire; any thread may set it."""
+        return self._jobs.why_unheard
+
+    @why_unheard.setter
+    def why_unheard(self, reason: Reason | None) -> None:
+        self._jobs.why_unheard = reason
+
+    @property
+    def has_left(self) -> bool:
+        """A source has gone, and all is done."""
+        return self._sources.some_have_left and not self.is_busy
+
+    def see_it_stand(self) -> None:
+        """Send zeros until it does: nobody knows what it has heard last."""
+        self.zeroing.begin(self._clock.now_s())
+
+    def give_up(self, why: Reason) -> None:
+        """The wire is closed for good, and with it the way to the robot: all that was asked for ends as failed."""
+        self._jobs.fail_all(why)
+
+    def leave(self) -> None:
+        """Goodbye to the guard; where the robot is out of sight, and may move, no word is said, so that it goes on
+        sending zeros."""
+        if not (self.zeroing.has_lost_sight and self._robot.may_move):
+            self._guard.goodbye()
+
+    def tick(self) -> None:
+        """One period of the control loop."""
+        now_s = self._clock.now_s()
+        late_s = self._freeze.tick(
+            now_s,
+            is_driven=self._driver.is_driving or self._relay.is_driving or self._joystick.is_driving,
+            is_engaged=self._jobs.current is not None,
+        )
+        self._governor.leases.note_held_up(late_s)
+        self._robot.look()
+        self._book_stop()
+        while (action := self._inbox.take()) is not None:
+            action()
+            self._book_stop()
+        now_s = self._clock.now_s()  # an action may have sent the first velocity of a motion meanwhile
+        self._joystick.tick(now_s, self._is_clear)
+        self._driver.tick(now_s)
+        self._book_stop()
+        self._jobs.expire_approval(now_s)
+        if not self._driver.is_driving:
+            self.zeroing.tick(now_s)
+            if self.zeroing.is_at_rest:
+                self._robot.may_move = False
+        if not self.zeroing.is_watched:
+            self._ends.tell_all()
+        self._pausing.watch(now_s, is_standing=not self.zeroing.is_watched)
+        self._relay.tick(now_s, self._is_free)
+        self._begin_next(now_s)
+        self._freeze.beat(self._clock.now_s())  # last: it wakes the guard, which may take this processor
+        self._telling.tick(now_s)
+
+    def _book_stop(self) -> None:
+        """A stop has gone out, from whatever thread: end what ran and what waited, then see the robot stand."""
+        why = self._stops.book()
+        if why is not None:
+            if why.code == PAUSED:
+                self._jobs.pause(why, self._clock.now_s())
+            else:
+                self._jobs.end_stopped(why)
+            self._relay.stop()
+            self._joystick.stop()
+
+    def _begin_next(self, now_s: float) -> None:
+        if self.zeroing.disobeyed is not None:
+            self._jobs.refuse_all(self.zeroing.disobeyed)
+        if not (self.zeroing.is_active or self._relay.is_driving):
+            self._jobs.begin_next(now_s)
+
+    def _is_free(self) -> bool:
+        """Nothing of ours drives, waits or stops the robot, and nothing keeps it from moving."""
+        return self._jobs.let_others_drive and not self._joystick.is_driving and self._is_clear()
+
+    def _is_clear(self) -> bool:
+        """Nothing stops the robot, and nothing keeps it from moving."""
+        is_stopped = self.zeroing.is_active or self.sensors.bumped or self._stops.is_unbooked
+        return not is_stopped and self.clearance.barrier() is None
+
+    def _notice(self, reason: Reason) -> None:
+        self._emit(Notice(0, reason))
+
+    # --- what was said ---------------------------------------------------------------------------------------
+
+    def _handle(self, envelope: Envelope, epoch: int, emergency: Envelope | None, came_s: float) -> None:
+        """One envelope, received at `came_s` in that stop epoch, after that emergency stop.
+
+        Stops have been heard already; here they are only booked.
+        """
+        now_s = self._clock.now_s()
+        self._sources.note(envelope.lease, now_s)
+        if self._intake.is_old(envelope):
+            if envelope.word in ("plan", "program"):
+                self._jobs.void(envelope, epoch)
+            return
+        self._sources.hear(envelope, came_s)
+        if envelope.word in ("plan", "program"):
+            self._accept(envelope, epoch)
+            self._begin_next(now_s)
+        elif envelope.word == "look":
+            self._emit(Looked(envelope.turn, sectors_m(self._profile, self.sensors.scan)))
+        elif envelope.word == "resume":
+            self._pausing.resume(envelope)
+            self._begin_next(now_s)
+        elif envelope.word == "approve":
+            if priority_of(envelope.source) >= Priority.PLAN:  # a person's word, not an agent's
+                self._jobs.approve(envelope)
+        elif envelope.word == "release":
+            self._release(envelope, emergency)
+        elif envelope.word == "limit":
+            for reason in self._budgets.change(envelope.source, envelope.payload):
+                self._emit(Notice(envelope.turn, reason))
+        elif envelope.word == "goodbye":
+            self._sources.leave(envelope.lease)
+            self._pausing.drop(Reason("source_left", {"source": envelope.source}), envelope.lease)
+
+    def _accept(self, envelope: Envelope, epoch: int) -> None:
+        if self._sources.has_left(envelope.lease):
+            self._jobs.refuse(envelope, epoch, Reason("lease_lapsed", {"source": envelope.source}))
+        elif self._joystick.is_driving:  # what waited would set out by itself once the person lets go
+            self._jobs.refuse(envelope, epoch, Reason("outranked", {"source": JOYSTICK}))
+        else:
+            self._jobs.accept(envelope, epoch)
+
+    def _release(self, envelope: Envelope, emergency: Envelope | None) -> None:
+        """Release what was set when the release was said; an emergency stop that came after it holds."""
+        if self._emergency is not emergency:
+            return
+        who = {"source": envelope.source}
+        released = self._governor.release(envelope.source)
+        newer = self._emergency
+        if newer is not None and newer is not emergency:  # it came in between, and may have seen the old one
+            self._governor.latch(newer.source, str(newer.payload.get("why", "")))
+        elif not released:
+            self._emit(Notice(envelope.turn, Reason("release_refused", who)))
+        else:
+            self._emit(Notice(envelope.turn, Reason("released", who)))

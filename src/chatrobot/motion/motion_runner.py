@@ -1,0 +1,279 @@
+"""Motion with its robot, its guard and its threads, whatever carries the joint.
+
+Threads: the control loop at 50 Hz (the caller's); the planner, so that a rehearsal never delays a tick; a listener
+for `chatrobot stop`; and a watch for others who drive the same robot. The carrier's reader hands envelopes to
+`receive` in its own thread, where a stop is out before it returns.
+"""
+
+from __future__ import annotations
+
+import gc
+import queue
+import signal
+import sys
+import threading
+import time
+from collections.abc import Callable, Collection
+from dataclasses import replace
+
+from chatrobot.core.clock import RealClock
+from chatrobot.core.errors import WireError
+from chatrobot.core.events import Event, Notice
+from chatrobot.core.memory_pressure import MOTION, prefer
+from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
+from chatrobot.core.reason import Reason
+from chatrobot.core.scheduling import wake_promptly
+from chatrobot.core.wiring import Wiring
+from chatrobot.governor.priority import RELEASERS
+from chatrobot.governor.tick import TICK_S
+from chatrobot.guard.departure import Departure
+from chatrobot.link.envelope import Envelope
+from chatrobot.link.topics import STOP, USER_INPUT
+from chatrobot.motion.budgets import open_loop_notice
+from chatrobot.motion.motion import Motion
+from chatrobot.motion.planner import Planner
+from chatrobot.motion.programs.program_host import ProgramHost
+from chatrobot.motion.safety.guard_link import GuardProcess
+from chatrobot.motion.safety.link import PatientWire, reach
+from chatrobot.motion.safety.lookout import Lookout
+from chatrobot.motion.safety.rivals import BEAT_S, Rivals
+from chatrobot.motion.safety.stop_socket import remove_stop_socket, serve_stop
+from chatrobot.motion.safety.stops import PAUSED
+from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
+from chatrobot.robots.cautious import drives_on_alone, slowed
+from chatrobot.robots.load import load_profile
+from chatrobot.robots.open_loop import as_chosen
+from chatrobot.robots.profile import RobotProfile
+from chatrobot.sim.load import load_world
+from chatrobot.sim.start import check_known
+from chatrobot.wire.connect import (
+    Connect,
+    Knowing,
+    clock_of,
+    connect_wire,
+    is_on_this_machine,
+    namespace_of,
+    resolved,
+)
+from chatrobot.wire.messages import Flag, Text
+from chatrobot.wire.wire import Wire
+
+GUARD_S = 20.0
+SWITCH_INTERVAL_S = 0.0005
+"""How long a thread may keep the interpreter: the reader must get in between the lines of a rehearsal."""
+
+
+class MotionRunner:
+    """Ties Motion to its threads. Connects at once; `run` in the thread that is to be the control loop.
+
+    Args:
+        address: of the robot's wire (`chatrobot.wire.connect`).
+        profile: by name or file.
+        world: what rehearsal knows of the surroundings: empty, home or a file.
+        emit: takes events; called on the control thread only.
+        node: our name on the wire.
+        accept_others: drive though another Motion is on the same robot.
+        on_robot: no network lies between this machine and the base, whatever the address looks like.
+        releasers: the sources that may release an emergency stop.
+        budget: the motion budget as the command line chose it; what it leaves open the profile chooses.
+        open_loop: drive a robot that has no odometry (`chatrobot.robots.open_loop`).
+        connect: how our end of the wire is made; the guard has one of its own, at `address`.
+
+    Raises:
+        WireError: there is no robot, or the guard does not start.
+        InputError: the profile or the world cannot be used.
+    """
+
+    def __init__(
+        self,
+        address: str,
+        profile: str,
+        world: str,
+        emit: Callable[[Event], None],
+        *,
+        node: str = "chatrobot_motion",
+        accept_others: bool = False,
+        on_robot: bool = False,
+        releasers: Collection[str] = RELEASERS,
+        budget: MotionBudget = NOT_CHOSEN,
+        open_loop: bool = False,
+        connect: Connect = connect_wire,
+    ) -> None:
+        sys.setswitchinterval(SWITCH_INTERVAL_S)
+        prefer(MOTION)
+        wake_promptly()
+        given = as_chosen(load_profile(profile), budget, open_loop=open_loop)
+        known_world = load_world(world)
+        check_known(known_world, given)
+        self.wire, self.profile, said = _meet(connect, address, given, node, on_robot=on_robot)
+        self._emit = emit
+        self._wake = threading.Event()
+        self._plans: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
+        self.programs = ProgramHost(self.profile, is_in_step=False)
+        is_near = on_robot or is_on_this_machine(address)
+        wiring = _as_others_name_it(self.wire, self.profile.wiring)
+        self._guard = GuardProcess(address, wiring, RealClock(), is_near=is_near)
+        self._departure = Departure(self.wire, wiring.cmd_vel_topic, wiring.odom_topic, is_near=is_near)
+        self.motion = Motion(
+            self.profile,
+            self.wire,
+            clock_of(self.wire),
+            Planner(self.profile, known_world),
+            self._guard,
+            emit,
+            self._plans.put,
+            releasers,
+            self.programs,
+        )
+        self._rivals = Rivals(
+            self.wire, node, self.profile.wiring.cmd_vel_topic, open_loop_notice(self.profile)
+        )
+        self._lookout = Lookout(
+            self.wire,
+            self._rivals,
+            self.motion,
+            self.profile,
+            self.notice,
+            accept_others=accept_others,
+        )
+        try:
+            self._open(said)
+        except BaseException:  # Ctrl-C, too: nothing has been driven that a guard would have to halt
+            self._guard.goodbye()
+            raise
+
+    def _open(self, said: list[Reason]) -> None:
+        """Begin to listen, once the guard is there; what a person should know of the robot is told first."""
+        if isinstance(self.wire, PatientWire):  # a robot that nobody reaches holds what it heard last
+            self.wire.on_gone = lambda: self.motion.halt(Reason("wire_gone"))
+        if not self._guard.wait_until_alive(GUARD_S):
+            raise WireError("the guard did not start")
+        self.motion.start(self.wire)
+        self.wire.subscribe(USER_INPUT, Text, self._hear_user_input)
+        self.wire.subscribe(STOP, Flag, self._hear_stop)
+        for reason in said:
+            self.notice(reason)
+        self._lookout.look_around()
+        if isinstance(self.wire, Knowing):  # whoever else drives is named before anything moves
+            time.sleep(BEAT_S)
+            self._lookout.look_around()
+
+    def run(self, has_left: Callable[[], bool], each_tick: Callable[[], None]) -> None:
+        """The control loop, until `has_left`; then the guard is told goodbye.
+
+        Raises:
+            WireError: the wire is closed for good. What was under way has been told to have failed.
+        """
+        if threading.current_thread() is threading.main_thread():
+            signal.signal(signal.SIGCONT, lambda *_: self.motion.thaw())
+        for target in (self._plan, self._serve_stop, self._lookout.watch):
+            threading.Thread(target=target, daemon=True).start()
+        _settle_memory()
+        next_s = time.monotonic()
+        try:
+            while not has_left():
+                self._wake.wait(max(0.0, next_s - time.monotonic()))
+                self._wake.clear()
+                self.motion.tick()
+                each_tick()
+                if time.monotonic() >= next_s:  # not where an event drove this tick before its time
+                    next_s = max(next_s, time.monotonic() - TICK_S) + TICK_S
+        except WireError:
+            self.motion.give_up(Reason("wire_gone"))
+            each_tick()
+            raise
+        else:
+            self.motion.leave()
+            self.wire.close()
+        finally:
+            self.programs.close()
+            remove_stop_socket()
+
+    @property
+    def robot_has_left(self) -> bool:
+        """The robot's process is seen to be gone; for who waits for the robot to stand. On the control thread."""
+        return self._departure.is_over(time.monotonic())
+
+    # --- from any thread ---
+
+    def receive(self, envelope: Envelope, said_in: int | None = None) -> None:
+        """Take in an envelope; a stop is out before this returns. `said_in`: see `Motion.receive`."""
+        self.motion.receive(envelope, said_in)
+        self._rivals.note_source(envelope.lease)
+        if envelope.word != "beat":
+            self._wake.set()
+
+    def lose(self, lease: str) -> None:
+        """The source behind that lease is gone without a goodbye."""
+        self.motion.lose(lease)
+        self._wake.set()
+
+    def halt(self, source: str, why: str, *, keep: bool = False) -> None:
+        """Stop; the zero is out before this returns. `keep`: it is a pause."""
+        self.motion.halt(Reason(PAUSED if keep else "stopped_by", {"source": source, "why": why}))
+        self._wake.set()
+
+    def notice(self, reason: Reason) -> None:
+        """Tell people something that ends nothing."""
+        self.motion.post(lambda: self._emit(Notice(0, reason)))
+        self._wake.set()
+
+    def in_background(self, job: Callable[[], None]) -> None:
+        """Have `job` done by the planner's thread."""
+        self._plans.put(job)
+
+    # --- threads of its own ---
+
+    def _plan(self) -> None:
+        while True:
+            self._plans.get()()
+            self._wake.set()
+
+    def _hear_user_input(self, message: Text) -> None:
+        """Stop words need nobody's help to be understood."""
+        text = message.data
+        if is_emergency_stop(text):
+            self.receive(
+                Envelope("emergency_stop", USER_INPUT, USER_INPUT, time.monotonic_ns(), 0, {"why": text})
+            )
+        elif leads_with_stop(text) if self.motion.is_busy else is_stop(text):
+            self.halt(USER_INPUT, text[:80], keep=is_pause(text))
+
+    def _hear_stop(self, message: Flag) -> None:
+        if message.data:
+            self.halt(STOP, "")
+
+    def _serve_stop(self) -> None:
+        serve_stop(self._stop_and_tell)
+
+    def _stop_and_tell(self) -> str:
+        """Stop; what was found, for `chatrobot stop` to say: `moving`, `waiting`, `standing` or `unseen`."""
+        has_work = self.motion.has_work  # looked up, not asked for: nothing holds the zero up
+        self.halt("chatrobot stop", "")
+        sight = self.motion.zeroing.sight
+        return "waiting" if sight == "standing" and has_work else sight
+
+
+def _meet(
+    connect: Connect, address: str, given: RobotProfile, node: str, *, on_robot: bool
+) -> tuple[Wire, RobotProfile, list[Reason]]:
+    """The robot's wire, its profile as the wire shows it, and what a person should know of the differences."""
+    wire, wiring, said = reach(connect, address, given.wiring, node)
+    profile = replace(given, wiring=wiring)
+    if not on_robot and drives_on_alone(given) and not is_on_this_machine(address):
+        profile = slowed(profile)
+        said = [*said, Reason("drives_on_alone", {"speed_mps": profile.limits.max_speed_mps})]
+    return wire, profile, said
+
+
+def _settle_memory() -> None:
+    """What start-up has made stays: the collector need not look through it while the robot moves."""
+    gc.collect()
+    gc.freeze()
+
+
+def _as_others_name_it(wire: Wire, wiring: Wiring) -> Wiring:
+    """The guard is another end of the wire, which is told our namespace, and the topics as our remappings have them."""
+    cmd_vel_topic, odom_topic = resolved(wire, wiring.cmd_vel_topic), resolved(wire, wiring.odom_topic)
+    namespace = namespace_of(wire) or wiring.namespace
+    return replace(wiring, cmd_vel_topic=cmd_vel_topic, odom_topic=odom_topic, namespace=namespace)

@@ -1,0 +1,253 @@
+"""From plan text to something that may run: read, rehearsed from where the robot stands, in the world that is known."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
+
+import numpy as np
+
+from chatrobot.core.errors import PlanTextError
+from chatrobot.core.events import Event, FindingSeen, Rehearsed
+from chatrobot.core.geometry import Pose
+from chatrobot.core.reason import Reason
+from chatrobot.governor.kernel import Kernel, make_kernel
+from chatrobot.motion.budgets import Extent
+from chatrobot.motion.seen_routes import RoutesAroundSeen
+from chatrobot.motion.seen_world import SeenPoints, seen_but_unknown
+from chatrobot.plan.context import RoutePlanner
+from chatrobot.plan.free_part import ANY_WAY, Most
+from chatrobot.plan.known_world import Floats
+from chatrobot.plan.lowering import CoreWalk
+from chatrobot.plan.rehearsal import Rehearsal, rehearse
+from chatrobot.plan.route import GridRoutePlanner
+from chatrobot.plan.steps import Plan
+from chatrobot.plan.text import format_plan, parse_plan
+from chatrobot.robots.profile import Point, RobotProfile
+from chatrobot.sim.world import World
+
+DRAWN_POINTS = 400
+"""The path an event carries is thinned to about this many points: enough for any screen."""
+
+
+@dataclass(frozen=True)
+class Offer:
+    """What can be done of a plan that is refused, rehearsed itself. `limits`: what the motion budget left for it."""
+
+    plan: Plan | None = None
+    limits: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Planned:
+    """A plan that was rehearsed, or the reason why it could not even be read."""
+
+    turn: int
+    rehearsal: Rehearsal | None
+    unreadable: Reason | None = None
+    offer: Offer = Offer()
+
+    @property
+    def ok(self) -> bool:
+        return self.rehearsal is not None and self.rehearsal.ok
+
+    @property
+    def refusal(self) -> Reason | None:
+        """Why it may not run."""
+        if self.rehearsal is None:
+            return self.unreadable
+        found = self.rehearsal.refusal
+        if found is None:
+            return None
+        return Reason(found.reason.code, {**found.reason.values, **self.offer.limits})
+
+    @property
+    def possible(self) -> str:
+        """Plan text of what can be done of it if it is refused; empty where nothing is worth a question."""
+        return format_plan(self.offer.plan) if self.offer.plan is not None else ""
+
+    @property
+    def duration_s(self) -> float:
+        return self.rehearsal.duration_s if self.rehearsal is not None else 0.0
+
+    @property
+    def length_m(self) -> float:
+        return self.rehearsal.length_m if self.rehearsal is not None else 0.0
+
+    @property
+    def is_endless(self) -> bool:
+        """It does not end by itself."""
+        return False
+
+    @property
+    def is_open_ended(self) -> bool:
+        """Nobody knows before how far and how long it drives: its length and duration are those of its rehearsal."""
+        return self.is_endless or bool(self._unknown_lengths_m)
+
+    @cached_property
+    def certain(self) -> Extent:
+        """What it drives at least. Asked with every tick."""
+        if self.is_endless:
+            return Extent()
+        length_m = max(0.0, self.length_m - sum(self._unknown_lengths_m))
+        return Extent(length_m, 0.0 if self.is_open_ended else self._driving_s)
+
+    @property
+    def _driving_s(self) -> float:
+        """How long it drives, without its waits."""
+        return driving_s(self.rehearsal.path) if self.rehearsal is not None else 0.0
+
+    @property
+    def _unknown_lengths_m(self) -> list[float]:
+        """The longest ways up to obstacles that nobody knows of."""
+        findings = self.rehearsal.findings if self.rehearsal is not None else ()
+        reasons = (finding.reason for finding in findings if finding.reason.code == "no_obstacle_known")
+        return [float(reason.values["distance_m"]) for reason in reasons]
+
+    @property
+    def has_findings(self) -> bool:
+        """Something that a person should look at before it runs."""
+        return False
+
+    def walk(self) -> CoreWalk:
+        """The very motions that were rehearsed."""
+        assert self.rehearsal is not None
+        return self.rehearsal.walk()
+
+    def events(self, needs_approval: bool) -> tuple[Event, ...]:
+        """All that is told of it."""
+        return (self.event(needs_approval),)
+
+    def part_event(self, steps_before: int) -> Rehearsed:
+        """As `event`, for a part that goes on after so many steps of the same turn."""
+        event = self.event(False)
+        findings = tuple(replace(found, step=_later(found.step, steps_before)) for found in event.findings)
+        return replace(event, findings=findings)
+
+    def event(self, needs_approval: bool) -> Rehearsed:
+        """What the faces show of it."""
+        rehearsal = self.rehearsal
+        if rehearsal is None:
+            return Rehearsed(self.turn, False, 0.0, 0.0, Pose())
+        findings = tuple(
+            FindingSeen(self.turn, found.severity, found.reason, tuple(i + 1 for i in found.index), found.t_s)
+            for found in rehearsal.findings
+        )
+        return Rehearsed(
+            self.turn,
+            rehearsal.ok,
+            rehearsal.duration_s,
+            rehearsal.length_m,
+            rehearsal.end_pose,
+            findings,
+            drawn(rehearsal.path),
+            needs_approval,
+            self.is_open_ended,
+        )
+
+
+def refused(event: Event, reason: Reason | None) -> Event:
+    """The event; where it shows a plan that may not run for `reason`, it says so."""
+    if reason is None or not isinstance(event, Rehearsed) or not event.ok:
+        return event
+    found = FindingSeen(event.turn, "refuse", reason)
+    return replace(event, ok=False, findings=(*event.findings, found), needs_approval=False)
+
+
+def driving_s(path: Floats) -> float:
+    """How long the robot moves on a path whose rows ([n, 4]) begin with a time."""
+    steps = np.diff(path, axis=0)
+    return float(steps[np.any(np.abs(steps[:, 1:]) > 1e-9, axis=1), 0].sum())
+
+
+def drawn(path: Floats) -> tuple[tuple[float, float, float], ...]:
+    """x_m, y_m, yaw_rad of a path whose rows ([n, 4]) begin with a time; thinned, but for its end."""
+    stride = max(1, len(path) // DRAWN_POINTS)
+    rows = [*path[:-1:stride].tolist(), path[-1].tolist()]
+    return tuple((row[1], row[2], row[3]) for row in rows)
+
+
+def _later(step: tuple[int, ...], steps_before: int) -> tuple[int, ...]:
+    """The path of a step that comes after so many others."""
+    return (step[0] + steps_before, *step[1:]) if step else ()
+
+
+class Planner:
+    """Plans for one robot in one world. The first call for a furnished world computes its distance field."""
+
+    def __init__(self, profile: RobotProfile, world: World) -> None:
+        self._profile = profile
+        self._world = world
+        self._kernel = make_kernel(profile)
+        self._routes = None if world.is_empty else GridRoutePlanner(world, profile)
+
+    @property
+    def world(self) -> World:
+        """What is known of the surroundings."""
+        return self._world
+
+    @property
+    def kernel(self) -> Kernel:
+        """The governor's own arithmetic, which rehearsals use, too."""
+        return self._kernel
+
+    @property
+    def allowed_area(self) -> Sequence[Point] | None:
+        """Corners, in `odom`, of where the world lets a robot be; None where it says nothing."""
+        return self._world.allowed_area.points if self._world.allowed_area is not None else None
+
+    def plan(
+        self,
+        turn: int,
+        plan_text: str,
+        start: Pose,
+        plan_start: Pose | None = None,
+        seen: SeenPoints | None = None,
+        left: Most = ANY_WAY,
+    ) -> Planned:
+        """Read and rehearse `plan_text` from `start` (odom frame). Never raises for what a person or model wrote.
+
+        Args:
+            plan_start: where the whole began that this is a part of, if it did not begin here.
+            seen: what the governor knows by its lidar.
+            left: of the motion budget: what is offered instead of a refused plan drives no more.
+        """
+        try:
+            plan = parse_plan(plan_text)
+        except PlanTextError as error:
+            return Planned(turn, None, Reason("plan_text", {"problem": str(error)}))
+        rehearsing = partial(
+            rehearse,
+            profile=self._profile,
+            world=self._world,
+            start_pose=start,
+            governor=self._kernel,
+            route_planner=self._routes if seen is None else self._around(seen),
+            seen=seen,
+        )
+        rehearsal = rehearsing(plan, plan_start=plan_start)
+        if rehearsal.possible is None:
+            return Planned(turn, rehearsal)
+        return Planned(turn, rehearsal, offer=_offer(rehearsal.possible, rehearsing, left))
+
+    def _around(self, seen: SeenPoints) -> RoutePlanner | None:
+        """Finds ways around what was seen, too."""
+        unknown = seen_but_unknown(self._world, seen.points)
+        if not len(unknown):
+            return self._routes
+        return RoutesAroundSeen(self._profile, self._world, unknown, self._routes)
+
+
+def _offer(plan: Plan, rehearsing: Callable[..., Rehearsal], left: Most) -> Offer:
+    """The plan, or the part of it that the budget allows; nothing where its own rehearsal refuses it."""
+    whole = rehearsing(plan, most=left)
+    if not whole.ok or left.allows(whole.path):
+        return Offer(plan if whole.ok else None)
+    is_too_far = not Most(left.length_m).allows(whole.path)
+    limits = {"limit_m": round(left.length_m, 2)} if is_too_far else {"limit_s": round(left.driving_s, 1)}
+    part = whole.possible
+    over_s = driving_s(rehearsing(part).path) - left.driving_s if part is not None else 0.0
+    if over_s > 0.0:  # to stop earlier takes time, too
+        part = rehearsing(plan, most=Most(left.length_m, left.driving_s - over_s)).possible
+    return Offer(part, limits)

@@ -1,0 +1,44 @@
+"""Where Motion has programs rehearsed and run: in the box, or nowhere.
+
+All methods but `attach` are called from Motion's background thread, where nothing that moves waits for them.
+"""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from chatrobot.core.reason import Reason
+from chatrobot.motion.planner import Planned, Planner
+from chatrobot.motion.programs.program_job import ProgramJob
+from chatrobot.motion.programs.program_run import LiveProgram
+from chatrobot.motion.seen_world import SeenPoints
+from chatrobot.wire.wire import Wire
+
+
+class ProgramBox(Protocol):
+    """What Motion needs of it."""
+
+    def attach(self, wire: Wire) -> None:
+        """Hear the robot's sensors, for programs that listen to them."""
+        ...
+
+    def rehearse(self, job: ProgramJob, planner: Planner, seen: SeenPoints | None) -> Planned:
+        """Run it on virtual time, among what is known and what the lidar has seen, from where the job starts."""
+        ...
+
+    def launch(self, job: ProgramJob) -> LiveProgram | Reason:
+        """Start it; why it cannot be."""
+        ...
+
+
+class NoBox:
+    """Nowhere: every program is refused."""
+
+    def attach(self, wire: Wire) -> None:
+        """There is nothing to hear for."""
+
+    def rehearse(self, job: ProgramJob, planner: Planner, seen: SeenPoints | None) -> Planned:  # noqa: ARG002
+        return Planned(job.turn, None, Reason("no_programs_here"))
+
+    def launch(self, job: ProgramJob) -> LiveProgram | Reason:  # noqa: ARG002
+        return Reason("no_programs_here")

@@ -1,0 +1,93 @@
+"""The box as Motion uses it: one warm server, programs rehearsed in it and started from it."""
+
+from __future__ import annotations
+
+from chatrobot.core.errors import BoxError
+from chatrobot.core.reason import Reason
+from chatrobot.motion.planner import Planned, Planner
+from chatrobot.motion.programs.live_program import InStepProgram, RealTimeProgram
+from chatrobot.motion.programs.planned_program import PlannedProgram
+from chatrobot.motion.programs.program_job import ProgramJob
+from chatrobot.motion.programs.program_rehearsal import rehearse_program
+from chatrobot.motion.programs.program_run import LiveProgram
+from chatrobot.motion.programs.program_senses import Senses
+from chatrobot.motion.seen_world import SeenPoints
+from chatrobot.programs.boxed import BoxedProgram, warm_server
+from chatrobot.programs.events import LATEST_S
+from chatrobot.programs.settings import ProgramSettings, robot_topics
+from chatrobot.robots.profile import RobotProfile
+from chatrobot.wire.wire import Wire
+
+
+class ProgramHost:
+    """A `ProgramBox`. Its server starts with the first program, and anew where it has died.
+
+    Args:
+        is_in_step: programs run on the virtual clock of a simulation, not in real time.
+    """
+
+    def __init__(self, profile: RobotProfile, *, is_in_step: bool) -> None:
+        self._profile = profile
+        self._is_in_step = is_in_step
+        self._server = warm_server()
+        self._senses = Senses()
+
+    def attach(self, wire: Wire) -> None:
+        self._senses.attach(wire, self._profile.wiring)
+
+    def rehearse(self, job: ProgramJob, planner: Planner, seen: SeenPoints | None) -> Planned:
+        try:
+            self._warm()
+            rehearsal = rehearse_program(
+                self._server,
+                job.code,
+                self._profile,
+                planner.world,
+                job.start,
+                name=_file_name(job.name),
+                remaps=job.remap,
+                args=job.args,
+                seen=seen,
+            )
+        except BoxError as error:
+            return Planned(job.turn, None, error.reason)
+        return PlannedProgram(job.turn, None, program=rehearsal, name=job.name, strict=job.strict)
+
+    def launch(self, job: ProgramJob) -> LiveProgram | Reason:
+        settings = ProgramSettings(
+            job.code,
+            name=_file_name(job.name),
+            mode="virtual" if self._is_in_step else "live",
+            topics=robot_topics(self._profile.wiring),
+            odom_type=self._profile.wiring.odom_type,
+            remaps=job.remap,
+            args=job.args,
+            horizon_s=LATEST_S,
+        )
+        program = BoxedProgram(self._server, settings)
+        self._senses.forget()
+        try:
+            self._warm()
+            program.start()
+        except BoxError as error:
+            return error.reason
+        kind = InStepProgram if self._is_in_step else RealTimeProgram
+        return kind(program, self._senses)
+
+    @property
+    def server_pid(self) -> int | None:
+        """Of the warm server, where it runs."""
+        return self._server.process.pid if self._server.process is not None else None
+
+    def close(self) -> None:
+        """End the server and whatever still runs in it."""
+        self._server.close()
+
+    def _warm(self) -> None:
+        if not self._server.is_running():
+            self._server.start()
+
+
+def _file_name(name: str) -> str:
+    """What tracebacks call the program."""
+    return name.replace(" ", "_") or "program"

@@ -1,0 +1,96 @@
+"""Questions about places get true answers, by the way that would be driven, and move nothing."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from chatrobot.core.geometry import Pose
+from chatrobot.dialogue.map_ways import MapWays
+from chatrobot.dialogue.understanding import Understanding
+from chatrobot.language.context import RobotState
+from chatrobot.language.interpretation import Interpretation
+from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
+from chatrobot.sim.load import load_world
+from chatrobot.sim.world import World
+
+PROFILE = load_profile(DEFAULT_PROFILE)
+HOME = load_world("home")
+PLACES = World(
+    "bare",
+    places={"shelf": Pose(3.0, 4.0), "lamp": Pose(0.0, 1.0)},
+    aliases={"shelf": "shelf", "lamp": "lamp"},
+)
+
+
+def asked(text: str, world: World = HOME, pose: Pose = Pose()) -> Interpretation:  # noqa: B008 - a value
+    understanding = Understanding(PROFILE, world, None)
+    understanding._state = RobotState(pose)
+    return understanding.interpret(text)
+
+
+@pytest.mark.parametrize(
+    "text", ["where is the kitchen?", "how far is it to the kitchen?", "how far is the kitchen"]
+)
+def test_the_way_is_as_long_as_the_one_that_would_be_driven(text: str) -> None:
+    kitchen = HOME.places["kitchen"]
+    way_m = MapWays(HOME, PROFILE)(Pose(), kitchen)
+    assert way_m is not None
+    assert way_m > math.hypot(kitchen.x_m, kitchen.y_m) + 0.05
+    meant = asked(text)
+    assert meant.plan is None
+    assert meant.reply == f"The kitchen is ahead of me, {way_m:.2f} m by the way I would drive."
+
+
+def test_without_a_map_it_is_told_straight_and_said_so() -> None:
+    assert (
+        asked("where is the shelf?", PLACES).reply
+        == "The shelf is ahead of me to the left, 5.00 m in a straight line."
+    )
+
+
+def test_the_side_is_the_robots_own() -> None:
+    behind = Pose(0.0, 2.0, math.pi / 2)
+    assert asked("where is the lamp?", PLACES, behind).reply.startswith("The lamp is behind me, 1.00 m")
+    assert asked("is the lamp on the left?", PLACES).reply.startswith("Yes. The lamp is to my left")
+    assert asked("is the lamp on the left?", PLACES, behind).reply.startswith("No. The lamp is behind me")
+    assert asked("where is the lamp?", PLACES, Pose(0.0, 1.0)).reply == "I am there: this is the lamp."
+
+
+@pytest.mark.parametrize("text", ["which place is nearest?", "哪个地方最近？"])
+def test_the_nearest_is_that_by_the_way(text: str) -> None:
+    ways = MapWays(HOME, PROFILE)
+    far = {
+        name: way
+        for name, pose in HOME.places.items()
+        if (way := ways(Pose(), pose)) is not None and way > 0.25
+    }
+    assert f"{min(far.values()):.2f}" in asked(text).reply
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [("厨房在哪里", "厨房在我的正前方"), ("厨房在左边吗？", "不是。"), ("离厨房还有多远", "按我会走的路"),
+     ("你知道哪些地方", "冰箱"),
+     ("where is the kichen?", "Did you mean one of these: kitchen?"), ("where is the moon?", "Places I know: kitchen"),
+     ("how far are you from the start?", "this is the start"), ("which places do you know?", "fridge")],
+)  # fmt: skip
+def test_what_is_asked_is_answered(text: str, told: str) -> None:
+    meant = asked(text)
+    assert (meant.outcome, meant.plan) == ("answered", None)
+    assert told in meant.reply
+
+
+@pytest.mark.parametrize(
+    ("text", "outcome"),
+    [("go to the kitchen", "plan"), ("能去厨房吗", "plan"), ("where is the kitchen? go there", "unclear"),
+     ("how far is 2 m", "unclear"), ("两米有多远啊", "unclear")],
+)  # fmt: skip
+def test_nothing_else_is_taken_for_such_a_question(text: str, outcome: str) -> None:
+    assert asked(text).outcome == outcome
+
+
+def test_a_robot_that_has_not_said_where_it_is_tells_no_distance() -> None:
+    understanding = Understanding(PROFILE, HOME, None)
+    assert "odometry" in understanding.interpret("where is the kitchen?").reply

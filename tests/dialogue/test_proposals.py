@@ -1,0 +1,200 @@
+"""A question that offers a plan carries it: a yes as the very next text runs it, and nothing else does."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from rich.console import Console
+from tests.dialogue.test_session import Talk
+
+from chatrobot.cli.console.narrator import Narrator
+from chatrobot.cli.console.words import Words
+from chatrobot.core.events import Interpreted, Rehearsed, Result, event_from_json
+from chatrobot.core.proposal import Proposal
+from chatrobot.dialogue import proposals
+from chatrobot.dialogue.options import Options
+
+ASKING = "go to the kichen"
+
+
+def asked(**setup: object) -> Talk:
+    """A session that has just asked whether the kitchen was meant."""
+    talk = Talk(world="home", **setup)
+    result = talk.session.do(ASKING)
+    assert (result.outcome, result.path_m) == ("unclear", 0.0)
+    return talk
+
+
+def test_the_question_comes_with_the_plan_that_it_offers() -> None:
+    result = asked().session.results[1]
+    assert result.proposal == Proposal('go to 4 0.7 named "kitchen"', "Did you mean kitchen?")
+    assert result.reply.endswith(result.proposal.say)
+    line = json.loads(json.dumps(result.to_json()))
+    assert line["proposal"] == {"plan_text": 'go to 4 0.7 named "kitchen"', "say": "Did you mean kitchen?"}
+    assert event_from_json(line) == result
+
+
+def test_a_result_that_offers_nothing_says_so() -> None:
+    assert Talk().session.do("forward 10 cm").to_json()["proposal"] is None
+
+
+@pytest.mark.parametrize("word", ["yes", "y", "Yes, do it!", "go ahead", "ok", "好的", "可以"])
+def test_a_yes_runs_the_plan(word: str) -> None:
+    talk = asked()
+    result = talk.session.do(word)
+    assert result.outcome == "completed"
+    assert result.pose.distance_to(talk.connection.world.places["kitchen"]) < 0.05
+    heard = [event for event in talk.events if event.turn == 2]
+    assert [event.plan_text for event in heard if isinstance(event, Interpreted)] == [
+        'go to 4 0.7 named "kitchen"'
+    ]
+    assert any(isinstance(event, Rehearsed) for event in heard)
+
+
+def test_a_yes_is_approved_where_approval_is_asked() -> None:
+    talk = asked(options=Options(approve=True))
+    turn = talk.session.say("yes")
+    talk.pump_until(lambda: any(isinstance(e, Rehearsed) and e.needs_approval for e in talk.events))
+    talk.session.approve(turn, False)
+    talk.pump_until(lambda: turn in talk.results())
+    assert (talk.results()[turn].outcome, talk.results()[turn].path_m) == ("refused", 0.0)
+
+
+@pytest.mark.parametrize(
+    ("answer", "plan"),
+    [
+        ("sure, but slowly", "drive 0.5 m at 0.15 m/s"),
+        ("Yes, slowly please", "drive 0.5 m at 0.15 m/s"),
+        ("go ahead at 0.1 m/s", "drive 0.5 m at 0.1 m/s"),
+        ("好的，慢一点", "drive 0.5 m at 0.15 m/s"),
+    ],
+)
+def test_a_yes_may_say_how_fast(answer: str, plan: str) -> None:
+    talk = Talk()
+    assert talk.session.do("forward 50").proposal is not None
+    result = talk.session.do(answer)
+    assert result.outcome == "completed"
+    plans = [event.plan_text for event in talk.events if isinstance(event, Interpreted) and event.turn == 2]
+    assert plans == [plan]
+    talk.session.do("forward 10 cm")
+    assert [e.plan_text for e in talk.events if isinstance(e, Interpreted)][-1] == "drive 0.1 m"
+
+
+@pytest.mark.parametrize("answer", ["好慢", "sure, slowly?", "yes, but quietly", "sure, but turn left first"])
+def test_what_says_more_than_yes_and_how_fast_runs_no_offer(answer: str) -> None:
+    talk = Talk()
+    talk.session.do("forward 50")
+    assert talk.session.do(answer).path_m == 0.0
+
+
+@pytest.mark.parametrize("word", ["no", "n", "No, thanks.", "不用了"])
+def test_a_no_drops_it(word: str) -> None:
+    talk = asked()
+    dropped = talk.session.do(word)
+    assert (dropped.outcome, dropped.proposal) == ("answered", None)
+    assert talk.session.do("yes").outcome == "unclear"
+
+
+@pytest.mark.parametrize(
+    ("between", "outcome"),
+    [
+        ("where are you?", "answered"),
+        ("forward 2 cm", "completed"),
+        ("stop", "stopped"),
+        ("hrmpf", "unclear"),
+    ],
+)
+def test_anything_else_is_understood_and_drops_it(between: str, outcome: str) -> None:
+    talk = asked()
+    assert talk.session.do(between).outcome == outcome
+    assert talk.session.do("yes").outcome != "completed"
+
+
+def test_a_stop_button_drops_it() -> None:
+    talk = asked()
+    talk.session.stop("button")
+    assert talk.session.do("yes").outcome == "unclear"
+
+
+def test_a_plan_given_as_such_drops_it() -> None:
+    talk = asked()
+    talk.session.say_plan("drive 0.02 m")
+    talk.session.say("yes")
+    talk.pump_until(lambda: len(talk.results()) == 3)
+    assert talk.results()[3].outcome == "unclear"
+
+
+def test_a_robot_that_was_moved_has_to_be_asked_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    talk = asked()
+    elsewhere = talk.session.understanding.pose._replace(x_m=0.2)
+    monkeypatch.setattr(type(talk.session.understanding), "pose", elsewhere)
+    late = talk.session.do("yes")
+    assert (late.outcome, late.path_m) == ("refused", 0.0)
+    assert "moved" in late.reply
+
+
+def test_a_yes_that_comes_late_has_to_be_said_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    talk = asked()
+    began_s = proposals.time.monotonic()
+    monkeypatch.setattr("chatrobot.dialogue.said.time.monotonic", lambda: began_s + 31.0)
+    late = talk.session.do("yes")
+    assert (late.outcome, late.path_m) == ("refused", 0.0)
+
+
+def test_every_proposal_that_is_shown_asks_for_a_yes_or_a_no() -> None:
+    result = asked().session.results[1]
+    assert shown(result).endswith("Did you mean kitchen? y/n")
+    assert "y/n" not in shown(Result(1, "unclear", "What?"))
+
+
+def shown(result: Result) -> str:
+    """What the console prints of it."""
+    console = Console(width=200)
+    with console.capture() as capture:
+        console.print(*Narrator(Words("en")).tell(result))
+    return capture.get().strip()
+
+
+def test_a_way_that_is_blocked_is_offered_as_far_as_it_is_free() -> None:
+    talk = Talk(world="home")
+    blocked = talk.session.do("forward 10 m")
+    assert (blocked.outcome, blocked.path_m) == ("refused", 0.0)
+    assert blocked.proposal == Proposal("drive 2.65 m", "Shall I drive forward 2.65 m?")
+    assert blocked.reply.endswith("so I am not moving. 2.65 m are free. Shall I drive forward 2.65 m?")
+    done = talk.session.do("yes")
+    assert done.outcome == "completed"
+    assert done.path_m == pytest.approx(2.65, abs=0.01)
+    assert talk.session.do("forward 1 m").proposal is None, "nothing useful is free"
+
+
+def test_what_is_only_rehearsed_says_what_is_free_and_asks_nothing() -> None:
+    talk = Talk(world="home", options=Options(rehearse_only=True))
+    blocked = talk.session.do("前进十米")
+    assert blocked.proposal is None
+    assert blocked.reply.endswith("前面 2.65 米是空的。")
+
+
+TABLE = """
+name: shop
+obstacles:
+  - {name: table, rectangle: {x_m: 2.0, y_m: 0.0, length_m: 0.6, width_m: 0.6}}
+places:
+  - {name: table, aliases: [桌子], x_m: 2.0, y_m: 0.0}
+"""
+
+
+def test_a_place_inside_an_obstacle_is_not_called_reached(tmp_path: Path) -> None:
+    file = tmp_path / "shop.yaml"
+    file.write_text(TABLE)
+    talk = Talk(world=str(file))
+    blocked = talk.session.do("forward 20 cm, then go to the table")
+    assert (blocked.outcome, blocked.path_m) == ("refused", 0.0)
+    assert blocked.reply.startswith("The table is in the way there:")
+    assert "I can get as near as 0.55 m." in blocked.reply
+    assert blocked.proposal is not None
+    assert blocked.proposal.plan_text == "drive 0.2 m\ngo to 1.45 0"
+    done = talk.session.do("go ahead")
+    assert (done.outcome, done.pose.x_m) == ("completed", pytest.approx(1.45, abs=0.02))
+    assert talk.session.do("去桌子").reply.startswith("那里被“table”挡住")
