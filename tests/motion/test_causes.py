@@ -26,9 +26,9 @@ from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.phrases import render_reason
 from chatrobot.link.in_process import SimulatedJoint
 from chatrobot.models.fake.openai_chat import OpenAIChat
-from chatrobot.motion.safety import freeze
-from chatrobot.motion.safety.freeze import FreezeWatch
+from chatrobot.motion.safety import stall_detector
 from chatrobot.motion.safety.guard_link import SimulatedGuard
+from chatrobot.motion.safety.stall_detector import StallDetector
 
 ASKED = "please do the thing that the frobnicator did yesterday"
 PLAN = "drive 0.5 m\nturn left 90\ndrive 0.5 m\nturn left 90\n"
@@ -239,14 +239,14 @@ def test_a_plan_said_while_a_motion_failed_is_told_of_that_failure(tmp_path: Pat
 def test_a_guard_that_tripped_is_not_told_as_a_freeze_of_ours(
     monkeypatch: pytest.MonkeyPatch, late_s: float, code: str
 ) -> None:
-    monkeypatch.setattr(freeze, "is_machine_busy", lambda: False)
+    monkeypatch.setattr(stall_detector, "is_machine_busy", lambda: False)
 
     class Tripped(SimulatedGuard):
         def was_tripped(self) -> bool:
             return True
 
     clock, halted = VirtualClock(), []
-    watch = FreezeWatch(clock, Tripped(clock), halted.append)
+    watch = StallDetector(clock, Tripped(clock), halted.append)
     watch.tick(clock.now_s(), is_driven=False, is_engaged=False)
     clock.advance(0.02 + late_s)
     watch.tick(clock.now_s(), is_driven=True, is_engaged=True)

@@ -18,7 +18,7 @@ class TestTwoPublishers:
     def rig(self) -> Rig:
         rig = Rig()
         other = rig.hub.connect()
-        rig.motion.zeroing.others = "/teleop"
+        rig.motion.stop_confirmation.others = "/teleop"
         rig.each_step = lambda: other.publish("cmd_vel", FAST)
         return rig
 
@@ -46,7 +46,7 @@ class TestTwoPublishers:
         assert rig.do("drive 0.3 m").outcome == "completed"
 
     def test_where_nobody_is_known_the_robot_is_said_to_move_on(self, rig: Rig) -> None:
-        rig.motion.zeroing.others = ""
+        rig.motion.stop_confirmation.others = ""
         rig.joint.send("stop")
         rig.pass_time(5.0)
         assert rig.notices() == ["moves_on"]

@@ -73,7 +73,7 @@ def test_who_leaves_a_robot_that_stood_when_it_was_last_seen_takes_the_guard_alo
     rig.pass_time(0.5)
     rig.motion.halt(Reason("stopped"))
     rig.pass_time(4.0)
-    assert rig.motion.zeroing.has_lost_sight
+    assert rig.motion.stop_confirmation.has_lost_sight
     rig.motion.leave()
     assert said == ["goodbye"]
 
@@ -178,4 +178,4 @@ def test_a_plan_whose_robot_moves_on_at_its_end_is_not_completed(rig: Rig) -> No
     end = rig.end_of(1)
     assert end is not None
     assert (end.outcome, end.reason and end.reason.code) == ("failed", "moves_on")
-    assert rig.motion.zeroing.is_active, "zeros go on"
+    assert rig.motion.stop_confirmation.is_active, "zeros go on"

@@ -11,8 +11,8 @@ from tests.safety.test_who_drives import Crowd
 from chatrobot.governor.lease import Leases
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.intake import Intake
-from chatrobot.motion.safety import rivals
-from chatrobot.motion.safety.rivals import Rivals
+from chatrobot.motion.safety import competing_controllers
+from chatrobot.motion.safety.competing_controllers import CompetingControllers
 from chatrobot.motion.sources import MANY_SOURCES, MOST_SOURCES, Sources
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import Text
@@ -99,10 +99,10 @@ def test_a_plan_is_driven_to_its_end_through_a_flood_of_sources(tmp_path: Path) 
 
 
 def test_of_a_flood_of_rivals_the_last_heard_are_kept_and_one_that_beats_is_seen() -> None:
-    others = Rivals(MemoryHub().connect(), "ours", "cmd_vel")
-    for number in range(10 * rivals.MANY_MOTIONS):
+    others = CompetingControllers(MemoryHub().connect(), "ours", "cmd_vel")
+    for number in range(10 * competing_controllers.MANY_MOTIONS):
         for name in (f"flood-{number}", "rival"):
             beat = {"id": name, "node": name, "host": "far", "pid": 1}
             others._hear(Text(json.dumps(beat)))
-    assert len(others._heard) == rivals.MANY_MOTIONS
+    assert len(others._heard) == competing_controllers.MANY_MOTIONS
     assert "rival (process 1 on far)" in others.motions()

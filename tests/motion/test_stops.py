@@ -8,8 +8,8 @@ from chatrobot.core.clock import VirtualClock
 from chatrobot.core.governed import GovernedTwist, StopEpoch
 from chatrobot.core.reason import Reason
 from chatrobot.execution.sensors import Sensors
-from chatrobot.motion.safety.stops import Stops
-from chatrobot.motion.safety.zeroing import Zeroing
+from chatrobot.motion.safety.stop import Stops
+from chatrobot.motion.safety.stop_confirmation import StopConfirmation
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
 
 PERSON = Reason("stopped_by", {"source": "console", "why": "stop"})
@@ -34,29 +34,31 @@ class HaltingTransport:
         meanwhile()
 
 
-def rig() -> tuple[Stops, HaltingTransport, Zeroing]:
+def rig() -> tuple[Stops, HaltingTransport, StopConfirmation]:
     epoch, clock = StopEpoch(), VirtualClock()
     transport = HaltingTransport(epoch)
-    zeroing = Zeroing(Sensors(load_profile(DEFAULT_PROFILE), clock), lambda _: None, lambda _: None)
-    return Stops(epoch, transport, zeroing, clock), transport, zeroing
+    stop_confirmation = StopConfirmation(
+        Sensors(load_profile(DEFAULT_PROFILE), clock), lambda _: None, lambda _: None
+    )
+    return Stops(epoch, transport, stop_confirmation, clock), transport, stop_confirmation
 
 
 def test_a_stop_is_out_before_it_is_booked_and_booked_once() -> None:
-    stops, transport, zeroing = rig()
+    stops, transport, stop_confirmation = rig()
     assert stops.book() is None
     stops.halt(PERSON)
     assert transport.zeros == 1
     assert stops.is_unbooked
     assert stops.book() == PERSON
-    assert zeroing.is_active
+    assert stop_confirmation.is_active
     assert stops.book() is None
 
 
 def test_the_stop_at_the_end_of_a_motion_is_nobodys_and_leaves_what_waits() -> None:
-    stops, transport, zeroing = rig()
+    stops, transport, stop_confirmation = rig()
     stops.halt_and_book(FAILURE)
     assert transport.zeros == 1
-    assert zeroing.is_active
+    assert stop_confirmation.is_active
     assert stops.book() is None
     assert stops.last_reason == FAILURE, "what it overtook is told why"
 

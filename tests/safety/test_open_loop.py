@@ -22,9 +22,9 @@ from chatrobot.execution.executor import UNSEEN_S
 from chatrobot.governor.governor import TICK_S, Governor
 from chatrobot.link.in_process import SimulatedJoint
 from chatrobot.link.topic_joint import TopicJoint
-from chatrobot.motion.safety.lookout import Lookout
-from chatrobot.motion.safety.rivals import Rivals
-from chatrobot.motion.safety.zeroing import PATIENCE_S
+from chatrobot.motion.safety.competing_controllers import CompetingControllers
+from chatrobot.motion.safety.connection_monitor import ConnectionMonitor
+from chatrobot.motion.safety.stop_confirmation import PATIENCE_S
 from chatrobot.robots.load import list_profiles, load_profile
 from chatrobot.robots.open_loop import (
     OPEN_LOOP_MPS,
@@ -212,14 +212,16 @@ def test_where_odometry_turns_up_the_robot_is_stopped_and_told_why(rig: Rig) -> 
     wire = Knowing(rig.hub.connect())
     profile = open_loop(load_profile("wheeltec_mini_mec"))
     said: list[Reason] = []
-    rivals = Rivals(wire, "chatrobot_motion", "cmd_vel")
-    lookout = Lookout(wire, rivals, rig.motion, profile, said.append, accept_others=False)
-    lookout.look_around()
+    competitors = CompetingControllers(wire, "chatrobot_motion", "cmd_vel")
+    connection_monitor = ConnectionMonitor(
+        wire, competitors, rig.motion, profile, said.append, accept_others=False
+    )
+    connection_monitor.look_around()
     rig.begin("drive 1 m")
     rig.pass_time(1.0)
     assert any(rig.velocities[-1])
     wire.odometry = ["/base"]
-    lookout.look_around()
+    connection_monitor.look_around()
     rig.pass_time(0.1)
     assert not any(rig.velocities[-1])
     end = rig.end_of(1)
@@ -382,10 +384,10 @@ def test_a_base_that_comes_later_hears_from_controls_beats_how_the_robot_is_driv
     joint = TopicJoint(hub.connect(), "base", is_on_this_machine=True)
     joint.open()
     notice = Reason("open_loop", {"speed_mps": 0.2, "rate_radps": 0.5, "max_s": 10.0})
-    rivals = Rivals(hub.connect(), "chatrobot_control", "cmd_vel", notice)
-    rivals.note_source(joint._sender.lease)
-    rivals.beat()
+    competitors = CompetingControllers(hub.connect(), "chatrobot_control", "cmd_vel", notice)
+    competitors.note_source(joint._sender.lease)
+    competitors.beat()
     assert joint.next_event(1.0) == Notice(0, notice)
-    rivals.beat()
+    competitors.beat()
     assert joint.next_event(0.05) is None, "once"
     joint.close()

@@ -22,8 +22,8 @@ from chatrobot.motion.programs.program_box import ProgramBox
 from chatrobot.motion.programs.program_job import ProgramJob
 from chatrobot.motion.programs.program_run import LiveProgram, ProgramRun
 from chatrobot.motion.run import Run
-from chatrobot.motion.safety.clearance import Clearance
-from chatrobot.motion.safety.stops import Stops
+from chatrobot.motion.safety.interlock import Interlock
+from chatrobot.motion.safety.stop import Stops
 
 FAILURES = frozenset(
     {"guard_lost", "bumped", "motion_froze", "motion_late", "beats_missed", "beat_late", "wire_gone"}
@@ -37,7 +37,7 @@ class Driver:
     def __init__(
         self,
         robot: GovernedRobot,
-        clearance: Clearance,
+        interlock: Interlock,
         stops: Stops,
         programs: ProgramBox,
         inbox: Inbox,
@@ -47,7 +47,7 @@ class Driver:
     ) -> None:
         self._robot = robot
         self._ends = ends
-        self._clearance = clearance
+        self._interlock = interlock
         self._stops = stops
         self._programs = programs
         self._inbox = inbox
@@ -71,7 +71,7 @@ class Driver:
         """Begin to drive what has been rehearsed, or refuse it. Nothing else may be under way."""
         now_s = self._clock.now_s()
         self.job = job
-        barrier = self._clearance.barrier_for(job.lease, now_s) or self._robot.begin(job.lease, now_s)
+        barrier = self._interlock.barrier_for(job.lease, now_s) or self._robot.begin(job.lease, now_s)
         if barrier is not None:
             self._give_up("refused", barrier)
         elif self._stops.is_unbooked:
@@ -108,7 +108,7 @@ class Driver:
         run = self._run
         if run is None:
             return
-        barrier = self._clearance.barrier_for(run.job.lease, now_s)
+        barrier = self._interlock.barrier_for(run.job.lease, now_s)
         if barrier is None and self._robot.sensors.bumped:
             barrier = Reason("bumped")
         if barrier is not None:

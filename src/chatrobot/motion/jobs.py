@@ -23,7 +23,7 @@ from chatrobot.motion.paused import PausedJob, Pausing, is_foreign, why_not_kept
 from chatrobot.motion.planner import Planned, Planner, refused
 from chatrobot.motion.programs.program_box import ProgramBox
 from chatrobot.motion.programs.program_job import ProgramJob, job_of, needs_approval
-from chatrobot.motion.safety.stops import Stops
+from chatrobot.motion.safety.stop import Stops
 from chatrobot.motion.stream import Stream
 
 ODOMETRY_WAIT_S = 2.0

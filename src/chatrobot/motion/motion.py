@@ -29,11 +29,11 @@ from chatrobot.motion.paused import Pausing
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.program_box import NoBox, ProgramBox
 from chatrobot.motion.relay import Relay
-from chatrobot.motion.safety.clearance import Clearance
-from chatrobot.motion.safety.freeze import FreezeWatch
 from chatrobot.motion.safety.guard_link import GuardLink
-from chatrobot.motion.safety.stops import PAUSED, Stops
-from chatrobot.motion.safety.zeroing import Zeroing
+from chatrobot.motion.safety.interlock import Interlock
+from chatrobot.motion.safety.stall_detector import StallDetector
+from chatrobot.motion.safety.stop import PAUSED, Stops
+from chatrobot.motion.safety.stop_confirmation import StopConfirmation
 from chatrobot.motion.sectors import sectors_m
 from chatrobot.motion.sources import Sources
 from chatrobot.motion.telling import Telling
@@ -79,9 +79,9 @@ class Motion:
         self._governor = Governor(profile, epoch, planner.allowed_area, releasers)
         self.sensors = Sensors(profile, clock)
         self._robot = robot = GovernedRobot(profile, self.sensors, self._governor, transport)
-        self.zeroing = Zeroing(self.sensors, robot.send_zero, self._notice)
-        self._stops = Stops(epoch, transport, self.zeroing, clock)
-        self.clearance = Clearance(self._governor, guard)
+        self.stop_confirmation = StopConfirmation(self.sensors, robot.send_zero, self._notice)
+        self._stops = Stops(epoch, transport, self.stop_confirmation, clock)
+        self.interlock = Interlock(self._governor, guard)
         self._intake = Intake()
         self._sources = Sources(
             self._governor.leases, lambda lease: self._jobs.is_engaged(lease), self._intake.forget
@@ -89,8 +89,8 @@ class Motion:
         self._inbox = Inbox(background)
         self._ends = ends = Ends(emit, measured=profile.has_odometry)
         stops, inbox = self._stops, self._inbox
-        self._driver = Driver(robot, self.clearance, stops, programs, inbox, clock, ends, emit)
-        self._pausing = pausing = Pausing(robot, self._intake, self.clearance, stops, clock, ends, emit)
+        self._driver = Driver(robot, self.interlock, stops, programs, inbox, clock, ends, emit)
+        self._pausing = pausing = Pausing(robot, self._intake, self.interlock, stops, clock, ends, emit)
         self._budgets = Budgets(profile.safety.budget)
         self._jobs = Jobs(
             robot,
@@ -121,7 +121,7 @@ class Motion:
             source=JOYSTICK,
             takes_over=lambda: self._jobs.hand_over(JOYSTICK),
         )
-        self._freeze = FreezeWatch(clock, guard, self.halt)
+        self._stall_detector = StallDetector(clock, guard, self.halt)
         self._telling = Telling(self.sensors, self._driver, emit)
         self._emergency: Envelope | None = None
 
@@ -133,7 +133,7 @@ class Motion:
 
     def thaw(self) -> None:
         """This process was stopped by a signal (SIGSTOP) and goes on: what drove does not. For a signal handler."""
-        why = self._freeze.thaw(self._clock.now_s())
+        why = self._stall_detector.thaw(self._clock.now_s())
         if why is not None:
             self._stops.void(why)
 
@@ -187,7 +187,7 @@ class Motion:
     @property
     def is_busy(self) -> bool:
         """True while anything is moving, queued, being rehearsed, awaited or zeroed."""
-        is_zeroed = self.zeroing.is_active and self.zeroing.disobeyed is None
+        is_zeroed = self.stop_confirmation.is_active and self.stop_confirmation.disobeyed is None
         is_ending = is_zeroed or not self._ends.are_told
         return not self._jobs.are_done or bool(self._inbox) or self._stops.is_unbooked or is_ending
 
@@ -222,7 +222,7 @@ class Motion:
 
     def see_it_stand(self) -> None:
         """Send zeros until it does: nobody knows what it has heard last."""
-        self.zeroing.begin(self._clock.now_s())
+        self.stop_confirmation.begin(self._clock.now_s())
 
     def give_up(self, why: Reason) -> None:
         """The wire is closed for good, and with it the way to the robot: all that was asked for ends as failed."""
@@ -231,13 +231,13 @@ class Motion:
     def leave(self) -> None:
         """Goodbye to the guard; where the robot is out of sight, and may move, no word is said, so that it goes on
         sending zeros."""
-        if not (self.zeroing.has_lost_sight and self._robot.may_move):
+        if not (self.stop_confirmation.has_lost_sight and self._robot.may_move):
             self._guard.goodbye()
 
     def tick(self) -> None:
         """One period of the control loop."""
         now_s = self._clock.now_s()
-        late_s = self._freeze.tick(
+        late_s = self._stall_detector.tick(
             now_s,
             is_driven=self._driver.is_driving or self._relay.is_driving or self._joystick.is_driving,
             is_engaged=self._jobs.current is not None,
@@ -254,15 +254,17 @@ class Motion:
         self._book_stop()
         self._jobs.expire_approval(now_s)
         if not self._driver.is_driving:
-            self.zeroing.tick(now_s)
-            if self.zeroing.is_at_rest:
+            self.stop_confirmation.tick(now_s)
+            if self.stop_confirmation.is_at_rest:
                 self._robot.may_move = False
-        if not self.zeroing.is_watched:
+        if not self.stop_confirmation.is_watched:
             self._ends.tell_all()
-        self._pausing.watch(now_s, is_standing=not self.zeroing.is_watched)
+        self._pausing.watch(now_s, is_standing=not self.stop_confirmation.is_watched)
         self._relay.tick(now_s, self._is_free)
         self._begin_next(now_s)
-        self._freeze.beat(self._clock.now_s())  # last: it wakes the guard, which may take this processor
+        self._stall_detector.beat(
+            self._clock.now_s()
+        )  # last: it wakes the guard, which may take this processor
         self._telling.tick(now_s)
 
     def _book_stop(self) -> None:
@@ -277,9 +279,9 @@ class Motion:
             self._joystick.stop()
 
     def _begin_next(self, now_s: float) -> None:
-        if self.zeroing.disobeyed is not None:
-            self._jobs.refuse_all(self.zeroing.disobeyed)
-        if not (self.zeroing.is_active or self._relay.is_driving):
+        if self.stop_confirmation.disobeyed is not None:
+            self._jobs.refuse_all(self.stop_confirmation.disobeyed)
+        if not (self.stop_confirmation.is_active or self._relay.is_driving):
             self._jobs.begin_next(now_s)
 
     def _is_free(self) -> bool:
@@ -288,8 +290,8 @@ class Motion:
 
     def _is_clear(self) -> bool:
         """Nothing stops the robot, and nothing keeps it from moving."""
-        is_stopped = self.zeroing.is_active or self.sensors.bumped or self._stops.is_unbooked
-        return not is_stopped and self.clearance.barrier() is None
+        is_stopped = self.stop_confirmation.is_active or self.sensors.bumped or self._stops.is_unbooked
+        return not is_stopped and self.interlock.barrier() is None
 
     def _notice(self, reason: Reason) -> None:
         self._emit(Notice(0, reason))

@@ -33,12 +33,12 @@ from chatrobot.motion.budgets import open_loop_notice
 from chatrobot.motion.motion import Motion
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.program_host import ProgramHost
+from chatrobot.motion.safety.competing_controllers import BEAT_S, CompetingControllers
+from chatrobot.motion.safety.connection import ReconnectingWire, reach
+from chatrobot.motion.safety.connection_monitor import ConnectionMonitor
 from chatrobot.motion.safety.guard_link import GuardProcess
-from chatrobot.motion.safety.link import PatientWire, reach
-from chatrobot.motion.safety.lookout import Lookout
-from chatrobot.motion.safety.rivals import BEAT_S, Rivals
+from chatrobot.motion.safety.stop import PAUSED
 from chatrobot.motion.safety.stop_socket import remove_stop_socket, serve_stop
-from chatrobot.motion.safety.stops import PAUSED
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import load_profile
@@ -125,12 +125,12 @@ class MotionRunner:
             releasers,
             self.programs,
         )
-        self._rivals = Rivals(
+        self._competitors = CompetingControllers(
             self.wire, node, self.profile.wiring.cmd_vel_topic, open_loop_notice(self.profile)
         )
-        self._lookout = Lookout(
+        self._lookout = ConnectionMonitor(
             self.wire,
-            self._rivals,
+            self._competitors,
             self.motion,
             self.profile,
             self.notice,
@@ -144,7 +144,7 @@ class MotionRunner:
 
     def _open(self, said: list[Reason]) -> None:
         """Begin to listen, once the guard is there; what a person should know of the robot is told first."""
-        if isinstance(self.wire, PatientWire):  # a robot that nobody reaches holds what it heard last
+        if isinstance(self.wire, ReconnectingWire):  # a robot that nobody reaches holds what it heard last
             self.wire.on_gone = lambda: self.motion.halt(Reason("wire_gone"))
         if not self._guard.wait_until_alive(GUARD_S):
             raise WireError("the guard did not start")
@@ -199,7 +199,7 @@ class MotionRunner:
     def receive(self, envelope: Envelope, said_in: int | None = None) -> None:
         """Take in an envelope; a stop is out before this returns. `said_in`: see `Motion.receive`."""
         self.motion.receive(envelope, said_in)
-        self._rivals.note_source(envelope.lease)
+        self._competitors.note_source(envelope.lease)
         if envelope.word != "beat":
             self._wake.set()
 
@@ -250,7 +250,7 @@ class MotionRunner:
         """Stop; what was found, for `chatrobot stop` to say: `moving`, `waiting`, `standing` or `unseen`."""
         has_work = self.motion.has_work  # looked up, not asked for: nothing holds the zero up
         self.halt("chatrobot stop", "")
-        sight = self.motion.zeroing.sight
+        sight = self.motion.stop_confirmation.sight
         return "waiting" if sight == "standing" and has_work else sight
 
 

@@ -21,8 +21,8 @@ from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.intake import Intake
 from chatrobot.motion.job import Job
 from chatrobot.motion.programs.program_job import ProgramJob
-from chatrobot.motion.safety.clearance import Clearance
-from chatrobot.motion.safety.stops import Stops
+from chatrobot.motion.safety.interlock import Interlock
+from chatrobot.motion.safety.stop import Stops
 
 KEPT_S = 600.0
 SILENT_S = 2.0
@@ -117,7 +117,7 @@ class Pausing:
         self,
         robot: GovernedRobot,
         intake: Intake,
-        clearance: Clearance,
+        interlock: Interlock,
         stops: Stops,
         clock: Clock,
         ends: Ends,
@@ -125,7 +125,7 @@ class Pausing:
     ) -> None:
         self._robot = robot
         self._intake = intake
-        self._clearance = clearance
+        self._interlock = interlock
         self._stops = stops
         self._clock = clock
         self._ends = ends
@@ -151,8 +151,8 @@ class Pausing:
         if self._robot.governor.leases.is_valid(paused.job.lease, now_s):
             self._heard_s = now_s
         is_gone = now_s - self._heard_s > SILENT_S
-        lease_barrier = self._clearance.barrier_for(paused.job.lease, now_s) if is_gone else None
-        why = self._clearance.barrier() or lease_barrier or paused.lapsed(now_s, self._robot.pose)
+        lease_barrier = self._interlock.barrier_for(paused.job.lease, now_s) if is_gone else None
+        why = self._interlock.barrier() or lease_barrier or paused.lapsed(now_s, self._robot.pose)
         if why is not None:
             self.drop(why)
         elif is_standing and not paused.has_settled:

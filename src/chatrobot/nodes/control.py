@@ -21,7 +21,7 @@ from chatrobot.governor.priority import RELEASERS
 from chatrobot.link.envelope import Envelope, Word
 from chatrobot.link.topics import CHATGPT_NODE, EVENTS, TELEMETRY
 from chatrobot.motion.motion_runner import MotionRunner
-from chatrobot.motion.safety.zeroing import Sight
+from chatrobot.motion.safety.stop_confirmation import Sight
 from chatrobot.nodes.foreign import Foreign
 from chatrobot.wire.connect import Connect, advertise, connect_wire, resolved
 from chatrobot.wire.messages import Text
@@ -144,11 +144,11 @@ class ControlNode:
 
     def _serve_stop(self) -> tuple[bool, str]:
         self._runner.halt(SERVICE, "~/stop")
-        return True, STOP_SENT[self._runner.motion.zeroing.sight]
+        return True, STOP_SENT[self._runner.motion.stop_confirmation.sight]
 
     def _serve_emergency_stop(self) -> tuple[bool, str]:
         self._runner.receive(self._service_envelope("emergency_stop", SERVICE))
-        sent = STOP_SENT[self._runner.motion.zeroing.sight]
+        sent = STOP_SENT[self._runner.motion.stop_confirmation.sight]
         return True, f"{sent}; nothing moves until the emergency stop is released"
 
     def _serve_release(self) -> tuple[bool, str]:
@@ -168,7 +168,7 @@ class ControlNode:
         from chatrobot.nodes.citizen import Diagnosis
 
         motion = self._runner.motion
-        barred = motion.latched or motion.clearance.obstruction
+        barred = motion.latched or motion.interlock.obstruction
         values: dict[str, object] = {
             "moving": motion.is_busy,
             **{f"{name}_age_s": round(age_s, 2) for name, age_s in motion.sensors.ages_s().items()},

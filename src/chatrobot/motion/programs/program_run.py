@@ -15,10 +15,10 @@ from chatrobot.core.reason import Reason
 from chatrobot.execution.health import STANDS_LATE_S, is_seen_moving, is_seen_standing
 from chatrobot.governor.governor import TICK_S, Verdict
 from chatrobot.governor.lease import TERM_S
+from chatrobot.motion.deceleration_ramp import decelerated
 from chatrobot.motion.governed_motion import GovernedMotion, is_worth_telling
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.programs.program_job import ProgramJob
-from chatrobot.motion.soft_zero import softened
 from chatrobot.programs.events import Died, Ended, Log, Output, ProgramEvent, Raised, TwistAsked
 from chatrobot.programs.held_twist import HeldTwist
 from chatrobot.programs.raised import raised_reason
@@ -86,7 +86,7 @@ class ProgramRun:
             self._notice_fault()
         asked = self._held.at(now_s) if self._ended_s is None else ZERO_TWIST
         if self.outcome == "completed" or self._ramps_down:
-            asked = softened(asked, self._sent, self._limits, now_s - since_s)
+            asked = decelerated(asked, self._sent, self._limits, now_s - since_s)
         verdict = self._motion.send(asked, now_s)
         self._sent = verdict.sent.twist
         over = self._motion.over_budget()

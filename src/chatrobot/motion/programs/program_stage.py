@@ -14,8 +14,8 @@ from chatrobot.core.governed import StopEpoch
 from chatrobot.core.reason import Reason
 from chatrobot.governor.governor import TICK_S, Governor, Verdict
 from chatrobot.governor.rule import Sensed
+from chatrobot.motion.deceleration_ramp import decelerated
 from chatrobot.motion.governed_motion import is_cut_short
-from chatrobot.motion.soft_zero import softened
 from chatrobot.programs.held_twist import HeldTwist
 from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.sim.lies import HONEST
@@ -132,7 +132,7 @@ class ProgramStage:
     def _govern(self) -> None:
         now_s = self.now_s
         held = self._held.at(now_s)
-        asked = softened(held, self._sent, self._profile.limits, min(now_s - self._governed_s, TICK_S))
+        asked = decelerated(held, self._sent, self._profile.limits, min(now_s - self._governed_s, TICK_S))
         verdict = self._governor.govern(asked, LEASE, now_s, self.robot.true_pose, self._sensed)
         self._transport.send(verdict.sent)
         self._sent, self._governed_s = verdict.sent.twist, now_s

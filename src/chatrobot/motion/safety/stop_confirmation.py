@@ -15,7 +15,7 @@ PATIENCE_S = STANDS_LATE_S
 Sight = Literal["moving", "standing", "unseen"]
 
 
-class Zeroing:
+class StopConfirmation:
     """Belongs to the control thread: `begin` with every stop, `tick` while nothing of ours moves the robot.
 
     Args:

@@ -12,7 +12,7 @@ from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.robots.profile import Limits
 
 
-def softened(asked: Twist, sent: Twist, limits: Limits, dt_s: float) -> Twist:
+def decelerated(asked: Twist, sent: Twist, limits: Limits, dt_s: float) -> Twist:
     """What to ask for where the program asks `asked` and `sent` was sent `dt_s` before."""
     if not asked.is_zero or sent.is_zero:
         return asked

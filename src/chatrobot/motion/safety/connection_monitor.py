@@ -13,8 +13,8 @@ from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import ODOM_TOPIC
 from chatrobot.motion.hints import why_unheard
 from chatrobot.motion.motion import Motion
-from chatrobot.motion.safety.link import is_up
-from chatrobot.motion.safety.rivals import BEAT_S, Rivals
+from chatrobot.motion.safety.competing_controllers import BEAT_S, CompetingControllers
+from chatrobot.motion.safety.connection import is_up
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.connect import Surveying, has_null_ranges, publishers_of, resolved
 from chatrobot.wire.wire import Wire
@@ -26,7 +26,7 @@ SURVEY_EVERY = 20
 """All that is on the wire is looked through with every twentieth beat, and only while odometry was never heard."""
 
 
-class Lookout:
+class ConnectionMonitor:
     """Tells Motion what keeps the robot from moving, and people what has changed. Belongs to a thread of its own.
 
     Args:
@@ -37,7 +37,7 @@ class Lookout:
     def __init__(
         self,
         wire: Wire,
-        rivals: Rivals,
+        competitors: CompetingControllers,
         motion: Motion,
         profile: RobotProfile,
         notice: Callable[[Reason], None],
@@ -45,7 +45,7 @@ class Lookout:
         accept_others: bool,
     ) -> None:
         self._wire = wire
-        self._rivals = rivals
+        self._competitors = competitors
         self._motion = motion
         self._profile = profile
         self._odometry: list[str] = []
@@ -63,7 +63,7 @@ class Lookout:
         while True:
             with contextlib.suppress(WireError):  # gone: the control loop will see it, too
                 self._mind_wire()
-                self._rivals.beat()
+                self._competitors.beat()
                 if count % LOOK_EVERY == 0:
                     self.look_around()
                 if count % SURVEY_EVERY == 0:
@@ -76,18 +76,18 @@ class Lookout:
         if not self._told_of_nulls and has_null_ranges(self._wire):
             self._told_of_nulls = True
             self._notice(Reason("open_space_unknown", {"speed_mps": self._profile.safety.blind_speed_mps}))
-        motions = self._rivals.motions()
-        others = sorted({*motions, *self._rivals.others()})
+        motions = self._competitors.motions()
+        others = sorted({*motions, *self._competitors.others()})
         is_settled, self._seen = others == self._seen, others  # a name from discovery alone soon gets better
         if is_settled and others != self._named:
             reason = Reason("not_alone", {"who": ", ".join(others)}) if others else Reason("alone_again")
             self._named = others
             self._notice(reason)
-        self._motion.zeroing.others = ", ".join(others)
+        self._motion.stop_confirmation.others = ", ".join(others)
         self._motions = motions
         if self._profile.open_loop:
             self._odometry = publishers_of(self._wire, ODOM_TOPIC)
-        self._motion.clearance.obstruction = self._obstruction()
+        self._motion.interlock.obstruction = self._obstruction()
 
     def _look_for_odometry(self) -> None:
         """Why none comes, for who asks the robot to move."""
@@ -104,7 +104,7 @@ class Lookout:
         if is_there == self._was_up:
             return
         self._was_up = is_there
-        self._motion.clearance.obstruction = self._obstruction()
+        self._motion.interlock.obstruction = self._obstruction()
         self._notice(Reason("wire_back" if is_there else "wire_gone"))
         if is_there:
             self._motion.post(self._motion.see_it_stand)

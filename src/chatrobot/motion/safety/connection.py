@@ -30,7 +30,7 @@ SURVEY_S = 0.8
 LOOK_S = 0.05
 
 
-class PatientWire:
+class ReconnectingWire:
     """A wire whose other end may return: what cannot be sent meanwhile is dropped, as on every other wire.
 
     `on_gone` is called once for each time that it goes, by whatever thread finds out.
@@ -101,7 +101,7 @@ def reach(connect: Connect, address: str, wiring: Wiring, node: str) -> Reached:
     wire = _connect_patiently(connect, address, wiring, node)
     fitted, said = _survey(wire, wiring)
     advertise(wire, fitted.cmd_vel_topic, TwistMessage)
-    return Reached(PatientWire(wire) if comes_back(wire) else wire, fitted, said)
+    return Reached(ReconnectingWire(wire) if comes_back(wire) else wire, fitted, said)
 
 
 def _connect_patiently(connect: Connect, address: str, wiring: Wiring, node: str) -> Wire:

@@ -20,7 +20,7 @@ ANSWERED_TICKS = 10
 """The guard tells of a trip within so many ticks, or it is taken for dead."""
 
 
-class FreezeWatch:
+class StallDetector:
     """Looks at the clock and at the guard with every tick, before anything else is done."""
 
     def __init__(self, clock: Clock, guard: GuardLink, halt: Callable[[Reason], None]) -> None:

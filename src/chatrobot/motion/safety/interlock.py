@@ -8,7 +8,7 @@ from chatrobot.governor.governor import Governor
 from chatrobot.motion.safety.guard_link import GuardLink
 
 
-class Clearance:
+class Interlock:
     """Asked before every motion and with every tick of one. Belongs to the control thread but for `obstruction`."""
 
     def __init__(self, governor: Governor, guard: GuardLink) -> None:

@@ -25,7 +25,7 @@ NODES = ("chatrobot_motion", "chatrobot_control")
 GUARDS = ("chatrobot_guard",)
 
 
-class Rivals:
+class CompetingControllers:
     """Tells others that this Motion is there, and hears who else is.
 
     Args:

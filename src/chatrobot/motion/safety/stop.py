@@ -5,7 +5,7 @@ from __future__ import annotations
 from chatrobot.core.clock import Clock
 from chatrobot.core.governed import StopEpoch
 from chatrobot.core.reason import Reason
-from chatrobot.motion.safety.zeroing import Zeroing
+from chatrobot.motion.safety.stop_confirmation import StopConfirmation
 from chatrobot.transports.transport import Transport
 
 PAUSED = "paused_by"
@@ -18,10 +18,12 @@ class Stops:
     Booking means that what ran and what waited is told its end, and that the robot is seen standing.
     """
 
-    def __init__(self, epoch: StopEpoch, transport: Transport, zeroing: Zeroing, clock: Clock) -> None:
+    def __init__(
+        self, epoch: StopEpoch, transport: Transport, stop_confirmation: StopConfirmation, clock: Clock
+    ) -> None:
         self._epoch = epoch
         self._transport = transport
-        self._zeroing = zeroing
+        self._stop_confirmation = stop_confirmation
         self._clock = clock
         self._booked = epoch.value
         self._asked = self._booked_ask = object()
@@ -68,7 +70,7 @@ class Stops:
         self._booked_ask = self._asked
         self._booked = self._epoch.value
         cleared, self._booked_clear = self._cleared is not self._booked_clear, self._cleared
-        self._zeroing.begin(self._clock.now_s())
+        self._stop_confirmation.begin(self._clock.now_s())
         return self._clear_reason if cleared else self.last_reason
 
     def halt_and_book(self, why: Reason) -> None:
@@ -82,4 +84,4 @@ class Stops:
         )  # two at the same instant may share one value: the count alone does not tell
         if self._asked is self._booked_ask:
             self._booked, self.last_reason = count, why
-        self._zeroing.begin(self._clock.now_s())
+        self._stop_confirmation.begin(self._clock.now_s())
