@@ -41,7 +41,7 @@ class UndoRig:
         wire, guard = hub.connect(), SimulatedGuard(clock)
 
         def build(emit: Callable[[Event], None]) -> Motion:
-            motion = Motion(profile, wire, clock, Planner(profile, around), guard, emit, lambda job: job())
+            motion = Motion(profile, wire, clock, Planner(profile, around), guard, emit, lambda goal: goal())
             self._motion_of.append(motion)
             return motion
 

@@ -57,7 +57,7 @@ class SimulatedRig:
 
         def build(emit: Callable[[Event], None]) -> Motion:
             planner = Planner(profile, load_world("empty"))
-            return Motion(profile, wire, clock, planner, guard, emit, lambda job: job(), releasers)
+            return Motion(profile, wire, clock, planner, guard, emit, lambda goal: goal(), releasers)
 
         self.joint: Joint = SimulatedJoint(
             build, wire, clock, self.robot.step, guard, hub.connect(), "cmd_vel"

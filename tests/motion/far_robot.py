@@ -101,7 +101,7 @@ class Rig:
 
         def build(emit: Callable[[Event], None]) -> Motion:
             planner = Planner(profile, load_world("empty"))
-            self.motion = Motion(profile, wire, self.clock, planner, guard, emit, lambda job: job())
+            self.motion = Motion(profile, wire, self.clock, planner, guard, emit, lambda goal: goal())
             return self.motion
 
         self.joint = SimulatedJoint(

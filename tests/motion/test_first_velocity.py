@@ -44,7 +44,7 @@ def test_no_zero_follows_the_first_velocity() -> None:
 
     def build(emit: Callable[[Event], None]) -> Motion:
         planner = Planner(profile, load_world("empty"))
-        return Motion(profile, wire, ClockThatPasses(clock), planner, guard, emit, lambda job: job())
+        return Motion(profile, wire, ClockThatPasses(clock), planner, guard, emit, lambda goal: goal())
 
     joint = SimulatedJoint(build, wire, clock, robot.step, guard, hub.connect(), "cmd_vel")
     joint.next_event(0.3)

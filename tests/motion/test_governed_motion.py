@@ -15,11 +15,11 @@ from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.governed import StopEpoch
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
+from chatrobot.motion.goal import Goal
 from chatrobot.motion.governed_motion import Stopwatch
 from chatrobot.motion.governed_robot import GovernedRobot
-from chatrobot.motion.job import Job
 from chatrobot.motion.planner import Planner
-from chatrobot.motion.programs.program_job import ProgramJob
+from chatrobot.motion.programs.program_goal import ProgramGoal
 from chatrobot.motion.programs.program_run import ProgramRun
 from chatrobot.motion.run import Run
 from chatrobot.programs.events import ProgramEvent, TwistAsked
@@ -55,12 +55,12 @@ class Drives:
         pass
 
 
-def job(kind: type[Job], lease: str) -> Job:
+def goal(kind: type[Goal], lease: str) -> Goal:
     return kind(1, lease, "drive 5 m", False, False, 0, 0.0)
 
 
-@pytest.mark.parametrize("kind", [Job, ProgramJob])
-def test_the_governor_is_told_where_the_robot_is_by_now(kind: type[Job]) -> None:
+@pytest.mark.parametrize("kind", [Goal, ProgramGoal])
+def test_the_governor_is_told_where_the_robot_is_by_now(kind: type[Goal]) -> None:
     clock, hub, epoch = VirtualClock(), MemoryHub(), StopEpoch()
     sensors, robot = Sensors(PROFILE, clock), hub.connect()
     sensors.attach(hub.connect())
@@ -79,10 +79,10 @@ def test_the_governor_is_told_where_the_robot_is_by_now(kind: type[Job]) -> None
     governor.leases.open("us", "console", 10.0, now_s)
     governed = GovernedRobot(PROFILE, sensors, governor, transport)
     assert governed.begin("us", now_s) is None
-    asked = job(kind, "us")
+    asked = goal(kind, "us")
     asked.start = seen.pose
     run: Run | ProgramRun
-    if isinstance(asked, ProgramJob):
+    if isinstance(asked, ProgramGoal):
         run = ProgramRun(asked, Drives(), governed, lambda _: None, now_s)
     else:
         asked.take(Planner(PROFILE, load_world("empty")).plan(1, "drive 5 m", seen.pose))

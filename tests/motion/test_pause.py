@@ -201,17 +201,17 @@ def test_a_question_leaves_it_paused(text: str) -> None:
 
 @pytest.mark.parametrize("moved", [Pose(0.06, 0.0, 0.0), Pose(0.0, 0.0, math.radians(6.0))])
 def test_it_is_dropped_where_the_robot_is_moved(moved: Pose) -> None:
-    from chatrobot.motion.job import Job
-    from chatrobot.motion.paused import PausedJob
+    from chatrobot.motion.goal import Goal
+    from chatrobot.motion.paused import PausedGoal
 
     stood = Pose(1.0, 2.0, 0.5)
     so_far = Finished(1, "stopped", None, Pose(), stood, 0.0, 1.0, 3.0, 0.0, remaining="drive 1 m")
-    job = PausedJob(Job(1, "me", "drive 2 m", False, False, 0, 0.0), lambda: so_far, 10.0)
-    assert job.lapsed(20.0, stood.compose(moved)) is None, "it has not come to stand"
-    job.settle()
-    assert job.lapsed(20.0, stood) is None
-    assert job.lapsed(20.0, stood.compose(Pose(0.04, 0.0, math.radians(4.0)))) is None
-    lapsed = job.lapsed(20.0, stood.compose(moved))
+    goal = PausedGoal(Goal(1, "me", "drive 2 m", False, False, 0, 0.0), lambda: so_far, 10.0)
+    assert goal.lapsed(20.0, stood.compose(moved)) is None, "it has not come to stand"
+    goal.settle()
+    assert goal.lapsed(20.0, stood) is None
+    assert goal.lapsed(20.0, stood.compose(Pose(0.04, 0.0, math.radians(4.0)))) is None
+    lapsed = goal.lapsed(20.0, stood.compose(moved))
     assert lapsed is not None
     assert lapsed.code == "pause_robot_moved"
 

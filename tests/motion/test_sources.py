@@ -10,7 +10,7 @@ from tests.safety.test_who_drives import Crowd
 
 from chatrobot.governor.lease import Leases
 from chatrobot.link.envelope import Envelope
-from chatrobot.motion.intake import Intake
+from chatrobot.motion.goal_queue import GoalQueue
 from chatrobot.motion.safety import competing_controllers
 from chatrobot.motion.safety.competing_controllers import CompetingControllers
 from chatrobot.motion.sources import MANY_SOURCES, MOST_SOURCES, Sources
@@ -22,23 +22,25 @@ class Rig:
     """Sources and what is kept of what they said."""
 
     def __init__(self) -> None:
-        self.leases, self.intake, self.engaged = Leases(), Intake(), set[str]()
-        self.sources = Sources(self.leases, self.engaged.__contains__, self.intake.forget)
+        self.leases, self.goal_queue, self.engaged = Leases(), GoalQueue(), set[str]()
+        self.sources = Sources(self.leases, self.engaged.__contains__, self.goal_queue.forget)
 
     def say(self, lease: str, word: str, now_s: float, sequence: int = 1) -> None:
         envelope = Envelope(word, "agent", lease, sequence, payload={"term_s": 0.3})  # type: ignore[arg-type]
         if word == "stop":
-            self.intake.void_turn(lease, 1)
+            self.goal_queue.void_turn(lease, 1)
         self.sources.note(lease, now_s)
-        if not self.intake.is_old(envelope):
+        if not self.goal_queue.is_old(envelope):
             self.sources.hear(envelope, now_s)
             if word == "goodbye":
                 self.sources.leave(lease)
 
     @property
     def kept(self) -> int:
-        intake, sources = self.intake, self.sources
-        return max(map(len, (intake._sequences, intake._void_turns, sources._known, sources._leaving)))
+        goal_queue, sources = self.goal_queue, self.sources
+        return max(
+            map(len, (goal_queue._sequences, goal_queue._void_turns, sources._known, sources._leaving))
+        )
 
 
 @pytest.mark.parametrize("word", ["hello", "stop", "goodbye", "look"])
@@ -69,7 +71,7 @@ def test_who_drives_or_waits_is_never_forgotten() -> None:
     for number in range(3 * MOST_SOURCES):
         rig.say(f"new-{number}", "hello", 0.0)
     assert rig.leases.is_valid("driver", 1e6), "what is queued is still done"
-    assert rig.intake.is_old(Envelope("plan", "agent", "driver", 8))
+    assert rig.goal_queue.is_old(Envelope("plan", "agent", "driver", 8))
     assert rig.sources.has_left("driver")
 
 

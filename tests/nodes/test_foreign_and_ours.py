@@ -29,8 +29,8 @@ class Runner:
     def notice(self, reason: Any) -> None:
         self.notices.append(reason.code)
 
-    def in_background(self, job: Any) -> None:
-        job()
+    def in_background(self, goal: Any) -> None:
+        goal()
 
 
 def control_with(runner: Any, foreign: Foreign) -> ControlNode:

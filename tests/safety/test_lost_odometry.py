@@ -11,7 +11,7 @@ import pytest
 from chatrobot.core.events import Limited, Notice
 from chatrobot.core.geometry import Twist
 from chatrobot.motion.planner import Planned, Planner
-from chatrobot.motion.programs.program_job import ProgramJob
+from chatrobot.motion.programs.program_goal import ProgramGoal
 from chatrobot.motion.seen_world import SeenPoints
 from chatrobot.programs.events import ProgramEvent, TwistAsked
 from chatrobot.robots.profile import Circle, RobotProfile
@@ -38,10 +38,10 @@ class Box:
     def attach(self, wire: Any) -> None:
         pass
 
-    def rehearse(self, job: ProgramJob, planner: Planner, seen: SeenPoints | None) -> Planned:  # noqa: ARG002
-        return planner.plan(job.turn, "drive 0.5 m", job.start)
+    def rehearse(self, goal: ProgramGoal, planner: Planner, seen: SeenPoints | None) -> Planned:  # noqa: ARG002
+        return planner.plan(goal.turn, "drive 0.5 m", goal.start)
 
-    def launch(self, job: ProgramJob) -> Drives:  # noqa: ARG002 - the protocol's
+    def launch(self, goal: ProgramGoal) -> Drives:  # noqa: ARG002 - the protocol's
         return Drives()
 
 
@@ -63,7 +63,7 @@ def driven(rig: Rig, source: str, duration_s: float) -> None:
 @pytest.mark.parametrize("change", [lambda profile: profile, blind_and_fenced], ids=["free", "fenced"])
 def test_a_robot_whose_odometry_falls_silent_is_stopped(change: Any, source: str) -> None:
     rig = Rig(change)
-    rig.motion._jobs._programs = rig.motion._driver._programs = Box()  # type: ignore[assignment]
+    rig.motion._goals._programs = rig.motion._driver._programs = Box()  # type: ignore[assignment]
     if source == "plan":
         rig.begin("drive 1 m")
     elif source == "program":

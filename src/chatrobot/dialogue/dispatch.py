@@ -8,8 +8,8 @@ from dataclasses import replace
 from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Event, Interpreted, Notice, Paused
 from chatrobot.core.reason import Reason
+from chatrobot.dialogue.goal_client import GoalClient
 from chatrobot.dialogue.llm.thinking import Thinking
-from chatrobot.dialogue.orders import Orders
 from chatrobot.dialogue.parting import parting
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.dialogue.programs.program_turns import ProgramTurns
@@ -40,7 +40,7 @@ class Dispatch:
     def __init__(
         self,
         joint: Joint,
-        orders: Orders,
+        goals: GoalClient,
         said: SaidTexts,
         understanding: Understanding,
         book: TurnBook,
@@ -53,7 +53,7 @@ class Dispatch:
         hears_robot_soon: Callable[[], bool],
     ) -> None:
         self._joint = joint
-        self._orders = orders
+        self._goals = goals
         self._said = said
         self._understanding = understanding
         self._book = book
@@ -120,7 +120,7 @@ class Dispatch:
         """Go on with what is paused; what is left of a plan that was stopped is offered."""
         self._understanding.hear_language(said.text)
         paused = self._resuming.take_paused()
-        self._orders.is_paused = False
+        self._goals.is_paused = False
         if paused is None and self._said.held:
             reply = self._told("goes_on", None)
             self._said.release()
@@ -133,7 +133,7 @@ class Dispatch:
             self._act_on(said, meant or Interpretation("answered", reply, self._understanding.language))
             return
         reply = self._told("goes_on", paused)  # before what waits is released
-        self._orders.resume(paused.turn)
+        self._goals.resume(paused.turn)
         self._said.release()
         self._emit(Interpreted(paused.turn, "offline", paused.plan_text, ""))
         self._emit(Interpreted(said.turn, "offline", "", reply))
@@ -219,7 +219,7 @@ class Dispatch:
         return self._resuming.under_way.told(running[0], steps, meant.language, self._understanding.speed_mps)
 
     def _ask_model(self, said: Said, meant: Interpretation) -> None:
-        options, mode = self._orders.options, self._orders.mode
+        options, mode = self._goals.options, self._goals.mode
         if mode == "replace":
             self._thinking.replace()
         self._thinking.begin(
@@ -232,7 +232,7 @@ class Dispatch:
         )
         if self._said.is_void_turn(said.turn):
             self._thinking.cancel(self._said.stopped_by)  # a stop came while it was being understood
-        if self._said.pauses != self._orders.pauses:
+        if self._said.pauses != self._goals.pauses:
             self._thinking.cancel_unmoved(Reason("paused_by"))
 
     def _read_plan(self, said: Said) -> None:
@@ -265,10 +265,10 @@ class Dispatch:
             return before
 
     def _send_plan(self, said: Said, meant: Interpretation, plan_text: str) -> None:
-        mode = "append" if meant.append else self._orders.mode
+        mode = "append" if meant.append else self._goals.mode
         if mode == "replace":
             self._thinking.replace()
         if mode == "append" and self._resuming.paused is not None:
             self._emit(Notice(said.turn, Reason("waits_behind_pause")))
         self._book.track(said.turn, said.text, meant)
-        self._orders.plan(said.turn, plan_text, mode, asks=said.kind == "edited_plan")
+        self._goals.plan(said.turn, plan_text, mode, asks=said.kind == "edited_plan")

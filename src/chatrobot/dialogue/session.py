@@ -16,12 +16,12 @@ from chatrobot.core.motion_budget import OPEN_LOOP
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.dispatch import Dispatch
 from chatrobot.dialogue.early import EarlyAnswers
+from chatrobot.dialogue.goal_client import GoalClient
 from chatrobot.dialogue.llm.model_terms import Ended
 from chatrobot.dialogue.llm.thinking import Mind, Thinking
 from chatrobot.dialogue.next_text import NextText
 from chatrobot.dialogue.observations import measured
 from chatrobot.dialogue.options import Options
-from chatrobot.dialogue.orders import Orders
 from chatrobot.dialogue.programs.authoring import Authoring
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.dialogue.programs.program_turns import ProgramTurns
@@ -60,7 +60,7 @@ class Session:
         self._joint = joint
         self.understanding = understanding
         self._on_event = on_event
-        self._orders = Orders(joint, options)
+        self._goals = GoalClient(joint, options)
         self._said = SaidTexts()
         self._proposals = Proposals(understanding, self._said.is_void_turn)
         self._book = TurnBook(understanding, self._emit)
@@ -87,11 +87,11 @@ class Session:
         if authoring is not None:
             is_void = self._said.is_void_turn
             self._programs = ProgramTurns(
-                authoring, understanding, self._book, self._orders, self._emit, is_void
+                authoring, understanding, self._book, self._goals, self._emit, is_void
             )
         self._dispatch = Dispatch(
             joint,
-            self._orders,
+            self._goals,
             self._said,
             understanding,
             self._book,
@@ -107,11 +107,11 @@ class Session:
     @property
     def options(self) -> Options:
         """They may be replaced between two turns, but for who interprets."""
-        return self._orders.options
+        return self._goals.options
 
     @options.setter
     def options(self, options: Options) -> None:
-        self._orders.options = options
+        self._goals.options = options
 
     @property
     def results(self) -> dict[int, Result]:
@@ -289,7 +289,7 @@ class Session:
             self._book.conclude(said.turn, "refused", self.understanding.say("queue_full", said.text))
         self._next.drop_held()
         while (found := self._find_next()) is not None:
-            self._orders.pauses = self._said.pauses
+            self._goals.pauses = self._said.pauses
             if (taken := self._said.take(found)) is not None:
                 self._dispatch.take(taken)
                 self._next.drop_held()
@@ -329,7 +329,7 @@ class Session:
         if self._book.has(event.turn) or self._thinking.has(event.turn):
             was_paused = self.is_plan_paused
             self._resuming.hear(event)
-            self._orders.is_paused = self.is_plan_paused
+            self._goals.is_paused = self.is_plan_paused
             if was_paused and not self.is_plan_paused:
                 self._said.drop_held(self._resuming.ended_by)
         if self._programs is not None and self._programs.hear(event):

@@ -1,4 +1,4 @@
-"""Drives one job at a time: launched once it has been rehearsed and approved, ticked at 50 Hz, ended as measured.
+"""Drives one goal at a time: launched once it has been rehearsed and approved, ticked at 50 Hz, ended as measured.
 
 A motion ends at once, and its end is told once the robot stands: a robot that was stopped rolls on until it has braked,
 and only then do pose, turn and path say what became of the motion.
@@ -15,11 +15,11 @@ from chatrobot.core.reason import Reason
 from chatrobot.execution.health import is_seen_moving
 from chatrobot.motion.budgets import REACHED
 from chatrobot.motion.ends import Ends
+from chatrobot.motion.goal import Goal
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.inbox import Inbox
-from chatrobot.motion.job import Job
 from chatrobot.motion.programs.program_box import ProgramBox
-from chatrobot.motion.programs.program_job import ProgramJob
+from chatrobot.motion.programs.program_goal import ProgramGoal
 from chatrobot.motion.programs.program_run import LiveProgram, ProgramRun
 from chatrobot.motion.run import Run
 from chatrobot.motion.safety.interlock import Interlock
@@ -32,7 +32,7 @@ FAILURES = frozenset(
 
 
 class Driver:
-    """Has the `job` it was given from `launch` until its end is told. Belongs to the control thread."""
+    """Has the `goal` it was given from `launch` until its end is told. Belongs to the control thread."""
 
     def __init__(
         self,
@@ -54,51 +54,51 @@ class Driver:
         self._clock = clock
         self._emit = emit
         self._run: Run | ProgramRun | None = None
-        self.job: Job | None = None
+        self.goal: Goal | None = None
         """What is being launched or driven."""
 
     @property
     def is_driving(self) -> bool:
         return self._run is not None
 
-    def drives(self, job: Job) -> bool:
-        """Whether that job is under way."""
-        return self._run is not None and self._run.job is job
+    def drives(self, goal: Goal) -> bool:
+        """Whether that goal is under way."""
+        return self._run is not None and self._run.goal is goal
 
     # --- begin ---
 
-    def launch(self, job: Job) -> None:
+    def launch(self, goal: Goal) -> None:
         """Begin to drive what has been rehearsed, or refuse it. Nothing else may be under way."""
         now_s = self._clock.now_s()
-        self.job = job
-        barrier = self._interlock.barrier_for(job.lease, now_s) or self._robot.begin(job.lease, now_s)
+        self.goal = goal
+        barrier = self._interlock.barrier_for(goal.lease, now_s) or self._robot.begin(goal.lease, now_s)
         if barrier is not None:
             self._give_up("refused", barrier)
         elif self._stops.is_unbooked:
             return  # stopped a moment ago, from another thread: the wheel was taken after it; it will end as stopped
-        elif isinstance(job, ProgramJob):
-            self._launch_program(job)
+        elif isinstance(goal, ProgramGoal):
+            self._launch_program(goal)
         else:
-            self._set_out(Run(job, self._robot, self._emit, now_s), now_s)
+            self._set_out(Run(goal, self._robot, self._emit, now_s), now_s)
 
-    def _launch_program(self, job: ProgramJob) -> None:
+    def _launch_program(self, goal: ProgramGoal) -> None:
         """Start it in its box, off this thread; it runs from the moment it is there."""
 
         def take(program: LiveProgram | Reason) -> None:
             if isinstance(program, Reason):
-                if self.job is job:
+                if self.goal is goal:
                     self._give_up("refused", program)
-            elif self.job is not job:
+            elif self.goal is not goal:
                 program.close()  # stopped meanwhile
             else:
                 now_s = self._clock.now_s()
-                self._set_out(ProgramRun(job, program, self._robot, self._emit, now_s), now_s)
+                self._set_out(ProgramRun(goal, program, self._robot, self._emit, now_s), now_s)
 
-        self._inbox.fetch(lambda: self._programs.launch(job), take)
+        self._inbox.fetch(lambda: self._programs.launch(goal), take)
 
     def _set_out(self, run: Run | ProgramRun, now_s: float) -> None:
         self._run = run
-        self._emit(Started(run.job.turn, run.job.start, self._robot.sensors.has_odometry))
+        self._emit(Started(run.goal.turn, run.goal.start, self._robot.sensors.has_odometry))
         self.tick(now_s)
 
     # --- under way ---
@@ -108,7 +108,7 @@ class Driver:
         run = self._run
         if run is None:
             return
-        barrier = self._interlock.barrier_for(run.job.lease, now_s)
+        barrier = self._interlock.barrier_for(run.goal.lease, now_s)
         if barrier is None and self._robot.sensors.bumped:
             barrier = Reason("bumped")
         if barrier is not None:
@@ -141,14 +141,14 @@ class Driver:
         """A controlled stop; what is only being launched ends at once."""
         if self._run is not None:
             self._run.ramp_down(why)
-        elif self.job is not None:
+        elif self.goal is not None:
             self._give_up("stopped", why)
 
     def end_stopped(self, why: Reason) -> None:
         """The robot has been stopped: end what was under way."""
         if self._run is not None:
             self._end(self._run, "failed" if why.code in FAILURES else "stopped", why)
-        elif self.job is not None:
+        elif self.goal is not None:
             self._give_up("stopped", why)
 
     def break_off(self, why: Reason) -> Callable[[], Finished] | None:
@@ -160,35 +160,35 @@ class Driver:
         if not isinstance(run, Run) or not run.finished("stopped", why).remaining:
             return None
         self._let_go(run)
-        return lambda: run.job.whole(run.finished("stopped", why))
+        return lambda: run.goal.whole(run.finished("stopped", why))
 
     def fail(self, why: Reason) -> None:
         """The way to the robot is gone for good: what was under way has failed."""
         if self._run is not None:
             self._end(self._run, "failed", why)
-        elif self.job is not None:
+        elif self.goal is not None:
             self._give_up("failed", why)
         self._ends.tell_all()
 
     def _end(self, run: Run | ProgramRun, outcome: Outcome, reason: Reason | None) -> None:
         self._let_go(run)
-        stream, possible = run.job.stream, ""
+        stream, possible = run.goal.stream, ""
         if outcome == "completed" and stream is not None and stream.refusal is not None:
             reason = stream.refusal  # what came before it has been done
             outcome = "stopped" if reason.code in REACHED else "refused"
             possible = stream.possible
         self._ends.tell_later(
-            lambda: replace(run.job.whole(run.finished(outcome, reason)), possible=possible)
+            lambda: replace(run.goal.whole(run.finished(outcome, reason)), possible=possible)
         )
 
     def _let_go(self, run: Run | ProgramRun) -> None:
-        self.job = self._run = None
+        self.goal = self._run = None
         run.close()
-        self._robot.governor.end(run.job.lease)
+        self._robot.governor.end(run.goal.lease)
 
     def _give_up(self, outcome: Outcome, reason: Reason) -> None:
         """End what has not begun to move. It may have the wheel already: a program that is being launched."""
-        job, self.job = self.job, None
-        assert job is not None
-        self._robot.governor.end(job.lease)
-        self._ends.tell(lambda: job.unmoved(outcome, reason, self._robot.pose))
+        goal, self.goal = self.goal, None
+        assert goal is not None
+        self._robot.governor.end(goal.lease)
+        self._ends.tell(lambda: goal.unmoved(outcome, reason, self._robot.pose))

@@ -9,8 +9,8 @@ from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
 from chatrobot.governor.governor import LATE_BEAT, Verdict
 from chatrobot.motion.budgets import Meter
+from chatrobot.motion.goal import Goal
 from chatrobot.motion.governed_robot import GovernedRobot
-from chatrobot.motion.job import Job
 
 WORTH_TELLING_MPS = 0.02
 WORTH_TELLING_RADPS = 0.05
@@ -52,22 +52,22 @@ def is_worth_telling(verdict: Verdict) -> bool:
 
 
 class GovernedMotion:
-    """The motion of `job`: what it asks for goes through the governor; how far and how long it went is kept."""
+    """The motion of `goal`: what it asks for goes through the governor; how far and how long it went is kept."""
 
-    def __init__(self, job: Job, robot: GovernedRobot, now_s: float) -> None:
-        self._job = job
+    def __init__(self, goal: Goal, robot: GovernedRobot, now_s: float) -> None:
+        self._goal = goal
         self._robot = robot
         self._sensors = sensors = robot.sensors
         self._stopwatch = Stopwatch(now_s)
         self._late_s = 0.0
         self._start_path_m = sensors.estimate.path_m if sensors.estimate is not None else 0.0
-        is_endless = job.planned is not None and job.planned.is_endless
+        is_endless = goal.planned is not None and goal.planned.is_endless
         limits = robot.profile.limits
-        self._meter = Meter(job.account, lambda: job.certain, sensors, limits, now_s, is_endless=is_endless)
+        self._meter = Meter(goal.account, lambda: goal.certain, sensors, limits, now_s, is_endless=is_endless)
 
     def send(self, asked: Twist, now_s: float) -> Verdict:
         """Send what the governor allows of `asked`."""
-        verdict = self._robot.govern(asked, self._job.lease, now_s)
+        verdict = self._robot.govern(asked, self._goal.lease, now_s)
         self._robot.send(verdict)
         if verdict.rule == LATE_BEAT and verdict.reason is not None and is_cut_short(verdict):
             self._late_s = max(self._late_s, float(verdict.reason.values["late_s"]))
@@ -85,7 +85,7 @@ class GovernedMotion:
 
     def limited(self, verdict: Verdict) -> Limited:
         """What a person is told of a limit."""
-        return Limited(self._job.turn, verdict.rule, verdict.asked, verdict.allowed, verdict.reason)
+        return Limited(self._goal.turn, verdict.rule, verdict.asked, verdict.allowed, verdict.reason)
 
     @property
     def path_m(self) -> float:
@@ -96,7 +96,7 @@ class GovernedMotion:
     def turned_rad(self) -> float:
         """How far it has turned since its start, as measured; radians, counter-clockwise positive."""
         estimate = self._sensors.estimate
-        return estimate.pose.yaw_rad - self._job.start.yaw_rad if estimate is not None else 0.0
+        return estimate.pose.yaw_rad - self._goal.start.yaw_rad if estimate is not None else 0.0
 
     def finished(
         self,
@@ -113,9 +113,9 @@ class GovernedMotion:
     ) -> Finished:
         """The end, as odometry measured it; where there is none, what was planned is what was sent."""
         measured = self._sensors.has_odometry
-        start, estimate = self._job.start, self._sensors.estimate
+        start, estimate = self._goal.start, self._sensors.estimate
         return Finished(
-            self._job.turn,
+            self._goal.turn,
             outcome,
             reason,
             start=start,

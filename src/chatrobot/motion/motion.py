@@ -21,10 +21,10 @@ from chatrobot.link.envelope import Envelope
 from chatrobot.motion.budgets import Budgets, open_loop_notice
 from chatrobot.motion.driver import Driver
 from chatrobot.motion.ends import Ends
+from chatrobot.motion.goal_queue import GoalQueue
+from chatrobot.motion.goal_server import GoalServer
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.inbox import Inbox
-from chatrobot.motion.intake import Intake
-from chatrobot.motion.jobs import Jobs
 from chatrobot.motion.paused import Pausing
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.program_box import NoBox, ProgramBox
@@ -82,19 +82,19 @@ class Motion:
         self.stop_confirmation = StopConfirmation(self.sensors, robot.send_zero, self._notice)
         self._stops = Stops(epoch, transport, self.stop_confirmation, clock)
         self.interlock = Interlock(self._governor, guard)
-        self._intake = Intake()
+        self._goal_queue = GoalQueue()
         self._sources = Sources(
-            self._governor.leases, lambda lease: self._jobs.is_engaged(lease), self._intake.forget
+            self._governor.leases, lambda lease: self._goals.is_engaged(lease), self._goal_queue.forget
         )
         self._inbox = Inbox(background)
         self._ends = ends = Ends(emit, measured=profile.has_odometry)
         stops, inbox = self._stops, self._inbox
         self._driver = Driver(robot, self.interlock, stops, programs, inbox, clock, ends, emit)
-        self._pausing = pausing = Pausing(robot, self._intake, self.interlock, stops, clock, ends, emit)
+        self._pausing = pausing = Pausing(robot, self._goal_queue, self.interlock, stops, clock, ends, emit)
         self._budgets = Budgets(profile.safety.budget)
-        self._jobs = Jobs(
+        self._goals = GoalServer(
             robot,
-            self._intake,
+            self._goal_queue,
             self._driver,
             planner,
             programs,
@@ -119,7 +119,7 @@ class Motion:
             self.see_it_stand,
             self._notice,
             source=JOYSTICK,
-            takes_over=lambda: self._jobs.hand_over(JOYSTICK),
+            takes_over=lambda: self._goals.hand_over(JOYSTICK),
         )
         self._stall_detector = StallDetector(clock, guard, self.halt)
         self._telling = Telling(self.sensors, self._driver, emit)
@@ -161,9 +161,9 @@ class Motion:
     def _heed_stop(self, envelope: Envelope) -> None:
         keeps = envelope.word == "stop" and envelope.payload.get("keep") is True
         if keeps:
-            self._intake.pause(envelope.lease)
+            self._goal_queue.pause(envelope.lease)
         else:
-            self._intake.void_turn(envelope.lease, envelope.turn)
+            self._goal_queue.void_turn(envelope.lease, envelope.turn)
         about = {"source": envelope.source, "why": str(envelope.payload.get("why", ""))}
         self.halt(Reason(PAUSED if keeps else "stopped_by", about))
 
@@ -189,12 +189,12 @@ class Motion:
         """True while anything is moving, queued, being rehearsed, awaited or zeroed."""
         is_zeroed = self.stop_confirmation.is_active and self.stop_confirmation.disobeyed is None
         is_ending = is_zeroed or not self._ends.are_told
-        return not self._jobs.are_done or bool(self._inbox) or self._stops.is_unbooked or is_ending
+        return not self._goals.are_done or bool(self._inbox) or self._stops.is_unbooked or is_ending
 
     @property
     def has_work(self) -> bool:
         """Something is driven, prepared or queued. From any thread."""
-        return not self._jobs.are_done
+        return not self._goals.are_done
 
     @property
     def stops(self) -> int:
@@ -209,11 +209,11 @@ class Motion:
     @property
     def why_unheard(self) -> Reason | None:
         """Why no odometry comes, as far as those know who look after the wire; any thread may set it."""
-        return self._jobs.why_unheard
+        return self._goals.why_unheard
 
     @why_unheard.setter
     def why_unheard(self, reason: Reason | None) -> None:
-        self._jobs.why_unheard = reason
+        self._goals.why_unheard = reason
 
     @property
     def has_left(self) -> bool:
@@ -226,7 +226,7 @@ class Motion:
 
     def give_up(self, why: Reason) -> None:
         """The wire is closed for good, and with it the way to the robot: all that was asked for ends as failed."""
-        self._jobs.fail_all(why)
+        self._goals.fail_all(why)
 
     def leave(self) -> None:
         """Goodbye to the guard; where the robot is out of sight, and may move, no word is said, so that it goes on
@@ -240,7 +240,7 @@ class Motion:
         late_s = self._stall_detector.tick(
             now_s,
             is_driven=self._driver.is_driving or self._relay.is_driving or self._joystick.is_driving,
-            is_engaged=self._jobs.current is not None,
+            is_engaged=self._goals.current is not None,
         )
         self._governor.leases.note_held_up(late_s)
         self._robot.look()
@@ -252,7 +252,7 @@ class Motion:
         self._joystick.tick(now_s, self._is_clear)
         self._driver.tick(now_s)
         self._book_stop()
-        self._jobs.expire_approval(now_s)
+        self._goals.expire_approval(now_s)
         if not self._driver.is_driving:
             self.stop_confirmation.tick(now_s)
             if self.stop_confirmation.is_at_rest:
@@ -272,21 +272,21 @@ class Motion:
         why = self._stops.book()
         if why is not None:
             if why.code == PAUSED:
-                self._jobs.pause(why, self._clock.now_s())
+                self._goals.pause(why, self._clock.now_s())
             else:
-                self._jobs.end_stopped(why)
+                self._goals.end_stopped(why)
             self._relay.stop()
             self._joystick.stop()
 
     def _begin_next(self, now_s: float) -> None:
         if self.stop_confirmation.disobeyed is not None:
-            self._jobs.refuse_all(self.stop_confirmation.disobeyed)
+            self._goals.refuse_all(self.stop_confirmation.disobeyed)
         if not (self.stop_confirmation.is_active or self._relay.is_driving):
-            self._jobs.begin_next(now_s)
+            self._goals.begin_next(now_s)
 
     def _is_free(self) -> bool:
         """Nothing of ours drives, waits or stops the robot, and nothing keeps it from moving."""
-        return self._jobs.let_others_drive and not self._joystick.is_driving and self._is_clear()
+        return self._goals.let_others_drive and not self._joystick.is_driving and self._is_clear()
 
     def _is_clear(self) -> bool:
         """Nothing stops the robot, and nothing keeps it from moving."""
@@ -305,9 +305,9 @@ class Motion:
         """
         now_s = self._clock.now_s()
         self._sources.note(envelope.lease, now_s)
-        if self._intake.is_old(envelope):
+        if self._goal_queue.is_old(envelope):
             if envelope.word in ("plan", "program"):
-                self._jobs.void(envelope, epoch)
+                self._goals.void(envelope, epoch)
             return
         self._sources.hear(envelope, came_s)
         if envelope.word in ("plan", "program"):
@@ -320,7 +320,7 @@ class Motion:
             self._begin_next(now_s)
         elif envelope.word == "approve":
             if priority_of(envelope.source) >= Priority.PLAN:  # a person's word, not an agent's
-                self._jobs.approve(envelope)
+                self._goals.approve(envelope)
         elif envelope.word == "release":
             self._release(envelope, emergency)
         elif envelope.word == "limit":
@@ -332,11 +332,11 @@ class Motion:
 
     def _accept(self, envelope: Envelope, epoch: int) -> None:
         if self._sources.has_left(envelope.lease):
-            self._jobs.refuse(envelope, epoch, Reason("lease_lapsed", {"source": envelope.source}))
+            self._goals.refuse(envelope, epoch, Reason("lease_lapsed", {"source": envelope.source}))
         elif self._joystick.is_driving:  # what waited would set out by itself once the person lets go
-            self._jobs.refuse(envelope, epoch, Reason("outranked", {"source": JOYSTICK}))
+            self._goals.refuse(envelope, epoch, Reason("outranked", {"source": JOYSTICK}))
         else:
-            self._jobs.accept(envelope, epoch)
+            self._goals.accept(envelope, epoch)
 
     def _release(self, envelope: Envelope, emergency: Envelope | None) -> None:
         """Release what was set when the release was said; an emergency stop that came after it holds."""

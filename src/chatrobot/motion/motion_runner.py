@@ -218,9 +218,9 @@ class MotionRunner:
         self.motion.post(lambda: self._emit(Notice(0, reason)))
         self._wake.set()
 
-    def in_background(self, job: Callable[[], None]) -> None:
-        """Have `job` done by the planner's thread."""
-        self._plans.put(job)
+    def in_background(self, goal: Callable[[], None]) -> None:
+        """Have `goal` done by the planner's thread."""
+        self._plans.put(goal)
 
     # --- threads of its own ---
 

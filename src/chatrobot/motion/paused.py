@@ -17,10 +17,10 @@ from chatrobot.governor.priority import Priority
 from chatrobot.link.approval import LAPSES_AFTER_M, LAPSES_AFTER_RAD
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.ends import Ends
+from chatrobot.motion.goal import Goal
+from chatrobot.motion.goal_queue import GoalQueue
 from chatrobot.motion.governed_robot import GovernedRobot
-from chatrobot.motion.intake import Intake
-from chatrobot.motion.job import Job
-from chatrobot.motion.programs.program_job import ProgramJob
+from chatrobot.motion.programs.program_goal import ProgramGoal
 from chatrobot.motion.safety.interlock import Interlock
 from chatrobot.motion.safety.stop import Stops
 
@@ -29,16 +29,16 @@ SILENT_S = 2.0
 """A source may miss some beats while the robot stands; one that is silent for longer is gone."""
 
 
-class PausedJob:
+class PausedGoal:
     """Made with the pause; it waits to be gone on with once the robot has come to stand.
 
     Args:
-        measure: what has been done of `job` by now, with the text of the rest.
+        measure: what has been done of `goal` by now, with the text of the rest.
         since_s: when it was paused.
     """
 
-    def __init__(self, job: Job, measure: Callable[[], Finished], since_s: float) -> None:
-        self.job = job
+    def __init__(self, goal: Goal, measure: Callable[[], Finished], since_s: float) -> None:
+        self.goal = goal
         self._measure = measure
         self._since_s = since_s
         self._so_far: Finished | None = None
@@ -50,12 +50,12 @@ class PausedJob:
 
     def is_for(self, envelope: Envelope) -> bool:
         """Whether it may be gone on with at this word: it is of the same source and turn, and the robot stands."""
-        return self.has_settled and (self.job.turn, self.job.lease) == (envelope.turn, envelope.lease)
+        return self.has_settled and (self.goal.turn, self.goal.lease) == (envelope.turn, envelope.lease)
 
     def settle(self) -> Paused:
         """The robot stands now: from here it would go on. What the faces show of it."""
         self._so_far = so_far = self._measure()
-        return Paused(self.job.turn, so_far.pose, so_far.remaining, so_far.reason)
+        return Paused(self.goal.turn, so_far.pose, so_far.remaining, so_far.reason)
 
     def lapsed(self, now_s: float, pose: Pose) -> Reason | None:
         """Why it may not be gone on with any more, the robot being at `pose`."""
@@ -72,19 +72,19 @@ class PausedJob:
         """Its end as a plan that was stopped."""
         return replace(self._waited(now_s), outcome="stopped", reason=reason)
 
-    def rest(self, epoch: int, now_s: float) -> Job:
-        """What is left, as a job of the same turn."""
-        job, so_far = self.job, self._waited(now_s)
-        if job.stream is not None:
-            job.stream.rewind()
+    def rest(self, epoch: int, now_s: float) -> Goal:
+        """What is left, as a goal of the same turn."""
+        goal, so_far = self.goal, self._waited(now_s)
+        if goal.stream is not None:
+            goal.stream.rewind()
         return replace(
-            job,
+            goal,
             plan_text=so_far.remaining,
             epoch=epoch,
             received_s=now_s,
             planned=None,
             approval=None,
-            plan_start=job.plan_start or job.start,
+            plan_start=goal.plan_start or goal.start,
             so_far=so_far,
         )
 
@@ -94,18 +94,18 @@ class PausedJob:
         return replace(so_far, paused_s=so_far.paused_s + now_s - self._since_s)
 
 
-def is_foreign(job: Job, robot: GovernedRobot) -> bool:
+def is_foreign(goal: Goal, robot: GovernedRobot) -> bool:
     """It came without a sender: nobody could go on with it."""
-    return robot.governor.leases.priority_of(job.lease) <= Priority.FOREIGN
+    return robot.governor.leases.priority_of(goal.lease) <= Priority.FOREIGN
 
 
-def why_not_kept(job: Job | None, robot: GovernedRobot) -> Reason | None:
-    """Why a pause ended that job as a stop does; None where it was nothing to go on with."""
-    if job is None or job.rehearse_only:
+def why_not_kept(goal: Goal | None, robot: GovernedRobot) -> Reason | None:
+    """Why a pause ended that goal as a stop does; None where it was nothing to go on with."""
+    if goal is None or goal.rehearse_only:
         return None
-    if isinstance(job, ProgramJob):
+    if isinstance(goal, ProgramGoal):
         return Reason("program_not_paused")
-    if is_foreign(job, robot):
+    if is_foreign(goal, robot):
         return Reason("foreign_not_paused")
     return Reason("nothing_to_keep" if robot.sensors.has_odometry else "pause_unmeasured")
 
@@ -116,7 +116,7 @@ class Pausing:
     def __init__(
         self,
         robot: GovernedRobot,
-        intake: Intake,
+        goal_queue: GoalQueue,
         interlock: Interlock,
         stops: Stops,
         clock: Clock,
@@ -124,21 +124,21 @@ class Pausing:
         emit: Callable[[Event], None],
     ) -> None:
         self._robot = robot
-        self._intake = intake
+        self._goal_queue = goal_queue
         self._interlock = interlock
         self._stops = stops
         self._clock = clock
         self._ends = ends
         self._emit = emit
-        self._paused: PausedJob | None = None
+        self._paused: PausedGoal | None = None
         self._heard_s = 0.0
 
     @property
-    def job(self) -> Job | None:
+    def goal(self) -> Goal | None:
         """What is paused."""
-        return self._paused.job if self._paused is not None else None
+        return self._paused.goal if self._paused is not None else None
 
-    def begin(self, paused: PausedJob) -> None:
+    def begin(self, paused: PausedGoal) -> None:
         """Keep it; what is queued waits behind it."""
         self._heard_s = self._clock.now_s()
         self._paused = paused
@@ -148,10 +148,10 @@ class Pausing:
         paused = self._paused
         if paused is None:
             return
-        if self._robot.governor.leases.is_valid(paused.job.lease, now_s):
+        if self._robot.governor.leases.is_valid(paused.goal.lease, now_s):
             self._heard_s = now_s
         is_gone = now_s - self._heard_s > SILENT_S
-        lease_barrier = self._interlock.barrier_for(paused.job.lease, now_s) if is_gone else None
+        lease_barrier = self._interlock.barrier_for(paused.goal.lease, now_s) if is_gone else None
         why = self._interlock.barrier() or lease_barrier or paused.lapsed(now_s, self._robot.pose)
         if why is not None:
             self.drop(why)
@@ -169,18 +169,18 @@ class Pausing:
             self._emit(Notice(envelope.turn, Reason("nothing_paused")))
             return
         self._paused = None
-        self._intake.resume(paused.rest(self._stops.count, self._clock.now_s()))
+        self._goal_queue.resume(paused.rest(self._stops.count, self._clock.now_s()))
 
     def drop(self, why: Reason, lease: str | None = None) -> None:
         """It is not gone on with, and what waits behind it is not done. `lease`: only where it is that one's."""
-        if self._paused is None or lease not in (None, self._paused.job.lease):
+        if self._paused is None or lease not in (None, self._paused.goal.lease):
             return
         self.end(why)
-        for job in self._intake.take_all():
-            self._tell_unmoved(job, why)
+        for goal in self._goal_queue.take_all():
+            self._tell_unmoved(goal, why)
 
-    def _tell_unmoved(self, job: Job, why: Reason) -> None:
-        self._ends.tell(lambda: job.unmoved("stopped", why, self._robot.pose))
+    def _tell_unmoved(self, goal: Goal, why: Reason) -> None:
+        self._ends.tell(lambda: goal.unmoved("stopped", why, self._robot.pose))
 
     def end(self, why: Reason) -> None:
         """It is not gone on with: tell its end."""

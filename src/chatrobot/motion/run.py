@@ -9,26 +9,26 @@ from chatrobot.core.events import Event, Finished, Outcome, Progress
 from chatrobot.core.reason import Reason
 from chatrobot.execution.executor import Executor
 from chatrobot.governor.governor import Verdict
+from chatrobot.motion.goal import Goal
 from chatrobot.motion.governed_motion import GovernedMotion, is_worth_telling
 from chatrobot.motion.governed_robot import GovernedRobot
-from chatrobot.motion.job import Job
 from chatrobot.plan.split import split
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan
 
 
 class Run:
-    """Drives the plan of `job`, which has been rehearsed. `tick` until `is_done`, or until it is stopped."""
+    """Drives the plan of `goal`, which has been rehearsed. `tick` until `is_done`, or until it is stopped."""
 
-    def __init__(self, job: Job, robot: GovernedRobot, emit: Callable[[Event], None], now_s: float) -> None:
-        assert job.planned is not None
-        self.job = job
+    def __init__(self, goal: Goal, robot: GovernedRobot, emit: Callable[[Event], None], now_s: float) -> None:
+        assert goal.planned is not None
+        self.goal = goal
         self._emit = emit
         self._robot = robot
-        self._motion = GovernedMotion(job, robot, now_s)
+        self._motion = GovernedMotion(goal, robot, now_s)
         self._told: set[tuple[int, str]] = set()
         self._executor = Executor(robot.profile, robot.sensors, emit)
-        self._executor.start(job.turn, job.walk(), job.planned.duration_s, now_s)
+        self._executor.start(goal.turn, goal.walk(), goal.planned.duration_s, now_s)
 
     def tick(self, now_s: float) -> None:
         """One period: what the executor asks, as far as the governor allows it."""
@@ -67,8 +67,8 @@ class Run:
         self._motion.close()
 
     def progress(self, now_s: float) -> Progress:
-        progress = self._executor.progress(self.job.turn, now_s)
-        return replace(progress, fraction=None) if self.job.is_open_ended else progress
+        progress = self._executor.progress(self.goal.turn, now_s)
+        return replace(progress, fraction=None) if self.goal.is_open_ended else progress
 
     def finished(self, outcome: Outcome, reason: Reason | None) -> Finished:
         """The end, as odometry measured it."""
@@ -78,22 +78,22 @@ class Run:
         return self._motion.finished(
             outcome,
             reason,
-            planned_m=planned_m if is_whole else max(planned_m, self.job.length_m),
+            planned_m=planned_m if is_whole else max(planned_m, self.goal.length_m),
             planned_turn_rad=self._executor.planned_turn_rad,
             steps_done=self._executor.steps_done,
             steps=self._executor.steps,
             executed=executed,
             remaining=remaining if outcome != "completed" else "",
-            open_ended=not is_whole and self.job.is_open_ended,
+            open_ended=not is_whole and self.goal.is_open_ended,
         )
 
     def _parts(self) -> tuple[str, str]:
         """The text of the part that was driven, and of the rest; nothing where it was not measured."""
-        reached, rehearsal = self._executor.reached, self.job.rehearsal
+        reached, rehearsal = self._executor.reached, self.goal.rehearsal
         if reached is None or rehearsal is None:
             return "", ""
         context = replace(rehearsal.context, pose=self._robot.pose)
-        parts = split(self.job.steps, reached, context)
+        parts = split(self.goal.steps, reached, context)
         return _text(parts.executed), _text(parts.remaining)
 
     def _tell(self, verdict: Verdict) -> None:

@@ -17,7 +17,7 @@ from chatrobot.core.events import (
     Started,
 )
 from chatrobot.core.reason import Reason
-from chatrobot.dialogue.orders import Orders
+from chatrobot.dialogue.goal_client import GoalClient
 from chatrobot.dialogue.programs.authoring import MOST_REPAIRS, Authoring, NotWrittenError, Rehearsal
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.dialogue.turn_book import TurnBook
@@ -59,14 +59,14 @@ class ProgramTurns:
         authoring: Authoring,
         understanding: Understanding,
         book: TurnBook,
-        orders: Orders,
+        goals: GoalClient,
         emit: Callable[[Event], None],
         is_void_turn: Callable[[int], bool],
     ) -> None:
         self.authoring = authoring
         self._understanding = understanding
         self._book = book
-        self._orders = orders
+        self._goals = goals
         self._emit = emit
         self._is_void_turn = is_void_turn
         self._turns: dict[int, _Turn] = {}
@@ -191,7 +191,7 @@ class ProgramTurns:
             "strict": draft.by_model and draft.version <= MOST_REPAIRS,
         }
         is_led_elsewhere = bool(draft.remap) and not draft.program.runs
-        self._orders.program(
+        self._goals.program(
             turn,
             payload,
             is_new=draft.is_new,

@@ -9,7 +9,7 @@ from typing import Protocol
 
 from chatrobot.core.reason import Reason
 from chatrobot.motion.planner import Planned, Planner
-from chatrobot.motion.programs.program_job import ProgramJob
+from chatrobot.motion.programs.program_goal import ProgramGoal
 from chatrobot.motion.programs.program_run import LiveProgram
 from chatrobot.motion.seen_world import SeenPoints
 from chatrobot.wire.wire import Wire
@@ -22,11 +22,11 @@ class ProgramBox(Protocol):
         """Hear the robot's sensors, for programs that listen to them."""
         ...
 
-    def rehearse(self, job: ProgramJob, planner: Planner, seen: SeenPoints | None) -> Planned:
-        """Run it on virtual time, among what is known and what the lidar has seen, from where the job starts."""
+    def rehearse(self, goal: ProgramGoal, planner: Planner, seen: SeenPoints | None) -> Planned:
+        """Run it on virtual time, among what is known and what the lidar has seen, from where the goal starts."""
         ...
 
-    def launch(self, job: ProgramJob) -> LiveProgram | Reason:
+    def launch(self, goal: ProgramGoal) -> LiveProgram | Reason:
         """Start it; why it cannot be."""
         ...
 
@@ -37,8 +37,8 @@ class NoBox:
     def attach(self, wire: Wire) -> None:
         """There is nothing to hear for."""
 
-    def rehearse(self, job: ProgramJob, planner: Planner, seen: SeenPoints | None) -> Planned:  # noqa: ARG002
-        return Planned(job.turn, None, Reason("no_programs_here"))
+    def rehearse(self, goal: ProgramGoal, planner: Planner, seen: SeenPoints | None) -> Planned:  # noqa: ARG002
+        return Planned(goal.turn, None, Reason("no_programs_here"))
 
-    def launch(self, job: ProgramJob) -> LiveProgram | Reason:  # noqa: ARG002
+    def launch(self, goal: ProgramGoal) -> LiveProgram | Reason:  # noqa: ARG002
         return Reason("no_programs_here")

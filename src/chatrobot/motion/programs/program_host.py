@@ -7,7 +7,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.motion.planner import Planned, Planner
 from chatrobot.motion.programs.live_program import InStepProgram, RealTimeProgram
 from chatrobot.motion.programs.planned_program import PlannedProgram
-from chatrobot.motion.programs.program_job import ProgramJob
+from chatrobot.motion.programs.program_goal import ProgramGoal
 from chatrobot.motion.programs.program_rehearsal import rehearse_program
 from chatrobot.motion.programs.program_run import LiveProgram
 from chatrobot.motion.programs.program_senses import Senses
@@ -35,33 +35,33 @@ class ProgramHost:
     def attach(self, wire: Wire) -> None:
         self._senses.attach(wire, self._profile.wiring)
 
-    def rehearse(self, job: ProgramJob, planner: Planner, seen: SeenPoints | None) -> Planned:
+    def rehearse(self, goal: ProgramGoal, planner: Planner, seen: SeenPoints | None) -> Planned:
         try:
             self._warm()
             rehearsal = rehearse_program(
                 self._server,
-                job.code,
+                goal.code,
                 self._profile,
                 planner.world,
-                job.start,
-                name=_file_name(job.name),
-                remaps=job.remap,
-                args=job.args,
+                goal.start,
+                name=_file_name(goal.name),
+                remaps=goal.remap,
+                args=goal.args,
                 seen=seen,
             )
         except BoxError as error:
-            return Planned(job.turn, None, error.reason)
-        return PlannedProgram(job.turn, None, program=rehearsal, name=job.name, strict=job.strict)
+            return Planned(goal.turn, None, error.reason)
+        return PlannedProgram(goal.turn, None, program=rehearsal, name=goal.name, strict=goal.strict)
 
-    def launch(self, job: ProgramJob) -> LiveProgram | Reason:
+    def launch(self, goal: ProgramGoal) -> LiveProgram | Reason:
         settings = ProgramSettings(
-            job.code,
-            name=_file_name(job.name),
+            goal.code,
+            name=_file_name(goal.name),
             mode="virtual" if self._is_in_step else "live",
             topics=robot_topics(self._profile.wiring),
             odom_type=self._profile.wiring.odom_type,
-            remaps=job.remap,
-            args=job.args,
+            remaps=goal.remap,
+            args=goal.args,
             horizon_s=LATEST_S,
         )
         program = BoxedProgram(self._server, settings)

@@ -18,7 +18,7 @@ from chatrobot.governor.lease import TERM_S
 from chatrobot.motion.deceleration_ramp import decelerated
 from chatrobot.motion.governed_motion import GovernedMotion, is_worth_telling
 from chatrobot.motion.governed_robot import GovernedRobot
-from chatrobot.motion.programs.program_job import ProgramJob
+from chatrobot.motion.programs.program_goal import ProgramGoal
 from chatrobot.programs.events import Died, Ended, Log, Output, ProgramEvent, Raised, TwistAsked
 from chatrobot.programs.held_twist import HeldTwist
 from chatrobot.programs.raised import raised_reason
@@ -47,17 +47,17 @@ class LiveProgram(Protocol):
 
 
 class ProgramRun:
-    """Drives by the program of `job`, which has been rehearsed and launched. `tick` until `is_done`, or a stop."""
+    """Drives by the program of `goal`, which has been rehearsed and launched. `tick` until `is_done`, or a stop."""
 
     def __init__(
         self,
-        job: ProgramJob,
+        goal: ProgramGoal,
         program: LiveProgram,
         robot: GovernedRobot,
         emit: Callable[[Event], None],
         now_s: float,
     ) -> None:
-        self.job = job
+        self.goal = goal
         self.is_done = False
         self.outcome: Outcome = "completed"
         self.reason: Reason | None = None
@@ -65,7 +65,7 @@ class ProgramRun:
         self._robot = robot
         self._sensors = robot.sensors
         self._emit = emit
-        self._motion = GovernedMotion(job, robot, now_s)
+        self._motion = GovernedMotion(goal, robot, now_s)
         self._began_s = self._now_s = now_s
         self._heard_s = now_s + STARTING_S - TERM_S
         self._sent = ZERO_TWIST
@@ -112,15 +112,15 @@ class ProgramRun:
         """By the duration that was rehearsed; a program that goes on for longer has no share of it."""
         estimate = self._sensors.estimate
         assert estimate is not None
-        assert self.job.planned is not None
-        lasted_s, expected_s = now_s - self._began_s, self.job.planned.duration_s
-        is_known = not self.job.is_open_ended and lasted_s <= expected_s + LATER_S
+        assert self.goal.planned is not None
+        lasted_s, expected_s = now_s - self._began_s, self.goal.planned.duration_s
+        is_known = not self.goal.is_open_ended and lasted_s <= expected_s + LATER_S
         fraction = min(1.0, lasted_s / max(expected_s, TICK_S)) if is_known else None
-        return Progress(self.job.turn, 1, 1, fraction, estimate.pose, estimate.twist)
+        return Progress(self.goal.turn, 1, 1, fraction, estimate.pose, estimate.twist)
 
     def finished(self, outcome: Outcome, reason: Reason | None) -> Finished:
         """The end, as odometry measured it."""
-        planned_m = self.job.length_m
+        planned_m = self.goal.length_m
         goes_on_m = planned_m * (1.0 + FARTHER_SHARE) + FARTHER_M
         return self._motion.finished(
             outcome,
@@ -129,7 +129,7 @@ class ProgramRun:
             planned_turn_rad=self._motion.turned_rad(),  # a program promises none
             steps_done=1 if outcome == "completed" else 0,
             steps=1,
-            open_ended=self.job.is_open_ended or self._motion.path_m > goes_on_m,
+            open_ended=self.goal.is_open_ended or self._motion.path_m > goes_on_m,
         )
 
     # --- what it says ---
@@ -174,7 +174,7 @@ class ProgramRun:
     def _log(self, now_s: float, level: str, text: str) -> None:
         self._logged += 1
         if self._logged <= LOG_LINES:
-            self._emit(ProgramLog(self.job.turn, round(now_s - self._began_s, 3), level, text))
+            self._emit(ProgramLog(self.goal.turn, round(now_s - self._began_s, 3), level, text))
 
     def _tell(self, verdict: Verdict) -> None:
         """Say once for each velocity and rule that something was limited."""

@@ -21,12 +21,12 @@ from chatrobot.plan.rehearsal import Rehearsal
 
 
 @dataclass
-class Job:
+class Goal:
     """`epoch` is the stop epoch it was received in: a later stop makes it void. `start` is where it begins.
 
     `longest_s` is what the source may take: a plan that rehearsal expects to last longer is refused. `stream` holds
     what comes after `plan_text` where the plan comes in parts. `account` is what its text may drive, and has driven.
-    Where the job is the rest of a plan that was paused, `plan_start` is where the whole began and `so_far` what was
+    Where the goal is the rest of a plan that was paused, `plan_start` is where the whole began and `so_far` what was
     measured of it.
     """
 
@@ -48,8 +48,8 @@ class Job:
     so_far: Finished | None = None
 
     @classmethod
-    def of(cls, envelope: Envelope, epoch: int, now_s: float, account: Account | None = None) -> Job:
-        """The job that a `plan` envelope asks for."""
+    def of(cls, envelope: Envelope, epoch: int, now_s: float, account: Account | None = None) -> Goal:
+        """The goal that a `plan` envelope asks for."""
         payload, account = envelope.payload, account or Account()
         longest_s = seconds(payload.get("longest_s"), math.inf)
         comes_whole = payload.get("approve") or payload.get("rehearse_only") or not payload.get("more")

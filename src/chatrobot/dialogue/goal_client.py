@@ -8,7 +8,7 @@ from chatrobot.dialogue.options import Options
 from chatrobot.link.joint import Joint
 
 
-class Orders:
+class GoalClient:
     """Sends them. `options` may be replaced: those hold for what is sent from then on."""
 
     def __init__(self, joint: Joint, options: Options) -> None:

@@ -7,13 +7,13 @@ from dataclasses import dataclass, field
 
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.budgets import Account
-from chatrobot.motion.job import Job
+from chatrobot.motion.goal import Goal
 from chatrobot.motion.planner import Planned
 
 
 @dataclass
-class ProgramJob(Job):
-    """A `Job` whose plan is a program in the box.
+class ProgramGoal(Goal):
+    """A `Goal` whose plan is a program in the box.
 
     `ask_findings` asks for a yes where rehearsal found something; `strict` refuses it then, so that it can be mended.
     """
@@ -26,21 +26,21 @@ class ProgramJob(Job):
     strict: bool = False
 
 
-def job_of(envelope: Envelope, epoch: int, now_s: float, account: Account) -> Job:
-    """The job that a `plan` or a `program` envelope asks for."""
-    job = Job.of(envelope, epoch, now_s, account)
+def goal_of(envelope: Envelope, epoch: int, now_s: float, account: Account) -> Goal:
+    """The goal that a `plan` or a `program` envelope asks for."""
+    goal = Goal.of(envelope, epoch, now_s, account)
     if envelope.word != "program":
-        return job
+        return goal
     payload = envelope.payload
-    return ProgramJob(
-        turn=job.turn,
-        lease=job.lease,
+    return ProgramGoal(
+        turn=goal.turn,
+        lease=goal.lease,
         plan_text="",
-        approve=job.approve,
-        rehearse_only=job.rehearse_only,
+        approve=goal.approve,
+        rehearse_only=goal.rehearse_only,
         epoch=epoch,
         received_s=now_s,
-        pauses=job.pauses,
+        pauses=goal.pauses,
         account=account,
         code=str(payload.get("code", "")),
         name=str(payload.get("name", "")) or "program",
@@ -51,8 +51,8 @@ def job_of(envelope: Envelope, epoch: int, now_s: float, account: Account) -> Jo
     )
 
 
-def needs_approval(job: Job, planned: Planned) -> bool:
+def needs_approval(goal: Goal, planned: Planned) -> bool:
     """Whether what was planned waits for a yes."""
-    if job.refusal is not None or job.rehearse_only:
+    if goal.refusal is not None or goal.rehearse_only:
         return False
-    return job.approve or (isinstance(job, ProgramJob) and job.ask_findings and planned.has_findings)
+    return goal.approve or (isinstance(goal, ProgramGoal) and goal.ask_findings and planned.has_findings)

@@ -7,14 +7,14 @@ from collections.abc import Collection
 
 from chatrobot.core.reason import Reason
 from chatrobot.link.envelope import QUEUE_LIMIT, Envelope
-from chatrobot.motion.job import Job
+from chatrobot.motion.goal import Goal
 
 
-class Intake:
-    """The queue of jobs, and who may still join it. `void_turn` and `pause` may be called from any thread."""
+class GoalQueue:
+    """The queue of goals, and who may still join it. `void_turn` and `pause` may be called from any thread."""
 
     def __init__(self) -> None:
-        self.jobs: deque[Job] = deque()
+        self.goals: deque[Goal] = deque()
         self._sequences: dict[tuple[str, bool], int] = {}
         self._void_turns: dict[str, int] = {}
         self._pauses: dict[str, int] = {}
@@ -27,9 +27,9 @@ class Intake:
         """A pause of that source: what it asked for before may still be on its way, and must not begin after it."""
         self._pauses[lease] = self._pauses.get(lease, 0) + 1
 
-    def resume(self, job: Job) -> None:
+    def resume(self, goal: Goal) -> None:
         """Put the rest of a plan that was paused before all others."""
-        self.jobs.appendleft(job)
+        self.goals.appendleft(goal)
 
     def forget(self, lease: str) -> None:
         """Nothing is to be known of that lease any more."""
@@ -46,34 +46,34 @@ class Intake:
         self._sequences[kind] = envelope.sequence
         return False
 
-    def is_void(self, job: Job, epoch: int) -> bool:
+    def is_void(self, goal: Goal, epoch: int) -> bool:
         """A stop has overtaken it."""
-        is_paused = job.pauses is not None and job.pauses < self._pauses.get(job.lease, 0)
-        return job.epoch != epoch or is_paused or job.turn <= self._void_turns.get(job.lease, -1)
+        is_paused = goal.pauses is not None and goal.pauses < self._pauses.get(goal.lease, 0)
+        return goal.epoch != epoch or is_paused or goal.turn <= self._void_turns.get(goal.lease, -1)
 
-    def add(self, job: Job) -> Reason | None:
-        """Queue `job`, or say why not: too many wait."""
-        if len(self.jobs) >= QUEUE_LIMIT:
+    def add(self, goal: Goal) -> Reason | None:
+        """Queue `goal`, or say why not: too many wait."""
+        if len(self.goals) >= QUEUE_LIMIT:
             return Reason("queue_full", {"limit": QUEUE_LIMIT})
-        self.jobs.append(job)
+        self.goals.append(goal)
         return None
 
-    def take_void(self, epoch: int) -> list[Job]:
+    def take_void(self, epoch: int) -> list[Goal]:
         """Remove and return what was received before the stop that began `epoch`; what came after it stays."""
-        void = [job for job in self.jobs if job.epoch != epoch]
-        for job in void:
-            self.jobs.remove(job)
+        void = [goal for goal in self.goals if goal.epoch != epoch]
+        for goal in void:
+            self.goals.remove(goal)
         return void
 
-    def take(self, jobs: Collection[Job]) -> list[Job]:
-        """Remove and return those of `jobs` that wait."""
-        taken = [job for job in self.jobs if any(job is one for one in jobs)]
-        for job in taken:
-            self.jobs.remove(job)
+    def take(self, goals: Collection[Goal]) -> list[Goal]:
+        """Remove and return those of `goals` that wait."""
+        taken = [goal for goal in self.goals if any(goal is one for one in goals)]
+        for goal in taken:
+            self.goals.remove(goal)
         return taken
 
-    def take_all(self) -> list[Job]:
+    def take_all(self) -> list[Goal]:
         """Remove and return everything."""
-        jobs = list(self.jobs)
-        self.jobs.clear()
-        return jobs
+        goals = list(self.goals)
+        self.goals.clear()
+        return goals
