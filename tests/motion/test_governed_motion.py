@@ -16,12 +16,12 @@ from chatrobot.core.governed import StopEpoch
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
 from chatrobot.motion.goal import Goal
+from chatrobot.motion.goal_execution import GoalExecution
 from chatrobot.motion.governed_motion import Stopwatch
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.planner import Planner
+from chatrobot.motion.programs.program_execution import ProgramExecution
 from chatrobot.motion.programs.program_goal import ProgramGoal
-from chatrobot.motion.programs.program_run import ProgramRun
-from chatrobot.motion.run import Run
 from chatrobot.programs.events import ProgramEvent, TwistAsked
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
 from chatrobot.sim.load import load_world
@@ -81,12 +81,12 @@ def test_the_governor_is_told_where_the_robot_is_by_now(kind: type[Goal]) -> Non
     assert governed.begin("us", now_s) is None
     asked = goal(kind, "us")
     asked.start = seen.pose
-    run: Run | ProgramRun
+    run: GoalExecution | ProgramExecution
     if isinstance(asked, ProgramGoal):
-        run = ProgramRun(asked, Drives(), governed, lambda _: None, now_s)
+        run = ProgramExecution(asked, Drives(), governed, lambda _: None, now_s)
     else:
         asked.take(Planner(PROFILE, load_world("empty")).plan(1, "drive 5 m", seen.pose))
-        run = Run(asked, governed, lambda _: None, now_s)
+        run = GoalExecution(asked, governed, lambda _: None, now_s)
     run.tick(now_s)
     assert governor.poses == [sensors.pose_now()]
     assert governor.poses[0] is not None

@@ -17,7 +17,12 @@ WRITERS = {"transports/transport.py", "guard/__main__.py", "link/in_process.py"}
 CARRIERS = {"motion/safety/connection.py", "sim/marshalled.py", "sim/robot.py"}
 """Hand on what they were given: a wire around a wire, and the robot's own end with its sensors."""
 
-OTHER_GRAPHS = ("programs/", "motion/programs/program_stage.py", "motion/programs/program_run.py", "wire/")
+OTHER_GRAPHS = (
+    "programs/",
+    "motion/programs/program_stage.py",
+    "motion/programs/program_execution.py",
+    "wire/",
+)
 """A program publishes to the box it is in, and what it holds is governed like anything else; a backend is a wire."""
 
 HARMLESS = {"Text", "Flag", "Odometry"}

@@ -11,7 +11,6 @@ from collections.abc import Callable
 from chatrobot.core.events import Event, Outcome, Progress, Remembered, Said
 from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
 from chatrobot.core.reason import Reason
-from chatrobot.execution.course import TICK_S, Course
 from chatrobot.execution.estimator import Estimate
 from chatrobot.execution.health import (
     STANDS_LATE_S,
@@ -21,9 +20,10 @@ from chatrobot.execution.health import (
     tracking_fault,
 )
 from chatrobot.execution.lookahead import must_brake
-from chatrobot.execution.mending import AT_THE_END, BETWEEN_STEPS, MEND_TRIES, Tolerance, mend
+from chatrobot.execution.reference_trajectory import TICK_S, ReferenceTrajectory
 from chatrobot.execution.sensors import Sensors
 from chatrobot.execution.tally import Tally
+from chatrobot.execution.terminal_correction import AT_THE_END, BETWEEN_STEPS, TRIES, Tolerance, correction
 from chatrobot.execution.tracking import corrected, without_reverse
 from chatrobot.plan.context import Impossible
 from chatrobot.plan.core_motion import CoreMotion, Emit, Pause
@@ -68,13 +68,13 @@ class Executor:
         self.steps = 0
         self.planned_m = 0.0
         self.planned_turn_rad = 0.0
-        self._course = Course(Pose())
+        self._reference = ReferenceTrajectory(Pose())
         self._tally = Tally()
         self._pause_until_s: float | None = None
         self._pause_s = 0.0
         self._settle_since_s: float | None = None
-        self._mends_left = MEND_TRIES
-        self._is_mending = False
+        self._corrections_left = TRIES
+        self._is_correcting = False
         self._timed: Twist | None = None
         self._asked = ZERO_TWIST
         self._withheld = 0.0
@@ -90,7 +90,7 @@ class Executor:
         self._turn = turn
         self._walk = walk
         self._duration_s = duration_s
-        self._course = Course(walk.pose)
+        self._reference = ReferenceTrajectory(walk.pose)
         self._started_s = now_s
 
     def expect(self, duration_s: float) -> None:
@@ -117,7 +117,9 @@ class Executor:
         share = (now_s - self._started_s) / self._duration_s if self._duration_s > 0.0 else 1.0
         estimate = self._sensors.estimate
         pose, twist = (
-            (estimate.pose, estimate.twist) if estimate is not None else (self._course.reference, ZERO_TWIST)
+            (estimate.pose, estimate.twist)
+            if estimate is not None
+            else (self._reference.reference, ZERO_TWIST)
         )
         return Progress(turn, self.step, self.steps, max(0.0, min(1.0, share)), pose, twist)
 
@@ -128,7 +130,7 @@ class Executor:
         ends the plan.
         """
         is_slowed = rule not in RAMP_RULES
-        is_held_back = self._course.segment is not None and (is_slowed or self._withheld > 0.0)
+        is_held_back = self._reference.segment is not None and (is_slowed or self._withheld > 0.0)
         self._withheld, self._noted_s = 0.0, now_s
         if not is_held_back:
             self._barred_since_s = None
@@ -155,11 +157,11 @@ class Executor:
         if fault is not None:
             return self._end("failed", fault)
         if self._withheld > 0.0:
-            self._course.wait(self._withheld * (now_s - self._noted_s))
+            self._reference.wait(self._withheld * (now_s - self._noted_s))
             self._noted_s = now_s
         while not self.is_done:
-            if self._course.segment is not None:
-                asked = self._drive(self._course.segment, now_s)
+            if self._reference.segment is not None:
+                asked = self._drive(self._reference.segment, now_s)
             elif self._pause_until_s is not None:
                 asked = self._pause(self._pause_until_s, now_s)
             elif self._settle_since_s is not None:
@@ -189,7 +191,7 @@ class Executor:
             self._end("failed", item.reason)
         else:
             self.step, self.steps = item.number, item.total
-            self._course.reference = item.start
+            self._reference.reference = item.start
             self._tally.begin(item)
             self._begin_motion(item.motion, now_s)
         return True
@@ -200,16 +202,16 @@ class Executor:
             self._tally.end()
         elif isinstance(motion, Pause):
             self._pause_s = motion.duration_s
-            self._pause_until_s = self._course.free_from_s(now_s) + motion.duration_s
+            self._pause_until_s = self._reference.free_from_s(now_s) + motion.duration_s
         elif motion is not None:
             self.planned_m += motion.twist.speed_mps * motion.hold_s
             self.planned_turn_rad += motion.twist.wz_radps * motion.hold_s
-            self._begin_segment(Segment(motion, self._course.reference), now_s)
+            self._begin_segment(Segment(motion, self._reference.reference), now_s)
         else:
             self._tally.end()
 
     def _begin_segment(self, segment: Segment, now_s: float) -> None:
-        self._course.begin(segment, now_s)
+        self._reference.begin(segment, now_s)
         self._first_tick = True
         estimate = self._sensors.estimate
         self._begin = (
@@ -218,7 +220,7 @@ class Executor:
         )
 
     def _drive(self, segment: Segment, now_s: float) -> Twist | None:
-        t_s = now_s - self._course.began_s
+        t_s = now_s - self._reference.began_s
         segment = self._cut_short(segment, t_s)
         if t_s >= segment.total_s:
             return self._end_segment(segment, now_s)
@@ -238,11 +240,11 @@ class Executor:
 
     def _reference_at(self, estimate: Estimate) -> Pose:
         """Where the robot should be when it is seen as in `estimate`, as late as it does what it is told."""
-        return self._course.at(estimate.stamp_s - self._sensors.response.lag_s)
+        return self._reference.at(estimate.stamp_s - self._sensors.response.lag_s)
 
     def _tracking_fault(self, segment: Segment, reference: Pose, estimate: Estimate) -> Reason | None:
         begin, wheel_yaw_rad = self._begin
-        if self._is_mending or estimate.stamp_s < self._course.began_s:
+        if self._is_correcting or estimate.stamp_s < self._reference.began_s:
             return None
         if self._barred_since_s is not None:
             return None  # it was halted at once, and rolls on as far as it takes to brake
@@ -257,8 +259,8 @@ class Executor:
         if found is None or found.code not in LAGS:
             return found
         # What we ask and what we hear of it may take their time: was the reference there a moment ago?
-        before_s = (max(self._course.began_s, estimate.stamp_s - late_s) for late_s in LATE_BY_S)
-        return None if any(fault(self._course.at(at_s)) is None for at_s in before_s) else found
+        before_s = (max(self._reference.began_s, estimate.stamp_s - late_s) for late_s in LATE_BY_S)
+        return None if any(fault(self._reference.at(at_s)) is None for at_s in before_s) else found
 
     def _cut_short(self, segment: Segment, t_s: float) -> Segment:
         """Brake where the plan's condition holds, or where a controlled stop was asked for."""
@@ -267,24 +269,24 @@ class Executor:
         shorter = segment.stop_early(t_s)
         if shorter.total_s >= segment.total_s:
             return segment
-        if not self._is_mending:
+        if not self._is_correcting:
             lost_s = segment.ramp.hold_s - shorter.ramp.hold_s
             self.planned_m -= segment.motion.twist.speed_mps * lost_s
             self.planned_turn_rad -= segment.motion.twist.wz_radps * lost_s
-        self._course.cut_short(shorter)
+        self._reference.cut_short(shorter)
         return shorter
 
     def _end_segment(self, segment: Segment, now_s: float) -> Twist | None:
-        self._course.end(is_planned=not self._is_mending)
-        if not self._is_mending:
+        self._reference.end(is_planned=not self._is_correcting)
+        if not self._is_correcting:
             is_cut_short = segment.ramp.hold_s < segment.motion.hold_s
             if self._ending is None or not is_cut_short:
                 self._tally.end(segment.ramp.hold_s)
             self._timed = segment.motion.twist if segment.motion.is_timed else None
-            self._walk.ended_at(self._course.reference)
-            self._mends_left = MEND_TRIES
-        self._is_mending = False
-        if self._ending is None and self._mend(BETWEEN_STEPS, now_s):
+            self._walk.ended_at(self._reference.reference)
+            self._corrections_left = TRIES
+        self._is_correcting = False
+        if self._ending is None and self._correct(BETWEEN_STEPS, now_s):
             return ZERO_TWIST
         return None
 
@@ -306,25 +308,25 @@ class Executor:
         seen = is_seen_standing(self._sensors)
         if not seen and waited_s < (STANDS_LATE_S if is_seen_moving(self._sensors) else SETTLE_S):
             return ZERO_TWIST
-        if seen and self._course.has_moved and self._mend(AT_THE_END, now_s):
+        if seen and self._reference.has_moved and self._correct(AT_THE_END, now_s):
             self._settle_since_s = None
             return ZERO_TWIST
         return self._end("completed", None)
 
-    def _mend(self, tolerance: Tolerance, now_s: float) -> bool:
+    def _correct(self, tolerance: Tolerance, now_s: float) -> bool:
         """Begin a small motion back to the reference if the rest is beyond `tolerance`. True if begun."""
         estimate = self._sensors.estimate
-        if estimate is None or not self._sensors.has_odometry or self._mends_left == 0:
+        if estimate is None or not self._sensors.has_odometry or self._corrections_left == 0:
             return False
         rest = self._reference_at(estimate).relative_to(estimate.pose)
         if self._timed is not None:  # it was to last so long: that it went too far is told, not driven back
             rest = Pose(*without_reverse(rest, self._timed))
             rest = rest if self._timed.speed_mps > 0.0 else Pose(0.0, 0.0, rest.yaw_rad)
-        motion = mend(self._profile, rest, tolerance)
+        motion = correction(self._profile, rest, tolerance)
         if motion is None:
             return False
-        self._mends_left -= 1
-        self._is_mending = True
+        self._corrections_left -= 1
+        self._is_correcting = True
         self._begin_segment(Segment(motion, estimate.pose), now_s)
         return True
 
@@ -332,7 +334,7 @@ class Executor:
         estimate = self._sensors.estimate
         if motion.kind == "remember":
             self._emit(
-                Remembered(self._turn, motion.text, estimate.pose if estimate else self._course.reference)
+                Remembered(self._turn, motion.text, estimate.pose if estimate else self._reference.reference)
             )
         else:
             self._emit(Said(self._turn, motion.text))

@@ -1,4 +1,4 @@
-"""What Motion was asked to do, one after the other: accepted, rehearsed, approved, and handed to the driver."""
+"""What Motion was asked to do, one after the other: accepted, rehearsed, approved, and handed to the plan executor."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from chatrobot.governor.priority import Priority
 from chatrobot.link.approval import Approval
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.budgets import Budgets
-from chatrobot.motion.driver import Driver
 from chatrobot.motion.ends import Ends
 from chatrobot.motion.goal import Goal
 from chatrobot.motion.goal_queue import GoalQueue
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.inbox import Inbox
 from chatrobot.motion.paused import PausedGoal, Pausing, is_foreign, why_not_kept
+from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planned, Planner, refused
 from chatrobot.motion.programs.program_box import ProgramBox
 from chatrobot.motion.programs.program_goal import ProgramGoal, goal_of, needs_approval
@@ -37,7 +37,7 @@ class GoalServer:
         self,
         robot: GovernedRobot,
         goal_queue: GoalQueue,
-        driver: Driver,
+        executor: PlanExecutor,
         planner: Planner,
         programs: ProgramBox,
         budgets: Budgets,
@@ -52,7 +52,7 @@ class GoalServer:
         self._ends = ends
         self._budgets = budgets
         self._goal_queue = goal_queue
-        self._driver = driver
+        self._executor = executor
         self._planner = planner
         self._programs = programs
         self._stops = stops
@@ -67,7 +67,7 @@ class GoalServer:
     @property
     def current(self) -> Goal | None:
         """What is being prepared or driven."""
-        return self._preparing or self._driver.goal
+        return self._preparing or self._executor.goal
 
     @property
     def are_done(self) -> bool:
@@ -149,7 +149,7 @@ class GoalServer:
 
     def _end_current_gently(self, why: Reason) -> None:
         self._drop_prepared("stopped", why)
-        self._driver.ramp_down(why)
+        self._executor.ramp_down(why)
 
     # --- rehearsed ---
 
@@ -201,7 +201,7 @@ class GoalServer:
 
     def _launch(self, goal: Goal) -> None:
         self._preparing = None
-        self._driver.launch(goal)
+        self._executor.launch(goal)
 
     # --- rehearsed in parts, while it is driven ---
 
@@ -218,7 +218,7 @@ class GoalServer:
     def _rehearse_part(self, goal: Goal) -> None:
         """Rehearse the next part, if the one before it has been."""
         stream = goal.stream
-        if not self._driver.drives(goal) or stream is None or stream.walk is None:
+        if not self._executor.drives(goal) or stream is None or stream.walk is None:
             return
         plan_text, start = stream.take(), stream.walk.end
         if plan_text is not None:
@@ -233,13 +233,13 @@ class GoalServer:
         return lambda: self._planner.plan(goal.turn, plan_text, start, plan_start, seen, left)
 
     def _take_part(self, goal: Goal, stream: Stream, planned: Planned) -> None:
-        if not self._driver.drives(goal):
+        if not self._executor.drives(goal):
             return
         part = planned.part_event(stream.steps)
         refusal = stream.accept(planned)
         self._emit(refused(part, refusal))
         if refusal is None:
-            self._driver.expect(stream.duration_s)
+            self._executor.expect(stream.duration_s)
         self._rehearse_part(goal)
 
     # --- paused ---
@@ -260,7 +260,7 @@ class GoalServer:
         if goal.rehearse_only or isinstance(goal, ProgramGoal) or is_foreign(goal, self._robot):
             return None
         if self._preparing is None:
-            return self._driver.break_off(why)
+            return self._executor.break_off(why)
         self._preparing = None
         return lambda: goal.unmoved("stopped", why, self._robot.pose)
 
@@ -305,7 +305,7 @@ class GoalServer:
 
     def end_stopped(self, why: Reason) -> None:
         """The robot has been stopped: end what was driven, prepared, paused, or queued before the stop."""
-        self._driver.end_stopped(why)
+        self._executor.end_stopped(why)
         self._pausing.end(why)
         self._drop_prepared("stopped", why)
         for goal in self._goal_queue.take_void(self._stops.count):
@@ -320,7 +320,7 @@ class GoalServer:
             "handed_over", {"source": self._robot.governor.leases.source_of(goals[0].lease), "to": to}
         )
         self._emit(Notice(goals[0].turn, why))
-        self._driver.end_stopped(why)
+        self._executor.end_stopped(why)
         self._pausing.end(why)
         self._drop_prepared("stopped", why)
         for goal in self._goal_queue.take_all():
@@ -328,7 +328,7 @@ class GoalServer:
 
     def fail_all(self, why: Reason) -> None:
         """The way to the robot is gone for good: all that was asked for has failed."""
-        self._driver.fail(why)
+        self._executor.fail(why)
         self._pausing.end(why)
         self._drop_prepared("failed", why)
         for goal in self._goal_queue.take_all():

@@ -19,13 +19,13 @@ from chatrobot.governor.governor import Governor
 from chatrobot.governor.priority import RELEASERS, Priority, priority_of
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.budgets import Budgets, open_loop_notice
-from chatrobot.motion.driver import Driver
 from chatrobot.motion.ends import Ends
 from chatrobot.motion.goal_queue import GoalQueue
 from chatrobot.motion.goal_server import GoalServer
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.inbox import Inbox
 from chatrobot.motion.paused import Pausing
+from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.program_box import NoBox, ProgramBox
 from chatrobot.motion.relay import Relay
@@ -89,13 +89,13 @@ class Motion:
         self._inbox = Inbox(background)
         self._ends = ends = Ends(emit, measured=profile.has_odometry)
         stops, inbox = self._stops, self._inbox
-        self._driver = Driver(robot, self.interlock, stops, programs, inbox, clock, ends, emit)
+        self._executor = PlanExecutor(robot, self.interlock, stops, programs, inbox, clock, ends, emit)
         self._pausing = pausing = Pausing(robot, self._goal_queue, self.interlock, stops, clock, ends, emit)
         self._budgets = Budgets(profile.safety.budget)
         self._goals = GoalServer(
             robot,
             self._goal_queue,
-            self._driver,
+            self._executor,
             planner,
             programs,
             self._budgets,
@@ -122,7 +122,7 @@ class Motion:
             takes_over=lambda: self._goals.hand_over(JOYSTICK),
         )
         self._stall_detector = StallDetector(clock, guard, self.halt)
-        self._telling = Telling(self.sensors, self._driver, emit)
+        self._telling = Telling(self.sensors, self._executor, emit)
         self._emergency: Envelope | None = None
 
     # --- from any thread -------------------------------------------------------------------------------------
@@ -239,7 +239,7 @@ class Motion:
         now_s = self._clock.now_s()
         late_s = self._stall_detector.tick(
             now_s,
-            is_driven=self._driver.is_driving or self._relay.is_driving or self._joystick.is_driving,
+            is_driven=self._executor.is_driving or self._relay.is_driving or self._joystick.is_driving,
             is_engaged=self._goals.current is not None,
         )
         self._governor.leases.note_held_up(late_s)
@@ -250,10 +250,10 @@ class Motion:
             self._book_stop()
         now_s = self._clock.now_s()  # an action may have sent the first velocity of a motion meanwhile
         self._joystick.tick(now_s, self._is_clear)
-        self._driver.tick(now_s)
+        self._executor.tick(now_s)
         self._book_stop()
         self._goals.expire_approval(now_s)
-        if not self._driver.is_driving:
+        if not self._executor.is_driving:
             self.stop_confirmation.tick(now_s)
             if self.stop_confirmation.is_at_rest:
                 self._robot.may_move = False

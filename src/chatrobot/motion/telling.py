@@ -7,7 +7,7 @@ from collections.abc import Callable
 from chatrobot.core.events import Event, Telemetry
 from chatrobot.execution.lookahead import nearest_m
 from chatrobot.execution.sensors import Sensors
-from chatrobot.motion.driver import Driver
+from chatrobot.motion.plan_executor import PlanExecutor
 
 TELEMETRY_S = 0.1
 
@@ -15,9 +15,9 @@ TELEMETRY_S = 0.1
 class Telling:
     """Tells how far the motion is, and where and how fast the robot goes, as it measures it itself."""
 
-    def __init__(self, sensors: Sensors, driver: Driver, emit: Callable[[Event], None]) -> None:
+    def __init__(self, sensors: Sensors, executor: PlanExecutor, emit: Callable[[Event], None]) -> None:
         self._sensors = sensors
-        self._driver = driver
+        self._executor = executor
         self._emit = emit
         self._next_s = 0.0
 
@@ -29,7 +29,7 @@ class Telling:
         estimate, scan = self._sensors.estimate, self._sensors.scan
         if estimate is None:
             return
-        progress = self._driver.progress(now_s)
+        progress = self._executor.progress(now_s)
         if progress is not None:
             self._emit(progress)
         self._emit(

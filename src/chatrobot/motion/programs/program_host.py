@@ -7,9 +7,9 @@ from chatrobot.core.reason import Reason
 from chatrobot.motion.planner import Planned, Planner
 from chatrobot.motion.programs.live_program import InStepProgram, RealTimeProgram
 from chatrobot.motion.programs.planned_program import PlannedProgram
+from chatrobot.motion.programs.program_execution import LiveProgram
 from chatrobot.motion.programs.program_goal import ProgramGoal
 from chatrobot.motion.programs.program_rehearsal import rehearse_program
-from chatrobot.motion.programs.program_run import LiveProgram
 from chatrobot.motion.programs.program_senses import Senses
 from chatrobot.motion.seen_world import SeenPoints
 from chatrobot.programs.boxed import BoxedProgram, warm_server

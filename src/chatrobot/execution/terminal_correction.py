@@ -9,12 +9,12 @@ from chatrobot.core.geometry import Pose, Twist
 from chatrobot.plan.core_motion import RampedTwist
 from chatrobot.robots.profile import RobotProfile
 
-MEND_TRIES = 2
+TRIES = 2
 """A robot that cannot hold still any better is left where it is."""
 
-MEND_SPEED_MPS = 0.08
-MEND_RATE_RADPS = 0.3
-MEND_LEAST_S = 0.1
+SPEED_MPS = 0.08
+RATE_RADPS = 0.3
+LEAST_S = 0.1
 
 
 class Tolerance(NamedTuple):
@@ -29,7 +29,7 @@ BETWEEN_STEPS = Tolerance(0.04, math.radians(2.5))
 """Feedback does the work there; only what is this big is driven first."""
 
 
-def mend(profile: RobotProfile, rest: Pose, tolerance: Tolerance) -> RampedTwist | None:
+def correction(profile: RobotProfile, rest: Pose, tolerance: Tolerance) -> RampedTwist | None:
     """The motion that takes the robot to its reference; None where it is near enough.
 
     Args:
@@ -41,5 +41,5 @@ def mend(profile: RobotProfile, rest: Pose, tolerance: Tolerance) -> RampedTwist
     distance_m = math.hypot(x, y)
     if distance_m <= tolerance.distance_m and abs(yaw) <= tolerance.turn_rad:
         return None
-    hold_s = max(distance_m / MEND_SPEED_MPS, abs(yaw) / MEND_RATE_RADPS, MEND_LEAST_S)
+    hold_s = max(distance_m / SPEED_MPS, abs(yaw) / RATE_RADPS, LEAST_S)
     return RampedTwist.within(profile.limits, Twist(x / hold_s, y / hold_s, yaw / hold_s), hold_s)

@@ -9,7 +9,7 @@ TICK_S = 0.02
 """The control period, 50 Hz, as the governor has it."""
 
 
-class Course:
+class ReferenceTrajectory:
     """The motions of a plan on the clock, each from where the one before it should have ended.
 
     Args:

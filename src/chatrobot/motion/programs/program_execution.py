@@ -46,7 +46,7 @@ class LiveProgram(Protocol):
         ...
 
 
-class ProgramRun:
+class ProgramExecution:
     """Drives by the program of `goal`, which has been rehearsed and launched. `tick` until `is_done`, or a stop."""
 
     def __init__(

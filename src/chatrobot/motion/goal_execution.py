@@ -17,7 +17,7 @@ from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan
 
 
-class Run:
+class GoalExecution:
     """Drives the plan of `goal`, which has been rehearsed. `tick` until `is_done`, or until it is stopped."""
 
     def __init__(self, goal: Goal, robot: GovernedRobot, emit: Callable[[Event], None], now_s: float) -> None:

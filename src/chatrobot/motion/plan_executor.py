@@ -16,12 +16,12 @@ from chatrobot.execution.health import is_seen_moving
 from chatrobot.motion.budgets import REACHED
 from chatrobot.motion.ends import Ends
 from chatrobot.motion.goal import Goal
+from chatrobot.motion.goal_execution import GoalExecution
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.inbox import Inbox
 from chatrobot.motion.programs.program_box import ProgramBox
+from chatrobot.motion.programs.program_execution import LiveProgram, ProgramExecution
 from chatrobot.motion.programs.program_goal import ProgramGoal
-from chatrobot.motion.programs.program_run import LiveProgram, ProgramRun
-from chatrobot.motion.run import Run
 from chatrobot.motion.safety.interlock import Interlock
 from chatrobot.motion.safety.stop import Stops
 
@@ -31,7 +31,7 @@ FAILURES = frozenset(
 """A stop for one of these is no wish of anybody's: what ran has failed."""
 
 
-class Driver:
+class PlanExecutor:
     """Has the `goal` it was given from `launch` until its end is told. Belongs to the control thread."""
 
     def __init__(
@@ -53,7 +53,7 @@ class Driver:
         self._inbox = inbox
         self._clock = clock
         self._emit = emit
-        self._run: Run | ProgramRun | None = None
+        self._run: GoalExecution | ProgramExecution | None = None
         self.goal: Goal | None = None
         """What is being launched or driven."""
 
@@ -79,7 +79,7 @@ class Driver:
         elif isinstance(goal, ProgramGoal):
             self._launch_program(goal)
         else:
-            self._set_out(Run(goal, self._robot, self._emit, now_s), now_s)
+            self._set_out(GoalExecution(goal, self._robot, self._emit, now_s), now_s)
 
     def _launch_program(self, goal: ProgramGoal) -> None:
         """Start it in its box, off this thread; it runs from the moment it is there."""
@@ -92,11 +92,11 @@ class Driver:
                 program.close()  # stopped meanwhile
             else:
                 now_s = self._clock.now_s()
-                self._set_out(ProgramRun(goal, program, self._robot, self._emit, now_s), now_s)
+                self._set_out(ProgramExecution(goal, program, self._robot, self._emit, now_s), now_s)
 
         self._inbox.fetch(lambda: self._programs.launch(goal), take)
 
-    def _set_out(self, run: Run | ProgramRun, now_s: float) -> None:
+    def _set_out(self, run: GoalExecution | ProgramExecution, now_s: float) -> None:
         self._run = run
         self._emit(Started(run.goal.turn, run.goal.start, self._robot.sensors.has_odometry))
         self.tick(now_s)
@@ -128,7 +128,7 @@ class Driver:
 
     def expect(self, duration_s: float) -> None:
         """The plan under way has become longer: so long in all."""
-        if isinstance(self._run, Run):
+        if isinstance(self._run, GoalExecution):
             self._run.expect(duration_s)
 
     def progress(self, now_s: float) -> Progress | None:
@@ -157,7 +157,7 @@ class Driver:
         None, and nothing is done, where it cannot be gone on with.
         """
         run = self._run
-        if not isinstance(run, Run) or not run.finished("stopped", why).remaining:
+        if not isinstance(run, GoalExecution) or not run.finished("stopped", why).remaining:
             return None
         self._let_go(run)
         return lambda: run.goal.whole(run.finished("stopped", why))
@@ -170,7 +170,7 @@ class Driver:
             self._give_up("failed", why)
         self._ends.tell_all()
 
-    def _end(self, run: Run | ProgramRun, outcome: Outcome, reason: Reason | None) -> None:
+    def _end(self, run: GoalExecution | ProgramExecution, outcome: Outcome, reason: Reason | None) -> None:
         self._let_go(run)
         stream, possible = run.goal.stream, ""
         if outcome == "completed" and stream is not None and stream.refusal is not None:
@@ -181,7 +181,7 @@ class Driver:
             lambda: replace(run.goal.whole(run.finished(outcome, reason)), possible=possible)
         )
 
-    def _let_go(self, run: Run | ProgramRun) -> None:
+    def _let_go(self, run: GoalExecution | ProgramExecution) -> None:
         self.goal = self._run = None
         run.close()
         self._robot.governor.end(run.goal.lease)
