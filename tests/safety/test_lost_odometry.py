@@ -55,7 +55,7 @@ def driven(rig: Rig, source: str, duration_s: float) -> None:
     """Let time pass while that source goes on asking."""
     for _ in range(round(duration_s / 0.02)):
         if source == "relay":
-            rig.motion._relay.hear(TwistMessage(*ASKED))
+            rig.motion._cmd_vel.hear(TwistMessage(*ASKED))
         rig.pass_time(0.02)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-RELAY_TOPIC = "chatrobot/cmd_vel"
+CMD_VEL_INPUT_TOPIC = "chatrobot/cmd_vel"
 """Where other programs may send velocities for us to govern; of the same type as the robot's own."""
 
 JOYSTICK_TOPIC = "chatrobot/joystick"

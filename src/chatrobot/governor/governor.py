@@ -10,6 +10,7 @@ from typing import Literal
 from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
 from chatrobot.core.governed import GovernedTwist, Mint, StopEpoch
 from chatrobot.core.reason import Reason
+from chatrobot.governor.command_arbiter import CommandArbiter, Handover
 from chatrobot.governor.jerk import JerkLimit
 from chatrobot.governor.kernel import bounded, make_kernel
 from chatrobot.governor.lease import Leases
@@ -20,7 +21,6 @@ from chatrobot.governor.rule import NOTHING_SENSED, Sensed, Situation
 from chatrobot.governor.rules import Composed, Setting, compose, make_rules
 from chatrobot.governor.seen import NO_POINTS, Seen
 from chatrobot.governor.tick import TICK_S as TICK_S
-from chatrobot.governor.wheel import Taken, Wheel
 from chatrobot.robots.open_loop import OPEN_LOOP_MPS, OPEN_LOOP_RADPS
 from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.wire.messages import LaserScan
@@ -84,7 +84,7 @@ class Governor:
         self._jerk = JerkLimit(profile.limits)
         self._epoch = epoch
         self._mint = Mint()
-        self._wheel = Wheel(self.leases, epoch)
+        self._command_arbiter = CommandArbiter(self.leases, epoch)
         self._releasers = frozenset(releasers)
         self._sent = ZERO_TWIST
         self._sent_at_s = -math.inf
@@ -117,22 +117,22 @@ class Governor:
 
     # --- who drives ---
 
-    def begin(self, lease_id: str, now_s: float, sensed: Sensed = NOTHING_SENSED) -> Taken:
+    def begin(self, lease_id: str, now_s: float, sensed: Sensed = NOTHING_SENSED) -> Handover:
         """Take the wheel for a new motion: from nobody, or from a source of lower priority."""
         if self._latch is not None:
-            return Taken(self._latch)
+            return Handover(self._latch)
         if not (self._profile.has_odometry or self._profile.open_loop):
-            return Taken(Reason("needs_open_loop"))
+            return Handover(Reason("needs_open_loop"))
         if not self.leases.is_valid(lease_id, now_s):
-            return Taken(Reason("lease_lapsed", {"source": self.leases.source_of(lease_id)}))
+            return Handover(Reason("lease_lapsed", {"source": self.leases.source_of(lease_id)}))
         barred = compose(self._rules, ZERO_TWIST, Situation(None, sensed, begins=True))
         if barred.ruling.factor < 1.0:
-            return Taken(barred.ruling.reason)
-        return self._wheel.take(lease_id, now_s)
+            return Handover(barred.ruling.reason)
+        return self._command_arbiter.take(lease_id, now_s)
 
     def end(self, lease_id: str) -> None:
         """That source's motion is over; the wheel is free."""
-        self._wheel.leave(lease_id)
+        self._command_arbiter.leave(lease_id)
 
     def narrow(self, speed_mps: float = math.inf, rate_radps: float = math.inf) -> None:
         """From now on at most these. There is no way back: a limit can only shrink. Raises ValueError."""
@@ -229,7 +229,7 @@ class Governor:
     def _refusal(self, asked: Twist, lease_id: str, now_s: float) -> str:
         if self._latch is not None:
             return "emergency_stop"
-        holder = self._wheel.holder(now_s)
+        holder = self._command_arbiter.holder(now_s)
         if holder not in ("", lease_id):
             return "outranked"
         if not self.leases.is_valid(lease_id, now_s):

@@ -312,7 +312,7 @@ class GoalServer:
             self._finish(goal, "stopped", why)
 
     def hand_over(self, to: str) -> None:
-        """Somebody of higher priority takes the wheel: what was driven, prepared or queued ends, and it is told."""
+        """Somebody of higher priority takes command: what was driven, prepared or queued ends, and it is told."""
         goals = self._all()
         if not goals:
             return

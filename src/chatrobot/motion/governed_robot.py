@@ -59,7 +59,7 @@ class GovernedRobot:
         return Sight(self.profile, lidar, None if is_silent else look)
 
     def begin(self, lease: str, now_s: float) -> Reason | None:
-        """Have that lease take the wheel for a new motion; why it may not."""
+        """Have that lease take command for a new motion; why it may not."""
         return self.governor.begin(lease, now_s, self._sensed()).refusal
 
     def govern(self, asked: Twist, lease: str, now_s: float) -> Verdict:

@@ -13,12 +13,14 @@ from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Looked, Notice
 from chatrobot.core.governed import StopEpoch
 from chatrobot.core.reason import Reason
-from chatrobot.core.wiring import JOYSTICK_TOPIC, RELAY_TOPIC
+from chatrobot.core.wiring import CMD_VEL_INPUT_TOPIC, JOYSTICK_TOPIC
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
 from chatrobot.governor.priority import RELEASERS, Priority, priority_of
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.budgets import Budgets, open_loop_notice
+from chatrobot.motion.clients import Clients
+from chatrobot.motion.cmd_vel_input import CmdVelInput
 from chatrobot.motion.ends import Ends
 from chatrobot.motion.goal_queue import GoalQueue
 from chatrobot.motion.goal_server import GoalServer
@@ -28,14 +30,12 @@ from chatrobot.motion.paused import Pausing
 from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.program_box import NoBox, ProgramBox
-from chatrobot.motion.relay import Relay
 from chatrobot.motion.safety.guard_link import GuardLink
 from chatrobot.motion.safety.interlock import Interlock
 from chatrobot.motion.safety.stall_detector import StallDetector
 from chatrobot.motion.safety.stop import PAUSED, Stops
 from chatrobot.motion.safety.stop_confirmation import StopConfirmation
 from chatrobot.motion.sectors import sectors_m
-from chatrobot.motion.sources import Sources
 from chatrobot.motion.telling import Telling
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.transports.transport import WireTransport
@@ -83,7 +83,7 @@ class Motion:
         self._stops = Stops(epoch, transport, self.stop_confirmation, clock)
         self.interlock = Interlock(self._governor, guard)
         self._goal_queue = GoalQueue()
-        self._sources = Sources(
+        self._clients = Clients(
             self._governor.leases, lambda lease: self._goals.is_engaged(lease), self._goal_queue.forget
         )
         self._inbox = Inbox(background)
@@ -106,14 +106,14 @@ class Motion:
             ends,
             emit,
         )
-        self._relay = Relay(
+        self._cmd_vel = CmdVelInput(
             clock,
             robot,
             self.see_it_stand,
             self._notice,
-            takes_over=lambda: pausing.drop(Reason("other_drove", {"source": RELAY_TOPIC})),
+            takes_over=lambda: pausing.drop(Reason("other_drove", {"source": CMD_VEL_INPUT_TOPIC})),
         )
-        self._joystick = Relay(
+        self._joystick = CmdVelInput(
             clock,
             robot,
             self.see_it_stand,
@@ -170,7 +170,7 @@ class Motion:
     def lose(self, lease: str) -> None:
         """The source behind `lease` is gone without a goodbye: a loss, and it stops."""
         self.halt(Reason("source_lost", {"source": self._governor.leases.source_of(lease)}))
-        self._sources.lose(lease)
+        self._clients.lose(lease)
 
     # --- control thread --------------------------------------------------------------------------------------
 
@@ -178,7 +178,7 @@ class Motion:
         """Listen to the robot and shake hands with the guard."""
         self.sensors.attach(wire)
         self._programs.attach(wire)
-        wire.subscribe(RELAY_TOPIC, TwistMessage, self._relay.hear)
+        wire.subscribe(CMD_VEL_INPUT_TOPIC, TwistMessage, self._cmd_vel.hear)
         wire.subscribe(JOYSTICK_TOPIC, TwistMessage, self._joystick.hear)
         self._guard.handshake()
         if (open_loop := open_loop_notice(self._profile)) is not None:
@@ -218,7 +218,7 @@ class Motion:
     @property
     def has_left(self) -> bool:
         """A source has gone, and all is done."""
-        return self._sources.some_have_left and not self.is_busy
+        return self._clients.some_have_left and not self.is_busy
 
     def see_it_stand(self) -> None:
         """Send zeros until it does: nobody knows what it has heard last."""
@@ -239,7 +239,7 @@ class Motion:
         now_s = self._clock.now_s()
         late_s = self._stall_detector.tick(
             now_s,
-            is_driven=self._executor.is_driving or self._relay.is_driving or self._joystick.is_driving,
+            is_driven=self._executor.is_driving or self._cmd_vel.is_driving or self._joystick.is_driving,
             is_engaged=self._goals.current is not None,
         )
         self._governor.leases.note_held_up(late_s)
@@ -260,7 +260,7 @@ class Motion:
         if not self.stop_confirmation.is_watched:
             self._ends.tell_all()
         self._pausing.watch(now_s, is_standing=not self.stop_confirmation.is_watched)
-        self._relay.tick(now_s, self._is_free)
+        self._cmd_vel.tick(now_s, self._is_free)
         self._begin_next(now_s)
         self._stall_detector.beat(
             self._clock.now_s()
@@ -275,13 +275,13 @@ class Motion:
                 self._goals.pause(why, self._clock.now_s())
             else:
                 self._goals.end_stopped(why)
-            self._relay.stop()
+            self._cmd_vel.stop()
             self._joystick.stop()
 
     def _begin_next(self, now_s: float) -> None:
         if self.stop_confirmation.disobeyed is not None:
             self._goals.refuse_all(self.stop_confirmation.disobeyed)
-        if not (self.stop_confirmation.is_active or self._relay.is_driving):
+        if not (self.stop_confirmation.is_active or self._cmd_vel.is_driving):
             self._goals.begin_next(now_s)
 
     def _is_free(self) -> bool:
@@ -304,12 +304,12 @@ class Motion:
         Stops have been heard already; here they are only booked.
         """
         now_s = self._clock.now_s()
-        self._sources.note(envelope.lease, now_s)
+        self._clients.note(envelope.lease, now_s)
         if self._goal_queue.is_old(envelope):
             if envelope.word in ("plan", "program"):
                 self._goals.void(envelope, epoch)
             return
-        self._sources.hear(envelope, came_s)
+        self._clients.hear(envelope, came_s)
         if envelope.word in ("plan", "program"):
             self._accept(envelope, epoch)
             self._begin_next(now_s)
@@ -327,11 +327,11 @@ class Motion:
             for reason in self._budgets.change(envelope.source, envelope.payload):
                 self._emit(Notice(envelope.turn, reason))
         elif envelope.word == "goodbye":
-            self._sources.leave(envelope.lease)
+            self._clients.leave(envelope.lease)
             self._pausing.drop(Reason("source_left", {"source": envelope.source}), envelope.lease)
 
     def _accept(self, envelope: Envelope, epoch: int) -> None:
-        if self._sources.has_left(envelope.lease):
+        if self._clients.has_left(envelope.lease):
             self._goals.refuse(envelope, epoch, Reason("lease_lapsed", {"source": envelope.source}))
         elif self._joystick.is_driving:  # what waited would set out by itself once the person lets go
             self._goals.refuse(envelope, epoch, Reason("outranked", {"source": JOYSTICK}))

@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeVar
 
-from chatrobot.core.wiring import JOYSTICK_TOPIC, RELAY_TOPIC, Wiring
+from chatrobot.core.wiring import CMD_VEL_INPUT_TOPIC, JOYSTICK_TOPIC, Wiring
 from chatrobot.wire.messages import (
     Flag,
     Imu,
@@ -49,7 +49,9 @@ def ros_form(topic: str, kind: type[Any], wiring: Wiring) -> RosForm:
     """What `kind` is on `topic` of a robot wired like this."""
     if kind is TwistMessage and wiring.cmd_vel_type == "TwistStamped":
         return (
-            _TWIST_STAMPED if topic in (wiring.cmd_vel_topic, RELAY_TOPIC, JOYSTICK_TOPIC) else _PLAIN[kind]
+            _TWIST_STAMPED
+            if topic in (wiring.cmd_vel_topic, CMD_VEL_INPUT_TOPIC, JOYSTICK_TOPIC)
+            else _PLAIN[kind]
         )
     if kind is Odometry and topic == wiring.odom_topic and wiring.odom_type == "turtlesim/Pose":
         return _TURTLE_POSE

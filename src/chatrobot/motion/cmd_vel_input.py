@@ -4,7 +4,7 @@ Whoever publishes `cmd_vel` may be started with `-r cmd_vel:=chatrobot/cmd_vel`:
 hold for it, too, and it no longer fights with us for the robot. It comes last: a plan takes its place, and after a stop
 or a plan it has to let go (send zero, or nothing for a moment) before it drives again.
 
-A joystick has a topic and a relay of its own: it comes first, takes the wheel from whatever drives, and lets go by
+A joystick has a topic and a relay of its own: it comes first, takes command from whatever drives, and lets go by
 itself once it has asked for nothing for a moment, so that one that sends zeros at rest keeps nobody from driving.
 """
 
@@ -15,7 +15,7 @@ from collections.abc import Callable
 from chatrobot.core.clock import Clock
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
-from chatrobot.core.wiring import RELAY_TOPIC
+from chatrobot.core.wiring import CMD_VEL_INPUT_TOPIC
 from chatrobot.governor.lease import TERM_S
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.wire.messages import TwistMessage
@@ -23,12 +23,12 @@ from chatrobot.wire.messages import TwistMessage
 _NEVER = -1e9
 
 
-class Relay:
+class CmdVelInput:
     """`hear` comes from the wire's thread; the rest belongs to the control thread.
 
     Args:
         source: in whose name it drives, which is also its lease; it decides before whom it goes.
-        takes_over: called before it takes the wheel.
+        takes_over: called before it takes command.
         on_end: the robot was driven and is to stand now.
         tell: hears why it may not be driven.
     """
@@ -39,7 +39,7 @@ class Relay:
         robot: GovernedRobot,
         on_end: Callable[[], None],
         tell: Callable[[Reason], None],
-        source: str = RELAY_TOPIC,
+        source: str = CMD_VEL_INPUT_TOPIC,
         takes_over: Callable[[], None] = lambda: None,
     ) -> None:
         self._lease = source

@@ -10,10 +10,10 @@ from tests.safety.test_who_drives import Crowd
 
 from chatrobot.governor.lease import Leases
 from chatrobot.link.envelope import Envelope
+from chatrobot.motion.clients import MANY_SOURCES, MOST_SOURCES, Clients
 from chatrobot.motion.goal_queue import GoalQueue
 from chatrobot.motion.safety import competing_controllers
 from chatrobot.motion.safety.competing_controllers import CompetingControllers
-from chatrobot.motion.sources import MANY_SOURCES, MOST_SOURCES, Sources
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import Text
 
@@ -23,7 +23,7 @@ class Rig:
 
     def __init__(self) -> None:
         self.leases, self.goal_queue, self.engaged = Leases(), GoalQueue(), set[str]()
-        self.sources = Sources(self.leases, self.engaged.__contains__, self.goal_queue.forget)
+        self.sources = Clients(self.leases, self.engaged.__contains__, self.goal_queue.forget)
 
     def say(self, lease: str, word: str, now_s: float, sequence: int = 1) -> None:
         envelope = Envelope(word, "agent", lease, sequence, payload={"term_s": 0.3})  # type: ignore[arg-type]
@@ -97,7 +97,7 @@ def test_a_plan_is_driven_to_its_end_through_a_flood_of_sources(tmp_path: Path) 
         crowd.live(0.02)
     crowd.live(2.0)
     assert crowd.end_of(1).outcome == "completed"
-    assert len(crowd.motion._sources._known) <= MOST_SOURCES
+    assert len(crowd.motion._clients._known) <= MOST_SOURCES
 
 
 def test_of_a_flood_of_rivals_the_last_heard_are_kept_and_one_that_beats_is_seen() -> None:

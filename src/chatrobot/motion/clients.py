@@ -20,7 +20,7 @@ _LOOKED_AT = 32
 """So many of the longest-silent are looked at: where none of them is gone, hardly any is."""
 
 
-class Sources:
+class Clients:
     """Belongs to the control thread, but for `lose`.
 
     Args:

@@ -1,4 +1,4 @@
-"""One source drives at a time; the higher one takes over in the open, and a stop takes the wheel from all."""
+"""One source drives at a time; the higher one takes over in the open, and a stop takes command from all."""
 
 from __future__ import annotations
 

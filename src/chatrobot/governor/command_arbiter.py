@@ -10,14 +10,14 @@ from chatrobot.governor.lease import Leases
 
 
 @dataclass(frozen=True)
-class Taken:
+class Handover:
     """What became of taking the wheel: refused with a reason, or taken, and from whom (empty: it was free)."""
 
     refusal: Reason | None = None
     from_source: str = ""
 
 
-class Wheel:
+class CommandArbiter:
     """Who may move the robot now."""
 
     def __init__(self, leases: Leases, epoch: StopEpoch) -> None:
@@ -31,16 +31,16 @@ class Wheel:
         held = self._taken_in == self._epoch.value and self._leases.is_valid(self._lease_id, now_s)
         return self._lease_id if held else ""
 
-    def take(self, lease_id: str, now_s: float) -> Taken:
+    def take(self, lease_id: str, now_s: float) -> Handover:
         """Take it for a valid lease, from nobody or from a source of lower priority."""
         holder = self.holder(now_s)
         from_source = ""
         if holder not in ("", lease_id):
             from_source = self._leases.source_of(holder)
             if self._leases.priority_of(lease_id) <= self._leases.priority_of(holder):
-                return Taken(Reason("outranked", {"source": from_source}))
+                return Handover(Reason("outranked", {"source": from_source}))
         self._lease_id, self._taken_in = lease_id, self._epoch.value
-        return Taken(from_source=from_source)
+        return Handover(from_source=from_source)
 
     def leave(self, lease_id: str) -> None:
         """Let go; nothing happens where another holds it."""
