@@ -13,11 +13,11 @@ from chatrobot.governor.priority import Priority
 from chatrobot.link.approval import Approval
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.budgets import Budgets
-from chatrobot.motion.ends import Ends
 from chatrobot.motion.goal import Goal
 from chatrobot.motion.goal_queue import GoalQueue
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.inbox import Inbox
+from chatrobot.motion.outcomes import OutcomeQueue
 from chatrobot.motion.paused import PausedGoal, Pausing, is_foreign, why_not_kept
 from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planned, Planner, refused
@@ -45,11 +45,11 @@ class GoalServer:
         inbox: Inbox,
         clock: Clock,
         pausing: Pausing,
-        ends: Ends,
+        outcomes: OutcomeQueue,
         emit: Callable[[Event], None],
     ) -> None:
         self._robot = robot
-        self._ends = ends
+        self._outcomes = outcomes
         self._budgets = budgets
         self._goal_queue = goal_queue
         self._executor = executor
@@ -345,4 +345,4 @@ class GoalServer:
             self._finish(goal, outcome, reason)
 
     def _finish(self, goal: Goal, outcome: Outcome, reason: Reason | None) -> None:
-        self._ends.tell(lambda: goal.unmoved(outcome, reason, self._robot.pose))
+        self._outcomes.tell(lambda: goal.unmoved(outcome, reason, self._robot.pose))

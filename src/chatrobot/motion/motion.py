@@ -21,11 +21,11 @@ from chatrobot.link.envelope import Envelope
 from chatrobot.motion.budgets import Budgets, open_loop_notice
 from chatrobot.motion.clients import Clients
 from chatrobot.motion.cmd_vel_input import CmdVelInput
-from chatrobot.motion.ends import Ends
 from chatrobot.motion.goal_queue import GoalQueue
 from chatrobot.motion.goal_server import GoalServer
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.inbox import Inbox
+from chatrobot.motion.outcomes import OutcomeQueue
 from chatrobot.motion.paused import Pausing
 from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planner
@@ -36,7 +36,7 @@ from chatrobot.motion.safety.stall_detector import StallDetector
 from chatrobot.motion.safety.stop import PAUSED, Stops
 from chatrobot.motion.safety.stop_confirmation import StopConfirmation
 from chatrobot.motion.sectors import sectors_m
-from chatrobot.motion.telling import Telling
+from chatrobot.motion.telemetry import TelemetryPublisher
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.messages import TwistMessage
@@ -87,10 +87,12 @@ class Motion:
             self._governor.leases, lambda lease: self._goals.is_engaged(lease), self._goal_queue.forget
         )
         self._inbox = Inbox(background)
-        self._ends = ends = Ends(emit, measured=profile.has_odometry)
+        self._outcomes = outcomes = OutcomeQueue(emit, measured=profile.has_odometry)
         stops, inbox = self._stops, self._inbox
-        self._executor = PlanExecutor(robot, self.interlock, stops, programs, inbox, clock, ends, emit)
-        self._pausing = pausing = Pausing(robot, self._goal_queue, self.interlock, stops, clock, ends, emit)
+        self._executor = PlanExecutor(robot, self.interlock, stops, programs, inbox, clock, outcomes, emit)
+        self._pausing = pausing = Pausing(
+            robot, self._goal_queue, self.interlock, stops, clock, outcomes, emit
+        )
         self._budgets = Budgets(profile.safety.budget)
         self._goals = GoalServer(
             robot,
@@ -103,7 +105,7 @@ class Motion:
             inbox,
             clock,
             pausing,
-            ends,
+            outcomes,
             emit,
         )
         self._cmd_vel = CmdVelInput(
@@ -122,7 +124,7 @@ class Motion:
             takes_over=lambda: self._goals.hand_over(JOYSTICK),
         )
         self._stall_detector = StallDetector(clock, guard, self.halt)
-        self._telling = Telling(self.sensors, self._executor, emit)
+        self._telemetry = TelemetryPublisher(self.sensors, self._executor, emit)
         self._emergency: Envelope | None = None
 
     # --- from any thread -------------------------------------------------------------------------------------
@@ -188,7 +190,7 @@ class Motion:
     def is_busy(self) -> bool:
         """True while anything is moving, queued, being rehearsed, awaited or zeroed."""
         is_zeroed = self.stop_confirmation.is_active and self.stop_confirmation.disobeyed is None
-        is_ending = is_zeroed or not self._ends.are_told
+        is_ending = is_zeroed or not self._outcomes.are_told
         return not self._goals.are_done or bool(self._inbox) or self._stops.is_unbooked or is_ending
 
     @property
@@ -258,14 +260,14 @@ class Motion:
             if self.stop_confirmation.is_at_rest:
                 self._robot.may_move = False
         if not self.stop_confirmation.is_watched:
-            self._ends.tell_all()
+            self._outcomes.tell_all()
         self._pausing.watch(now_s, is_standing=not self.stop_confirmation.is_watched)
         self._cmd_vel.tick(now_s, self._is_free)
         self._begin_next(now_s)
         self._stall_detector.beat(
             self._clock.now_s()
         )  # last: it wakes the guard, which may take this processor
-        self._telling.tick(now_s)
+        self._telemetry.tick(now_s)
 
     def _book_stop(self) -> None:
         """A stop has gone out, from whatever thread: end what ran and what waited, then see the robot stand."""

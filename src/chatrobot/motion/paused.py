@@ -16,10 +16,10 @@ from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import Priority
 from chatrobot.link.approval import LAPSES_AFTER_M, LAPSES_AFTER_RAD
 from chatrobot.link.envelope import Envelope
-from chatrobot.motion.ends import Ends
 from chatrobot.motion.goal import Goal
 from chatrobot.motion.goal_queue import GoalQueue
 from chatrobot.motion.governed_robot import GovernedRobot
+from chatrobot.motion.outcomes import OutcomeQueue
 from chatrobot.motion.programs.program_goal import ProgramGoal
 from chatrobot.motion.safety.interlock import Interlock
 from chatrobot.motion.safety.stop import Stops
@@ -120,7 +120,7 @@ class Pausing:
         interlock: Interlock,
         stops: Stops,
         clock: Clock,
-        ends: Ends,
+        outcomes: OutcomeQueue,
         emit: Callable[[Event], None],
     ) -> None:
         self._robot = robot
@@ -128,7 +128,7 @@ class Pausing:
         self._interlock = interlock
         self._stops = stops
         self._clock = clock
-        self._ends = ends
+        self._outcomes = outcomes
         self._emit = emit
         self._paused: PausedGoal | None = None
         self._heard_s = 0.0
@@ -180,7 +180,7 @@ class Pausing:
             self._tell_unmoved(goal, why)
 
     def _tell_unmoved(self, goal: Goal, why: Reason) -> None:
-        self._ends.tell(lambda: goal.unmoved("stopped", why, self._robot.pose))
+        self._outcomes.tell(lambda: goal.unmoved("stopped", why, self._robot.pose))
 
     def end(self, why: Reason) -> None:
         """It is not gone on with: tell its end."""
@@ -188,5 +188,5 @@ class Pausing:
         if paused is None:
             return
         now_s = self._clock.now_s()
-        tell = self._ends.tell if paused.has_settled else self._ends.tell_later
+        tell = self._outcomes.tell if paused.has_settled else self._outcomes.tell_later
         tell(lambda: paused.ended(why, now_s))

@@ -14,11 +14,11 @@ from chatrobot.core.events import Event, Finished, Outcome, Progress, Started
 from chatrobot.core.reason import Reason
 from chatrobot.execution.health import is_seen_moving
 from chatrobot.motion.budgets import REACHED
-from chatrobot.motion.ends import Ends
 from chatrobot.motion.goal import Goal
 from chatrobot.motion.goal_execution import GoalExecution
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.inbox import Inbox
+from chatrobot.motion.outcomes import OutcomeQueue
 from chatrobot.motion.programs.program_box import ProgramBox
 from chatrobot.motion.programs.program_execution import LiveProgram, ProgramExecution
 from chatrobot.motion.programs.program_goal import ProgramGoal
@@ -42,11 +42,11 @@ class PlanExecutor:
         programs: ProgramBox,
         inbox: Inbox,
         clock: Clock,
-        ends: Ends,
+        outcomes: OutcomeQueue,
         emit: Callable[[Event], None],
     ) -> None:
         self._robot = robot
-        self._ends = ends
+        self._outcomes = outcomes
         self._interlock = interlock
         self._stops = stops
         self._programs = programs
@@ -124,7 +124,7 @@ class PlanExecutor:
                 self._stops.halt_and_book(reason or Reason("cause_unknown"))
             self._end(run, outcome, reason)
             if is_waited_for:
-                self._ends.tell_all()
+                self._outcomes.tell_all()
 
     def expect(self, duration_s: float) -> None:
         """The plan under way has become longer: so long in all."""
@@ -168,7 +168,7 @@ class PlanExecutor:
             self._end(self._run, "failed", why)
         elif self.goal is not None:
             self._give_up("failed", why)
-        self._ends.tell_all()
+        self._outcomes.tell_all()
 
     def _end(self, run: GoalExecution | ProgramExecution, outcome: Outcome, reason: Reason | None) -> None:
         self._let_go(run)
@@ -177,7 +177,7 @@ class PlanExecutor:
             reason = stream.refusal  # what came before it has been done
             outcome = "stopped" if reason.code in REACHED else "refused"
             possible = stream.possible
-        self._ends.tell_later(
+        self._outcomes.tell_later(
             lambda: replace(run.goal.whole(run.finished(outcome, reason)), possible=possible)
         )
 
@@ -191,4 +191,4 @@ class PlanExecutor:
         goal, self.goal = self.goal, None
         assert goal is not None
         self._robot.governor.end(goal.lease)
-        self._ends.tell(lambda: goal.unmoved(outcome, reason, self._robot.pose))
+        self._outcomes.tell(lambda: goal.unmoved(outcome, reason, self._robot.pose))

@@ -12,7 +12,7 @@ from chatrobot.motion.plan_executor import PlanExecutor
 TELEMETRY_S = 0.1
 
 
-class Telling:
+class TelemetryPublisher:
     """Tells how far the motion is, and where and how fast the robot goes, as it measures it itself."""
 
     def __init__(self, sensors: Sensors, executor: PlanExecutor, emit: Callable[[Event], None]) -> None:

@@ -9,7 +9,7 @@ from dataclasses import replace
 from chatrobot.core.events import Event, Finished
 
 
-class Ends:
+class OutcomeQueue:
     """Belongs to the control thread. An end is made when it is told, so that it says what was measured by then.
 
     Args:
