@@ -18,7 +18,7 @@ from chatrobot.plan.lowering import iterate_core
 from chatrobot.plan.steps import Plan
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import Point, RobotProfile
-from chatrobot.sim.lies import SimLies
+from chatrobot.sim.fault_injection import FaultInjection
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import SimRobot
 from chatrobot.transports.transport import WireTransport
@@ -32,7 +32,7 @@ class Rig:
     def __init__(
         self,
         profile: str | RobotProfile = "wheeltec_mini_mec",
-        lies: str = "",
+        faults: str = "",
         world: str = "empty",
         area: Sequence[Point] | None = None,
     ) -> None:
@@ -40,7 +40,11 @@ class Rig:
         self.clock = VirtualClock()
         hub = MemoryHub()
         self.robot = SimRobot(
-            self.profile, load_world(world), SimLies.parse(lies), wire=hub.connect(), clock=self.clock
+            self.profile,
+            load_world(world),
+            FaultInjection.parse(faults),
+            wire=hub.connect(),
+            clock=self.clock,
         )
         self.sensors = Sensors(self.profile, self.clock)
         wire = self.wired(hub.connect())

@@ -31,7 +31,7 @@ from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile, profile_argument
 from chatrobot.robots.open_loop import as_chosen
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.sim.lies import SimLies
+from chatrobot.sim.fault_injection import FaultInjection
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import TRUTH_TOPIC, SimRobot
 from chatrobot.sim.start import check_known, check_start
@@ -106,7 +106,7 @@ def connect(setup: Setup, on_event: OnEvent) -> Connection:
     setup = replace(setup, world=setup.world or default_world(setup.on, open_loop=setup.open_loop))
     world = load_world(setup.world)
     check_known(world, profile)
-    SimLies.parse(setup.sim)
+    FaultInjection.parse(setup.sim)
     if not on_wire:
         check_start(world, profile, f"--world {setup.world}")
     understanding = Understanding(profile, world, setup.folder)
@@ -183,7 +183,7 @@ def _connect_simulated(
 
     clock = VirtualClock()
     hub = MemoryHub()
-    robot = SimRobot(profile, world, SimLies.parse(setup.sim), wire=hub.connect(), clock=clock)
+    robot = SimRobot(profile, world, FaultInjection.parse(setup.sim), wire=hub.connect(), clock=clock)
     wire = hub.connect()
     guard = SimulatedGuard(clock)
     programs = ProgramHost(profile, is_in_step=True)

@@ -19,7 +19,7 @@ from chatrobot.motion.planner import Planner
 from chatrobot.motion.safety.guard_link import SimulatedGuard
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.sim.lies import SimLies
+from chatrobot.sim.fault_injection import FaultInjection
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import SimRobot
 from chatrobot.wire.memory import MemoryHub
@@ -35,7 +35,7 @@ class UndoRig:
         profile, clock, hub = profile or load_profile("wheeltec_mini_mec"), VirtualClock(), MemoryHub()
         around = load_world(world)
         self.events: list[Event] = []
-        self.robot = SimRobot(profile, around, SimLies.parse(""), wire=hub.connect(), clock=clock)
+        self.robot = SimRobot(profile, around, FaultInjection.parse(""), wire=hub.connect(), clock=clock)
         self._somebody = hub.connect()
         self._motion_of: list[Motion] = []
         wire, guard = hub.connect(), SimulatedGuard(clock)

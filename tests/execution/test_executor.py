@@ -34,7 +34,7 @@ def test_a_metre_is_a_metre() -> None:
 
 @pytest.mark.parametrize("seed", range(10))
 def test_a_square_closes_although_wheels_slip_odometry_is_late_and_everything_is_noisy(seed: int) -> None:
-    rig = Rig(lies=f"slip=0.03,latency_s=0.05,noise=on,seed={seed}")
+    rig = Rig(faults=f"slip=0.03,latency_s=0.05,noise=on,seed={seed}")
     assert rig.run(SQUARE).outcome == "completed"
     off_m, off_deg = home_error(rig, turns=1)
     assert off_m < 0.03
@@ -59,7 +59,7 @@ def test_timed_motion_covers_velocity_times_time() -> None:
 
 
 def test_feedback_never_asks_for_more_than_five_percent_over_the_asked_speed() -> None:
-    rig = Rig(lies="slip=0.05,noise=on,seed=3")
+    rig = Rig(faults="slip=0.05,noise=on,seed=3")
     rig.run(Plan((Drive(distance_m=2.0, speed_mps=0.4), Turn(angle_rad=3.0, rate_radps=0.8))))
     assert max(twist.speed_mps for twist in rig.sent) <= 0.4 * 1.05 + 1e-9
     assert max(abs(twist.wz_radps) for twist in rig.sent) <= 0.8 * 1.05 + 1e-9
@@ -74,7 +74,7 @@ def test_a_step_costs_no_time_beyond_its_trapezoid() -> None:
 
 
 def test_silent_odometry_stops_the_robot_and_is_named() -> None:
-    rig = Rig(lies="odom_silent_after_s=1.5")
+    rig = Rig(faults="odom_silent_after_s=1.5")
     executor = rig.run(Plan((Drive(distance_m=3.0),)))
     assert executor.outcome == "failed"
     assert executor.reason is not None
@@ -83,7 +83,7 @@ def test_silent_odometry_stops_the_robot_and_is_named() -> None:
 
 
 def test_a_robot_that_does_not_move_is_not_said_to_have_moved() -> None:
-    rig = Rig(lies="stuck_after_m=0.0,blocked=stall")
+    rig = Rig(faults="stuck_after_m=0.0,blocked=stall")
     executor = rig.run(Plan((Drive(distance_m=1.0),)))
     assert executor.outcome == "failed"
     assert executor.reason is not None
@@ -92,7 +92,7 @@ def test_a_robot_that_does_not_move_is_not_said_to_have_moved() -> None:
 
 
 def test_odometry_that_runs_backwards_is_noticed_within_half_a_metre() -> None:
-    rig = Rig(lies="odom_wrong=reversed")
+    rig = Rig(faults="odom_wrong=reversed")
     executor = rig.run(Plan((Drive(distance_m=2.0),)))
     assert executor.reason is not None
     assert executor.reason.code == "moves_the_other_way"
@@ -100,14 +100,14 @@ def test_odometry_that_runs_backwards_is_noticed_within_half_a_metre() -> None:
 
 
 def test_wheels_that_turn_while_the_robot_does_not_are_given_away_by_the_gyro() -> None:
-    rig = Rig(lies="stuck_after_m=0.0")
+    rig = Rig(faults="stuck_after_m=0.0")
     executor = rig.run(Plan((Turn(angle_rad=math.pi),)))
     assert executor.reason is not None
     assert executor.reason.code == "wheels_slip"
 
 
 def test_odometry_that_jumps_stops_the_robot() -> None:
-    rig = Rig(lies="odom_jump_after_s=2.0")
+    rig = Rig(faults="odom_jump_after_s=2.0")
     executor = rig.run(Plan((Drive(distance_m=3.0),)))
     assert executor.reason is not None
     assert executor.reason.code == "odometry_jumped"

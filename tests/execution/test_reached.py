@@ -98,7 +98,7 @@ def test_what_was_driven_to_its_end_is_the_whole_plan() -> None:
 
 def test_it_is_measured_not_timed() -> None:
     """The wheels slip: where the reference is and where odometry saw the robot are two things."""
-    rig = Rig(lies="slip=0.05,latency_s=0.05,seed=1")
+    rig = Rig(faults="slip=0.05,latency_s=0.05,seed=1")
     done = stopped_after(rig, parse_plan("drive 2 m"), 4.0)
     estimate = rig.sensors.estimate
     assert estimate is not None

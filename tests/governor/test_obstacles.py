@@ -39,7 +39,7 @@ def drive_at_wall(rig: Rig, step: Step, direction_rad: float) -> None:
 @pytest.mark.parametrize("direction_deg", [0, 45, 90, 180, -90])
 def test_the_robot_stops_before_a_wall(speed: float, direction_deg: int) -> None:
     direction = math.radians(direction_deg)
-    rig = Rig(lies="noise=on,seed=2")
+    rig = Rig(faults="noise=on,seed=2")
     drive_at_wall(rig, Drive(distance_m=5.0, direction_rad=direction, speed_mps=speed), direction)
     pose = rig.robot.true_pose
     assert math.hypot(pose.x_m, pose.y_m) > 1.0, "it should come near before it stops"
@@ -57,7 +57,7 @@ def braking_m(rig: Rig, speed_mps: float) -> float:
 @pytest.mark.parametrize("direction_deg", [0, 180, 90, -90, 45, -150])
 @pytest.mark.parametrize("speed", [0.1, 0.6, 1.0])
 def test_a_wall_that_appears_in_time_to_brake_is_not_touched(speed: float, direction_deg: int) -> None:
-    rig, direction = Rig(lies="noise=on,seed=5"), math.radians(direction_deg)
+    rig, direction = Rig(faults="noise=on,seed=5"), math.radians(direction_deg)
     reach = max(x * math.cos(direction) + y * math.sin(direction) for x, y in rig.profile.footprint)
 
     def appear(t_s: float) -> None:
@@ -79,7 +79,7 @@ def test_a_wall_that_appears_in_time_to_brake_is_not_touched(speed: float, direc
 def test_a_wall_that_appears_is_not_touched_by_any_robot_that_sees(
     robot: RobotProfile, share: float, direction_deg: int
 ) -> None:
-    rig, direction = Rig(robot, lies="noise=on,seed=6"), math.radians(direction_deg)
+    rig, direction = Rig(robot, faults="noise=on,seed=6"), math.radians(direction_deg)
     speed, sign = share * robot.limits.max_speed_mps, math.cos(direction)
     reach = max(sign * x for x, _ in robot.footprint)
 
@@ -98,7 +98,7 @@ def test_a_wall_that_appears_is_not_touched_by_any_robot_that_sees(
 def test_a_post_that_appears_beside_a_turning_robot_in_time_to_brake_is_not_touched(
     rate: float, left: bool
 ) -> None:
-    rig = Rig("wheeltec_mini_mec", lies="noise=on,seed=7")
+    rig = Rig("wheeltec_mini_mec", faults="noise=on,seed=7")
     limits, sign = rig.profile.limits, 1.0 if left else -1.0
     corner_x, corner_y = rig.profile.footprint[1]
     late_s = limits.latency_s + 0.15

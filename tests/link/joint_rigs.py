@@ -21,7 +21,7 @@ from chatrobot.motion.planner import Planner
 from chatrobot.motion.safety.guard_link import SimulatedGuard
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.sim.lies import SimLies
+from chatrobot.sim.fault_injection import FaultInjection
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import SimRobot
 from chatrobot.wire.local import LocalWire
@@ -50,7 +50,7 @@ class SimulatedRig:
         hub = self.hub
         self.velocities: list[TwistMessage] = []
         self.robot = SimRobot(
-            profile, load_world("empty"), SimLies.parse(""), wire=hub.connect(), clock=clock
+            profile, load_world("empty"), FaultInjection.parse(""), wire=hub.connect(), clock=clock
         )
         hub.connect().subscribe("cmd_vel", TwistMessage, self.velocities.append)
         wire, guard = hub.connect(), SimulatedGuard(clock)

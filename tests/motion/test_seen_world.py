@@ -161,7 +161,7 @@ def test_a_drive_up_to_something_is_rehearsed_up_to_what_was_seen() -> None:
 
 
 @pytest.mark.parametrize(
-    ("lies", "text", "at_least_s"),
+    ("faults", "text", "at_least_s"),
     [
         ("lidar_zeros=on", "forward 1 m", 9.9),
         ("lidar_zeros=on", "turn left, then back 50 cm", 7.0),
@@ -172,9 +172,9 @@ def test_a_drive_up_to_something_is_rehearsed_up_to_what_was_seen() -> None:
     ],
 )
 def test_the_estimate_of_a_plan_s_time_is_that_of_the_speed_that_will_be_allowed(
-    lies: str, text: str, at_least_s: float
+    faults: str, text: str, at_least_s: float
 ) -> None:
-    talk = Talk(sim=lies)
+    talk = Talk(sim=faults)
     result = talk.session.do(text)
     rehearsed = next(event for event in talk.events if isinstance(event, Rehearsed))
     assert result.outcome == "completed"

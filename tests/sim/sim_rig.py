@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from chatrobot.core.clock import VirtualClock
 from chatrobot.robots.profile import Defaults, Kinematics, Lidar, Limits, RobotProfile, Wiring
-from chatrobot.sim.lies import SimLies
+from chatrobot.sim.fault_injection import FaultInjection
 from chatrobot.sim.robot import TRUTH_TOPIC, SimRobot
 from chatrobot.sim.shapes import Shape
 from chatrobot.sim.world import EMPTY_WORLD, Obstacle, World
@@ -47,7 +47,7 @@ def world_of(*shapes: Shape) -> World:
 class Rig:
     def __init__(
         self,
-        lies: str = "",
+        faults: str = "",
         world: World = EMPTY_WORLD,
         profile: RobotProfile = PROFILE,
         start_s: float = 0.0,
@@ -67,7 +67,9 @@ class Rig:
         self.wire.subscribe("scan", LaserScan, self.scans.append)
         self.wire.subscribe("bumper", Flag, lambda flag: self.bumps.append(flag.data))
         self.wire.subscribe(TRUTH_TOPIC, Odometry, self.truth.append)
-        self.robot = SimRobot(profile, world, SimLies.parse(lies), wire=hub.connect(), clock=self.clock)
+        self.robot = SimRobot(
+            profile, world, FaultInjection.parse(faults), wire=hub.connect(), clock=self.clock
+        )
 
     def command(self, vx_mps: float = 0.0, vy_mps: float = 0.0, wz_radps: float = 0.0) -> None:
         self.wire.publish("cmd_vel", TwistMessage(vx_mps, vy_mps, wz_radps))

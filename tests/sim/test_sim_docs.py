@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from chatrobot.sim.lies import SimLies
+from chatrobot.sim.fault_injection import FaultInjection
 from chatrobot.sim.world_file import parse_world
 
 DOCS = (Path(__file__).parents[2] / "docs" / "simulation.md").read_text(encoding="utf-8")
@@ -23,11 +23,11 @@ def test_the_example_world_can_be_loaded() -> None:
     assert world.allowed_area is not None
 
 
-@pytest.mark.parametrize("key", [field.name for field in dataclasses.fields(SimLies)])
+@pytest.mark.parametrize("key", [field.name for field in dataclasses.fields(FaultInjection)])
 def test_every_lie_is_described(key: str) -> None:
     assert f"| `{key}` |" in DOCS
 
 
 @pytest.mark.parametrize("options", re.findall(r"--sim ([a-z_]+=[^\s`]*\d)", DOCS))
 def test_the_lies_of_the_examples_are_understood(options: str) -> None:
-    assert SimLies.parse(options) != SimLies()
+    assert FaultInjection.parse(options) != FaultInjection()

@@ -49,13 +49,13 @@ class Early:
         budget = MotionBudget(args.max_distance, args.max_time)
         profile = as_chosen(load_profile(args.robot, folders), budget, open_loop=args.open_loop)
         if args.on in SIMULATED:
-            from chatrobot.sim.lies import SimLies
+            from chatrobot.sim.fault_injection import FaultInjection
             from chatrobot.sim.load import load_world
             from chatrobot.sim.start import check_known
 
             world = args.world or ("empty" if args.open_loop else "home")
             check_known(load_world(world), profile)
-            SimLies.parse(args.sim)
+            FaultInjection.parse(args.sim)
             self.processes = Processes.start(
                 profile_argument(args.robot, folders), world, args.sim, budget, open_loop=args.open_loop
             )

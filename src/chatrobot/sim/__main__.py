@@ -12,7 +12,7 @@ from chatrobot.core.errors import ChatRobotError, InputError, UsageError
 from chatrobot.core.scheduling import wake_promptly
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.control import SimControl
-from chatrobot.sim.lies import SimLies
+from chatrobot.sim.fault_injection import FaultInjection
 from chatrobot.sim.load import load_world
 from chatrobot.sim.marshalled import MarshalledWire
 from chatrobot.sim.robot import SimRobot
@@ -60,7 +60,7 @@ def _serve(options: argparse.Namespace) -> None:
     from chatrobot.robots.load import load_profile
 
     profile = load_profile(options.profile)
-    lies = SimLies.parse(options.sim)
+    faults = FaultInjection.parse(options.sim)
     world = load_world(options.world)
     check_start(world, profile, f"--world {options.world}")
     clock = RealClock()
@@ -74,7 +74,7 @@ def _serve(options: argparse.Namespace) -> None:
 
     # Before the robot listens itself: a command must not act on time that had already passed when it came.
     hub.subscribe(profile.wiring.cmd_vel_topic, TwistMessage, bring_to_the_present)
-    robot = SimRobot(profile, world, lies, wire=hub, clock=clock)
+    robot = SimRobot(profile, world, faults, wire=hub, clock=clock)
     SimControl(robot, hub)
     server = SimServer(robot, hub, clock)
     os.write(options.ready_fd, b"ready\n")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from chatrobot.core.geometry import Pose
 from chatrobot.robots.profile import Lidar
 from chatrobot.sim.contact import Surroundings
-from chatrobot.sim.lies import LIDAR_NOISE_M, SimLies
+from chatrobot.sim.fault_injection import LIDAR_NOISE_M, FaultInjection
 from chatrobot.wire.messages import LaserScan
 
 if TYPE_CHECKING:
@@ -19,15 +19,15 @@ if TYPE_CHECKING:
 class SimLidar:
     """Scans all around from -pi on. No return is `inf`, nearer than the lidar can see is `-inf` (REP-117).
 
-    Unless the lies say that it is a cheap one, or looks at a part of the circle only.
+    Unless the injected faults say that it is a cheap one, or looks at a part of the circle only.
     """
 
-    def __init__(self, lidar: Lidar, lies: SimLies) -> None:
+    def __init__(self, lidar: Lidar, faults: FaultInjection) -> None:
         self._lidar = lidar
-        self._lies = lies
+        self._faults = faults
         self._mounting = Pose(lidar.x_m, lidar.y_m, lidar.yaw_rad)
         self._increment_rad = math.tau / lidar.beams
-        self._unseen = math.ceil(lidar.beams * (360.0 - lies.lidar_fov_deg) / 720.0)
+        self._unseen = math.ceil(lidar.beams * (360.0 - faults.lidar_fov_deg) / 720.0)
         """Beams that are missing at either end of the circle."""
         self._noise: np.random.Generator | None = None
         self.period_ticks = max(1, round(100.0 / lidar.rate_hz))
@@ -38,7 +38,7 @@ class SimLidar:
             ranges_m = [math.inf] * self._lidar.beams
         else:
             ranges_m = self._ranges(surroundings.raycast(robot.compose(self._mounting), self._lidar.beams))
-        if self._lies.lidar_zeros:
+        if self._faults.lidar_zeros:
             ranges_m = [range_m if math.isfinite(range_m) else 0.0 for range_m in ranges_m]
         lidar, first = self._lidar, self._unseen
         return LaserScan(
@@ -53,9 +53,9 @@ class SimLidar:
     def _ranges(self, true_m: NDArray[np.float64]) -> list[float]:
         import numpy as np
 
-        if self._lies.noise:
+        if self._faults.noise:
             if self._noise is None:
-                self._noise = np.random.default_rng(self._lies.seed)
+                self._noise = np.random.default_rng(self._faults.seed)
             true_m = true_m + self._noise.normal(0.0, LIDAR_NOISE_M, true_m.shape)
         ranges_m = np.round(true_m, 3)
         ranges_m[true_m > self._lidar.max_range_m] = np.inf

@@ -10,8 +10,8 @@ from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.bases import Base
 from chatrobot.sim.contact import RELEASE_M, Surroundings
+from chatrobot.sim.fault_injection import NO_FAULTS, FaultInjection
 from chatrobot.sim.lidar import SimLidar
-from chatrobot.sim.lies import HONEST, SimLies
 from chatrobot.sim.sensors import Gyro, WheelOdometry
 from chatrobot.sim.shapes import Shape
 from chatrobot.sim.world import EMPTY_WORLD, Obstacle, World
@@ -34,30 +34,30 @@ class SimRobot:
 
     Topics are the profile's. Stamps are seconds of `clock`, read once at the start: afterwards time passes by
     `step` alone. It begins at `start`, in the frame of the world and of its odometry. Wheels that cannot move
-    the robot spin on unless the lies say that they stall.
+    the robot spin on unless the injected faults say that they stall.
     """
 
     def __init__(
         self,
         profile: RobotProfile,
         world: World = EMPTY_WORLD,
-        lies: SimLies = HONEST,
+        faults: FaultInjection = NO_FAULTS,
         *,
         wire: Wire,
         clock: Clock,
         start: Pose = ORIGIN,
     ) -> None:
         self._wiring = profile.wiring
-        self._lies = lies
+        self._faults = faults
         self._wire = wire
         self._base = Base(profile)
         self._track_m = max(y for _, y in profile.footprint) - min(y for _, y in profile.footprint)
         self._surroundings = Surroundings(profile.footprint, [obstacle.shape for obstacle in world.obstacles])
         self._added: dict[str, Obstacle] = {}
-        self._odometry = WheelOdometry(lies)
+        self._odometry = WheelOdometry(faults)
         self._odometry.pose = start
-        self._gyro = Gyro(lies)
-        self._lidar = SimLidar(profile.lidar, lies) if profile.lidar and profile.wiring.scan_topic else None
+        self._gyro = Gyro(faults)
+        self._lidar = SimLidar(profile.lidar, faults) if profile.lidar and profile.wiring.scan_topic else None
         self._start_s = self._now_s = clock.now_s()
         self._ticks = 0
         self._command_ends_s = math.inf
@@ -175,7 +175,7 @@ class SimRobot:
             held = share < 1.0
             if held:
                 self._contact_pose = self._pose
-            if held and self._lies.blocked == "stall":
+            if held and self._faults.blocked == "stall":
                 self._base.stall()
                 self._odometry.roll(wheels, segment_s * share)
                 self._odometry.roll(ZERO_TWIST, 0.0)
@@ -188,8 +188,8 @@ class SimRobot:
         stuck."""
         share = 1.0
         path_m = body.speed_mps * duration_s
-        if self._travelled_m + path_m >= self._lies.stuck_after_m:
-            left_m = self._lies.stuck_after_m - self._travelled_m
+        if self._travelled_m + path_m >= self._faults.stuck_after_m:
+            left_m = self._faults.stuck_after_m - self._travelled_m
             share = left_m / path_m if left_m > 0.0 else 0.0
         if not body.is_zero:
             free = self._surroundings.free_share(self._pose, body, duration_s * share)
@@ -207,13 +207,13 @@ class SimRobot:
 
     def _slipping(self, wheels: Twist) -> Twist:
         """What the body does when the wheels do `wheels`."""
-        lies = self._lies
-        if lies.one_wheel_slip > 0.0:
-            lost_mps = lies.one_wheel_slip * (wheels.vx_mps - wheels.wz_radps * self._track_m / 2.0)
+        faults = self._faults
+        if faults.one_wheel_slip > 0.0:
+            lost_mps = faults.one_wheel_slip * (wheels.vx_mps - wheels.wz_radps * self._track_m / 2.0)
             wheels = Twist(
                 wheels.vx_mps - lost_mps / 2.0, wheels.vy_mps, wheels.wz_radps + lost_mps / self._track_m
             )
-        return wheels.scaled(1.0 - lies.slip) if lies.slip else wheels
+        return wheels.scaled(1.0 - faults.slip) if faults.slip else wheels
 
     def _set_contact(self, in_contact: bool) -> None:
         if in_contact == self._in_contact:
@@ -244,7 +244,7 @@ class SimRobot:
             self._send(self._wiring.scan_topic, self._lidar.scan(stamp_s, self._pose, self._surroundings))
 
     def _send(self, topic: str, message: Message) -> None:
-        if self._lies.latency_s > 0.0:
-            self._late.append((self._now_s + self._lies.latency_s, topic, message))
+        if self._faults.latency_s > 0.0:
+            self._late.append((self._now_s + self._faults.latency_s, topic, message))
         else:
             self._wire.publish(topic, message)

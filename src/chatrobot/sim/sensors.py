@@ -6,19 +6,19 @@ import math
 import random
 
 from chatrobot.core.geometry import Pose, Twist
-from chatrobot.sim.lies import ENCODER_NOISE, GYRO_NOISE_RADPS, ODOM_JUMP_M, SimLies
+from chatrobot.sim.fault_injection import ENCODER_NOISE, GYRO_NOISE_RADPS, ODOM_JUMP_M, FaultInjection
 from chatrobot.wire.messages import Imu, Odometry
 
 
 class WheelOdometry:
     """A pose summed up from encoders alone: heading too comes from the wheels."""
 
-    def __init__(self, lies: SimLies) -> None:
-        self._lies = lies
-        self._noise = random.Random(f"encoders {lies.seed}") if lies.noise else None
-        self._losses = random.Random(f"dropout {lies.seed}")
-        self._forward = -1.0 if lies.odom_wrong == "reversed" else 1.0
-        self._left = -1.0 if lies.odom_wrong == "turn_reversed" else 1.0
+    def __init__(self, faults: FaultInjection) -> None:
+        self._faults = faults
+        self._noise = random.Random(f"encoders {faults.seed}") if faults.noise else None
+        self._losses = random.Random(f"dropout {faults.seed}")
+        self._forward = -1.0 if faults.odom_wrong == "reversed" else 1.0
+        self._left = -1.0 if faults.odom_wrong == "turn_reversed" else 1.0
         self._jumped = False
         self._velocity = Twist()
         self.pose = Pose()
@@ -33,7 +33,7 @@ class WheelOdometry:
                     wheels.vy_mps * gauss(1.0, ENCODER_NOISE),
                     wheels.wz_radps * gauss(1.0, ENCODER_NOISE),
                 )
-            if self._lies.odom_wrong != "right":
+            if self._faults.odom_wrong != "right":
                 vx, vy, wz = wheels
                 wheels = Twist(self._forward * vx, self._forward * vy, self._left * wz)
             self.pose = self.pose.moved(wheels, duration_s)
@@ -42,17 +42,17 @@ class WheelOdometry:
     def read(self, stamp_s: float, elapsed_s: float) -> Odometry | None:
         """The message of this moment, its heading in [-pi, pi] as a quaternion gives it; None if it is
         lost."""
-        lies = self._lies
-        if elapsed_s >= lies.odom_silent_after_s:
+        faults = self._faults
+        if elapsed_s >= faults.odom_silent_after_s:
             return None
-        if elapsed_s >= lies.odom_jump_after_s and not self._jumped:
+        if elapsed_s >= faults.odom_jump_after_s and not self._jumped:
             self._jumped = True
             self.pose = self.pose.compose(Pose(0.0, ODOM_JUMP_M, 0.0))
-        if lies.dropout > 0.0 and self._losses.random() < lies.dropout:
+        if faults.dropout > 0.0 and self._losses.random() < faults.dropout:
             return None
-        if lies.odom_wrong == "frozen":
+        if faults.odom_wrong == "frozen":
             return Odometry(stamp_s, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-        if lies.odom_wrong == "nan":
+        if faults.odom_wrong == "nan":
             return Odometry(stamp_s, math.nan, math.nan, math.nan, math.nan, math.nan, math.nan)
         x_m, y_m, yaw_rad = self.pose
         return Odometry(stamp_s, x_m, y_m, math.remainder(yaw_rad, math.tau), *self._velocity)
@@ -61,9 +61,9 @@ class WheelOdometry:
 class Gyro:
     """The rate of turn of the body, with a bias and noise: blind to what the wheels do."""
 
-    def __init__(self, lies: SimLies) -> None:
-        self._bias_radps = lies.bias_radps
-        self._noise = random.Random(f"gyro {lies.seed}") if lies.noise else None
+    def __init__(self, faults: FaultInjection) -> None:
+        self._bias_radps = faults.bias_radps
+        self._noise = random.Random(f"gyro {faults.seed}") if faults.noise else None
 
     def read(self, stamp_s: float, true_rate_radps: float) -> Imu:
         """The message of this moment."""

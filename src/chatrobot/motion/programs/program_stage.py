@@ -18,7 +18,7 @@ from chatrobot.motion.deceleration_ramp import decelerated
 from chatrobot.motion.governed_motion import is_cut_short
 from chatrobot.programs.held_twist import HeldTwist
 from chatrobot.robots.profile import Point, RobotProfile
-from chatrobot.sim.lies import HONEST
+from chatrobot.sim.fault_injection import NO_FAULTS
 from chatrobot.sim.robot import SimRobot
 from chatrobot.sim.world import EMPTY_WORLD, World
 from chatrobot.transports.transport import WireTransport
@@ -50,7 +50,7 @@ class ProgramStage:
         self._profile = profile
         self._clock = VirtualClock()
         hub = MemoryHub()
-        self.robot = SimRobot(profile, world, HONEST, wire=hub.connect(), clock=self._clock, start=start)
+        self.robot = SimRobot(profile, world, NO_FAULTS, wire=hub.connect(), clock=self._clock, start=start)
         self.robot.listen_to(sensors=False, lidar=False)
         epoch = StopEpoch()
         self._wire = hub.connect()

@@ -12,20 +12,26 @@ from hypothesis import strategies as st
 from sim_rig import Rig, world_of
 
 from chatrobot.core.errors import UsageError
-from chatrobot.sim.lies import GYRO_BIAS_RADPS, GYRO_NOISE_RADPS, LIDAR_NOISE_M, ODOM_JUMP_M, SimLies
+from chatrobot.sim.fault_injection import (
+    GYRO_BIAS_RADPS,
+    GYRO_NOISE_RADPS,
+    LIDAR_NOISE_M,
+    ODOM_JUMP_M,
+    FaultInjection,
+)
 from chatrobot.sim.shapes import rectangle
 
 
 def test_nothing_said_is_an_honest_robot() -> None:
-    assert SimLies.parse("") == SimLies()
-    assert SimLies().bias_radps == 0.0
+    assert FaultInjection.parse("") == FaultInjection()
+    assert FaultInjection().bias_radps == 0.0
 
 
 def test_all_keys_are_read() -> None:
-    assert SimLies.parse(
+    assert FaultInjection.parse(
         "slip=0.03, latency_s=0.05,noise=on,seed=1,gyro_bias_radps=-0.002,dropout=0.1,one_wheel_slip=0.2,"
         "stuck_after_m=0.5,blocked=stall,odom_silent_after_s=3,odom_jump_after_s=4,odom_wrong=reversed"
-    ) == SimLies(
+    ) == FaultInjection(
         slip=0.03,
         latency_s=0.05,
         noise=True,
@@ -59,7 +65,7 @@ def test_all_keys_are_read() -> None:
 )
 def test_what_cannot_be_read_names_the_key_and_what_is_allowed(text: str, named: tuple[str, ...]) -> None:
     with pytest.raises(UsageError) as caught:
-        SimLies.parse(text)
+        FaultInjection.parse(text)
     for word in named:
         assert word in str(caught.value)
 
@@ -67,7 +73,7 @@ def test_what_cannot_be_read_names_the_key_and_what_is_allowed(text: str, named:
 @given(st.text())
 def test_any_text_is_read_or_refused(text: str) -> None:
     with contextlib.suppress(UsageError):
-        SimLies.parse(text)
+        FaultInjection.parse(text)
 
 
 def test_encoders_overstate_by_the_slip() -> None:
@@ -116,15 +122,15 @@ def test_a_latency_between_two_ticks_is_kept_to_the_millisecond() -> None:
     assert {round(heard - o.stamp_s, 9) for heard, o in zip(rig.heard_at_s, rig.odometry)} == {0.013}
 
 
-def run_of(lies: str) -> tuple[object, ...]:
-    rig = Rig(lies, world_of(rectangle(6.0, 0.0, 0.2, 8.0)))
+def run_of(faults: str) -> tuple[object, ...]:
+    rig = Rig(faults, world_of(rectangle(6.0, 0.0, 0.2, 8.0)))
     rig.tour()
     return rig.odometry, rig.gyro, rig.scans, rig.truth
 
 
 def test_the_same_seed_is_the_same_run() -> None:
-    lies = "slip=0.03,latency_s=0.05,noise=on,dropout=0.2,seed=7"
-    assert run_of(lies) == run_of(lies)
+    faults = "slip=0.03,latency_s=0.05,noise=on,dropout=0.2,seed=7"
+    assert run_of(faults) == run_of(faults)
 
 
 def test_another_seed_is_another_run() -> None:
@@ -140,7 +146,7 @@ def test_noise_is_unbiased_but_for_the_gyro() -> None:
     assert rig.odometry[-1].x_m == pytest.approx(rig.robot.true_pose.x_m, abs=0.005)
     assert rig.odometry[-1].x_m != rig.robot.true_pose.x_m
     bias_radps = statistics.fmean(sample.wz_radps for sample in rig.gyro)
-    assert bias_radps == pytest.approx(SimLies.parse("noise=on,seed=3").bias_radps, abs=2e-4)
+    assert bias_radps == pytest.approx(FaultInjection.parse("noise=on,seed=3").bias_radps, abs=2e-4)
     assert statistics.stdev(s.wz_radps for s in rig.gyro) == pytest.approx(GYRO_NOISE_RADPS, rel=0.1)
 
 
@@ -152,13 +158,13 @@ def test_a_robot_that_stands_reports_that_it_stands_though_encoders_are_noisy() 
 
 @given(st.integers())
 def test_the_bias_of_a_noisy_gyro_is_small_and_its_own_for_each_seed(seed: int) -> None:
-    lies = SimLies(noise=True, seed=seed)
-    assert abs(lies.bias_radps) <= GYRO_BIAS_RADPS
-    assert lies.bias_radps == SimLies(noise=True, seed=seed).bias_radps
+    faults = FaultInjection(noise=True, seed=seed)
+    assert abs(faults.bias_radps) <= GYRO_BIAS_RADPS
+    assert faults.bias_radps == FaultInjection(noise=True, seed=seed).bias_radps
 
 
 def test_gyros_of_different_seeds_have_different_biases() -> None:
-    assert len({SimLies(noise=True, seed=seed).bias_radps for seed in range(20)}) == 20
+    assert len({FaultInjection(noise=True, seed=seed).bias_radps for seed in range(20)}) == 20
 
 
 def test_a_bias_that_is_given_holds_without_noise() -> None:

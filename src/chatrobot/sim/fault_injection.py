@@ -1,6 +1,6 @@
 """What a simulated robot lies about: slipping wheels, late or lost messages, noise, and worse.
 
-`SimLies.parse("slip=0.03,latency_s=0.05,noise=on,seed=1")` reads what `--sim` was given.
+`FaultInjection.parse("slip=0.03,latency_s=0.05,noise=on,seed=1")` reads what `--sim` was given.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ ODOM_JUMP_M = 0.5
 
 
 @dataclass(frozen=True)
-class SimLies:
+class FaultInjection:
     """How the simulated robot lies; with nothing said it is honest.
 
     Attributes:
@@ -71,7 +71,7 @@ class SimLies:
     lidar_fov_deg: float = 360.0
 
     @classmethod
-    def parse(cls, text: str) -> SimLies:
+    def parse(cls, text: str) -> FaultInjection:
         """Read `key=value,key=value`; an empty text is an honest robot.
 
         Raises:
@@ -102,7 +102,7 @@ class SimLies:
         return random.Random(f"gyro bias {self.seed}").uniform(-GYRO_BIAS_RADPS, GYRO_BIAS_RADPS)
 
 
-HONEST = SimLies()
+NO_FAULTS = FaultInjection()
 
 
 def _unknown(key: str) -> str:
