@@ -60,7 +60,7 @@ def _shown(name: str) -> Mutant:
 
 
 def _where(name: str) -> str:
-    """`chatrobot.governor.seen.xǁSeenǁtake__mutmut_3` is a change of `governor.seen.Seen.take`."""
+    """`chatrobot.governor.obstacle_memory.xǁSeenǁtake__mutmut_3` is a change of `governor.seen.Seen.take`."""
     module, _, mangled = name.removeprefix("chatrobot.").rpartition(".")
     function = mangled.rpartition("__mutmut_")[0].removeprefix("x")
     parts = function.split("ǁ")[1:] if "ǁ" in function else [function.removeprefix("_")]

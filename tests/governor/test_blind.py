@@ -18,8 +18,8 @@ from chatrobot.governor.blind import (
     BlindRule,
     _outline,
 )
+from chatrobot.governor.obstacle_memory import ObstacleMemory
 from chatrobot.governor.rule import FREE, Situation
-from chatrobot.governor.seen import Seen
 from chatrobot.robots.profile import Lidar, Safety
 from chatrobot.wire.messages import LaserScan
 
@@ -41,7 +41,7 @@ def rule_of(
     from_deg: float, to_deg: float, lidar: Lidar = LIDAR, before: LaserScan | None = None
 ) -> BlindRule:
     """Of a robot at the origin whose lidar looks between those directions, and looked as `before` a moment ago."""
-    seen = Seen(lidar)
+    seen = ObstacleMemory(lidar)
     if before is not None:
         seen.take(before, ORIGIN)
     seen.take(sector(from_deg, to_deg), ORIGIN)
@@ -101,7 +101,7 @@ def test_a_look_counts_while_it_is_fresh_and_its_place_is_known(situation: Situa
 
 
 def test_a_lidar_that_has_seen_nothing_yet_does_not_look() -> None:
-    assert share(BlindRule(ROBOT, Seen(LIDAR)), Twist(0.5, 0.0, 0.0)) < 1.0
+    assert share(BlindRule(ROBOT, ObstacleMemory(LIDAR)), Twist(0.5, 0.0, 0.0)) < 1.0
 
 
 @pytest.mark.parametrize(
@@ -155,7 +155,7 @@ def test_a_look_from_elsewhere_a_moment_ago_counts_for_what_it_comes_by() -> Non
         (Pose(5.0, -3.5, math.pi / 2), Pose(5.0, -3.0, math.pi / 2), True),
         (Pose(5.0, -2.5, math.pi / 2), Pose(5.0, -3.0, math.pi / 2), False),
     ):
-        seen = Seen(LIDAR)
+        seen = ObstacleMemory(LIDAR)
         for pose in (was_at, then):
             seen.take(sector(-15.0, 15.0), pose)
         assert (share(BlindRule(ROBOT, seen), ahead, Situation(then, FRESH.sensed)) == 1.0) is fine, was_at
@@ -198,7 +198,7 @@ def test_a_turn_swings_each_corner_its_own_way() -> None:
 def test_a_side_that_hardly_comes_out_is_not_looked_for(sign: float) -> None:
     """Half a second ahead, the side may be three centimetres out; the rear end is still behind the lidar then."""
     far_back = replace(ROBOT, footprint=((0.2, -0.1), (0.2, 0.1), (-0.6, 0.1), (-0.6, -0.1)))
-    rule = BlindRule(far_back, AHEAD._seen)
+    rule = BlindRule(far_back, AHEAD._obstacle_memory)
     assert share(rule, Twist(0.5, sign * 0.0, 0.0)) == 1.0
     assert share(rule, Twist(0.5, sign * (OUTWARDS_M - 0.001) / LOOK_AHEAD_S, 0.0)) == 1.0
     assert share(rule, Twist(0.5, sign * (OUTWARDS_M + 0.001) / LOOK_AHEAD_S, 0.0)) < 1.0
@@ -229,7 +229,7 @@ def test_the_outline_is_ends_and_middles_with_what_is_outwards() -> None:
 
 def test_where_it_stands_makes_no_difference() -> None:
     pose = Pose(5.0, -3.0, 2.0)
-    seen = Seen(LIDAR)
+    seen = ObstacleMemory(LIDAR)
     seen.take(sector(-90.0, 90.0), pose)
     there = Situation(pose, FRESH.sensed)
     assert share(BlindRule(ROBOT, seen), Twist(0.5, 0.0, 0.0), there) == 1.0

@@ -10,9 +10,9 @@ from tests.governor.situations import MECANUM, at
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 from chatrobot.governor.braking import Braking
 from chatrobot.governor.governor import TICK_S, Governor, StopEpoch
+from chatrobot.governor.obstacle_memory import ObstacleMemory
 from chatrobot.governor.obstacles import MARGIN_M, RELEASE_M, ObstacleRule
 from chatrobot.governor.rule import FREE
-from chatrobot.governor.seen import Seen
 from chatrobot.wire.messages import LaserScan
 
 AHEAD = Twist(1.0, 0.0, 0.0)
@@ -31,7 +31,7 @@ def scan_of(*points: tuple[float, float]) -> LaserScan:
 
 
 def rule_that_saw(*points: tuple[float, float]) -> ObstacleRule:
-    seen = Seen(LIDAR)
+    seen = ObstacleMemory(LIDAR)
     seen.take(scan_of(*points), ORIGIN)
     return ObstacleRule(MECANUM, seen)
 
@@ -69,7 +69,7 @@ def test_nothing_seen_no_pose_and_no_motion_are_free() -> None:
     assert rule_that_saw().judge(AHEAD, at()).factor == 1.0
     assert rule_that_saw((0.2, 0.0)).judge(AHEAD, at(None)).factor == 1.0
     assert rule_that_saw((0.2, 0.0)).judge(ZERO_TWIST, at()).factor == 1.0
-    assert ObstacleRule(MECANUM, Seen(LIDAR)).judge(AHEAD, at()) is FREE
+    assert ObstacleRule(MECANUM, ObstacleMemory(LIDAR)).judge(AHEAD, at()) is FREE
     assert rule_that_saw((7.0, 0.0)).judge(AHEAD, at()) is FREE
 
 

@@ -10,9 +10,9 @@ from tests.governor.situations import MECANUM, at, with_safety
 
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
+from chatrobot.governor.obstacle_memory import ObstacleMemory
 from chatrobot.governor.rule import Ruling, Situation
 from chatrobot.governor.rules import UNRULED, Setting, compose, make_rules
-from chatrobot.governor.seen import Seen
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import Circle, Safety
 
@@ -76,7 +76,7 @@ def test_a_robot_gets_the_rules_that_its_profile_and_its_world_call_for() -> Non
     turtle = load_profile("turtlesim")
     assert names(Setting(turtle)) == []
     assert MECANUM.lidar is not None
-    seen = Seen(MECANUM.lidar)
+    seen = ObstacleMemory(MECANUM.lidar)
     assert names(Setting(MECANUM, seen)) == ["obstacle", "blind"]
     full = with_safety(Safety(Circle(0, 0, 1), ("odom",), 0.1, 20.0))
     area = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))

@@ -12,7 +12,7 @@ from chatrobot.core.events import Limited, Notice
 from chatrobot.core.geometry import Twist
 from chatrobot.motion.planner import Planned, Planner
 from chatrobot.motion.programs.program_goal import ProgramGoal
-from chatrobot.motion.seen_world import SeenPoints
+from chatrobot.motion.remembered_obstacles import RememberedObstacles
 from chatrobot.programs.events import ProgramEvent, TwistAsked
 from chatrobot.robots.profile import Circle, RobotProfile
 from chatrobot.wire.messages import TwistMessage
@@ -38,7 +38,7 @@ class Box:
     def attach(self, wire: Any) -> None:
         pass
 
-    def rehearse(self, goal: ProgramGoal, planner: Planner, seen: SeenPoints | None) -> Planned:  # noqa: ARG002
+    def rehearse(self, goal: ProgramGoal, planner: Planner, seen: RememberedObstacles | None) -> Planned:  # noqa: ARG002
         return planner.plan(goal.turn, "drive 0.5 m", goal.start)
 
     def launch(self, goal: ProgramGoal) -> Drives:  # noqa: ARG002 - the protocol's

@@ -9,8 +9,8 @@ import numpy as np
 
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.reason import Reason
+from chatrobot.governor.obstacle_memory import ObstacleMemory
 from chatrobot.governor.rule import FREE, Ruling, Situation
-from chatrobot.governor.seen import Seen
 from chatrobot.governor.sensors_due import silent_after_s
 from chatrobot.robots.profile import Point, RobotProfile
 
@@ -31,14 +31,14 @@ class BlindRule:
 
     name = "blind"
 
-    def __init__(self, profile: RobotProfile, seen: Seen) -> None:
+    def __init__(self, profile: RobotProfile, seen: ObstacleMemory) -> None:
         self._speed_mps = profile.safety.blind_speed_mps
         points, normals = zip(*_outline(profile.footprint))
         self._x, self._y = np.array(points).T
         self._out_x, self._out_y = np.array(normals).T
         self._radius_m = profile.footprint_radius_m
         self._silent_s = silent_after_s(profile, "scan")
-        self._seen = seen
+        self._obstacle_memory = seen
 
     def judge(self, asked: Twist, situation: Situation) -> Ruling:
         fastest_mps = asked.speed_mps + abs(asked.wz_radps) * self._radius_m
@@ -55,8 +55,8 @@ class BlindRule:
 
         Where it leads to it must look now; at what lies before that it may have looked a moment ago.
         """
-        looks = self._seen.looks
-        if looks.latest is not None and looks.latest.is_all_around:
+        coverage = self._obstacle_memory.coverage
+        if coverage.latest is not None and coverage.latest.is_all_around:
             return True
         vx, vy = asked.vx_mps - asked.wz_radps * self._y, asked.vy_mps + asked.wz_radps * self._x
         out_mps = vx * self._out_x + vy * self._out_y
@@ -68,7 +68,7 @@ class BlindRule:
         ways = np.stack([pose.x_m + cos * x - sin * y, pose.y_m + sin * x + cos * y], axis=-1)
         comes_out = out_mps[moves, None] * in_s > OUTWARDS_M
         ends, before = ways[:, -1][comes_out[:, -1]], ways[:, :-1][comes_out[:, :-1]]
-        return bool(looks.covers_now(ends).all() and looks.covered_lately(before).all())
+        return bool(coverage.covers_now(ends).all() and coverage.covered_lately(before).all())
 
 
 def _outline(corners: Sequence[Point]) -> list[tuple[Point, Point]]:

@@ -14,12 +14,12 @@ from chatrobot.governor.command_arbiter import CommandArbiter, Handover
 from chatrobot.governor.jerk import JerkLimit
 from chatrobot.governor.kernel import bounded, make_kernel
 from chatrobot.governor.lease import Leases
-from chatrobot.governor.looks import Floats, Look
 from chatrobot.governor.narrowed import NarrowedRule
+from chatrobot.governor.obstacle_memory import NO_POINTS, ObstacleMemory
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.governor.rule import NOTHING_SENSED, Sensed, Situation
 from chatrobot.governor.rules import Composed, Setting, compose, make_rules
-from chatrobot.governor.seen import NO_POINTS, Seen
+from chatrobot.governor.scan_coverage import Floats, LidarView
 from chatrobot.governor.tick import TICK_S as TICK_S
 from chatrobot.robots.open_loop import OPEN_LOOP_MPS, OPEN_LOOP_RADPS
 from chatrobot.robots.profile import Point, RobotProfile
@@ -90,9 +90,9 @@ class Governor:
         self._sent_at_s = -math.inf
         self._sent_epoch = epoch.value
         self._latch: Reason | None = None
-        self._seen = Seen(profile.lidar) if profile.lidar is not None else None
+        self._obstacle_memory = ObstacleMemory(profile.lidar) if profile.lidar is not None else None
         self._narrowed = NarrowedRule()
-        self._rules = [self._narrowed, *make_rules(Setting(profile, self._seen, area))]
+        self._rules = [self._narrowed, *make_rules(Setting(profile, self._obstacle_memory, area))]
         if profile.open_loop:
             self.narrow(OPEN_LOOP_MPS, OPEN_LOOP_RADPS)
 
@@ -143,17 +143,17 @@ class Governor:
     @property
     def seen_points(self) -> Floats:
         """What the lidar sees around the robot and remembers, [n, 2] in `odom`: what a rehearsal has to know of."""
-        return self._seen.points if self._seen is not None else NO_POINTS
+        return self._obstacle_memory.points if self._obstacle_memory is not None else NO_POINTS
 
     @property
-    def latest_look(self) -> Look | None:
+    def latest_view(self) -> LidarView | None:
         """Where the lidar looked with its latest scan."""
-        return self._seen.looks.latest if self._seen is not None else None
+        return self._obstacle_memory.coverage.latest if self._obstacle_memory is not None else None
 
     def take_scan(self, scan: LaserScan, pose: Pose) -> None:
         """What the lidar saw when the robot stood at `pose` (of `odom`)."""
-        if self._seen is not None:
-            self._seen.take(scan, pose)
+        if self._obstacle_memory is not None:
+            self._obstacle_memory.take(scan, pose)
 
     def govern(
         self,

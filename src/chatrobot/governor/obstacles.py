@@ -10,8 +10,8 @@ from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
 from chatrobot.governor.braking import Braking
 from chatrobot.governor.contact import Floats, Footprint, comes_nearer, seconds_to_contact
+from chatrobot.governor.obstacle_memory import ObstacleMemory
 from chatrobot.governor.rule import FREE, Ruling, Situation
-from chatrobot.governor.seen import Seen
 from chatrobot.robots.profile import RobotProfile
 
 MARGIN_M = 0.03
@@ -33,16 +33,16 @@ class ObstacleRule:
 
     name = "obstacle"
 
-    def __init__(self, profile: RobotProfile, seen: Seen) -> None:
+    def __init__(self, profile: RobotProfile, seen: ObstacleMemory) -> None:
         self._limits = profile.limits
         self._footprint = Footprint(profile.footprint)
-        self._seen = seen
+        self._obstacle_memory = seen
         self._barred = False
 
     def judge(self, asked: Twist, situation: Situation) -> Ruling:
         if situation.begins:
             self._barred = False  # another motion: the way that was barred need not be its way
-        pose, points = situation.pose, self._seen.points
+        pose, points = situation.pose, self._obstacle_memory.points
         if pose is None or asked.is_zero:
             return FREE
         cos, sin = math.cos(pose.yaw_rad), math.sin(pose.yaw_rad)

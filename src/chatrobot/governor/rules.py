@@ -9,9 +9,9 @@ from chatrobot.core.geometry import Twist
 from chatrobot.governor.battery import BatteryRule
 from chatrobot.governor.blind import BlindRule
 from chatrobot.governor.fence import FenceRule
+from chatrobot.governor.obstacle_memory import ObstacleMemory
 from chatrobot.governor.obstacles import ObstacleRule
 from chatrobot.governor.rule import FREE, Rule, Ruling, Situation
-from chatrobot.governor.seen import Seen
 from chatrobot.governor.sensors_due import SensorRule
 from chatrobot.robots.profile import Point, RobotProfile
 
@@ -21,7 +21,7 @@ class Setting:
     """What rules are made from. `area` is the corners of the area that the world allows, in `odom`."""
 
     profile: RobotProfile
-    seen: Seen | None = None
+    seen: ObstacleMemory | None = None
     area: Sequence[Point] | None = None
 
 

@@ -13,7 +13,7 @@ from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor, Verdict
 from chatrobot.governor.rule import Sensed
 from chatrobot.governor.sensors_due import silent_after_s
-from chatrobot.motion.seen_world import SeenPoints, Sight
+from chatrobot.motion.remembered_obstacles import RememberedObstacles, Sight
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.transports.transport import Transport
 from chatrobot.wire.messages import LaserScan
@@ -42,14 +42,14 @@ class GovernedRobot:
         estimate = self.sensors.estimate
         return estimate.pose if estimate is not None else ORIGIN
 
-    def seen(self) -> SeenPoints | None:
+    def seen(self) -> RememberedObstacles | None:
         """What the lidar sees at this moment, for a rehearsal; None where it says nothing of any plan."""
         points, sight = self.governor.seen_points, self._sight()
-        return SeenPoints(self.profile, points, sight) if sight is not None or len(points) else None
+        return RememberedObstacles(self.profile, points, sight) if sight is not None or len(points) else None
 
     def _sight(self) -> Sight | None:
         """Where the governor will slow the robot down; None where its lidar looks all around, or has just begun."""
-        lidar, look = self.profile.lidar, self.governor.latest_look
+        lidar, look = self.profile.lidar, self.governor.latest_view
         due_s = silent_after_s(self.profile, "scan")
         is_silent = self.sensors.ages_s()["scan"] > due_s
         if lidar is None or (is_silent and self.sensors.awaits_first_scan(due_s)):

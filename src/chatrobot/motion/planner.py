@@ -14,8 +14,8 @@ from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.governor.kernel import Kernel, make_kernel
 from chatrobot.motion.budgets import Extent
-from chatrobot.motion.seen_routes import RoutesAroundSeen
-from chatrobot.motion.seen_world import SeenPoints, seen_but_unknown
+from chatrobot.motion.obstacle_routes import RoutesAroundObstacles
+from chatrobot.motion.remembered_obstacles import RememberedObstacles, seen_but_unknown
 from chatrobot.plan.context import RoutePlanner
 from chatrobot.plan.free_part import ANY_WAY, Most
 from chatrobot.plan.known_world import Floats
@@ -203,7 +203,7 @@ class Planner:
         plan_text: str,
         start: Pose,
         plan_start: Pose | None = None,
-        seen: SeenPoints | None = None,
+        seen: RememberedObstacles | None = None,
         left: Most = ANY_WAY,
     ) -> Planned:
         """Read and rehearse `plan_text` from `start` (odom frame). Never raises for what a person or model wrote.
@@ -231,12 +231,12 @@ class Planner:
             return Planned(turn, rehearsal)
         return Planned(turn, rehearsal, offer=_offer(rehearsal.possible, rehearsing, left))
 
-    def _around(self, seen: SeenPoints) -> RoutePlanner | None:
+    def _around(self, seen: RememberedObstacles) -> RoutePlanner | None:
         """Finds ways around what was seen, too."""
         unknown = seen_but_unknown(self._world, seen.points)
         if not len(unknown):
             return self._routes
-        return RoutesAroundSeen(self._profile, self._world, unknown, self._routes)
+        return RoutesAroundObstacles(self._profile, self._world, unknown, self._routes)
 
 
 def _offer(plan: Plan, rehearsing: Callable[..., Rehearsal], left: Most) -> Offer:

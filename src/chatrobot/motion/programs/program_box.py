@@ -11,7 +11,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.motion.planner import Planned, Planner
 from chatrobot.motion.programs.program_execution import LiveProgram
 from chatrobot.motion.programs.program_goal import ProgramGoal
-from chatrobot.motion.seen_world import SeenPoints
+from chatrobot.motion.remembered_obstacles import RememberedObstacles
 from chatrobot.wire.wire import Wire
 
 
@@ -22,7 +22,7 @@ class ProgramBox(Protocol):
         """Hear the robot's sensors, for programs that listen to them."""
         ...
 
-    def rehearse(self, goal: ProgramGoal, planner: Planner, seen: SeenPoints | None) -> Planned:
+    def rehearse(self, goal: ProgramGoal, planner: Planner, seen: RememberedObstacles | None) -> Planned:
         """Run it on virtual time, among what is known and what the lidar has seen, from where the goal starts."""
         ...
 
@@ -37,7 +37,7 @@ class NoBox:
     def attach(self, wire: Wire) -> None:
         """There is nothing to hear for."""
 
-    def rehearse(self, goal: ProgramGoal, planner: Planner, seen: SeenPoints | None) -> Planned:  # noqa: ARG002
+    def rehearse(self, goal: ProgramGoal, planner: Planner, seen: RememberedObstacles | None) -> Planned:  # noqa: ARG002
         return Planned(goal.turn, None, Reason("no_programs_here"))
 
     def launch(self, goal: ProgramGoal) -> LiveProgram | Reason:  # noqa: ARG002

@@ -11,7 +11,7 @@ from chatrobot.motion.programs.program_execution import LiveProgram
 from chatrobot.motion.programs.program_goal import ProgramGoal
 from chatrobot.motion.programs.program_rehearsal import rehearse_program
 from chatrobot.motion.programs.program_senses import Senses
-from chatrobot.motion.seen_world import SeenPoints
+from chatrobot.motion.remembered_obstacles import RememberedObstacles
 from chatrobot.programs.boxed import BoxedProgram, warm_server
 from chatrobot.programs.events import LATEST_S
 from chatrobot.programs.settings import ProgramSettings, robot_topics
@@ -35,7 +35,7 @@ class ProgramHost:
     def attach(self, wire: Wire) -> None:
         self._senses.attach(wire, self._profile.wiring)
 
-    def rehearse(self, goal: ProgramGoal, planner: Planner, seen: SeenPoints | None) -> Planned:
+    def rehearse(self, goal: ProgramGoal, planner: Planner, seen: RememberedObstacles | None) -> Planned:
         try:
             self._warm()
             rehearsal = rehearse_program(

@@ -17,7 +17,7 @@ from chatrobot.box.limits import BoxLimits
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.motion.programs.program_stage import ProgramStage, limited_reason
-from chatrobot.motion.seen_world import SeenPoints, with_seen
+from chatrobot.motion.remembered_obstacles import RememberedObstacles, with_seen
 from chatrobot.plan.findings import Finding, Severity
 from chatrobot.plan.known_world import Contact, Floats
 from chatrobot.plan.rehearsal import MARGIN_M
@@ -98,7 +98,7 @@ def rehearse_program(
     remaps: Mapping[str, str] | None = None,
     args: tuple[str, ...] = (),
     wall_limit_s: float = WALL_LIMIT_S,
-    seen: SeenPoints | None = None,
+    seen: RememberedObstacles | None = None,
 ) -> ProgramRehearsal:
     """Rehearse `source` from `start` (odom frame), at most to `horizon_s` of its own time. Raises BoxError.
 
@@ -204,7 +204,7 @@ def _about_topics(played: Played, settings: ProgramSettings) -> Iterator[Finding
 
 
 def _about_the_way(
-    path: Floats, profile: RobotProfile, world: World, area: Any, seen: SeenPoints | None
+    path: Floats, profile: RobotProfile, world: World, area: Any, seen: RememberedObstacles | None
 ) -> Iterator[Finding]:
     poses, footprint = path[:, 1:], profile.footprint
     if not world.is_empty:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from chatrobot.core.geometry import Pose
-from chatrobot.motion.seen_world import POINT_RADIUS_M
+from chatrobot.motion.remembered_obstacles import POINT_RADIUS_M
 from chatrobot.plan.context import NoRoute, Route, RoutePlanner
 from chatrobot.plan.known_world import Area, Floats
 from chatrobot.plan.route import GridRoutePlanner
@@ -89,7 +89,7 @@ class _KnownAndSeen:
         return self._world.obstacle_name_at(x_m, y_m)
 
 
-class RoutesAroundSeen:
+class RoutesAroundObstacles:
     """Plans in the world of one moment for one robot. Implements `RoutePlanner`.
 
     Where what was seen leaves no way it plans by the map alone: the rehearsal then says what is in that way.

@@ -18,13 +18,13 @@ APART_M = 0.05
 APART_RAD = 0.1
 """So far from the last one that was kept, the next look is kept."""
 
-LOOKS_KEPT = 20
+VIEWS_KEPT = 20
 SCANS_VALID = 50
 """An earlier look counts for so many scans (5 s at 10 Hz): somebody may have come since."""
 
 
 @dataclass(frozen=True)
-class Look:
+class LidarView:
     """What one scan looked at: `beams` beams, each `step_rad` on from the first, of a lidar at `lidar` (in `odom`)."""
 
     lidar: Pose
@@ -47,15 +47,15 @@ class Look:
         return np.asarray(onwards % (2.0 * math.pi) <= abs(self.step_rad) * (self.beams - 1))
 
 
-class Looks:
+class ScanCoverage:
     """The latest look, and earlier ones that still count."""
 
     def __init__(self) -> None:
-        self.latest: Look | None = None
-        self._earlier: deque[tuple[int, Look]] = deque(maxlen=LOOKS_KEPT)
+        self.latest: LidarView | None = None
+        self._earlier: deque[tuple[int, LidarView]] = deque(maxlen=VIEWS_KEPT)
         self._scans = 0
 
-    def note(self, look: Look) -> None:
+    def note(self, look: LidarView) -> None:
         """Of a new scan."""
         self.latest = look
         self._scans += 1

@@ -13,10 +13,10 @@ import numpy as np
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.governor.blind import BlindRule
 from chatrobot.governor.contact import Floats, Footprint
-from chatrobot.governor.looks import Look
+from chatrobot.governor.obstacle_memory import ObstacleMemory
 from chatrobot.governor.obstacles import MARGIN_M, NEARER_M
 from chatrobot.governor.rule import NOTHING_SENSED, Sensed, Situation
-from chatrobot.governor.seen import Seen
+from chatrobot.governor.scan_coverage import LidarView
 from chatrobot.plan import rehearsal
 from chatrobot.plan.known_world import Contact
 from chatrobot.robots.profile import Lidar, RobotProfile
@@ -46,12 +46,12 @@ class Sight:
         look: where the lidar looked last; None where it shows nothing, not even that nothing is there.
     """
 
-    def __init__(self, profile: RobotProfile, lidar: Lidar, look: Look | None) -> None:
+    def __init__(self, profile: RobotProfile, lidar: Lidar, look: LidarView | None) -> None:
         self._mounting = Pose(lidar.x_m, lidar.y_m, lidar.yaw_rad)
         self._look = look
-        self._seen = Seen(lidar)
-        self._seen.looks.note(
-            Look(ORIGIN, 0.0, math.tau, 1)
+        self._seen = ObstacleMemory(lidar)
+        self._seen.coverage.note(
+            LidarView(ORIGIN, 0.0, math.tau, 1)
         )  # all around: what it comes by has been seen before
         self._rule = BlindRule(profile, self._seen)
 
@@ -59,12 +59,12 @@ class Sight:
         """Of a twist at that pose, from where the lidar looks as it does now."""
         sensed = NOTHING_SENSED
         if self._look is not None:
-            self._seen.looks.latest = replace(self._look, lidar=pose.compose(self._mounting))
+            self._seen.coverage.latest = replace(self._look, lidar=pose.compose(self._mounting))
             sensed = Sensed({"scan": 0.0})
         return self._rule.judge(twist, Situation(pose, sensed)).factor
 
 
-class SeenPoints:
+class RememberedObstacles:
     """Points [n, 2] in odom, as they were at one moment, and how the lidar looked. Implements `SeenWorld`.
 
     Args:

@@ -8,7 +8,7 @@ from collections import deque
 import numpy as np
 
 from chatrobot.core.geometry import Pose
-from chatrobot.governor.looks import Flags, Floats, Look, Looks
+from chatrobot.governor.scan_coverage import Flags, Floats, LidarView, ScanCoverage
 from chatrobot.robots.profile import Lidar
 from chatrobot.wire.messages import LaserScan
 
@@ -21,7 +21,7 @@ FORGET_AFTER_M = 1.0
 NO_POINTS: Floats = np.empty((0, 2))
 
 
-class Seen:
+class ObstacleMemory:
     """Points [n, 2] in `odom`: the last scan's, and those that came too near to be seen.
 
     Plus infinity means that nothing is there (REP-117). A cheap lidar says zero or NaN for what is too far and for
@@ -33,7 +33,7 @@ class Seen:
         self.lidar = lidar
         self._scans: deque[Floats] = deque(maxlen=SCANS_KEPT)
         self._remembered: Floats = NO_POINTS
-        self.looks = Looks()
+        self.coverage = ScanCoverage()
 
     @property
     def points(self) -> Floats:
@@ -43,10 +43,10 @@ class Seen:
         """A scan made where the robot stood at `pose` (of `odom`)."""
         ranges = np.asarray(scan.ranges_m, dtype=np.float64)
         if not (_makes_sense(scan) and all(map(math.isfinite, pose))):
-            self.looks.forget()
+            self.coverage.forget()
             return
         lidar = pose.compose(Pose(self.lidar.x_m, self.lidar.y_m, self.lidar.yaw_rad))
-        self.looks.note(Look(lidar, scan.angle_min_rad, scan.angle_increment_rad, len(ranges)))
+        self.coverage.note(LidarView(lidar, scan.angle_min_rad, scan.angle_increment_rad, len(ranges)))
         with np.errstate(invalid="ignore"):
             valid = (ranges >= scan.range_min_m) & (ranges <= scan.range_max_m)
             sees = valid | (ranges == math.inf)

@@ -8,7 +8,13 @@ import pytest
 from tests.governor.situations import MECANUM
 
 from chatrobot.core.geometry import ORIGIN, Pose
-from chatrobot.governor.seen import FORGET_AFTER_M, NEAR_M, SCANS_KEPT, SEEN_THROUGH_M, Seen
+from chatrobot.governor.obstacle_memory import (
+    FORGET_AFTER_M,
+    NEAR_M,
+    SCANS_KEPT,
+    SEEN_THROUGH_M,
+    ObstacleMemory,
+)
 from chatrobot.robots.profile import Lidar
 from chatrobot.wire.messages import LaserScan
 
@@ -35,14 +41,14 @@ def sector(from_deg: float, beams: int, step_deg: float = 1.0, range_m: float = 
     return LaserScan(0.0, first, step, NEAREST_M, FARTHEST_M, [range_m] * beams)
 
 
-def seen_by(lidar: Lidar, *scans: LaserScan, pose: Pose = ORIGIN) -> Seen:
-    seen = Seen(lidar)
+def seen_by(lidar: Lidar, *scans: LaserScan, pose: Pose = ORIGIN) -> ObstacleMemory:
+    seen = ObstacleMemory(lidar)
     for scan in scans:
         seen.take(scan, pose)
     return seen
 
 
-def points_of(seen: Seen) -> list[tuple[float, float]]:
+def points_of(seen: ObstacleMemory) -> list[tuple[float, float]]:
     return [(float(x), float(y)) for x, y in seen.points]
 
 
@@ -99,7 +105,7 @@ def test_a_near_thing_that_a_cheap_lidar_no_longer_tells_of_is_still_there(
     then: float, is_still_there: bool
 ) -> None:
     """Zero, NaN (JSON's null, too) and nonsense tell nothing; infinity (REP-117) and a farther thing do."""
-    seen = Seen(MOUNTED)
+    seen = ObstacleMemory(MOUNTED)
     for stamp_s, ahead_m in enumerate((0.2, *[then] * 5)):
         ranges_m = [math.inf] * 360
         ranges_m[180] = ahead_m
@@ -110,7 +116,7 @@ def test_a_near_thing_that_a_cheap_lidar_no_longer_tells_of_is_still_there(
 
 def test_what_was_near_and_now_returns_zero_is_remembered_until_it_is_seen_through() -> None:
     lidar = Lidar(0.0, 0.0, 0.0, 4, 0.12, 8.0, 10.0)
-    seen = Seen(lidar)
+    seen = ObstacleMemory(lidar)
 
     def scan(ahead_m: float) -> LaserScan:
         return LaserScan(0.0, -math.pi, math.pi / 2.0, 0.12, 8.0, [math.inf, math.inf, ahead_m, math.inf])
@@ -127,7 +133,7 @@ def test_what_was_near_and_now_returns_zero_is_remembered_until_it_is_seen_throu
 
 @pytest.mark.parametrize("direction", [1.0, -1.0])
 def test_a_lidar_that_turns_clockwise_is_read_the_same_way(direction: float) -> None:
-    seen = Seen(MOUNTED)
+    seen = ObstacleMemory(MOUNTED)
     ranges = [math.inf] * 360
     ranges[90 if direction > 0.0 else 270] = 0.2  # to the right in both
     scan = LaserScan(0.0, -math.pi * direction, math.radians(direction), 0.12, 8.0, ranges)
@@ -147,16 +153,16 @@ def test_a_lidar_that_turns_clockwise_is_read_the_same_way(direction: float) -> 
     ],
 )
 def test_a_scan_that_makes_no_sense_has_seen_nothing(broken: LaserScan) -> None:
-    seen = Seen(MOUNTED)
+    seen = ObstacleMemory(MOUNTED)
     seen.take(LaserScan(0.0, -math.pi, math.radians(1.0), 0.1, 8.0, [1.0] * 360), ORIGIN)
-    assert seen.looks.latest is not None
+    assert seen.coverage.latest is not None
     seen.take(broken, ORIGIN)
-    assert seen.looks.latest is None
+    assert seen.coverage.latest is None
 
 
 def kept_after(first: LaserScan, then: LaserScan, poses: tuple[Pose, Pose] = (ORIGIN, ORIGIN)) -> bool:
     """Whether what the first scan saw is still known when it has fallen out of the scans that count."""
-    seen = Seen(PLAIN)
+    seen = ObstacleMemory(PLAIN)
     seen.take(first, poses[0])
     for _ in range(SCANS_KEPT + 1):
         seen.take(then, poses[1])
@@ -220,19 +226,19 @@ def test_the_nearest_beam_decides() -> None:
 def test_a_scan_from_nowhere_has_seen_nothing_and_takes_nothing_away(pose: Pose) -> None:
     seen = seen_by(PLAIN, around({0: 2.0}))
     seen.take(around({}), pose)
-    assert seen.looks.latest is None
+    assert seen.coverage.latest is None
     assert len(points_of(seen)) == 1
 
 
 def test_a_look_is_from_where_the_lidar_is() -> None:
     lidar = Lidar(0.1, 0.2, 0.3, 360, NEAREST_M, FARTHEST_M, 10.0)
     seen = seen_by(lidar, sector(-20.0, 41, -2.0), pose=Pose(5.0, -3.0, math.pi / 2))
-    look = seen.looks.latest
+    look = seen.coverage.latest
     assert look is not None
     assert look.lidar == pytest.approx((5.0 - 0.2, -3.0 + 0.1, math.pi / 2 + 0.3))
     assert (look.first_rad, look.step_rad, look.beams) == (math.radians(-20.0), math.radians(-2.0), 41)
 
 
 def test_before_its_first_scan_it_has_seen_nothing() -> None:
-    assert points_of(Seen(PLAIN)) == []
-    assert Seen(PLAIN).looks.latest is None
+    assert points_of(ObstacleMemory(PLAIN)) == []
+    assert ObstacleMemory(PLAIN).coverage.latest is None

@@ -13,9 +13,9 @@ from tests.dialogue.test_session import Talk
 from chatrobot.core.events import Rehearsed, Result
 from chatrobot.core.geometry import ORIGIN
 from chatrobot.motion import planner
+from chatrobot.motion.obstacle_routes import ENOUGH_M, RoutesAroundObstacles, _Field
 from chatrobot.motion.planner import Planner
-from chatrobot.motion.seen_routes import ENOUGH_M, RoutesAroundSeen, _Field
-from chatrobot.motion.seen_world import POINT_RADIUS_M, SeenPoints, with_seen
+from chatrobot.motion.remembered_obstacles import POINT_RADIUS_M, RememberedObstacles, with_seen
 from chatrobot.plan.context import Route
 from chatrobot.robots.load import load_profile
 from chatrobot.sim.load import load_world
@@ -73,7 +73,7 @@ def wall(x_m: float, low_m: float, high_m: float) -> list[tuple[float, float]]:
 
 
 def planned(points: list[tuple[float, float]], text: str, world: World = EMPTY_WORLD) -> planner.Planned:
-    return Planner(MECANUM, world).plan(1, text, ORIGIN, seen=SeenPoints(MECANUM, np.array(points)))
+    return Planner(MECANUM, world).plan(1, text, ORIGIN, seen=RememberedObstacles(MECANUM, np.array(points)))
 
 
 def test_where_what_was_seen_leaves_no_way_it_says_what_is_in_it() -> None:
@@ -96,12 +96,12 @@ def test_a_goal_in_what_was_seen_is_refused_and_the_nearest_free_point_offered()
 @settings(deadline=None, max_examples=60)
 @given(st.lists(st.tuples(st.floats(0.4, 2.6), st.floats(-0.8, 0.8)), min_size=1, max_size=12))
 def test_a_route_around_what_was_seen_passes_its_rehearsal(points: list[tuple[float, float]]) -> None:
-    routes = RoutesAroundSeen(MECANUM, EMPTY_WORLD, np.array(points), None)
+    routes = RoutesAroundObstacles(MECANUM, EMPTY_WORLD, np.array(points), None)
     found = routes.route(ORIGIN, (3.0, 0.0), named_place=False)
     assert isinstance(found, Route)
     done = planned(points, "go to 3 0")
     assert done.ok, done.refusal
-    assert SeenPoints(MECANUM, np.array(points)).first_contact(done.rehearsal.path[:, 1:]) is None  # type: ignore[union-attr]
+    assert RememberedObstacles(MECANUM, np.array(points)).first_contact(done.rehearsal.path[:, 1:]) is None  # type: ignore[union-attr]
 
 
 @given(

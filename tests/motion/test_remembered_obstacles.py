@@ -19,7 +19,7 @@ from chatrobot.governor.contact import Footprint
 from chatrobot.governor.kernel import make_kernel
 from chatrobot.governor.obstacles import MARGIN_M
 from chatrobot.motion import planner
-from chatrobot.motion.seen_world import POINT_RADIUS_M, SeenPoints, Sight
+from chatrobot.motion.remembered_obstacles import POINT_RADIUS_M, RememberedObstacles, Sight
 from chatrobot.plan.rehearsal import MARGIN_M as REHEARSED_M
 from chatrobot.plan.rehearsal import rehearse
 from chatrobot.plan.text import parse_plan
@@ -30,8 +30,8 @@ MECANUM = load_profile("wheeltec_mini_mec")
 FRONT_M, SIDE_M = 0.135, 0.111
 
 
-def seen(*points: tuple[float, float]) -> SeenPoints:
-    return SeenPoints(MECANUM, np.array(points, dtype=float).reshape(-1, 2))
+def seen(*points: tuple[float, float]) -> RememberedObstacles:
+    return RememberedObstacles(MECANUM, np.array(points, dtype=float).reshape(-1, 2))
 
 
 def way(
@@ -41,7 +41,7 @@ def way(
     return np.array([start.moved(twist, t) for t in np.arange(0.0, duration_s + 1e-9, 0.02).tolist()])
 
 
-def reached_m(points: SeenPoints, poses: np.ndarray[tuple[int, int], np.dtype[np.float64]]) -> float:
+def reached_m(points: RememberedObstacles, poses: np.ndarray[tuple[int, int], np.dtype[np.float64]]) -> float:
     """How far along the path nothing is too near; infinite where nothing is at all."""
     found = points.first_contact(poses)
     return math.inf if found is None else float(np.hypot(*poses[found.row, :2]))
@@ -185,7 +185,7 @@ def test_the_estimate_of_a_plan_s_time_is_that_of_the_speed_that_will_be_allowed
 def test_a_blind_robot_that_may_not_go_blind_is_stopped_and_the_estimate_is_finite() -> None:
     careful = replace(MECANUM, safety=replace(MECANUM.safety, blind_speed_mps=0.0))
     assert MECANUM.lidar is not None
-    blind = SeenPoints(careful, np.empty((0, 2)), Sight(careful, MECANUM.lidar, None))
+    blind = RememberedObstacles(careful, np.empty((0, 2)), Sight(careful, MECANUM.lidar, None))
     rehearsal = rehearse(parse_plan("drive 1 m"), careful, None, ORIGIN, make_kernel(careful), seen=blind)
     assert rehearsal.ok
     assert rehearsal.duration_s < 5.0
