@@ -18,7 +18,7 @@ from typing import Any
 from tests.realtime import RunningRobot
 
 from bench.latency import percentile
-from chatrobot.dialogue.llm.model_call import ModelCall
+from chatrobot.dialogue.llm.call import ModelCall
 from chatrobot.dialogue.llm.prompt import request, system_prompt
 from chatrobot.models.config import ModelConfig
 from chatrobot.models.fake.script import read_script

@@ -16,7 +16,7 @@ from chatrobot.core.events import Event, TruePose
 from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.dialogue.llm.camera import Camera, PassedCamera, wire_camera
 from chatrobot.dialogue.llm.model_choice import warm_up
-from chatrobot.dialogue.llm.model_terms import ModelOptions
+from chatrobot.dialogue.llm.terms import ModelOptions
 from chatrobot.dialogue.llm.thinking import Mind
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring

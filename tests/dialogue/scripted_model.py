@@ -9,7 +9,7 @@ from typing import Union
 from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.events import Event, Result, TruePose
 from chatrobot.core.reason import Reason
-from chatrobot.dialogue.llm.model_terms import ModelOptions
+from chatrobot.dialogue.llm.terms import ModelOptions
 from chatrobot.dialogue.options import Options
 from chatrobot.models.seam import CallLimits, Message, ModelError, Usage
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from chatrobot.dialogue.llm.model_reply import LOOKS, ReplyReader
+from chatrobot.dialogue.llm.reply_reader import LOOKS, ReplyReader
 from chatrobot.plan.json_form import plan_to_json
 from chatrobot.plan.steps import RawTwist
 from chatrobot.plan.text import format_step, parse_plan

@@ -138,7 +138,7 @@ def test_a_robot_that_was_moved_has_to_be_asked_again(monkeypatch: pytest.Monkey
 def test_a_yes_that_comes_late_has_to_be_said_again(monkeypatch: pytest.MonkeyPatch) -> None:
     talk = asked()
     began_s = proposals.time.monotonic()
-    monkeypatch.setattr("chatrobot.dialogue.said.time.monotonic", lambda: began_s + 31.0)
+    monkeypatch.setattr("chatrobot.dialogue.utterances.time.monotonic", lambda: began_s + 31.0)
     late = talk.session.do("yes")
     assert (late.outcome, late.path_m) == ("refused", 0.0)
 

@@ -15,7 +15,7 @@ import pytest
 
 from chatrobot.compose import Setup, connect
 from chatrobot.core.events import Event, Result, TruePose
-from chatrobot.dialogue.llm.model_terms import ModelOptions
+from chatrobot.dialogue.llm.terms import ModelOptions
 from chatrobot.models.fake.script import read_script
 from chatrobot.models.fake.server import FakeModel
 from chatrobot.robots.load import load_profile

@@ -13,7 +13,7 @@ from chatrobot.compose import Setup
 from chatrobot.core.errors import UsageError
 from chatrobot.core.motion_budget import MotionBudget
 from chatrobot.dialogue.llm.model_choice import chosen_model
-from chatrobot.dialogue.llm.model_terms import ModelOptions
+from chatrobot.dialogue.llm.terms import ModelOptions
 from chatrobot.dialogue.options import Options
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.models.seam import Model, ModelError

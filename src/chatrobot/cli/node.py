@@ -94,7 +94,7 @@ def _run_control(args: argparse.Namespace, citizen: Citizen | None, connect: Con
 def _run_base(args: argparse.Namespace, citizen: Citizen | None, connect: Connect) -> bool:
     from chatrobot.cli.choices import model_from
     from chatrobot.cli.folders import config_folder
-    from chatrobot.dialogue.llm.model_terms import ModelOptions
+    from chatrobot.dialogue.llm.terms import ModelOptions
     from chatrobot.link.topics import CHATGPT_NODE, USER_INPUT
     from chatrobot.nodes.base import BaseNode, BaseOptions
     from chatrobot.nodes.log import Log

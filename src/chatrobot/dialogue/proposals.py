@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 from chatrobot.core.events import Event, Result, Started
 from chatrobot.core.proposal import Proposal
-from chatrobot.dialogue.said import Said
 from chatrobot.dialogue.understanding import Understanding
+from chatrobot.dialogue.utterances import Utterance
 from chatrobot.language.consent import after_consent, read_consent
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import render_reason, say
@@ -53,19 +53,19 @@ class Proposals:
         elif isinstance(event, Started):
             self._offered = None
 
-    def answered(self, said: Said) -> Interpretation | None:
-        """What `said` means as the answer to the offer; None where it is none. The offer is over in any case."""
+    def answered(self, utterance: Utterance) -> Interpretation | None:
+        """What `utterance` means as the answer to the offer; None where it is none. The offer is over in any case."""
         offered, self._offered = self._offered, None
-        if offered is None or said.kind != "text" or self._is_void_turn(offered.turn):
+        if offered is None or utterance.kind != "text" or self._is_void_turn(offered.turn):
             return None
-        yes, plan = read_consent(said.text), parse_plan(offered.proposal.plan_text)
-        changed = self._changed(plan, said.text) if yes is None else plan
+        yes, plan = read_consent(utterance.text), parse_plan(offered.proposal.plan_text)
+        changed = self._changed(plan, utterance.text) if yes is None else plan
         if changed is None:
             return None
         language = self._understanding.language
         if yes is False:
             return Interpretation("answered", say(language, "offer_declined"), language)
-        lapse = offered.approval.lapsed(said.at_s, self._understanding.pose)
+        lapse = offered.approval.lapsed(utterance.at_s, self._understanding.pose)
         if lapse is not None:
             return Interpretation("refused", render_reason(lapse, language), language)
         return self._understanding.accept(changed)

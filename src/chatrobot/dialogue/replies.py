@@ -18,7 +18,7 @@ from chatrobot.plan.steps import Face, Go, RawTwist, Step
 from chatrobot.plan.text import parse_plan
 
 if TYPE_CHECKING:
-    from chatrobot.dialogue.llm.model_terms import Ended
+    from chatrobot.dialogue.llm.terms import Ended
 
 SHOWN_CHARS = 60
 """A text that is quoted is shortened to this."""

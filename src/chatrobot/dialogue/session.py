@@ -15,22 +15,22 @@ from chatrobot.core.events import Event, Finished, Notice, Paused, Remembered, R
 from chatrobot.core.motion_budget import OPEN_LOOP
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.dispatch import Dispatch
-from chatrobot.dialogue.early import EarlyAnswers
+from chatrobot.dialogue.early_answers import EarlyAnswers
 from chatrobot.dialogue.goal_client import GoalClient
-from chatrobot.dialogue.llm.model_terms import Ended
+from chatrobot.dialogue.llm.terms import Ended
 from chatrobot.dialogue.llm.thinking import Mind, Thinking
-from chatrobot.dialogue.next_text import NextText
+from chatrobot.dialogue.next_utterance import NextUtterance
 from chatrobot.dialogue.observations import measured
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring
 from chatrobot.dialogue.programs.draft import Draft
-from chatrobot.dialogue.programs.program_turns import ProgramTurns
+from chatrobot.dialogue.programs.program_requests import ProgramRequests
 from chatrobot.dialogue.proposals import Proposals
 from chatrobot.dialogue.replies import with_offer
+from chatrobot.dialogue.request_log import RequestLog
 from chatrobot.dialogue.resuming import Resuming
-from chatrobot.dialogue.said import Kind, Said, SaidTexts
-from chatrobot.dialogue.turn_book import TurnBook
 from chatrobot.dialogue.understanding import Understanding
+from chatrobot.dialogue.utterances import Kind, Utterance, UtteranceQueue
 from chatrobot.link.joint import Joint
 from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
@@ -61,9 +61,9 @@ class Session:
         self.understanding = understanding
         self._on_event = on_event
         self._goals = GoalClient(joint, options)
-        self._said = SaidTexts()
-        self._proposals = Proposals(understanding, self._said.is_void_turn)
-        self._book = TurnBook(understanding, self._emit)
+        self._utterances = UtteranceQueue()
+        self._proposals = Proposals(understanding, self._utterances.is_void_turn)
+        self._requests = RequestLog(understanding, self._emit)
         self._thinking = Thinking(
             mind,
             options.interpreter,
@@ -71,30 +71,30 @@ class Session:
             understanding,
             self._emit,
             self._conclude_model_turn,
-            lambda: self._said.pauses,
+            lambda: self._utterances.pauses,
         )
         self.authoring = authoring
         self._resuming = Resuming(understanding)
-        self._next = NextText(
-            self._said,
-            self._book,
+        self._next = NextUtterance(
+            self._utterances,
+            self._requests,
             self._thinking,
             understanding,
             self._resuming,
-            EarlyAnswers(understanding, self._thinking, self._book, authoring),
+            EarlyAnswers(understanding, self._thinking, self._requests, authoring),
         )
-        self._programs: ProgramTurns | None = None
+        self._programs: ProgramRequests | None = None
         if authoring is not None:
-            is_void = self._said.is_void_turn
-            self._programs = ProgramTurns(
-                authoring, understanding, self._book, self._goals, self._emit, is_void
+            is_void = self._utterances.is_void_turn
+            self._programs = ProgramRequests(
+                authoring, understanding, self._requests, self._goals, self._emit, is_void
             )
         self._dispatch = Dispatch(
             joint,
             self._goals,
-            self._said,
+            self._utterances,
             understanding,
-            self._book,
+            self._requests,
             self._proposals,
             self._resuming,
             self._thinking,
@@ -116,7 +116,7 @@ class Session:
     @property
     def results(self) -> dict[int, Result]:
         """How each turn ended, by its number."""
-        return self._book.results
+        return self._requests.results
 
     # --- from any thread ---
 
@@ -156,18 +156,18 @@ class Session:
         return self._take_in(name, "source", source)
 
     def _take_in(self, text: str, kind: Kind, about: Draft | str = "") -> int:
-        turn = self._said.add(text, kind, about, is_moving=self.is_moving)
+        turn = self._utterances.add(text, kind, about, is_moving=self.is_moving)
         self._joint.wake()
         return turn
 
     def stop(self, why: str = "") -> None:
         """Stop the robot and drop what was said before this moment."""
-        self._joint.send("stop", self._said.void(why), why=why)
+        self._joint.send("stop", self._utterances.void(why), why=why)
         self._cancel_asking()
 
     def pause(self, why: str = "") -> None:
         """Stop the robot as `stop` does, and keep what it was told; what cannot be kept ends as with a stop."""
-        self._said.hold(is_under_way=self.is_moving or self._thinking.is_busy)
+        self._utterances.hold(is_under_way=self.is_moving or self._thinking.is_busy)
         self._joint.send("stop", why=why, keep=True)
         self._thinking.cancel_unmoved(Reason("paused_by", {"why": why}))
         if self.authoring is not None:
@@ -179,12 +179,12 @@ class Session:
 
     def emergency_stop(self, why: str = "") -> None:
         """Stop the robot and keep it stopped until `release`."""
-        self._joint.send("emergency_stop", self._said.void(why), why=why)
+        self._joint.send("emergency_stop", self._utterances.void(why), why=why)
         self._cancel_asking()
 
     def _cancel_asking(self) -> None:
         """End what models are being asked."""
-        self._thinking.cancel(self._said.stopped_by)
+        self._thinking.cancel(self._utterances.stopped_by)
         if self.authoring is not None:
             self.authoring.cancel()
 
@@ -206,7 +206,7 @@ class Session:
     @property
     def is_moving(self) -> bool:
         """True while a plan of ours runs, or is on its way to."""
-        return self._book.is_any_with_motion or self._thinking.is_moving
+        return self._requests.is_any_with_motion or self._thinking.is_moving
 
     @property
     def thinking_s(self) -> float | None:
@@ -218,7 +218,7 @@ class Session:
     @property
     def is_paused(self) -> bool:
         """A plan of ours is paused, or what was said and had not begun."""
-        return self.is_plan_paused or self._said.is_unbegun_held
+        return self.is_plan_paused or self._utterances.is_unbegun_held
 
     @property
     def is_plan_paused(self) -> bool:
@@ -237,7 +237,11 @@ class Session:
 
     @property
     def is_idle(self) -> bool:
-        return not self._book.is_any_with_motion and not self._said.waiting and not self._thinking.is_busy
+        return (
+            not self._requests.is_any_with_motion
+            and not self._utterances.waiting
+            and not self._thinking.is_busy
+        )
 
     # --- the pumping thread ---
 
@@ -256,7 +260,7 @@ class Session:
         """
         self._thinking.pump()
         self._take_texts()
-        if self._thinking.is_calling and self._joint.is_simulated and not self._book.is_any_with_motion:
+        if self._thinking.is_calling and self._joint.is_simulated and not self._requests.is_any_with_motion:
             self._thinking.wait(timeout_s)  # a model thinks in no time at all
             self._thinking.pump()
             timeout_s = 0.0
@@ -279,18 +283,20 @@ class Session:
 
     # --- what was said ---
 
-    def _find_next(self) -> Said | None:
+    def _find_next(self) -> Utterance | None:
         """The text to take now, if any."""
         return self._next.find(self.options, self._dispatch.waits_for_end)
 
     def _take_texts(self) -> None:
-        for said in self._said.take_too_many():
+        for utterance in self._utterances.take_too_many():
             # Who said one too many hears so now, not when the ten before it are done.
-            self._book.conclude(said.turn, "refused", self.understanding.say("queue_full", said.text))
+            self._requests.conclude(
+                utterance.turn, "refused", self.understanding.say("queue_full", utterance.text)
+            )
         self._next.drop_held()
         while (found := self._find_next()) is not None:
-            self._goals.pauses = self._said.pauses
-            if (taken := self._said.take(found)) is not None:
+            self._goals.pauses = self._utterances.pauses
+            if (taken := self._utterances.take(found)) is not None:
                 self._dispatch.take(taken)
                 self._next.drop_held()
 
@@ -313,25 +319,25 @@ class Session:
         reply, proposal = with_offer(
             reply, ended.finished if is_refused else None, self.understanding.language_of(text)
         )
-        self._book.conclude(turn, ended.outcome, reply, ended.finished, ended.reason, proposal)
+        self._requests.conclude(turn, ended.outcome, reply, ended.finished, ended.reason, proposal)
 
     def _hear(self, event: Event) -> None:
         if isinstance(event, Telemetry):
-            is_ours = self._book.is_any_with_motion or self._thinking.is_busy
+            is_ours = self._requests.is_any_with_motion or self._thinking.is_busy
             self.understanding.note_telemetry(event, is_ours=is_ours)
         elif isinstance(event, Remembered):
             self.understanding.note_place(event)
-        elif isinstance(event, Paused) and self._book.has(event.turn):
+        elif isinstance(event, Paused) and self._requests.has(event.turn):
             event = replace(event, waiting=self._dispatch.texts_behind(event.turn))
         elif isinstance(event, Notice) and event.reason.code == OPEN_LOOP:
             self.understanding.note_open_loop()
         self._emit(event)
-        if self._book.has(event.turn) or self._thinking.has(event.turn):
+        if self._requests.has(event.turn) or self._thinking.has(event.turn):
             was_paused = self.is_plan_paused
             self._resuming.hear(event)
             self._goals.is_paused = self.is_plan_paused
             if was_paused and not self.is_plan_paused:
-                self._said.drop_held(self._resuming.ended_by)
+                self._utterances.drop_held(self._resuming.ended_by)
         if self._programs is not None and self._programs.hear(event):
             return  # the next version of a program is on its way
         self._thinking.hear(event)
@@ -340,7 +346,7 @@ class Session:
 
     def _finish(self, event: Finished) -> None:
         """Motion is done with a turn."""
-        instruction = self._book.take(event.turn)
+        instruction = self._requests.take(event.turn)
         if instruction is None:
             return
         (text, meant, _), programs, rehearse_only = instruction, self._programs, self.options.rehearse_only
@@ -351,4 +357,4 @@ class Session:
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         self._thinking.note(text, plan_text, f"{event.outcome}: {measured(event)}")
         reply, proposal = with_offer(reply, event if not rehearse_only else None, meant.language)
-        self._book.conclude(event.turn, event.outcome, reply, event, proposal=proposal)
+        self._requests.conclude(event.turn, event.outcome, reply, event, proposal=proposal)

@@ -29,7 +29,7 @@ from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.world import World
 
 if TYPE_CHECKING:
-    from chatrobot.dialogue.llm.model_terms import Ended
+    from chatrobot.dialogue.llm.terms import Ended
 
 
 class Instruction(NamedTuple):

@@ -27,7 +27,7 @@ from chatrobot.core.events import (
 from chatrobot.core.motion_budget import NOT_CHOSEN
 from chatrobot.dialogue.llm.camera import wire_camera
 from chatrobot.dialogue.llm.model_choice import warm_up
-from chatrobot.dialogue.llm.model_terms import ModelOptions
+from chatrobot.dialogue.llm.terms import ModelOptions
 from chatrobot.dialogue.llm.thinking import Interpreter, Mind
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from functools import cache
 
 from chatrobot.core.geometry import Pose
-from chatrobot.dialogue.llm.model_reply import LOOKS, REST
+from chatrobot.dialogue.llm.reply_reader import LOOKS, REST
 from chatrobot.dialogue.quoting import one_line, quoted
 from chatrobot.plan.registry import primitives
 from chatrobot.robots.profile import RobotProfile

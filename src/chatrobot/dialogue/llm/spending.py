@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 
 from chatrobot.core.reason import Reason
-from chatrobot.dialogue.llm.model_terms import ModelOptions
+from chatrobot.dialogue.llm.terms import ModelOptions
 from chatrobot.models.seam import Usage
 
 

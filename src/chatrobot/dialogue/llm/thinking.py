@@ -15,8 +15,8 @@ from chatrobot.core.reason import Reason
 from chatrobot.dialogue.history import Exchange, History
 from chatrobot.dialogue.llm import prompt
 from chatrobot.dialogue.llm.camera import Camera
-from chatrobot.dialogue.llm.model_terms import Ended, ModelOptions
-from chatrobot.dialogue.llm.model_turn import ModelTurn
+from chatrobot.dialogue.llm.request import ModelRequest
+from chatrobot.dialogue.llm.terms import Ended, ModelOptions
 from chatrobot.dialogue.llm.tutorial_mode import connects_to_the_robot, is_form
 from chatrobot.dialogue.observations import measured, observation
 from chatrobot.dialogue.quoting import one_line
@@ -56,7 +56,7 @@ class Mind:
 class _Turn:
     text: str
     request: str
-    doing: ModelTurn
+    doing: ModelRequest
     pins: bool
 
 
@@ -194,7 +194,7 @@ class Thinking:
             reason = Reason("asks_model", {"model": mind.model.name, "part": part, "why": meant.code})
             self._emit(Notice(turn, reason, why))
         request, messages = self._messages(mind, text)
-        doing = ModelTurn(
+        doing = ModelRequest(
             turn,
             messages,
             mind.model,

@@ -14,7 +14,7 @@ from pathlib import Path
 from chatrobot.core.events import Finished, Outcome, ProgramRehearsed, Rehearsed
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
-from chatrobot.dialogue.llm.model_call import estimated
+from chatrobot.dialogue.llm.call import estimated
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import render_reason, say

@@ -6,7 +6,7 @@ import time
 from typing import TYPE_CHECKING
 
 from chatrobot.core.events import Looked
-from chatrobot.dialogue.llm.model_terms import Surroundings
+from chatrobot.dialogue.llm.terms import Surroundings
 
 if TYPE_CHECKING:
     from chatrobot.link.joint import Joint
@@ -15,7 +15,7 @@ LOOK_S = 3.0
 """How long Motion may take to say what the lidar sees, and the camera to be found and to show something."""
 
 
-class ModelLook:
+class ObservationWait:
     """Begins at once. `hear` what Motion says, until it `is_over`.
 
     Args:

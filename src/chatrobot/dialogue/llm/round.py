@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 
 from chatrobot.core.events import Finished
 from chatrobot.core.reason import Reason
-from chatrobot.dialogue.llm.model_call import CallEnd, ModelCall
-from chatrobot.dialogue.llm.model_reply import ReplyReader
+from chatrobot.dialogue.llm.call import CallEnd, ModelCall
+from chatrobot.dialogue.llm.reply_reader import ReplyReader
 from chatrobot.models.seam import CallLimits, Message, Model
 from chatrobot.plan.base import Step
 from chatrobot.plan.primitives.say import Say

@@ -24,13 +24,13 @@ from chatrobot.core.events import (
 from chatrobot.core.motion_budget import EXCEEDED
 from chatrobot.core.reason import Reason
 from chatrobot.core.summed import summed
-from chatrobot.dialogue.llm.model_call import CallEnd
-from chatrobot.dialogue.llm.model_look import ModelLook
-from chatrobot.dialogue.llm.model_round import ModelRound
-from chatrobot.dialogue.llm.model_terms import Ended, ModelOptions, Surroundings, told
-from chatrobot.dialogue.llm.plan_feed import PlanFeed
+from chatrobot.dialogue.llm.call import CallEnd
+from chatrobot.dialogue.llm.observation_wait import ObservationWait
+from chatrobot.dialogue.llm.plan_stream import PlanStream
 from chatrobot.dialogue.llm.prompt import correction
+from chatrobot.dialogue.llm.round import ModelRound
 from chatrobot.dialogue.llm.spending import Spending
+from chatrobot.dialogue.llm.terms import Ended, ModelOptions, Surroundings, told
 from chatrobot.dialogue.llm.tutorial_mode import is_short_form
 from chatrobot.dialogue.observations import without_pictures
 from chatrobot.dialogue.quoting import one_line
@@ -54,7 +54,7 @@ PICTURE_REFUSED = frozenset({"model_rejected", "model_server_error", "model_not_
 PLAN_REFUSED = frozenset({"lasts_too_long", "plan_too_large", "plan_text"})
 
 
-class ModelTurn:
+class ModelRequest:
     """See the module. `pump` and `hear` until `ended` is there.
 
     Args:
@@ -94,11 +94,11 @@ class ModelTurn:
         self._rehearse_only = rehearse_only
         self._only_talks = only_talks
         self._spending = Spending(options)
-        self._feed = PlanFeed(
+        self._feed = PlanStream(
             turn, joint, emit, mode, approve=approve, rehearse_only=rehearse_only, pauses=pauses
         )
         self._cancelled: Reason | None = None
-        self._look: ModelLook | None = None
+        self._look: ObservationWait | None = None
         self._total: Finished | None = None
         self._all_done: tuple[Step, ...] = ()
         self._done: tuple[Step, ...] = ()
@@ -310,7 +310,7 @@ class ModelTurn:
 
     def _begin_look(self) -> None:
         self._feed.say_held()
-        self._look = ModelLook(self._round.reader.looks, self.turn, self._joint, self._surroundings)
+        self._look = ObservationWait(self._round.reader.looks, self.turn, self._joint, self._surroundings)
         self._end_look()
 
     def _end_look(self) -> None:

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 from chatrobot.dialogue.llm.thinking import Thinking
 from chatrobot.dialogue.programs.authoring import Authoring, NotWrittenError
-from chatrobot.dialogue.said import Said
-from chatrobot.dialogue.turn_book import TurnBook
+from chatrobot.dialogue.request_log import RequestLog
 from chatrobot.dialogue.understanding import Understanding
+from chatrobot.dialogue.utterances import Utterance
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.plan.steps import Remember, Step
 
@@ -20,20 +20,20 @@ class EarlyAnswers:
     """Belongs to the pumping thread. Each text is looked at once."""
 
     def __init__(
-        self, understanding: Understanding, thinking: Thinking, book: TurnBook, authoring: Authoring | None
+        self, understanding: Understanding, thinking: Thinking, book: RequestLog, authoring: Authoring | None
     ) -> None:
         self._understanding = understanding
         self._thinking = thinking
-        self._book = book
+        self._requests = book
         self._authoring = authoring
         self._meant: dict[int, Interpretation | None] = {}
 
-    def find(self, waiting: Sequence[Said]) -> Said | None:
+    def find(self, waiting: Sequence[Utterance]) -> Utterance | None:
         """The first of them that nobody understands, and that those before it do not teach us to."""
-        if self._thinking.has_mind or any(_teaches(one.meant) for one in self._book.under_way):
+        if self._thinking.has_mind or any(_teaches(one.meant) for one in self._requests.under_way):
             return None
-        for said in waiting:
-            meant = self._look_at(said)
+        for utterance in waiting:
+            meant = self._look_at(utterance)
             if meant is None or _teaches(meant):
                 return None
             if (
@@ -42,15 +42,15 @@ class EarlyAnswers:
                 and not meant.proposal
                 and not meant.corrects
             ):
-                return said
+                return utterance
         return None
 
-    def _look_at(self, said: Said) -> Interpretation | None:
+    def _look_at(self, utterance: Utterance) -> Interpretation | None:
         """What it would mean now; None for what is no text to be understood."""
-        if said.turn not in self._meant:
-            is_text = said.kind == "text" and not self._is_about_a_program(said.text)
-            self._meant[said.turn] = self._understanding.interpret(said.text) if is_text else None
-        return self._meant[said.turn]
+        if utterance.turn not in self._meant:
+            is_text = utterance.kind == "text" and not self._is_about_a_program(utterance.text)
+            self._meant[utterance.turn] = self._understanding.interpret(utterance.text) if is_text else None
+        return self._meant[utterance.turn]
 
     def _is_about_a_program(self, text: str) -> bool:
         authoring = self._authoring

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from chatrobot.link.joint import Joint
 
 
-class PlanFeed:
+class PlanStream:
     """The plans of one turn, one after the other. Belongs to the pumping thread, but for `cancel`.
 
     Args:

@@ -11,7 +11,7 @@ from chatrobot.dialogue.understanding import Instruction, Understanding
 from chatrobot.language.interpretation import Interpretation
 
 
-class TurnBook:
+class RequestLog:
     """Used by the session's pumping thread; `is_any_with_motion` may be read from any thread."""
 
     def __init__(self, understanding: Understanding, emit: Callable[[Event], None]) -> None:

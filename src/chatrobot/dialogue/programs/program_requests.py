@@ -20,7 +20,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.dialogue.goal_client import GoalClient
 from chatrobot.dialogue.programs.authoring import MOST_REPAIRS, Authoring, NotWrittenError, Rehearsal
 from chatrobot.dialogue.programs.draft import Draft
-from chatrobot.dialogue.turn_book import TurnBook
+from chatrobot.dialogue.request_log import RequestLog
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.normalise import has_chinese
@@ -47,7 +47,7 @@ class _Turn:
     has_started: bool = False
 
 
-class ProgramTurns:
+class ProgramRequests:
     """Used by the session's pumping thread.
 
     Args:
@@ -58,14 +58,14 @@ class ProgramTurns:
         self,
         authoring: Authoring,
         understanding: Understanding,
-        book: TurnBook,
+        book: RequestLog,
         goals: GoalClient,
         emit: Callable[[Event], None],
         is_void_turn: Callable[[int], bool],
     ) -> None:
         self.authoring = authoring
         self._understanding = understanding
-        self._book = book
+        self._requests = book
         self._goals = goals
         self._emit = emit
         self._is_void_turn = is_void_turn
@@ -90,7 +90,7 @@ class ProgramTurns:
             self._emit(Interpreted(turn, "offline", "", refusal.reply))
             meant = Interpretation(_MEANT.get(refusal.outcome, "refused"), refusal.reply, language)
             self._understanding.note_unmoved(text, meant)
-            self._book.conclude(turn, refusal.outcome, refusal.reply)
+            self._requests.conclude(turn, refusal.outcome, refusal.reply)
             return True
         self.run(turn, text, draft)
         return True
@@ -107,7 +107,7 @@ class ProgramTurns:
         reply = self._understanding.say(code, text, name=draft.program.name)
         self._emit(Interpreted(turn, "model" if draft.by_model else "offline", "", reply))
         self._turns[turn] = about = _Turn(draft)
-        self._book.track(turn, text, Interpretation("plan", reply, self._understanding.language))
+        self._requests.track(turn, text, Interpretation("plan", reply, self._understanding.language))
         self._send(turn, about)
 
     def run_edited(self, turn: int, name: str, source: str) -> None:
@@ -178,7 +178,7 @@ class ProgramTurns:
             if not self._mend(turn, about, refusal.reason, ""):
                 del self._turns[turn]
                 reply = render_reason(refusal.reason, self._understanding.language)
-                self._book.conclude(turn, "refused", reply)
+                self._requests.conclude(turn, "refused", reply)
                 return
             self._show(turn, about.draft)
         self.authoring.keep(about.draft)

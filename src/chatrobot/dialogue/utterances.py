@@ -21,7 +21,7 @@ INSTRUCTIONS: tuple[Kind, ...] = ("text", "plan", "edited_plan", "program", "dra
 
 
 @dataclass(frozen=True)
-class Said:
+class Utterance:
     """One text. `at_s` is when it was said (monotonic), `about` a program that is there, the name of one to be, what a
     person made of the source of the one that `text` names, or the plan that `text` was made of."""
 
@@ -45,12 +45,12 @@ class _Hold(NamedTuple):
     keeps_unbegun: bool = False
 
 
-class SaidTexts:
+class UtteranceQueue:
     """`add`, `void` and `hold` may be called from any thread; the rest belongs to the thread that pumps."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._texts: deque[Said] = deque()
+        self._texts: deque[Utterance] = deque()
         self._turns = 0
         self._void_turn = self._dropped_turn = 0
         self._hold = self._released = _Hold(0, 0)
@@ -65,7 +65,7 @@ class SaidTexts:
             self._turns += 1
             if kind in INSTRUCTIONS and is_moving and self._count_waiting() >= QUEUE_LIMIT:
                 kind = "too_many"
-            self._texts.append(Said(self._turns, text, kind, time.monotonic(), about))
+            self._texts.append(Utterance(self._turns, text, kind, time.monotonic(), about))
             return self._turns
 
     def void(self, why: str) -> int:
@@ -98,13 +98,15 @@ class SaidTexts:
         return self.is_holding and self._hold.keeps_unbegun and bool(self.held)
 
     @property
-    def held(self) -> tuple[Said, ...]:
+    def held(self) -> tuple[Utterance, ...]:
         """What waits behind the pause, oldest first."""
-        return tuple(said for said in self.waiting if self.is_held(said) and not self.is_void(said))
+        return tuple(
+            utterance for utterance in self.waiting if self.is_held(utterance) and not self.is_void(utterance)
+        )
 
-    def is_held(self, said: Said) -> bool:
+    def is_held(self, utterance: Utterance) -> bool:
         """It waits behind what is paused."""
-        return said.is_instruction and self.is_holding and said.turn <= self._hold.turn
+        return utterance.is_instruction and self.is_holding and utterance.turn <= self._hold.turn
 
     def release(self) -> None:
         """What was paused is gone on with: what waits behind it waits its turn again."""
@@ -129,31 +131,33 @@ class SaidTexts:
         """That turn was said before a pause that was not gone on with."""
         return self._gone_on_turn < turn <= self._hold.turn
 
-    def is_void(self, said: Said) -> bool:
+    def is_void(self, utterance: Utterance) -> bool:
         """A stop came after it was said; what is no instruction is answered all the same."""
-        return said.is_instruction and self.is_void_turn(said.turn)
+        return utterance.is_instruction and self.is_void_turn(utterance.turn)
 
     @property
-    def waiting(self) -> tuple[Said, ...]:
+    def waiting(self) -> tuple[Utterance, ...]:
         """Oldest first."""
         return tuple(self._texts)
 
-    def take(self, said: Said) -> Said | None:
+    def take(self, utterance: Utterance) -> Utterance | None:
         """It waits no longer; None where a pause came in the same moment, so that it does."""
-        if self.is_held(said) and not self.is_void(said):
+        if self.is_held(utterance) and not self.is_void(utterance):
             return None
         with self._lock:
-            self._texts.remove(said)
-        return said
+            self._texts.remove(utterance)
+        return utterance
 
-    def put_back(self, said: Said) -> None:
+    def put_back(self, utterance: Utterance) -> None:
         """It waits again, before all others."""
         with self._lock:
-            self._texts.appendleft(said)
+            self._texts.appendleft(utterance)
 
-    def take_too_many(self) -> list[Said]:
+    def take_too_many(self) -> list[Utterance]:
         """Those that may not even wait."""
-        return [said for said in self.waiting if said.kind == "too_many" and self.take(said)]
+        return [
+            utterance for utterance in self.waiting if utterance.kind == "too_many" and self.take(utterance)
+        ]
 
     def _count_waiting(self) -> int:
-        return sum(said.is_instruction and not self.is_void(said) for said in self._texts)
+        return sum(utterance.is_instruction and not self.is_void(utterance) for utterance in self._texts)

@@ -1,0 +1,80 @@
+"""Which of the texts that wait is taken next: most wait for what runs, is thought about or is paused."""
+
+from __future__ import annotations
+
+from chatrobot.core.reason import Reason
+from chatrobot.dialogue.early_answers import EarlyAnswers
+from chatrobot.dialogue.llm.thinking import Thinking
+from chatrobot.dialogue.options import Options
+from chatrobot.dialogue.request_log import RequestLog
+from chatrobot.dialogue.resuming import Resuming
+from chatrobot.dialogue.understanding import Understanding
+from chatrobot.dialogue.utterances import Utterance, UtteranceQueue
+
+
+class NextUtterance:
+    """Belongs to the pumping thread."""
+
+    def __init__(
+        self,
+        utterance: UtteranceQueue,
+        book: RequestLog,
+        thinking: Thinking,
+        understanding: Understanding,
+        resuming: Resuming,
+        early: EarlyAnswers,
+    ) -> None:
+        self._utterances = utterance
+        self._requests = book
+        self._thinking = thinking
+        self._understanding = understanding
+        self._resuming = resuming
+        self._early = early
+
+    def find(self, options: Options, waits_for_end: int | None) -> Utterance | None:
+        """The one to take now: the first, unless it has to wait.
+
+        Args:
+            waits_for_end: the turn that is read again once what is under way has ended.
+        """
+        waiting = self._utterances.waiting
+        for number, utterance in enumerate(waiting):
+            if not utterance.is_instruction or self._utterances.is_void(utterance):
+                is_about_a_pause = utterance.kind in ("pause", "resume")
+                return None if is_about_a_pause and self.is_being_paused else utterance
+            if self._utterances.is_held(utterance):
+                continue
+            if self.is_being_paused:
+                return None
+            replaces = self._resuming.paused is not None or options.while_moving == "replace"
+            if replaces and utterance.turn != waits_for_end:
+                return utterance
+            if self._requests.is_any_with_motion:
+                return self._early.find(waiting[number:])
+            if not self._thinking.is_busy or self._overtakes(utterance):
+                return utterance
+        return None
+
+    @property
+    def is_being_paused(self) -> bool:
+        """A pause was said, and Motion has not told yet what came of it."""
+        is_moving = self._requests.is_any_with_motion or self._thinking.is_moving
+        return self._utterances.is_holding and self._resuming.paused is None and is_moving
+
+    def drop_held(self) -> None:
+        """Drop what waits behind a pause where nothing is paused any more, or something new is done instead."""
+        utterance, thinking = self._utterances, self._thinking
+        has_begun = self._requests.is_any_with_motion or thinking.is_busy
+        is_moving = self._requests.is_any_with_motion or thinking.is_moving
+        is_unbegun = utterance.is_unbegun_held
+        if utterance.is_holding and (has_begun if is_unbegun else not is_moving):
+            utterance.drop_held(Reason("replaced") if is_unbegun else self._resuming.ended_by)
+
+    def _overtakes(self, utterance: Utterance) -> bool:
+        """It needs no model, and the one that is being asked says nothing."""
+        if not self._thinking.may_be_overtaken(utterance.at_s):
+            return False
+        if utterance.kind in ("plan", "edited_plan"):
+            return True
+        meant = self._understanding.interpret(utterance.text)
+        return not (meant.is_about_turn_before or self._thinking.wants(utterance.text, meant))
