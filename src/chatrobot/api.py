@@ -20,7 +20,7 @@ from chatrobot.core.errors import ChatRobotError, UsageError
 from chatrobot.core.events import Event, Result, Telemetry
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.dialogue.llm.model_choice import chosen_model
-from chatrobot.dialogue.llm.thinking import Interpreter
+from chatrobot.dialogue.llm.requests import Interpreter
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.session import Session
 from chatrobot.language.phrases import render_reason

@@ -16,8 +16,8 @@ from chatrobot.core.events import Event, TruePose
 from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.dialogue.llm.camera import Camera, PassedCamera, wire_camera
 from chatrobot.dialogue.llm.model_choice import warm_up
+from chatrobot.dialogue.llm.requests import ModelSetup
 from chatrobot.dialogue.llm.terms import ModelOptions
-from chatrobot.dialogue.llm.thinking import Mind
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring
 from chatrobot.dialogue.session import Session
@@ -124,7 +124,7 @@ def default_world(on: str, *, open_loop: bool = False) -> str:
     return "home" if on in SIMULATED and not open_loop else "empty"
 
 
-def mind_of(setup: Setup, profile: RobotProfile) -> Mind | None:
+def model_setup_of(setup: Setup, profile: RobotProfile) -> ModelSetup | None:
     """The model and how it drives this robot.
 
     Its steps run as they come where the profile allows that; on a base that steers like a car a plan comes whole,
@@ -133,7 +133,9 @@ def mind_of(setup: Setup, profile: RobotProfile) -> Mind | None:
     if setup.model is None:
         return None
     streams = setup.model_options.streams and profile.approval == "stream" and profile.can_turn_on_the_spot
-    return Mind(setup.model, replace(setup.model_options, streams=streams), profile, _camera(setup, profile))
+    return ModelSetup(
+        setup.model, replace(setup.model_options, streams=streams), profile, _camera(setup, profile)
+    )
 
 
 def _camera(setup: Setup, profile: RobotProfile) -> Camera | None:
@@ -198,7 +200,9 @@ def _connect_simulated(
         hub.connect().subscribe(TRUTH_TOPIC, Odometry, _tracer(on_event))
         joint.step()  # the trace begins before anything moves
     authoring = _authoring(setup, profile, world, understanding)
-    session = Session(joint, understanding, on_event, setup.options, authoring, mind_of(setup, profile))
+    session = Session(
+        joint, understanding, on_event, setup.options, authoring, model_setup_of(setup, profile)
+    )
 
     def close() -> None:
         session.close()
@@ -242,8 +246,8 @@ def _connect_real_time(
     if trace is not None:
         trace.subscribe(TRUTH_TOPIC, Odometry, _tracer(one_at_a_time))
     authoring = _authoring(setup, profile, world, understanding)
-    mind = mind_of(setup, profile)
-    session = Session(joint, understanding, one_at_a_time, setup.options, authoring, mind)
+    model_setup = model_setup_of(setup, profile)
+    session = Session(joint, understanding, one_at_a_time, setup.options, authoring, model_setup)
 
     def close() -> None:
         session.close()
@@ -277,7 +281,7 @@ def _connect_wire(
     setup.on_ready()
     authoring = _authoring(setup, profile, world, understanding)
     options = replace(setup.options, approve=approve)
-    session = Session(joint, understanding, on_event, options, authoring, mind_of(setup, profile))
+    session = Session(joint, understanding, on_event, options, authoring, model_setup_of(setup, profile))
     return Connection(session, profile, world, session.close)
 
 

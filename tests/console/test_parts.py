@@ -285,9 +285,9 @@ def test_the_end_of_another_turn_does_not_end_the_ride():
     assert ride.pose == Pose(1.0)
 
 
-def strip_text(ride, width=100, world=HOME, latched=False, language="en", thinking_s=None):
+def strip_text(ride, width=100, world=HOME, latched=False, language="en", model_wait_s=None):
     strip = Strip(ride, Words(language), world)
-    return "".join(text for _, text in strip.fragments(width, latched, thinking_s))
+    return "".join(text for _, text in strip.fragments(width, latched, model_wait_s))
 
 
 def test_the_strip_shows_no_share_of_what_has_no_known_end():
@@ -329,13 +329,13 @@ def test_a_standing_robot_has_a_line_and_a_latched_one_an_alarm():
 
 
 def test_the_strip_says_for_how_long_a_model_thinks_whether_the_robot_moves_or_not():
-    assert "the model is thinking, 7 s" in strip_text(Ride(), thinking_s=7.9)
-    assert "模型正在思考，0 秒" in strip_text(Ride(), thinking_s=0.1, language="zh")
-    assert "the model is thinking, 7 s" in strip_text(moving_ride(), thinking_s=7.9)
+    assert "the model is thinking, 7 s" in strip_text(Ride(), model_wait_s=7.9)
+    assert "模型正在思考，0 秒" in strip_text(Ride(), model_wait_s=0.1, language="zh")
+    assert "the model is thinking, 7 s" in strip_text(moving_ride(), model_wait_s=7.9)
     assert "thinking" not in strip_text(Ride()) + strip_text(moving_ride())
     for width in range(1, 120):
-        assert max(map(len, strip_text(moving_ride(), width=width, thinking_s=7.9).split("\n"))) <= width
-        assert len(strip_text(Ride(), width=width, thinking_s=7.9)) <= width
+        assert max(map(len, strip_text(moving_ride(), width=width, model_wait_s=7.9).split("\n"))) <= width
+        assert len(strip_text(Ride(), width=width, model_wait_s=7.9)) <= width
 
 
 def test_a_strip_shows_whole_hints_and_the_whole_percentage():

@@ -120,7 +120,7 @@ def test_a_model_that_streams_its_plan_is_driven_to_its_end(comes: str) -> None:
 
     def say_the_rest() -> None:
         late.set()
-        talk.pump_until(lambda: len(talk.of("streamed")) == 3 and not talk.session._thinking.is_calling)
+        talk.pump_until(lambda: len(talk.of("streamed")) == 3 and not talk.session._llm.is_calling)
 
     if comes == "before the pause":
         say_the_rest()

@@ -9,7 +9,7 @@ from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Event, Interpreted, Notice, Paused
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.goal_client import GoalClient
-from chatrobot.dialogue.llm.thinking import Thinking
+from chatrobot.dialogue.llm.requests import ModelRequests
 from chatrobot.dialogue.parting import parting
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.dialogue.programs.program_requests import ProgramRequests
@@ -46,7 +46,7 @@ class Dispatch:
         book: RequestLog,
         proposals: Proposals,
         resuming: Resuming,
-        thinking: Thinking,
+        llm: ModelRequests,
         programs: ProgramRequests | None,
         emit: Callable[[Event], None],
         stop: Callable[[str], None],
@@ -59,7 +59,7 @@ class Dispatch:
         self._requests = book
         self._proposals = proposals
         self._resuming = resuming
-        self._thinking = thinking
+        self._llm = llm
         self._programs = programs
         self._emit = emit
         self._stop = stop
@@ -161,7 +161,7 @@ class Dispatch:
         if self._programs is not None and self._programs.begin(utterance.turn, utterance.text):
             return
         meant = self._understanding.interpret(utterance.text, self._requests.under_way)
-        is_any_under_way = self._requests.is_any_with_motion or self._thinking.is_busy
+        is_any_under_way = self._requests.is_any_with_motion or self._llm.is_busy
         if is_any_under_way and meant.is_about_turn_before:
             self._end_turn_before(utterance)
             return
@@ -171,10 +171,10 @@ class Dispatch:
             meant = self._resuming.more(meant, is_under_way=self._requests.is_any_with_motion)
         if self._understanding.misses_robot(meant) and self._hears_robot_soon():
             meant = self._understanding.interpret(utterance.text)
-        if parting(meant) is None and self._thinking.wants(utterance.text, meant):
+        if parting(meant) is None and self._llm.wants(utterance.text, meant):
             self._ask_model(utterance, meant)
             return
-        self._act_on(utterance, self._thinking.without_model(utterance.text, meant))
+        self._act_on(utterance, self._llm.without_model(utterance.text, meant))
 
     def _runs_programs_again(self, utterance: Utterance, meant: Interpretation) -> bool:
         """Whether `meant` does a program again that was undone: it is run, or refused where it was not alone."""
@@ -192,7 +192,7 @@ class Dispatch:
         """Stop what is under way, because `utterance` is about it; read `utterance` again once that has ended."""
         self._utterances.put_back(utterance)
         self.waits_for_end = utterance.turn
-        self._thinking.replace()
+        self._llm.replace()
         self._joint.send("stop", utterance.turn - 1, why=utterance.text[:80])
 
     def _act_on(self, utterance: Utterance, meant: Interpretation) -> None:
@@ -215,7 +215,7 @@ class Dispatch:
             self._requests.conclude(utterance.turn, "stopped", meant.reply)
         else:
             self._understanding.note_unmoved(utterance.text, meant)
-            self._thinking.note(utterance.text, "", f"{meant.outcome}: {meant.reply}")
+            self._llm.note(utterance.text, "", f"{meant.outcome}: {meant.reply}")
             self._requests.conclude(
                 utterance.turn, meant.outcome, meant.reply, None, parting(meant), meant.proposal
             )
@@ -231,8 +231,8 @@ class Dispatch:
     def _ask_model(self, utterance: Utterance, meant: Interpretation) -> None:
         options, mode = self._goals.options, self._goals.mode
         if mode == "replace":
-            self._thinking.replace()
-        self._thinking.begin(
+            self._llm.replace()
+        self._llm.begin(
             utterance.turn,
             utterance.text,
             meant,
@@ -241,9 +241,9 @@ class Dispatch:
             rehearse_only=options.rehearse_only,
         )
         if self._utterances.is_void_turn(utterance.turn):
-            self._thinking.cancel(self._utterances.stopped_by)  # a stop came while it was being understood
+            self._llm.cancel(self._utterances.stopped_by)  # a stop came while it was being understood
         if self._utterances.pauses != self._goals.pauses:
-            self._thinking.cancel_unmoved(Reason("paused_by"))
+            self._llm.cancel_unmoved(Reason("paused_by"))
 
     def _read_plan(self, utterance: Utterance) -> None:
         try:
@@ -279,7 +279,7 @@ class Dispatch:
     def _send_plan(self, utterance: Utterance, meant: Interpretation, plan_text: str) -> None:
         mode = "append" if meant.append else self._goals.mode
         if mode == "replace":
-            self._thinking.replace()
+            self._llm.replace()
         if mode == "append" and self._resuming.paused is not None:
             self._emit(Notice(utterance.turn, Reason("waits_behind_pause")))
         self._requests.track(utterance.turn, utterance.text, meant)

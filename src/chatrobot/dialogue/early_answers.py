@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from chatrobot.dialogue.llm.thinking import Thinking
+from chatrobot.dialogue.llm.requests import ModelRequests
 from chatrobot.dialogue.programs.authoring import Authoring, NotWrittenError
 from chatrobot.dialogue.request_log import RequestLog
 from chatrobot.dialogue.understanding import Understanding
@@ -20,17 +20,17 @@ class EarlyAnswers:
     """Belongs to the pumping thread. Each text is looked at once."""
 
     def __init__(
-        self, understanding: Understanding, thinking: Thinking, book: RequestLog, authoring: Authoring | None
+        self, understanding: Understanding, llm: ModelRequests, book: RequestLog, authoring: Authoring | None
     ) -> None:
         self._understanding = understanding
-        self._thinking = thinking
+        self._llm = llm
         self._requests = book
         self._authoring = authoring
         self._meant: dict[int, Interpretation | None] = {}
 
     def find(self, waiting: Sequence[Utterance]) -> Utterance | None:
         """The first of them that nobody understands, and that those before it do not teach us to."""
-        if self._thinking.has_mind or any(_teaches(one.meant) for one in self._requests.under_way):
+        if self._llm.has_model or any(_teaches(one.meant) for one in self._requests.under_way):
             return None
         for utterance in waiting:
             meant = self._look_at(utterance)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.early_answers import EarlyAnswers
-from chatrobot.dialogue.llm.thinking import Thinking
+from chatrobot.dialogue.llm.requests import ModelRequests
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.request_log import RequestLog
 from chatrobot.dialogue.resuming import Resuming
@@ -19,14 +19,14 @@ class NextUtterance:
         self,
         utterance: UtteranceQueue,
         book: RequestLog,
-        thinking: Thinking,
+        llm: ModelRequests,
         understanding: Understanding,
         resuming: Resuming,
         early: EarlyAnswers,
     ) -> None:
         self._utterances = utterance
         self._requests = book
-        self._thinking = thinking
+        self._llm = llm
         self._understanding = understanding
         self._resuming = resuming
         self._early = early
@@ -51,30 +51,30 @@ class NextUtterance:
                 return utterance
             if self._requests.is_any_with_motion:
                 return self._early.find(waiting[number:])
-            if not self._thinking.is_busy or self._overtakes(utterance):
+            if not self._llm.is_busy or self._overtakes(utterance):
                 return utterance
         return None
 
     @property
     def is_being_paused(self) -> bool:
         """A pause was said, and Motion has not told yet what came of it."""
-        is_moving = self._requests.is_any_with_motion or self._thinking.is_moving
+        is_moving = self._requests.is_any_with_motion or self._llm.is_moving
         return self._utterances.is_holding and self._resuming.paused is None and is_moving
 
     def drop_held(self) -> None:
         """Drop what waits behind a pause where nothing is paused any more, or something new is done instead."""
-        utterance, thinking = self._utterances, self._thinking
-        has_begun = self._requests.is_any_with_motion or thinking.is_busy
-        is_moving = self._requests.is_any_with_motion or thinking.is_moving
+        utterance, llm = self._utterances, self._llm
+        has_begun = self._requests.is_any_with_motion or llm.is_busy
+        is_moving = self._requests.is_any_with_motion or llm.is_moving
         is_unbegun = utterance.is_unbegun_held
         if utterance.is_holding and (has_begun if is_unbegun else not is_moving):
             utterance.drop_held(Reason("replaced") if is_unbegun else self._resuming.ended_by)
 
     def _overtakes(self, utterance: Utterance) -> bool:
         """It needs no model, and the one that is being asked says nothing."""
-        if not self._thinking.may_be_overtaken(utterance.at_s):
+        if not self._llm.may_be_overtaken(utterance.at_s):
             return False
         if utterance.kind in ("plan", "edited_plan"):
             return True
         meant = self._understanding.interpret(utterance.text)
-        return not (meant.is_about_turn_before or self._thinking.wants(utterance.text, meant))
+        return not (meant.is_about_turn_before or self._llm.wants(utterance.text, meant))

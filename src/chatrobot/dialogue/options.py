@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from chatrobot.dialogue.llm.thinking import Interpreter
+from chatrobot.dialogue.llm.requests import Interpreter
 
 
 @dataclass(frozen=True)

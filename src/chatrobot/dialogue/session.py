@@ -17,8 +17,8 @@ from chatrobot.core.reason import Reason
 from chatrobot.dialogue.dispatch import Dispatch
 from chatrobot.dialogue.early_answers import EarlyAnswers
 from chatrobot.dialogue.goal_client import GoalClient
+from chatrobot.dialogue.llm.requests import ModelRequests, ModelSetup
 from chatrobot.dialogue.llm.terms import Ended
-from chatrobot.dialogue.llm.thinking import Mind, Thinking
 from chatrobot.dialogue.next_utterance import NextUtterance
 from chatrobot.dialogue.observations import measured
 from chatrobot.dialogue.options import Options
@@ -55,7 +55,7 @@ class Session:
         on_event: Callable[[Event], None],
         options: Options,
         authoring: Authoring | None = None,
-        mind: Mind | None = None,
+        model_setup: ModelSetup | None = None,
     ) -> None:
         self._joint = joint
         self.understanding = understanding
@@ -64,8 +64,8 @@ class Session:
         self._utterances = UtteranceQueue()
         self._proposals = Proposals(understanding, self._utterances.is_void_turn)
         self._requests = RequestLog(understanding, self._emit)
-        self._thinking = Thinking(
-            mind,
+        self._llm = ModelRequests(
+            model_setup,
             options.interpreter,
             joint,
             understanding,
@@ -78,10 +78,10 @@ class Session:
         self._next = NextUtterance(
             self._utterances,
             self._requests,
-            self._thinking,
+            self._llm,
             understanding,
             self._resuming,
-            EarlyAnswers(understanding, self._thinking, self._requests, authoring),
+            EarlyAnswers(understanding, self._llm, self._requests, authoring),
         )
         self._programs: ProgramRequests | None = None
         if authoring is not None:
@@ -97,7 +97,7 @@ class Session:
             self._requests,
             self._proposals,
             self._resuming,
-            self._thinking,
+            self._llm,
             self._programs,
             self._emit,
             self.stop,
@@ -167,9 +167,9 @@ class Session:
 
     def pause(self, why: str = "") -> None:
         """Stop the robot as `stop` does, and keep what it was told; what cannot be kept ends as with a stop."""
-        self._utterances.hold(is_under_way=self.is_moving or self._thinking.is_busy)
+        self._utterances.hold(is_under_way=self.is_moving or self._llm.is_busy)
         self._joint.send("stop", why=why, keep=True)
-        self._thinking.cancel_unmoved(Reason("paused_by", {"why": why}))
+        self._llm.cancel_unmoved(Reason("paused_by", {"why": why}))
         if self.authoring is not None:
             self.authoring.cancel()
 
@@ -184,7 +184,7 @@ class Session:
 
     def _cancel_asking(self) -> None:
         """End what models are being asked."""
-        self._thinking.cancel(self._utterances.stopped_by)
+        self._llm.cancel(self._utterances.stopped_by)
         if self.authoring is not None:
             self.authoring.cancel()
 
@@ -206,13 +206,13 @@ class Session:
     @property
     def is_moving(self) -> bool:
         """True while a plan of ours runs, or is on its way to."""
-        return self._requests.is_any_with_motion or self._thinking.is_moving
+        return self._requests.is_any_with_motion or self._llm.is_moving
 
     @property
-    def thinking_s(self) -> float | None:
+    def model_wait_s(self) -> float | None:
         """For how long a model has been asked by now, for a plan or a program; None where none is."""
         writing_at_s = self.authoring.asked_at_s if self.authoring is not None else None
-        asked_at_s = writing_at_s if writing_at_s is not None else self._thinking.asked_at_s
+        asked_at_s = writing_at_s if writing_at_s is not None else self._llm.asked_at_s
         return time.monotonic() - asked_at_s if asked_at_s is not None else None
 
     @property
@@ -233,14 +233,12 @@ class Session:
     @property
     def waits_for_a_word(self) -> bool:
         """A plan is paused, and nothing happens before somebody says something."""
-        return self.is_paused and not self._thinking.is_calling and self._find_next() is None
+        return self.is_paused and not self._llm.is_calling and self._find_next() is None
 
     @property
     def is_idle(self) -> bool:
         return (
-            not self._requests.is_any_with_motion
-            and not self._utterances.waiting
-            and not self._thinking.is_busy
+            not self._requests.is_any_with_motion and not self._utterances.waiting and not self._llm.is_busy
         )
 
     # --- the pumping thread ---
@@ -258,17 +256,17 @@ class Session:
         Raises:
             JointError: Motion is gone.
         """
-        self._thinking.pump()
+        self._llm.pump()
         self._take_texts()
-        if self._thinking.is_calling and self._joint.is_simulated and not self._requests.is_any_with_motion:
-            self._thinking.wait(timeout_s)  # a model thinks in no time at all
-            self._thinking.pump()
+        if self._llm.is_calling and self._joint.is_simulated and not self._requests.is_any_with_motion:
+            self._llm.wait(timeout_s)  # a model thinks in no time at all
+            self._llm.pump()
             timeout_s = 0.0
         event = self._joint.next_event(0.0 if self._find_next() is not None else timeout_s)
         while event is not None:
             self._hear(event)
             event = self._joint.next_event(0.0)
-        self._thinking.pump()
+        self._llm.pump()
         if self._joint.is_lost:
             raise JointError("Motion is gone, and its guard sends the robot zeros. Start chatrobot again.")
         self._take_texts()
@@ -323,7 +321,7 @@ class Session:
 
     def _hear(self, event: Event) -> None:
         if isinstance(event, Telemetry):
-            is_ours = self._requests.is_any_with_motion or self._thinking.is_busy
+            is_ours = self._requests.is_any_with_motion or self._llm.is_busy
             self.understanding.note_telemetry(event, is_ours=is_ours)
         elif isinstance(event, Remembered):
             self.understanding.note_place(event)
@@ -332,7 +330,7 @@ class Session:
         elif isinstance(event, Notice) and event.reason.code == OPEN_LOOP:
             self.understanding.note_open_loop()
         self._emit(event)
-        if self._requests.has(event.turn) or self._thinking.has(event.turn):
+        if self._requests.has(event.turn) or self._llm.has(event.turn):
             was_paused = self.is_plan_paused
             self._resuming.hear(event)
             self._goals.is_paused = self.is_plan_paused
@@ -340,7 +338,7 @@ class Session:
                 self._utterances.drop_held(self._resuming.ended_by)
         if self._programs is not None and self._programs.hear(event):
             return  # the next version of a program is on its way
-        self._thinking.hear(event)
+        self._llm.hear(event)
         if isinstance(event, Finished):
             self._finish(event)
 
@@ -355,6 +353,6 @@ class Session:
         if programs is not None:
             reply = programs.ending(event.turn, reply)
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
-        self._thinking.note(text, plan_text, f"{event.outcome}: {measured(event)}")
+        self._llm.note(text, plan_text, f"{event.outcome}: {measured(event)}")
         reply, proposal = with_offer(reply, event if not rehearse_only else None, meant.language)
         self._requests.conclude(event.turn, event.outcome, reply, event, proposal=proposal)

@@ -27,8 +27,8 @@ from chatrobot.core.events import (
 from chatrobot.core.motion_budget import NOT_CHOSEN
 from chatrobot.dialogue.llm.camera import wire_camera
 from chatrobot.dialogue.llm.model_choice import warm_up
+from chatrobot.dialogue.llm.requests import Interpreter, ModelSetup
 from chatrobot.dialogue.llm.terms import ModelOptions
-from chatrobot.dialogue.llm.thinking import Interpreter, Mind
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring
 from chatrobot.dialogue.programs.program_text import body, headline
@@ -129,13 +129,13 @@ class BaseNode:
             approve=options.approval == "all",
             approve_models=options.approval == "profile" and profile.approval == "plan",
         )
-        mind = self._mind(profile)
+        model_setup = self._model_setup(profile)
         self._session = Session(
-            self._joint, understanding, self._hear_event, session_options, authoring, mind
+            self._joint, understanding, self._hear_event, session_options, authoring, model_setup
         )
         self._operators = Operators(lambda: self._session.is_idle, self._lose_operator)
 
-    def _mind(self, profile: RobotProfile) -> Mind | None:
+    def _model_setup(self, profile: RobotProfile) -> ModelSetup | None:
         """Plans come in parts where the profile allows it; otherwise whole, and who said it is asked for a yes."""
         options = self._options
         if options.model is None:
@@ -145,7 +145,7 @@ class BaseNode:
         if wiring.camera_topic:  # as this node finds it, remapped or in a namespace
             wiring = replace(wiring, camera_topic=resolved(self._wire, wiring.camera_topic))
         camera = wire_camera(options.wire, wiring)
-        return Mind(options.model, replace(options.model_options, streams=streams), profile, camera)
+        return ModelSetup(options.model, replace(options.model_options, streams=streams), profile, camera)
 
     def run(self, is_leaving: Callable[[], bool], on_ready: Callable[[], None]) -> None:
         """Until `is_leaving`; `on_ready` is called once it listens. Understands and pumps in the calling thread.

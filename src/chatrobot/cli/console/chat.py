@@ -118,7 +118,7 @@ class Chat:
         was_thinking = False
         while True:
             await asyncio.sleep(COUNTED_EVERY_S)
-            is_thinking = self._talk.session.thinking_s is not None
+            is_thinking = self._talk.session.model_wait_s is not None
             if is_thinking or was_thinking:
                 self.refresh()
             was_thinking = is_thinking
@@ -168,7 +168,7 @@ class Chat:
 
     def _strip(self) -> FormattedText:
         talk = self._talk
-        return FormattedText(talk.strip.fragments(self.width, talk.latched, talk.session.thinking_s))
+        return FormattedText(talk.strip.fragments(self.width, talk.latched, talk.session.model_wait_s))
 
     def _accept(self, buffer: Buffer) -> bool:
         """Enter. False clears the line."""

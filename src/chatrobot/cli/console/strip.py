@@ -49,7 +49,7 @@ class Strip:
         self._map: MapText | None = None
         self._map_of: tuple[XY, ...] | None = None
 
-    def fragments(self, width: int, latched: bool = False, thinking_s: float | None = None) -> Fragments:
+    def fragments(self, width: int, latched: bool = False, model_wait_s: float | None = None) -> Fragments:
         """What to show now in `width` cells: one line while the robot stands, the map's height while it moves.
 
         Args:
@@ -58,10 +58,10 @@ class Strip:
         if latched:
             return [("class:strip.alarm", f" {self._words.say('latched')} ")]
         if not self._ride.is_moving:
-            return self._standing(width, thinking_s)
+            return self._standing(width, model_wait_s)
         has_map = self.shows_map and self._ride.is_measured and width >= LEAST_WIDTH
         room = width - MAP_COLUMNS - 2 if has_map else width
-        lines = [_cut(line, room) for line in self._words_beside(room, thinking_s)]
+        lines = [_cut(line, room) for line in self._words_beside(room, model_wait_s)]
         if has_map:
             lines = self._with_map(lines)
         joined: Fragments = []
@@ -69,8 +69,8 @@ class Strip:
             joined += ([("", "\n")] if number else []) + line
         return joined
 
-    def _standing(self, width: int, thinking_s: float | None) -> Fragments:
-        is_measured, state = self._ride.is_measured, self._thinking(thinking_s)
+    def _standing(self, width: int, model_wait_s: float | None) -> Fragments:
+        is_measured, state = self._ride.is_measured, self._thinking(model_wait_s)
         if not state and (is_measured or self._ride.is_paused):
             state = self._words.say("paused" if self._ride.is_paused else "standing")
         where = self._words.pose(self._ride.pose) if is_measured else self._words.say("not_measured")
@@ -80,10 +80,10 @@ class Strip:
             hints.pop()
         return _cut([("class:strip.dim", f"{words}   {'  '.join(hints)}".rstrip())], width)
 
-    def _thinking(self, thinking_s: float | None) -> str:
-        return self._words.say("thinking", seconds=int(thinking_s)) if thinking_s is not None else ""
+    def _thinking(self, model_wait_s: float | None) -> str:
+        return self._words.say("thinking", seconds=int(model_wait_s)) if model_wait_s is not None else ""
 
-    def _words_beside(self, room: int, thinking_s: float | None) -> list[Fragments]:
+    def _words_beside(self, room: int, model_wait_s: float | None) -> list[Fragments]:
         ride, say = self._ride, self._words.say
         facts = [
             say("at_pose", pose=self._words.pose(ride.pose)),
@@ -96,8 +96,8 @@ class Strip:
         more = [say("nearest", distance=f"{ride.nearest_m:.2f}")] if ride.nearest_m is not None else []
         if ride.battery_percent is not None:
             more.append(say("battery", percent=f"{ride.battery_percent:.0f}"))
-        if thinking_s is not None:
-            more.append(self._thinking(thinking_s))
+        if model_wait_s is not None:
+            more.append(self._thinking(model_wait_s))
         label = f" {say('moving')}  "
         bar_cells = max(LEAST_BAR_CELLS, min(BAR_CELLS, room - cell_len(label) - PERCENT_CELLS))
         head: Fragments = [("class:strip.key", label)]

@@ -43,7 +43,7 @@ PATIENCE_S = 2.0
 
 
 @dataclass(frozen=True)
-class Mind:
+class ModelSetup:
     """A model and how it is used. `camera` takes pictures for it; None where there is none, or it cannot see."""
 
     model: Model
@@ -60,7 +60,7 @@ class _Turn:
     pins: bool
 
 
-class Thinking:
+class ModelRequests:
     """The turns of a conversation that a model plans.
 
     Args:
@@ -71,7 +71,7 @@ class Thinking:
 
     def __init__(
         self,
-        mind: Mind | None,
+        model_setup: ModelSetup | None,
         interpreter: Interpreter,
         joint: Joint,
         understanding: Understanding,
@@ -80,7 +80,7 @@ class Thinking:
         pauses: Callable[[], int],
     ) -> None:
         self._pauses = pauses
-        self._mind = mind if interpreter != "offline" else None
+        self._model_setup = model_setup if interpreter != "offline" else None
         self._has_hinted = False
         self._interpreter = interpreter
         self._joint = joint
@@ -90,7 +90,7 @@ class Thinking:
         self._history = History()
         self._turns: dict[int, _Turn] = {}
         self._is_tutorial = False
-        self._shown = _Shown(understanding, mind.camera if mind is not None else None)
+        self._shown = _Shown(understanding, model_setup.camera if model_setup is not None else None)
 
     # --- from any thread ---
 
@@ -112,9 +112,9 @@ class Thinking:
         return min((at_s for at_s in asked if at_s is not None), default=None)
 
     @property
-    def has_mind(self) -> bool:
+    def has_model(self) -> bool:
         """A model may be asked."""
-        return self._mind is not None
+        return self._model_setup is not None
 
     def has(self, turn: int) -> bool:
         """A model plans that turn."""
@@ -150,7 +150,7 @@ class Thinking:
 
     def wants(self, text: str, meant: Interpretation) -> bool:
         """Whether a model is to be asked: what is understood offline is not its business, nor what was refused."""
-        if self._mind is None or meant.outcome in ("refused", "stop") or not text.strip():
+        if self._model_setup is None or meant.outcome in ("refused", "stop") or not text.strip():
             return False
         if self._interpreter == "model" or meant.outcome == "unclear":
             return True
@@ -161,7 +161,7 @@ class Thinking:
     def without_model(self, text: str, meant: Interpretation) -> Interpretation:
         """What was not understood, the first time with how to set up a model; the tutorial's first instruction is
         answered."""
-        if meant.outcome != "unclear" or meant.proposal is not None or self._mind is not None:
+        if meant.outcome != "unclear" or meant.proposal is not None or self._model_setup is not None:
             return meant
         if connects_to_the_robot(text):
             return replace(meant, outcome="answered", reply=say(meant.language, "tutorial_without_model"))
@@ -182,23 +182,23 @@ class Thinking:
         rehearse_only: bool,
     ) -> None:
         """Ask the model about `text`, which offline was understood as `meant`."""
-        mind = self._mind
-        assert mind is not None
+        model_setup = self._model_setup
+        assert model_setup is not None
         connects = connects_to_the_robot(text)
         if connects:
             self._is_tutorial, self._history = True, History()
-            mind.model.forget()
+            model_setup.model.forget()
         elif self._interpreter == "auto" and not self._is_tutorial:
             part = one_line(meant.unaccounted or text, 80)
-            why = self._understanding.say("asks_model", text, model=mind.model.name, part=part)
-            reason = Reason("asks_model", {"model": mind.model.name, "part": part, "why": meant.code})
+            why = self._understanding.say("asks_model", text, model=model_setup.model.name, part=part)
+            reason = Reason("asks_model", {"model": model_setup.model.name, "part": part, "why": meant.code})
             self._emit(Notice(turn, reason, why))
-        request, messages = self._messages(mind, text)
+        request, messages = self._messages(model_setup, text)
         doing = ModelRequest(
             turn,
             messages,
-            mind.model,
-            mind.options,
+            model_setup.model,
+            model_setup.options,
             self._joint,
             self._shown,
             self._emit,
@@ -211,15 +211,18 @@ class Thinking:
         )
         self._turns[turn] = _Turn(text, request, doing, connects)
 
-    def _messages(self, mind: Mind, text: str) -> tuple[str, list[Message]]:
+    def _messages(self, model_setup: ModelSetup, text: str) -> tuple[str, list[Message]]:
         earlier, news = self._history.messages()
         if self._is_tutorial:
-            request, system = text.strip()[: prompt.MAX_REQUEST_CHARS], prompt.tutorial_prompt(mind.profile)
+            request, system = (
+                text.strip()[: prompt.MAX_REQUEST_CHARS],
+                prompt.tutorial_prompt(model_setup.profile),
+            )
         else:
             understanding = self._understanding
             request = prompt.request(text, understanding.known_pose, [], understanding.usable_places)
             system = prompt.system_prompt(
-                mind.profile, understanding.main_places, sees=self._shown.camera is not None
+                model_setup.profile, understanding.main_places, sees=self._shown.camera is not None
             )
             news = [line for line in news if line]
         now = request if self._is_tutorial else "\n".join([*news, request])
@@ -254,7 +257,7 @@ class Thinking:
 
     def note(self, text: str, plan_text: str, end: str) -> None:
         """A turn that no model was asked about: the next one is told."""
-        if self._mind is not None:
+        if self._model_setup is not None:
             self._history.add(Exchange(text, plan_text, end))
 
     def _take_ended(self) -> None:
