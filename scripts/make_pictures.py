@@ -42,11 +42,11 @@ def main() -> None:
             subprocess.run([*command, "--png", str(IMAGES / name), "--config-dir", folder], check=True)
         for name, (environment, *texts) in TALKS.items():
             with console(Path(folder), columns=COLUMNS, rows=ROWS, environment=environment) as terminal:
-                _talk(terminal, *texts)
+                _controller(terminal, *texts)
                 draw_screen(replay(terminal.raw, COLUMNS, ROWS), "make run", IMAGES / name)
 
 
-def _talk(terminal: Terminal, first: str, second: str) -> None:
+def _controller(terminal: Terminal, first: str, second: str) -> None:
     """The first to its end, then most of the second."""
     terminal.wait_for("Ctrl-D")
     terminal.enter(first)

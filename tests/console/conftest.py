@@ -3,12 +3,12 @@ from types import SimpleNamespace
 import pytest
 
 from chatrobot.cli.console import commands
-from chatrobot.cli.console.talk import Talk
+from chatrobot.cli.console.controller import ChatController
 from chatrobot.cli.console.words import Words
 from chatrobot.core.clock import VirtualClock
 from chatrobot.robots.load import load_profile
 from chatrobot.sim.load import load_world
-from tests.console.fakes import FakeFace, FakeSession
+from tests.console.fakes import FakeDisplay, FakeSession
 
 
 @pytest.fixture
@@ -17,10 +17,10 @@ def log():
 
 
 @pytest.fixture
-def talk(log):
+def controller(log):
     connection = SimpleNamespace(
         session=FakeSession(log), world=load_world("home"), profile=load_profile("wheeltec_mini_mec")
     )
-    talk = Talk(connection, Words(), VirtualClock(), commands.run)
-    talk.face = FakeFace(log)
-    return talk
+    controller = ChatController(connection, Words(), VirtualClock(), commands.run)
+    controller.display = FakeDisplay(log)
+    return controller

@@ -48,7 +48,7 @@ class FakeSession:
         self._note("approve", turn, yes)
 
 
-class FakeFace:
+class FakeDisplay:
     """Notes what it shows in the same list."""
 
     width, echoes = 100, False
@@ -78,9 +78,9 @@ def shown(log):
     return "\n".join(entry[1] for entry in log if entry[0] == "print")
 
 
-def ask(talk):
+def ask(controller):
     """A plan of turn 1 waits for a yes."""
-    talk.hear(Interpreted(1, "offline", "drive 1 m", ""))
-    talk.hear(
+    controller.hear(Interpreted(1, "offline", "drive 1 m", ""))
+    controller.hear(
         Rehearsed(1, True, 3.6, 1.0, Pose(1.0), (), ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0)), needs_approval=True)
     )

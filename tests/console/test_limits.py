@@ -10,9 +10,9 @@ from chatrobot.core.reason import Reason
 from tests.console.fakes import shown, told
 
 
-def pumped(talk):
-    while not talk.pump._jobs.empty():
-        talk.pump._jobs.get()()
+def pumped(controller):
+    while not controller.pump._jobs.empty():
+        controller.pump._jobs.get()()
 
 
 @pytest.mark.parametrize(
@@ -38,10 +38,10 @@ def test_amounts_are_read_by_their_unit(typed, limits):
     "typed",
     ["200", "0 m", "-5 m", "5 m 6 m", "none none", "none 5 m", "5 miles", "m", "all", "5 m or so", "5m6s"],
 )
-def test_what_is_not_clear_changes_nothing(typed, talk, log):
+def test_what_is_not_clear_changes_nothing(typed, controller, log):
     assert read_limits(typed) is None
-    talk.enter(f"/limit {typed}")
-    pumped(talk)
+    controller.enter(f"/limit {typed}")
+    pumped(controller)
     assert told(log) == []
     assert "nothing is changed" in shown(log)
 
@@ -52,17 +52,17 @@ def test_no_text_breaks_the_reader(text):
     assert limits is None or all(limit == "none" or limit > 0.0 for limit in limits.values())
 
 
-def test_what_is_typed_goes_to_motion_and_its_answer_is_shown(talk, log):
-    talk.enter("/limit 200 m")
-    pumped(talk)
+def test_what_is_typed_goes_to_motion_and_its_answer_is_shown(controller, log):
+    controller.enter("/limit 200 m")
+    pumped(controller)
     assert ("limit", {"max_distance_m": 200.0}) in log
-    talk.hear(Notice(0, Reason("limit_distance", {"max_m": 200.0})))
+    controller.hear(Notice(0, Reason("limit_distance", {"max_m": 200.0})))
     assert "may drive 200 m at most" in shown(log)
 
 
 @pytest.mark.parametrize("pasted", ["/limit none", "/LIMIT none", "/ limit 900 m"])
-def test_a_pasted_limit_changes_nothing_and_what_follows_is_not_done(talk, log, pasted):
-    talk.enter(f"{pasted}\nforward 500 m")
-    pumped(talk)
+def test_a_pasted_limit_changes_nothing_and_what_follows_is_not_done(controller, log, pasted):
+    controller.enter(f"{pasted}\nforward 500 m")
+    pumped(controller)
     assert told(log) == []
     assert "type /limit by itself" in shown(log)

@@ -7,8 +7,8 @@ import pytest
 from PIL import Image
 
 from chatrobot.cli.console.maps import big_map, way_map
-from chatrobot.cli.console.ride import Ride
-from chatrobot.cli.console.strip import Strip
+from chatrobot.cli.console.motion_view import MotionView
+from chatrobot.cli.console.status_bar import StatusBar
 from chatrobot.cli.console.words import Words
 from chatrobot.cli.draw import draw_plan
 from chatrobot.cli.drawing.extent import extent_of_world
@@ -50,10 +50,10 @@ WAY = ((0.0, 0.0), (2.0, 0.0), (2.0, 1.0))
 
 
 def drawn(yaw_deg):
-    ride = Ride(path=turned(yaw_deg, *WAY), trail=turned(yaw_deg, *WAY[:2]))
+    motion_view = MotionView(path=turned(yaw_deg, *WAY), trail=turned(yaw_deg, *WAY[:2]))
     return [
         line.replace("↗", "→").replace("↘", "→")
-        for line in str(big_map(ride, world(yaw_deg), 84)).splitlines()
+        for line in str(big_map(motion_view, world(yaw_deg), 84)).splitlines()
     ]
 
 
@@ -70,12 +70,12 @@ def test_the_big_map_is_the_same_whichever_way_the_robot_starts_but_for_its_arro
 
 @pytest.mark.parametrize(("yaw_deg", "arrow"), [(0, "→"), (90, "↑"), (180, "←"), (-90, "↓")])
 def test_the_arrow_points_where_the_robot_looks_in_the_world(yaw_deg, arrow):
-    assert arrow in str(big_map(Ride(), world(yaw_deg), 84))
-    assert arrow in str(way_map(Ride(path=((0.0, 0.0), (1.0, 0.0))), world(yaw_deg)))
-    ride = Ride()
-    ride.hear(Started(1, Pose()))
-    ride.hear(Telemetry(1, Pose(), Twist(0.3), 0.0, None, None, True))
-    strip = Strip(ride, Words(), world(yaw_deg)).fragments(100)
+    assert arrow in str(big_map(MotionView(), world(yaw_deg), 84))
+    assert arrow in str(way_map(MotionView(path=((0.0, 0.0), (1.0, 0.0))), world(yaw_deg)))
+    motion_view = MotionView()
+    motion_view.hear(Started(1, Pose()))
+    motion_view.hear(Telemetry(1, Pose(), Twist(0.3), 0.0, None, None, True))
+    strip = StatusBar(motion_view, Words(), world(yaw_deg)).fragments(100)
     assert arrow in "".join(text for _, text in strip)
 
 

@@ -18,9 +18,9 @@ from chatrobot.cli.console import commands
 from chatrobot.cli.console.clean import clean
 from chatrobot.cli.console.completion import COMMON, ChatCompleter
 from chatrobot.cli.console.lines import wrapped
+from chatrobot.cli.console.motion_view import MotionView
 from chatrobot.cli.console.narrator import PLAN_LINES, Narrator
-from chatrobot.cli.console.ride import Ride
-from chatrobot.cli.console.strip import MAP_ROWS, Strip
+from chatrobot.cli.console.status_bar import MAP_ROWS, StatusBar
 from chatrobot.cli.console.tables import example_place, place_in, places_table
 from chatrobot.cli.console.words import Words, language_of_environment
 from chatrobot.core.events import (
@@ -253,15 +253,15 @@ def test_places_are_listed_once_each_in_the_askers_language(language):
 
 
 def moving_ride():
-    ride = Ride()
+    motion_view = MotionView()
     for event in (
         REHEARSED,
         Started(1, Pose()),
         Progress(1, 2, 4, 0.5, Pose(0.5), Twist(0.3)),
         Telemetry(1, Pose(0.5, 0.0, 0.0), Twist(0.3), 0.5, 80.0, 0.8, True),
     ):
-        ride.hear(event)
-    return ride
+        motion_view.hear(event)
+    return motion_view
 
 
 def finished(turn=1):
@@ -269,35 +269,35 @@ def finished(turn=1):
 
 
 def test_a_ride_has_its_way_its_trail_and_its_progress():
-    ride = moving_ride()
-    assert ride.is_moving
-    assert ride.path == ((0.0, 0.0), (1.0, 0.0))
-    assert ride.trail == ((0.0, 0.0), (0.5, 0.0))
-    assert (ride.step, ride.of, ride.fraction) == (2, 4, 0.5)
+    motion_view = moving_ride()
+    assert motion_view.is_moving
+    assert motion_view.path == ((0.0, 0.0), (1.0, 0.0))
+    assert motion_view.trail == ((0.0, 0.0), (0.5, 0.0))
+    assert (motion_view.step, motion_view.of, motion_view.fraction) == (2, 4, 0.5)
 
 
 def test_the_end_of_another_turn_does_not_end_the_ride():
-    ride = moving_ride()
-    ride.hear(finished(turn=7))
-    assert ride.is_moving
-    ride.hear(finished())
-    assert not ride.is_moving
-    assert ride.pose == Pose(1.0)
+    motion_view = moving_ride()
+    motion_view.hear(finished(turn=7))
+    assert motion_view.is_moving
+    motion_view.hear(finished())
+    assert not motion_view.is_moving
+    assert motion_view.pose == Pose(1.0)
 
 
-def strip_text(ride, width=100, world=HOME, latched=False, language="en", model_wait_s=None):
-    strip = Strip(ride, Words(language), world)
+def strip_text(motion_view, width=100, world=HOME, latched=False, language="en", model_wait_s=None):
+    strip = StatusBar(motion_view, Words(language), world)
     return "".join(text for _, text in strip.fragments(width, latched, model_wait_s))
 
 
 def test_the_strip_shows_no_share_of_what_has_no_known_end():
-    ride = moving_ride()
-    ride.hear(Progress(1, 1, 1, None, Pose(0.6), Twist(0.3)))
-    assert "%" not in strip_text(ride).replace("battery 80 %", "")
-    assert "moving" in strip_text(ride)
-    ride.hear(replace(REHEARSED, open_ended=True))
-    ride.hear(Started(2, Pose()))
-    assert ride.fraction is None
+    motion_view = moving_ride()
+    motion_view.hear(Progress(1, 1, 1, None, Pose(0.6), Twist(0.3)))
+    assert "%" not in strip_text(motion_view).replace("battery 80 %", "")
+    assert "moving" in strip_text(motion_view)
+    motion_view.hear(replace(REHEARSED, open_ended=True))
+    motion_view.hear(Started(2, Pose()))
+    assert motion_view.fraction is None
 
 
 def test_the_strip_of_a_moving_robot_says_where_how_fast_and_how_far():
@@ -324,41 +324,41 @@ def test_a_narrow_strip_has_no_map_and_no_line_is_too_long():
 
 
 def test_a_standing_robot_has_a_line_and_a_latched_one_an_alarm():
-    assert "\n" not in strip_text(Ride())
+    assert "\n" not in strip_text(MotionView())
     assert "EMERGENCY STOP" in strip_text(moving_ride(), latched=True)
 
 
 def test_the_strip_says_for_how_long_a_model_thinks_whether_the_robot_moves_or_not():
-    assert "the model is thinking, 7 s" in strip_text(Ride(), model_wait_s=7.9)
-    assert "模型正在思考，0 秒" in strip_text(Ride(), model_wait_s=0.1, language="zh")
+    assert "the model is thinking, 7 s" in strip_text(MotionView(), model_wait_s=7.9)
+    assert "模型正在思考，0 秒" in strip_text(MotionView(), model_wait_s=0.1, language="zh")
     assert "the model is thinking, 7 s" in strip_text(moving_ride(), model_wait_s=7.9)
-    assert "thinking" not in strip_text(Ride()) + strip_text(moving_ride())
+    assert "thinking" not in strip_text(MotionView()) + strip_text(moving_ride())
     for width in range(1, 120):
         assert max(map(len, strip_text(moving_ride(), width=width, model_wait_s=7.9).split("\n"))) <= width
-        assert len(strip_text(Ride(), width=width, model_wait_s=7.9)) <= width
+        assert len(strip_text(MotionView(), width=width, model_wait_s=7.9)) <= width
 
 
 def test_a_strip_shows_whole_hints_and_the_whole_percentage():
-    assert strip_text(Ride(), width=60).rstrip().endswith("Ctrl-C stops")
-    assert strip_text(Ride(), width=100).rstrip().endswith("Ctrl-D leaves")
+    assert strip_text(MotionView(), width=60).rstrip().endswith("Ctrl-C stops")
+    assert strip_text(MotionView(), width=100).rstrip().endswith("Ctrl-D leaves")
     for width in (45, 52, 60, 100):
         assert "50 %" in strip_text(moving_ride(), width=width)
 
 
 def test_a_strip_without_its_map_is_words_alone():
-    strip = Strip(moving_ride(), Words(), EMPTY_WORLD)
+    strip = StatusBar(moving_ride(), Words(), EMPTY_WORLD)
     strip.shows_map = False
     assert "→" not in "".join(text for _, text in strip.fragments(100))
 
 
 @pytest.mark.parametrize("moves", [True, False])
 def test_the_strip_of_a_robot_without_odometry_says_so_and_tells_no_pose(moves: bool) -> None:
-    ride = Ride()
-    ride.hear(Notice(0, Reason("open_loop", {})))
-    ride.hear(Started(1, measured=False))
+    motion_view = MotionView()
+    motion_view.hear(Notice(0, Reason("open_loop", {})))
+    motion_view.hear(Started(1, measured=False))
     if not moves:
-        ride.hear(Finished(1, "completed", None, Pose(), Pose(), 0.0, 0.0, 1.0, 0.0, measured=False))
-    shown = strip_text(ride)
+        motion_view.hear(Finished(1, "completed", None, Pose(), Pose(), 0.0, 0.0, 1.0, 0.0, measured=False))
+    shown = strip_text(motion_view)
     assert "not measured" in shown
     assert "0.00" not in shown
     assert "→" not in shown

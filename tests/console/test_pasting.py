@@ -8,8 +8,8 @@ from chatrobot.core.events import Result
 from tests.console.fakes import ask, shown, told
 
 
-def end_turn(talk, turn, outcome="completed"):
-    talk.hear(Result(turn, outcome, outcome))
+def end_turn(controller, turn, outcome="completed"):
+    controller.hear(Result(turn, outcome, outcome))
 
 
 def said(log):
@@ -21,30 +21,30 @@ def said_turn(log):
     return max(number for number, entry in enumerate(log, 1) if entry[0] == "say")
 
 
-def test_pasted_lines_are_turns_one_after_the_other(talk, log):
-    talk.enter("forward 1 m\nwhere are you?\n\nturn left\n")
+def test_pasted_lines_are_turns_one_after_the_other(controller, log):
+    controller.enter("forward 1 m\nwhere are you?\n\nturn left\n")
     assert said(log) == ["forward 1 m"]
-    end_turn(talk, 99)
+    end_turn(controller, 99)
     assert said(log) == ["forward 1 m"]
-    end_turn(talk, 1)
+    end_turn(controller, 1)
     assert said(log)[1:] == ["where are you?"]
-    end_turn(talk, said_turn(log), "answered")
+    end_turn(controller, said_turn(log), "answered")
     assert said(log)[2:] == ["turn left"]
 
 
-def test_a_heading_and_its_list_are_one_text(talk, log):
-    talk.enter("Do as follows:\n1. forward 1 m\n2. turn left")
+def test_a_heading_and_its_list_are_one_text(controller, log):
+    controller.enter("Do as follows:\n1. forward 1 m\n2. turn left")
     assert said(log) == ["Do as follows:\n1. forward 1 m\n2. turn left"]
 
 
-def test_a_plan_that_was_saved_is_one_plan(talk, log):
-    talk.enter("repeat 2\n  drive 0.1 m\nend\n")
+def test_a_plan_that_was_saved_is_one_plan(controller, log):
+    controller.enter("repeat 2\n  drive 0.1 m\nend\n")
     assert told(log) == [("say_plan", "repeat 2\n  drive 0.1 m\nend")]
 
 
 @pytest.mark.parametrize("stop", ["stop", "停！", "/stop"])
-def test_a_stop_among_pasted_lines_comes_first_and_what_is_before_it_is_not_done(talk, log, stop):
-    talk.enter(f"forward 1 m\n{stop}\nturn left")
+def test_a_stop_among_pasted_lines_comes_first_and_what_is_before_it_is_not_done(controller, log, stop):
+    controller.enter(f"forward 1 m\n{stop}\nturn left")
     first, second = told(log)
     assert first == (("stop", "/stop") if stop == "/stop" else ("say", stop))
     assert second == ("say", "turn left")
@@ -52,98 +52,98 @@ def test_a_stop_among_pasted_lines_comes_first_and_what_is_before_it_is_not_done
 
 
 @pytest.mark.parametrize("outcome", ["unclear", "refused", "stopped", "failed"])
-def test_after_a_turn_that_was_not_done_the_rest_is_not_done_and_that_is_said(talk, log, outcome):
-    talk.enter("forward 1 m\nturn left\nforward 2 m")
-    end_turn(talk, 1, outcome)
+def test_after_a_turn_that_was_not_done_the_rest_is_not_done_and_that_is_said(controller, log, outcome):
+    controller.enter("forward 1 m\nturn left\nforward 2 m")
+    end_turn(controller, 1, outcome)
     assert said(log) == ["forward 1 m"]
     assert "“turn left”, “forward 2 m”" in shown(log)
-    end_turn(talk, 1)
+    end_turn(controller, 1)
     assert said(log) == ["forward 1 m"]
 
 
 @pytest.mark.parametrize("typed", ["", "stop", "/estop", "turn right", "drive 1 m\nturn left 90 deg"])
-def test_whatever_is_typed_or_pressed_takes_the_place_of_what_waits(talk, log, typed):
-    talk.enter("forward 1 m\nturn left")
-    talk.enter(typed) if typed else talk.interrupt()
-    end_turn(talk, 1)
+def test_whatever_is_typed_or_pressed_takes_the_place_of_what_waits(controller, log, typed):
+    controller.enter("forward 1 m\nturn left")
+    controller.enter(typed) if typed else controller.interrupt()
+    end_turn(controller, 1)
     assert "turn left" not in said(log)
     assert "this is not done: “turn left”" in shown(log)
 
 
-def test_a_stop_is_out_before_the_rest_is_told(talk, log):
-    talk.enter("forward 1 m\nturn left")
+def test_a_stop_is_out_before_the_rest_is_told(controller, log):
+    controller.enter("forward 1 m\nturn left")
     log.clear()
-    talk.interrupt()
+    controller.interrupt()
     assert log[0] == ("stop", "Ctrl-C")
 
 
-def test_a_pasted_yes_answers_no_question(talk, log):
-    ask(talk)
-    talk.enter("y\nforward 1 m")
+def test_a_pasted_yes_answers_no_question(controller, log):
+    ask(controller)
+    controller.enter("y\nforward 1 m")
     assert told(log) == [("say", "y")]
 
 
-def test_commands_among_pasted_lines_are_done_in_their_order(talk, log):
-    talk.enter("forward 1 m\n/places\nturn left\n/undo")
+def test_commands_among_pasted_lines_are_done_in_their_order(controller, log):
+    controller.enter("forward 1 m\n/places\nturn left\n/undo")
     assert told(log) == [("say", "forward 1 m")]
-    end_turn(talk, 1)
+    end_turn(controller, 1)
     assert told(log)[1:] == [("say", "turn left")]
-    end_turn(talk, said_turn(log))
+    end_turn(controller, said_turn(log))
     assert told(log)[2:] == [("say", "undo")]
 
 
-def test_quit_waits_for_what_was_pasted_before_it(talk, log):
-    talk.enter("forward 1 m\n/quit\nturn left")
+def test_quit_waits_for_what_was_pasted_before_it(controller, log):
+    controller.enter("forward 1 m\n/quit\nturn left")
     assert told(log) == [("say", "forward 1 m")]
-    end_turn(talk, 1)
+    end_turn(controller, 1)
     assert told(log)[1:] == [("leave", 0)]
     assert "this is not done: “turn left”" in shown(log)
 
 
-def test_a_goodbye_waits_for_what_was_pasted(talk, log):
-    talk.enter("forward 1 m\nturn left")
-    talk.leave()
-    talk.session.is_idle = False
-    end_turn(talk, 1)
+def test_a_goodbye_waits_for_what_was_pasted(controller, log):
+    controller.enter("forward 1 m\nturn left")
+    controller.leave()
+    controller.session.is_idle = False
+    end_turn(controller, 1)
     assert said(log) == ["forward 1 m", "turn left"]
     assert ("leave", 0) not in log
-    talk.session.is_idle = True
-    end_turn(talk, said_turn(log))
+    controller.session.is_idle = True
+    end_turn(controller, said_turn(log))
     assert told(log)[-1] == ("leave", 0)
 
 
-def test_too_many_lines_are_not_begun(talk, log):
-    talk.enter("forward 1 m\n" * (MOST_TEXTS + 1))
+def test_too_many_lines_are_not_begun(controller, log):
+    controller.enter("forward 1 m\n" * (MOST_TEXTS + 1))
     assert told(log) == []
     assert "None of them is done" in shown(log)
 
 
-def test_a_stop_in_a_paste_that_is_too_long_is_a_stop(talk, log):
-    talk.enter("forward 1 m\n" * LONGEST_CHARS + "stop\n")
+def test_a_stop_in_a_paste_that_is_too_long_is_a_stop(controller, log):
+    controller.enter("forward 1 m\n" * LONGEST_CHARS + "stop\n")
     assert told(log) == [("stop", "stop")]
 
 
-def test_a_stop_line_counts_from_the_moment_it_is_pasted(talk, log):
-    talk.stop_for_paste("turn left\n")
-    talk.stop_for_paste("stop sign\n/quit\n")
+def test_a_stop_line_counts_from_the_moment_it_is_pasted(controller, log):
+    controller.stop_for_paste("turn left\n")
+    controller.stop_for_paste("stop sign\n/quit\n")
     assert told(log) == []
-    talk.stop_for_paste("turn left\nstop\n")
+    controller.stop_for_paste("turn left\nstop\n")
     assert told(log) == [("stop", "stop")]
 
 
 @pytest.mark.parametrize("release", ["/release", "/Release", "/ release", "/release notes"])
 @pytest.mark.parametrize("before", ["", "where are you?\n"])
-def test_a_pasted_release_releases_nothing_and_what_follows_is_not_done(talk, log, before, release):
-    talk.emergency_stop("/estop")
-    talk.enter(f"{before}{release}\nforward 1 m")
-    end_turn(talk, said_turn(log), "answered") if before else None
+def test_a_pasted_release_releases_nothing_and_what_follows_is_not_done(controller, log, before, release):
+    controller.emergency_stop("/estop")
+    controller.enter(f"{before}{release}\nforward 1 m")
+    end_turn(controller, said_turn(log), "answered") if before else None
     assert ("release",) not in log
     assert said(log) == (["where are you?"] if before else [])
     assert "type /release by itself" in shown(log)
     assert "not done: “forward 1 m”" in shown(log)
-    assert talk.latched
+    assert controller.latched
 
 
-def test_a_release_behind_a_pasted_stop_releases_nothing(talk, log):
-    talk.enter("/estop\n/release")
+def test_a_release_behind_a_pasted_stop_releases_nothing(controller, log):
+    controller.enter("/estop\n/release")
     assert ("release",) not in log

@@ -13,16 +13,16 @@ from prompt_toolkit.output import DummyOutput
 from chatrobot.cli.console.chat import Chat
 
 
-def test_another_thread_never_touches_the_prompt_itself(talk, monkeypatch):
+def test_another_thread_never_touches_the_prompt_itself(controller, monkeypatch):
     """prompt_toolkit's `invalidate` fails where the prompt ends meanwhile, and the pump's thread would end with it."""
     monkeypatch.setattr(
-        talk.session,
+        controller.session,
         "understanding",
         SimpleNamespace(place_names=list, can_do=lambda _: True),
         raising=False,
     )
     with create_app_session(input=DummyInput(), output=DummyOutput()):
-        chat = Chat(talk, None, lambda: None)
+        chat = Chat(controller, None, lambda: None)
     threads = []
     monkeypatch.setattr(chat._prompt.app, "invalidate", lambda: threads.append(threading.current_thread()))
 

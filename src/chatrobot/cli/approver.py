@@ -8,7 +8,7 @@ import sys
 import threading
 from collections.abc import Callable
 
-from chatrobot.cli.console.ride import Ride
+from chatrobot.cli.console.motion_view import MotionView
 from chatrobot.cli.edited import Edited
 from chatrobot.cli.editor import edited_text
 from chatrobot.core.errors import UsageError
@@ -37,7 +37,7 @@ class Approver:
         self._others_answer = others_answer
         self._question = Question()
         self._has_asked = False
-        self._ride = Ride()
+        self._motion_view = MotionView()
         self._world: World | None = None
         self._edited: SayEdited | None = None
         self._edit_of = Edited()
@@ -61,7 +61,7 @@ class Approver:
         return event.turn in self._withdrawn and not has_moved
 
     def hear(self, event: Event) -> None:
-        self._ride.hear(event)
+        self._motion_view.hear(event)
         self._edit_of.hear(event)
         if self._question.hear(event):
             self._has_asked = False
@@ -104,7 +104,7 @@ class Approver:
 
     def take(self, session: Session, answer: str) -> None:
         """What the person typed: anything but a yes is none."""
-        turn, program, plan_text = self._question.turn, self._ride.program, self._ride.plan_text
+        turn, program, plan_text = self._question.turn, self._motion_view.program, self._motion_view.plan_text
         self.give(session, read_consent(answer) is True)
         if not wants_to_edit(answer) or turn is None or not (program or plan_text):
             return
@@ -135,5 +135,5 @@ class Approver:
 
         from chatrobot.cli.console.maps import way_map
 
-        if self._world is not None and len(self._ride.path) > 1:
-            Console(stderr=True, highlight=False).print(way_map(self._ride, self._world))
+        if self._world is not None and len(self._motion_view.path) > 1:
+            Console(stderr=True, highlight=False).print(way_map(self._motion_view, self._world))

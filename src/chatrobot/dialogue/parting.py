@@ -1,4 +1,4 @@
-"""A person who says goodbye, and nothing else, leaves: how the faces of a session know."""
+"""A person who says goodbye, and nothing else, leaves: how the displays of a session know."""
 
 from __future__ import annotations
 

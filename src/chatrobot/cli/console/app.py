@@ -1,4 +1,4 @@
-"""Puts the console together: robot, talk, and the face that this terminal can carry."""
+"""Puts the console together: robot, talk, and the display that this terminal can carry."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from rich.console import RenderableType
 from rich.text import Text
 
 from chatrobot.cli.console import commands, plain
+from chatrobot.cli.console.controller import ChatController
 from chatrobot.cli.console.lines import indented
 from chatrobot.cli.console.tables import example_place, place_in
-from chatrobot.cli.console.talk import Talk
 from chatrobot.cli.console.words import Words, language_of_environment
 from chatrobot.cli.typed_ahead import TypedAhead
 from chatrobot.compose import Setup, connect
@@ -41,16 +41,16 @@ def run_console(setup: Setup, typed_ahead: TypedAhead) -> int:
         raise UsageError("a conversation is in real time", where="--fast", allowed='chatrobot do "…" --fast')
     words = Words(language_of_environment())
     setup = replace(setup, trace=False, options=replace(setup.options, while_moving="replace"))
-    talk: Talk | None = None
+    controller: ChatController | None = None
 
     def hear(event: Event) -> None:
-        assert talk is not None  # nothing is heard before it is pumped
-        talk.hear(event)
+        assert controller is not None  # nothing is heard before it is pumped
+        controller.hear(event)
 
     connection = connect(setup, hear)
-    talk = Talk(connection, words, RealClock(), commands.run)
+    controller = ChatController(connection, words, RealClock(), commands.run)
     try:
-        code = _converse(talk, setup, typed_ahead)
+        code = _converse(controller, setup, typed_ahead)
     finally:
         connection.close()
     return code
@@ -67,38 +67,38 @@ def can_chat(environment: Mapping[str, str] = os.environ) -> bool:
     )
 
 
-def _converse(talk: Talk, setup: Setup, typed_ahead: TypedAhead) -> int:
+def _converse(controller: ChatController, setup: Setup, typed_ahead: TypedAhead) -> int:
     def hang_up() -> None:
         with contextlib.suppress(JointError):  # nothing is said: nobody is there to read it
-            talk.session.stop("terminal closed")
-        talk.connection.close()
+            controller.session.stop("terminal closed")
+        controller.connection.close()
 
     if can_chat():
         from chatrobot.cli.console.chat import Chat
 
         history = setup.folder / HISTORY_FILE if setup.folder is not None else None
-        face: Chat | plain.Plain = Chat(talk, history, hang_up)
+        display: Chat | plain.Plain = Chat(controller, history, hang_up)
     else:
-        face = plain.Plain(talk, hang_up)
-    talk.face = face
-    face.print(*greeting(talk, setup.on))
+        display = plain.Plain(controller, hang_up)
+    controller.display = display
+    display.print(*greeting(controller, setup.on))
     for text in typed_ahead.stop():
-        talk.enter(text)
+        controller.enter(text)
     if typed_ahead.has_ended:
-        talk.leave()
-    code = face.run()
+        controller.leave()
+    code = display.run()
     if code != 0:
         with contextlib.suppress(JointError):
-            talk.session.stop("the console has ended")
-    elif not talk.has_parted:
-        print(f"  {talk.words.say('goodbye')}")
+            controller.session.stop("the console has ended")
+    elif not controller.has_parted:
+        print(f"  {controller.words.say('goodbye')}")
     return code
 
 
-def greeting(talk: Talk, on: str) -> tuple[RenderableType, ...]:
+def greeting(controller: ChatController, on: str) -> tuple[RenderableType, ...]:
     """Which robot, where it is, and three things to say."""
-    words, world = talk.words, talk.connection.world
-    title = talk.connection.profile.title
+    words, world = controller.words, controller.connection.world
+    title = controller.connection.profile.title
     if on in SIMULATED:
         where = words.say("greeting_open") if world.is_empty else words.say("greeting_world", name=world.name)
         line = Text(words.say("greeting_robot", title=title, world=where))

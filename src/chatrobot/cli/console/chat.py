@@ -1,7 +1,7 @@
 """The chat on a real terminal: one line to type in, one strip below it, everything else scrolls above.
 
 One prompt_toolkit application lives as long as the conversation. It runs in the main thread; the session is pumped
-in another, whose output goes through `StdoutProxy`, and whose news of the robot only invalidates the strip.
+in another, whose output goes through `StdoutProxy`, and whose news of the robot only invalidates the status bar.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ from rich.console import Console, RenderableType
 
 from chatrobot.cli.console.clean import LONGEST_CHARS, clean
 from chatrobot.cli.console.completion import ChatCompleter
+from chatrobot.cli.console.controller import ChatController
 from chatrobot.cli.console.keys import chat_keys
-from chatrobot.cli.console.strip import STYLES
-from chatrobot.cli.console.talk import Talk
+from chatrobot.cli.console.status_bar import STYLES
 
 BUNDLE_S = 0.02
 """Output that comes within this time is written at once, so that the prompt is not repainted line by line."""
@@ -43,15 +43,15 @@ _LEAVING_SIGNALS = (signal.SIGHUP, signal.SIGTERM)
 
 
 class Chat:
-    """A `Face`.
+    """A `Display`.
 
     Args:
         history: the file of what was typed; None keeps it for this conversation only.
         hang_up: stops the robot and ends what was started, for when the terminal is gone.
     """
 
-    def __init__(self, talk: Talk, history: Path | None, hang_up: Callable[[], None]) -> None:
-        self._talk = talk
+    def __init__(self, controller: ChatController, history: Path | None, hang_up: Callable[[], None]) -> None:
+        self._controller = controller
         self._hang_up = hang_up
         self._loop: asyncio.AbstractEventLoop | None = None
         self._code = 0
@@ -64,17 +64,19 @@ class Chat:
             message=self._message,
             history=_history(history),
             completer=ChatCompleter(
-                talk.words, talk.session.understanding.place_names, talk.session.understanding.can_do
+                controller.words,
+                controller.session.understanding.place_names,
+                controller.session.understanding.can_do,
             ),
             complete_in_thread=True,  # a stop is typed while it looks for what may follow
             complete_while_typing=Condition(lambda: self._prompt.default_buffer.text.startswith("/")),
             reserve_space_for_menu=5,
             multiline=Condition(lambda: self._is_editing),
-            bottom_toolbar=self._strip,
+            bottom_toolbar=self._status_bar,
             style=Style.from_dict(STYLES),
             key_bindings=chat_keys(
                 interrupt=self._interrupt,
-                leave=talk.leave,
+                leave=controller.leave,
                 suspend=self._suspend,
                 paste=self._pasted,
                 is_editing=lambda: self._is_editing,
@@ -104,26 +106,26 @@ class Chat:
             self._loop.add_signal_handler(number, self._on_leaving_signal)
         self._loop.add_signal_handler(signal.SIGINT, self._interrupt)
         self._loop.add_signal_handler(signal.SIGTSTP, self._suspend)
-        self._talk.pump.start()
+        self._controller.pump.start()
         counting = asyncio.create_task(self._count_seconds())
         try:
             await self._prompt.prompt_async(handle_sigint=False, pre_run=self._leave_if_told)
         finally:
             counting.cancel()
-            await asyncio.to_thread(self._talk.pump.stop)
+            await asyncio.to_thread(self._controller.pump.stop)
             self._loop = None
 
     async def _count_seconds(self) -> None:
-        """Have the strip drawn anew while a model thinks: no event of the robot's does, and it may be long."""
+        """Have the status bar drawn anew while a model thinks: no event of the robot's does, and it may be long."""
         was_thinking = False
         while True:
             await asyncio.sleep(COUNTED_EVERY_S)
-            is_thinking = self._talk.session.model_wait_s is not None
+            is_thinking = self._controller.session.model_wait_s is not None
             if is_thinking or was_thinking:
                 self.refresh()
             was_thinking = is_thinking
 
-    # --- what the face does for the talk ---
+    # --- what the display does for the talk ---
 
     @property
     def echoes(self) -> bool:
@@ -166,39 +168,41 @@ class Chat:
     def _message(self) -> FormattedText:
         return FormattedText([("class:prompt", "plan› " if self._is_editing else "› ")])
 
-    def _strip(self) -> FormattedText:
-        talk = self._talk
-        return FormattedText(talk.strip.fragments(self.width, talk.latched, talk.session.model_wait_s))
+    def _status_bar(self) -> FormattedText:
+        controller = self._controller
+        return FormattedText(
+            controller.strip.fragments(self.width, controller.latched, controller.session.model_wait_s)
+        )
 
     def _accept(self, buffer: Buffer) -> bool:
         """Enter. False clears the line."""
         if self._is_editing:
             self._is_editing = False
-            self._talk.take_edited(buffer.text)
+            self._controller.take_edited(buffer.text)
         else:
-            self._talk.enter(buffer.text)
+            self._controller.enter(buffer.text)
         return False
 
     def _pasted(self, text: str) -> None:
         """A whole line that says stop is acted on before it is sent, as if it had been typed."""
         if not self._is_editing:
-            self._talk.stop_for_paste(text[: text.rfind("\n") + 1])
+            self._controller.stop_for_paste(text[: text.rfind("\n") + 1])
 
     def _begin_editing(self, plan_text: str) -> None:
         self._is_editing = True
         self._prompt.default_buffer.document = Document(plan_text)
-        self._talk.tell("edit_plan")
+        self._controller.tell("edit_plan")
 
     # --- keys and signals ---
 
     def _interrupt(self) -> None:
-        self._talk.interrupt()
+        self._controller.interrupt()
         self._is_editing = False
         self._prompt.default_buffer.reset()
 
     def _suspend(self) -> None:
         """Stop the robot, then really go to sleep, with the whole job that the shell started."""
-        self._talk.stop("Ctrl-Z")
+        self._controller.stop("Ctrl-Z")
         run_in_terminal(self._sleep)
 
     def _sleep(self) -> None:
@@ -207,7 +211,7 @@ class Chat:
         loop.remove_signal_handler(signal.SIGTSTP)
         os.kill(0, signal.SIGTSTP)
         loop.add_signal_handler(signal.SIGTSTP, self._suspend)
-        self._talk.tell("suspended")
+        self._controller.tell("suspended")
 
     def _on_leaving_signal(self) -> None:
         """The terminal is gone, or somebody wants us gone: nothing is drawn any more."""

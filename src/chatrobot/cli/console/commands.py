@@ -10,9 +10,9 @@ from pathlib import Path
 from rich.text import Text
 
 from chatrobot.cli.console import tables
+from chatrobot.cli.console.controller import ChatController
 from chatrobot.cli.console.limits import read_limits
 from chatrobot.cli.console.maps import big_map
-from chatrobot.cli.console.talk import Talk
 from chatrobot.cli.plan_file import read_plan_file
 from chatrobot.core.errors import UsageError
 
@@ -26,7 +26,7 @@ class Command:
     """
 
     name: str
-    act: Callable[[Talk, str], None]
+    act: Callable[[ChatController, str], None]
     takes: str = ""
     at_once: bool = False
     heeds_the_rest: bool = True
@@ -41,18 +41,18 @@ class Command:
         return f"command_{self.name.replace('-', '_')}"
 
 
-def run(talk: Talk, line: str) -> None:
+def run(controller: ChatController, line: str) -> None:
     """Do the command in `line`, which begins with a slash; an unknown one gets the nearest name."""
     word, _, argument = line[1:].strip().partition(" ")
     command = BY_NAME.get(word.casefold())
     if command is None:
-        _unknown(talk, word)
+        _unknown(controller, word)
     elif argument.strip() and not command.takes and command.heeds_the_rest:
-        talk.tell("takes_nothing", command=command.typed)
+        controller.tell("takes_nothing", command=command.typed)
     elif command.at_once:
-        command.act(talk, argument.strip())
+        command.act(controller, argument.strip())
     else:
-        talk.pump.post(lambda: command.act(talk, argument.strip()))
+        controller.pump.post(lambda: command.act(controller, argument.strip()))
 
 
 def nearest(word: str) -> str:
@@ -61,119 +61,123 @@ def nearest(word: str) -> str:
     return near[0] if near else ""
 
 
-def _unknown(talk: Talk, word: str) -> None:
+def _unknown(controller: ChatController, word: str) -> None:
     near = nearest(word)
     if near:
-        talk.tell("nearest_command", command=f"/{word}", nearest=f"/{near}")
+        controller.tell("nearest_command", command=f"/{word}", nearest=f"/{near}")
     else:
-        talk.face.print(
-            Text("  ").append(talk.words.say("no_such_command", command=f"/{word}")).append(" ")
-            .append(talk.words.say("all_commands"))
+        controller.display.print(
+            Text("  ").append(controller.words.say("no_such_command", command=f"/{word}")).append(" ")
+            .append(controller.words.say("all_commands"))
         )  # fmt: skip
 
 
-def _help(talk: Talk, _: str) -> None:
+def _help(controller: ChatController, _: str) -> None:
     shown = [(command.typed, command.help_code) for command in COMMANDS]
-    talk.face.print(tables.help_table(talk.words, talk.connection.world, shown))
+    controller.display.print(tables.help_table(controller.words, controller.connection.world, shown))
 
 
-def _robot(talk: Talk, _: str) -> None:
-    talk.face.print(*tables.robot_tables(talk.words, talk.connection.profile))
+def _robot(controller: ChatController, _: str) -> None:
+    controller.display.print(*tables.robot_tables(controller.words, controller.connection.profile))
 
 
-def _world(talk: Talk, _: str) -> None:
-    talk.face.print(
-        big_map(talk.ride, talk.connection.world, talk.face.width),
-        tables.world_table(talk.words, talk.connection.world),
+def _world(controller: ChatController, _: str) -> None:
+    controller.display.print(
+        big_map(controller.motion_view, controller.connection.world, controller.display.width),
+        tables.world_table(controller.words, controller.connection.world),
     )
 
 
-def _places(talk: Talk, _: str) -> None:
-    remembered = talk.session.understanding.places.all()
-    talk.face.print(tables.places_table(talk.words, talk.connection.world, remembered))
+def _places(controller: ChatController, _: str) -> None:
+    remembered = controller.session.understanding.places.all()
+    controller.display.print(tables.places_table(controller.words, controller.connection.world, remembered))
 
 
-def _undo(talk: Talk, _: str) -> None:
-    talk.attempt(lambda: talk.session.say(talk.words.say("undo_words")))
+def _undo(controller: ChatController, _: str) -> None:
+    controller.attempt(lambda: controller.session.say(controller.words.say("undo_words")))
 
 
-def _plan(talk: Talk, _: str) -> None:
-    if not talk.ride.plan_text:
-        talk.tell("no_plan")
+def _plan(controller: ChatController, _: str) -> None:
+    if not controller.motion_view.plan_text:
+        controller.tell("no_plan")
         return
-    talk.face.print(*talk.narrator.plan(talk.ride.plan_text, talk.ride.rehearsed))
+    controller.display.print(
+        *controller.narrator.plan(controller.motion_view.plan_text, controller.motion_view.rehearsed)
+    )
 
 
-def _save_plan(talk: Talk, argument: str) -> None:
-    if not argument or not talk.ride.plan_text:
-        talk.tell("no_plan" if argument else "save_which")
+def _save_plan(controller: ChatController, argument: str) -> None:
+    if not argument or not controller.motion_view.plan_text:
+        controller.tell("no_plan" if argument else "save_which")
         return
     path = Path(argument).expanduser()
     try:
         with path.open("x", encoding="utf-8") as file:
-            file.write(f"{talk.ride.plan_text}\n")
+            file.write(f"{controller.motion_view.plan_text}\n")
     except OSError as error:
-        talk.tell("save_failed", problem=f"{path}: {error.strerror}")
+        controller.tell("save_failed", problem=f"{path}: {error.strerror}")
         return
-    talk.tell("saved", file=path)
+    controller.tell("saved", file=path)
 
 
-def _run_plan(talk: Talk, argument: str) -> None:
+def _run_plan(controller: ChatController, argument: str) -> None:
     if not argument:
-        talk.tell("run_which")
+        controller.tell("run_which")
         return
     try:
-        talk.say_plan(read_plan_file(argument))
+        controller.say_plan(read_plan_file(argument))
     except UsageError as error:
-        talk.tell("run_failed", problem=error)
+        controller.tell("run_failed", problem=error)
 
 
-def _program(talk: Talk, argument: str) -> None:
+def _program(controller: ChatController, argument: str) -> None:
     """A new program, or without words the list of those that are kept."""
     if argument:
-        talk.attempt(lambda: talk.session.say_program(argument))
+        controller.attempt(lambda: controller.session.say_program(argument))
         return
-    names = talk.session.authoring.library.names() if talk.session.authoring is not None else ()
-    talk.tell("programs_kept", names=", ".join(names)) if names else talk.tell("no_programs_kept")
+    names = controller.session.authoring.library.names() if controller.session.authoring is not None else ()
+    controller.tell("programs_kept", names=", ".join(names)) if names else controller.tell("no_programs_kept")
 
 
-def _map(talk: Talk, argument: str) -> None:
-    if not talk.ride.is_measured:  # nobody knows where on it the robot is
-        talk.tell("not_measured")
+def _map(controller: ChatController, argument: str) -> None:
+    if not controller.motion_view.is_measured:  # nobody knows where on it the robot is
+        controller.tell("not_measured")
         return
     if argument.casefold() in ("big", "大"):
-        talk.face.print(big_map(talk.ride, talk.connection.world, talk.face.width))
+        controller.display.print(
+            big_map(controller.motion_view, controller.connection.world, controller.display.width)
+        )
         return
     if argument:
-        talk.tell("no_such_map", size=argument)
+        controller.tell("no_such_map", size=argument)
         return
-    talk.strip.shows_map = not talk.strip.shows_map
-    talk.tell("map_on" if talk.strip.shows_map else "map_off")
+    controller.strip.shows_map = not controller.strip.shows_map
+    controller.tell("map_on" if controller.strip.shows_map else "map_off")
 
 
-def _stop(talk: Talk, _: str) -> None:
-    talk.stop("/stop")
+def _stop(controller: ChatController, _: str) -> None:
+    controller.stop("/stop")
 
 
-def _estop(talk: Talk, _: str) -> None:
-    talk.emergency_stop("/estop")
-    talk.tell("estop_done")
+def _estop(controller: ChatController, _: str) -> None:
+    controller.emergency_stop("/estop")
+    controller.tell("estop_done")
 
 
-def _release(talk: Talk, _: str) -> None:
-    talk.release()  # Motion says whether it is
+def _release(controller: ChatController, _: str) -> None:
+    controller.release()  # Motion says whether it is
 
 
-def _limit(talk: Talk, argument: str) -> None:
+def _limit(controller: ChatController, argument: str) -> None:
     limits = read_limits(argument)
     if limits is None:
-        talk.tell("limit_unclear", argument=argument)
+        controller.tell("limit_unclear", argument=argument)
     else:
-        talk.attempt(lambda: talk.session.limit(**limits))  # Motion says what holds then
+        controller.attempt(lambda: controller.session.limit(**limits))  # Motion says what holds then
 
 
-def _quit(talk: Talk, _: str) -> None:
-    talk.leave()
+def _quit(controller: ChatController, _: str) -> None:
+    controller.leave()
 
 
 COMMANDS = (

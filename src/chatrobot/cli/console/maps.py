@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rich.text import Text
 
-from chatrobot.cli.console.ride import Ride
+from chatrobot.cli.console.motion_view import MotionView
 from chatrobot.cli.drawing.extent import Extent, extent_around, extent_of_world
 from chatrobot.cli.drawing.map_text import MapLines, draw_map_text
 from chatrobot.cli.drawing.orientation import Orientation
@@ -17,28 +17,28 @@ BIG_COLUMNS, BIG_ROWS = 100, 30
 WAY_COLUMNS, WAY_ROWS = 60, 14
 
 
-def big_map(ride: Ride, world: World, width: int) -> Text:
+def big_map(motion_view: MotionView, world: World, width: int) -> Text:
     """The whole world with its names, the last plan's way and what was driven of it."""
-    extent = extent_of_world(world, (*ride.path, *ride.trail), margin_m=0.1, least_m=3.0)
-    return _draw(ride, world, extent, min(width - 4, BIG_COLUMNS), BIG_ROWS)
+    extent = extent_of_world(world, (*motion_view.path, *motion_view.trail), margin_m=0.1, least_m=3.0)
+    return _draw(motion_view, world, extent, min(width - 4, BIG_COLUMNS), BIG_ROWS)
 
 
-def way_map(ride: Ride, world: World) -> Text:
+def way_map(motion_view: MotionView, world: World) -> Text:
     """The predicted way of the last plan and what stands around it."""
-    extent = extent_around(Orientation(world).points(ride.path), margin_m=0.8, least_m=3.0)
-    return _draw(ride, world, extent, WAY_COLUMNS, WAY_ROWS)
+    extent = extent_around(Orientation(world).points(motion_view.path), margin_m=0.8, least_m=3.0)
+    return _draw(motion_view, world, extent, WAY_COLUMNS, WAY_ROWS)
 
 
-def _draw(ride: Ride, world: World, extent: Extent, columns: int, rows: int) -> Text:
+def _draw(motion_view: MotionView, world: World, extent: Extent, columns: int, rows: int) -> Text:
     columns, rows = _shape(extent, columns, rows)
     lines = draw_map_text(
         world,
         extent,
         columns=columns,
         rows=rows,
-        path=ride.path,
-        trail=ride.trail,
-        pose=ride.pose,
+        path=motion_view.path,
+        trail=motion_view.trail,
+        pose=motion_view.pose,
         names=True,
     )
     return _text(lines)

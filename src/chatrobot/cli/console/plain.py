@@ -12,7 +12,7 @@ from collections.abc import Callable
 
 from rich.console import Console, RenderableType
 
-from chatrobot.cli.console.talk import Talk
+from chatrobot.cli.console.controller import ChatController
 from chatrobot.cli.lines import PASTE_S
 from chatrobot.reflex import is_stop
 
@@ -23,11 +23,11 @@ READ_BYTES = 65536
 
 
 class Plain:
-    """A `Face`. Signals are only noted by their handlers and acted on where lines are read, a moment later, so that
+    """A `Display`. Signals are only noted by their handlers and acted on where lines are read, a moment later, so that
     they never meet a lock that their own thread holds."""
 
-    def __init__(self, talk: Talk, hang_up: Callable[[], None]) -> None:
-        self._talk = talk
+    def __init__(self, controller: ChatController, hang_up: Callable[[], None]) -> None:
+        self._controller = controller
         self._hang_up = hang_up
         self._code: int | None = None
         self._wake_read, self._wake_write = os.pipe()
@@ -46,19 +46,19 @@ class Plain:
         """Talk until somebody leaves; the exit code."""
         before = {number: signal.signal(number, _noted) for number in _SIGNALS}
         wake_before = signal.set_wakeup_fd(self._wake_write, warn_on_full_buffer=False)
-        self._talk.pump.start()
+        self._controller.pump.start()
         try:
             self._show_prompt()
             while self._code is None:
                 self._wait()
         finally:
-            self._talk.pump.stop()
+            self._controller.pump.stop()
             signal.set_wakeup_fd(wake_before)
             for number, handler in before.items():
                 signal.signal(number, handler)
         return self._code
 
-    # --- what the face does for the talk ---
+    # --- what the display does for the talk ---
 
     @property
     def echoes(self) -> bool:
@@ -76,13 +76,13 @@ class Plain:
 
     def refresh(self) -> None:
         """Nothing here shows what has changed; a standing robot is worth a new prompt."""
-        if not self._talk.ride.is_moving:
+        if not self._controller.motion_view.is_moving:
             self._show_prompt()
 
     def edit(self, plan_text: str) -> None:  # noqa: ARG002  # what it was has just been printed
-        is_program = self._talk.ride.program is not None
+        is_program = self._controller.motion_view.program is not None
         self._edited_lines, self._edit_ends_with = [], "." if is_program else ""
-        self._talk.tell("edit_program_lines" if is_program else "edit_plan_lines")
+        self._controller.tell("edit_program_lines" if is_program else "edit_plan_lines")
 
     def leave(self, code: int) -> None:
         self._code = max(self._code or 0, code)
@@ -116,7 +116,7 @@ class Plain:
             return
         if not data:
             self._hand_on()
-            self._talk.leave()
+            self._controller.leave()
             return
         self._is_at_prompt = False
         *lines, self._rest = (self._rest + data).split(b"\n")
@@ -134,7 +134,7 @@ class Plain:
     def _hand_on(self) -> None:
         lines, self._pasted = self._pasted, []
         if lines:
-            self._talk.enter("\n".join(lines))
+            self._controller.enter("\n".join(lines))
 
     def _take(self, line: str) -> None:
         if self._edited_lines is None:
@@ -145,15 +145,15 @@ class Plain:
             self._edited_lines.append(line)
         else:
             edited, self._edited_lines = "\n".join(self._edited_lines), None
-            self._talk.take_edited(edited)
+            self._controller.take_edited(edited)
 
     def _on_signal(self, number: int) -> None:
         if number == signal.SIGINT:
             self._edited_lines = None
             self._pasted.clear()
-            self._talk.interrupt()
+            self._controller.interrupt()
         elif number == signal.SIGTSTP:
-            self._talk.stop("Ctrl-Z")
+            self._controller.stop("Ctrl-Z")
             self._sleep()
         elif number in (signal.SIGHUP, signal.SIGTERM):
             self._leave_at_once()
@@ -162,7 +162,7 @@ class Plain:
         signal.signal(signal.SIGTSTP, signal.SIG_DFL)
         os.kill(0, signal.SIGTSTP)
         signal.signal(signal.SIGTSTP, _noted)
-        self._talk.tell("suspended")
+        self._controller.tell("suspended")
 
     def _leave_at_once(self) -> None:
         self._hang_up()

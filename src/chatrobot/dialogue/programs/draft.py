@@ -75,7 +75,7 @@ class Draft:
         )
 
     def event(self, turn: int) -> ProgramWritten:
-        """What the faces show of it."""
+        """What the displays show of it."""
         led = self.remap
         marks = [
             FindingSeen(turn, m.severity, m.reason, (m.line,) if m.line else ())

@@ -7,7 +7,7 @@ from typing import Protocol
 from rich.console import RenderableType
 
 
-class Face(Protocol):
+class Display(Protocol):
     """A screen. All of it may be called from any thread."""
 
     @property
@@ -23,11 +23,11 @@ class Face(Protocol):
     def print(self, *lines: RenderableType) -> None: ...
 
     def refresh(self) -> None:
-        """Something that the strip shows has changed."""
+        """Something that the status bar shows has changed."""
         ...
 
     def edit(self, plan_text: str) -> None:
-        """Let the person change a plan; it comes back through `Talk.take_edited`."""
+        """Let the person change a plan; it comes back through `ChatController.take_edited`."""
         ...
 
     def leave(self, code: int) -> None:

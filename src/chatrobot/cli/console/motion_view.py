@@ -28,7 +28,7 @@ TRAIL_LIMIT = 2000
 
 
 @dataclass
-class Ride:
+class MotionView:
     """`path` is the predicted way of the last plan, `trail` what was driven of it, in `odom`; `program` the last
     one written, where no plan came after it. `is_measured`: not so, nobody knows pose and velocity."""
 

@@ -1,6 +1,6 @@
-"""One conversation, whatever it is typed into: what a line means, what an event makes the face print.
+"""One conversation, whatever it is typed into: what a line means, what an event makes the display print.
 
-`enter`, `interrupt` and `leave` belong to the face's thread, `hear` and `lose` to the pumping thread.
+`enter`, `interrupt` and `leave` belong to the display's thread, `hear` and `lose` to the pumping thread.
 """
 
 from __future__ import annotations
@@ -12,9 +12,10 @@ from rich.console import RenderableType
 from rich.text import Text
 
 from chatrobot.cli.console.clean import LONGEST_CHARS, clean
-from chatrobot.cli.console.face import Face
+from chatrobot.cli.console.display import Display
 from chatrobot.cli.console.lines import indented, marked
 from chatrobot.cli.console.maps import way_map
+from chatrobot.cli.console.motion_view import MotionView
 from chatrobot.cli.console.narrator import Narrator
 from chatrobot.cli.console.pasted import (
     MOST_TEXTS,
@@ -27,8 +28,7 @@ from chatrobot.cli.console.pasted import (
     quoted,
 )
 from chatrobot.cli.console.pump import Pump
-from chatrobot.cli.console.ride import Ride
-from chatrobot.cli.console.strip import Strip
+from chatrobot.cli.console.status_bar import StatusBar
 from chatrobot.cli.console.words import Words
 from chatrobot.cli.edited import Edited
 from chatrobot.cli.lines import texts_in
@@ -48,26 +48,26 @@ TWICE_S = 1.5
 ECHO_CHARS = 600
 
 
-class Talk:
-    """See the module. `face` is attached once it exists; `run_command` does a line that begins with a slash."""
+class ChatController:
+    """See the module. `display` is attached once it exists; `run_command` does a line that begins with a slash."""
 
-    face: Face
+    display: Display
 
     def __init__(
         self,
         connection: Connection,
         words: Words,
         clock: Clock,
-        run_command: Callable[[Talk, str], None],
+        run_command: Callable[[ChatController, str], None],
     ) -> None:
         self._run_command = run_command
         self.connection = connection
         self.session = connection.session
         self.words = words
-        self.ride = Ride()
-        self.strip = Strip(self.ride, words, connection.world)
+        self.motion_view = MotionView()
+        self.strip = StatusBar(self.motion_view, words, connection.world)
         self.narrator = Narrator(words)
-        self.pump = Pump(self.session, self.lose, lambda: self.face.leave(1))
+        self.pump = Pump(self.session, self.lose, lambda: self.display.leave(1))
         self.latched = False
         self.has_parted = False
         """The person said goodbye in words, and was answered."""
@@ -143,7 +143,7 @@ class Talk:
                 self._say_in_order(text if text != "/undo" else self.words.say("undo_words"), is_pasted=True)
 
     def take_edited(self, edited: str) -> None:
-        """The plan or the program that `Face.edit` was asked for."""
+        """The plan or the program that `Display.edit` was asked for."""
         is_program = self._edited.is_program
         text = f"{edited.rstrip()}\n" if is_program else clean(edited).strip()
         limit = MAX_SOURCE_CHARS if is_program else LONGEST_CHARS
@@ -171,7 +171,7 @@ class Talk:
         self.stop("Ctrl-C")
         now_s = self._clock.now_s()
         if now_s - self._interrupted_s <= TWICE_S:
-            self.face.leave(0)
+            self.display.leave(0)
             return
         self._interrupted_s = now_s
         self._leaving = self.has_parted = False
@@ -180,7 +180,7 @@ class Talk:
     def leave(self) -> None:
         """An orderly goodbye: what the robot was told is still done. The second one does not wait to see it."""
         if self._has_nothing_to_do or self._leaving:
-            self.face.leave(0)
+            self.display.leave(0)
             return
         self._leaving = True
         if self.session.is_paused:
@@ -200,7 +200,7 @@ class Talk:
         self.attempt(lambda: self.session.emergency_stop(why))
         self._tell_undone(self._pasted.drop())
         self._raise_alarm()
-        self.face.refresh()
+        self.display.refresh()
 
     def release(self) -> None:
         """Ask Motion to; its notice says what became of it."""
@@ -252,7 +252,7 @@ class Talk:
         self._echo(text)
         if edits:
             self._muted.add(turn)
-            self.face.edit(self._edited.begin(self.ride.plan_text, self.ride.program))
+            self.display.edit(self._edited.begin(self.motion_view.plan_text, self.motion_view.program))
         self.attempt(lambda: self._question.answer(self.session, yes is True))
         return True
 
@@ -267,7 +267,7 @@ class Talk:
 
     def hear(self, event: Event) -> None:
         """Take an event in and show it."""
-        self.ride.hear(event)
+        self.motion_view.hear(event)
         self._edited.hear(event)
         if isinstance(event, Notice) and event.reason.code == "released":
             self._hear_release(str(event.reason.values.get("source")))
@@ -275,31 +275,31 @@ class Talk:
             lines: list[RenderableType] = list(self.narrator.tell(event))
             if self._question.hear(event):
                 lines += [
-                    way_map(self.ride, self.connection.world),
+                    way_map(self.motion_view, self.connection.world),
                     Text(f"  {self.words.say('ask_approval')}", "bold"),
                 ]
             if (
                 isinstance(event, Interpreted)
                 and event.by == "reflex"
-                and (self.ride.is_moving or self._said_stopped or self.session.is_plan_paused)
+                and (self.motion_view.is_moving or self._said_stopped or self.session.is_plan_paused)
                 and not self._pauses_again
             ):
                 self._muted.add(event.turn)  # what was moving says how it ended
             if isinstance(event, Result):
                 self._said_stopped = event.outcome == "stopped"
             if lines and not self._is_muted(event):
-                self.face.print(*lines)
+                self.display.print(*lines)
         if isinstance(event, Result):
             self._go_on_after(event)
             if is_parting(event):
                 self.has_parted = True
                 self.leave()
             if self._leaving and self._has_nothing_to_do:
-                self.face.leave(0)
+                self.display.leave(0)
         if isinstance(event, (Telemetry, Started, Result)) and (
-            self.ride.is_moving or not isinstance(event, Telemetry)
+            self.motion_view.is_moving or not isinstance(event, Telemetry)
         ):
-            self.face.refresh()
+            self.display.refresh()
 
     def _is_muted(self, event: Event) -> bool:
         """It only tells what is told otherwise; what a plan drove before it was edited is told."""
@@ -309,7 +309,7 @@ class Talk:
         """No alarm goes by a release that was asked for before it was raised."""
         if by != "console" or self._release_is_due:
             self.latched = self._release_is_due = False
-            self.face.refresh()
+            self.display.refresh()
 
     def _go_on_after(self, result: Result) -> None:
         with self._order:  # whoever says a turn holds it until the number is known
@@ -321,18 +321,18 @@ class Talk:
 
     def lose(self, error: JointError) -> None:
         """Motion is gone: its guard halts the robot; here is nothing left to talk to."""
-        self.face.print(marked("✗", "bold red", str(error)))
-        self.face.leave(1)
+        self.display.print(marked("✗", "bold red", str(error)))
+        self.display.leave(1)
 
     # --- printing ---
 
     def tell(self, code: str, **values: object) -> None:
         """One line of the console's own words."""
-        self.face.print(indented(Text(self.words.say(code, **values), "dim")))
+        self.display.print(indented(Text(self.words.say(code, **values), "dim")))
 
     def _echo(self, text: str, *, anew: bool = False) -> None:
         """Show what was sent. `anew`: again, because what it was sent with stands between."""
-        if anew or not self.face.echoes:
+        if anew or not self.display.echoes:
             shown = text if len(text) <= ECHO_CHARS else f"{text[:ECHO_CHARS]}…"
             shown = shown.replace("\n", "\n  ")
-            self.face.print(Text("› ", "bold blue").append(shown, "bold"))
+            self.display.print(Text("› ", "bold blue").append(shown, "bold"))

@@ -1,0 +1,244 @@
+"""What a typed line and a key do, without a terminal and without a robot."""
+
+import threading
+
+import pytest
+
+from chatrobot.cli.console import commands
+from chatrobot.cli.console.clean import LONGEST_CHARS
+from chatrobot.cli.console.controller import TWICE_S
+from chatrobot.core.events import Finished, Interpreted, Notice, Result, Started
+from chatrobot.core.geometry import Pose
+from chatrobot.core.reason import Reason
+from tests.console.fakes import ask, shown, told
+
+
+def test_a_stop_is_out_before_anything_is_drawn(controller, log):
+    controller.enter("stop")
+    assert log[0] == ("say", "stop")
+    log.clear()
+    controller.interrupt()
+    assert log[0] == ("stop", "Ctrl-C")
+
+
+def test_two_interrupts_at_once_leave_and_two_far_apart_stop_twice(controller, log):
+    controller.interrupt()
+    controller._clock.advance(TWICE_S + 0.1)
+    controller.interrupt()
+    assert ("leave", 0) not in log
+    controller._clock.advance(TWICE_S - 0.1)
+    controller.interrupt()
+    assert told(log)[-1] == ("leave", 0)
+
+
+def test_leaving_waits_for_what_was_told(controller, log):
+    controller.session.is_idle = False
+    controller.leave()
+    assert told(log) == []
+    controller.session.is_idle = True
+    controller.hear(Result(1, "completed", "done"))
+    assert told(log) == [("leave", 0)]
+
+
+GOODBYE = Result(1, "answered", "Goodbye.", reason=Reason("parting"))
+
+
+def test_a_goodbye_leaves_as_quit_does(controller, log):
+    controller.hear(GOODBYE)
+    assert told(log) == [("leave", 0)]
+
+
+def test_a_goodbye_while_it_moves_waits_for_what_was_told(controller, log):
+    controller.session.is_idle = False
+    controller.hear(GOODBYE)
+    assert told(log) == []
+    controller.session.is_idle = True
+    controller.hear(Result(2, "completed", "done"))
+    assert told(log) == [("leave", 0)]
+
+
+def test_leaving_twice_does_not_wait(controller, log):
+    controller.session.is_idle = False
+    controller.leave()
+    controller.leave()
+    assert told(log) == [("leave", 0)]
+
+
+def test_leaving_a_question_is_a_no(controller, log):
+    ask(controller)
+    controller.session.is_idle = False
+    controller.leave()
+    assert told(log) == [("approve", 1, False)]
+
+
+def test_an_interrupt_takes_a_goodbye_back(controller, log):
+    controller.session.is_idle = False
+    controller.leave()
+    controller.interrupt()
+    controller.session.is_idle = True
+    controller.hear(Result(1, "stopped", "stopped"))
+    assert ("leave", 0) not in log
+
+
+@pytest.mark.parametrize(
+    ("answer", "yes"), [("y", True), ("Yes.", True), ("好", True), ("n", False), ("不要", False)]
+)
+def test_a_question_is_answered(controller, log, answer, yes):
+    ask(controller)
+    controller.enter(answer)
+    assert told(log) == [("approve", 1, yes)]
+
+
+def test_yes_to_no_question_is_an_instruction_like_any_other(controller, log):
+    controller.enter("yes")
+    assert told(log) == [("say", "yes")]
+
+
+def test_a_stop_during_a_question_is_a_stop(controller, log):
+    ask(controller)
+    controller.enter("stop")
+    assert told(log) == [("say", "stop")]
+
+
+def test_a_question_is_over_once_its_turn_has_begun_or_ended(controller, log):
+    for end in (Started(1, Pose()), Finished(1, "refused", None, Pose(), Pose(), 0.0, 0.0, 0.0, 0.0)):
+        ask(controller)
+        controller.hear(end)
+        log.clear()
+        controller.enter("y")
+        assert told(log) == [("say", "y")]
+
+
+def test_editing_withdraws_the_plan_silently_and_sends_the_new_one(controller, log):
+    ask(controller)
+    controller.enter("e")
+    assert told(log) == [("edit", "drive 1 m"), ("approve", 1, False)]
+    controller.hear(Result(1, "refused", "not approved"))
+    assert "not approved" not in shown(log)
+    controller.take_edited("drive 2 m\n")
+    assert told(log)[-1] == ("say_edited_plan", "drive 2 m")
+
+
+def test_what_is_too_long_is_never_done_in_part(controller, log):
+    controller.enter("forward 1 m " * LONGEST_CHARS)
+    controller.enter("x" * LONGEST_CHARS + " ")
+    controller.take_edited("drive 1 m\n" * LONGEST_CHARS)
+    assert told(log) == []
+
+
+def test_an_empty_line_is_nothing(controller, log):
+    controller.enter("  \n")
+    assert log == []
+
+
+def test_emergency_stop_latches_the_screen_until_release(controller, log):
+    controller.enter("/estop")
+    assert controller.latched
+    controller.enter("/release")
+    controller.hear(Notice(1, Reason("released", {"source": "console"})))
+    assert not controller.latched
+    assert told(log) == [("emergency_stop", "/estop"), ("release",)]
+    controller.enter("emergency stop")
+    assert controller.latched
+
+
+def test_when_motion_is_gone_the_talk_ends_with_a_word(controller, log):
+    controller.session.is_lost = True
+    controller.enter("forward 1 m")
+    assert ("leave", 1) in log
+    assert "Motion is gone" in shown(log)
+
+
+def test_a_long_line_is_echoed_in_part(controller, log):
+    controller.enter("x" * 3000)
+    assert len(shown(log)) < 700
+
+
+def test_a_stop_waits_for_no_line_that_is_being_drawn(controller, log):
+    with controller._order:  # as if the terminal were halted by Ctrl-S
+        stopper = threading.Thread(target=controller.enter, args=("stop",))
+        stopper.start()
+        stopper.join(10.0)
+        assert not stopper.is_alive()
+    assert log[0] == ("say", "stop")
+
+
+@pytest.mark.parametrize("moving_ends_first", [True, False])
+def test_one_stop_is_told_once(controller, log, moving_ends_first):
+    ending = [
+        Finished(1, "stopped", None, Pose(), Pose(), 0.3, 0.0, 1.0, 0.0),
+        Result(1, "stopped", "Stopped after 0.3 m."),
+    ]
+    heard = [Interpreted(2, "reflex", "", "")]
+    controller.hear(Started(1, Pose()))
+    controller.enter("stop")
+    for event in [*ending, *heard] if moving_ends_first else [*heard, *ending]:
+        controller.hear(event)
+    controller.hear(Result(2, "stopped", "Stopped."))
+    assert shown(log).count("Stopped") == 1
+    controller.enter("stop")
+    controller.hear(Interpreted(3, "reflex", "", ""))
+    controller.hear(Result(3, "stopped", "Stopped."))
+    assert shown(log).count("Stopped") == 2
+
+
+def test_released_is_said_once_and_not_before_motion_has_released(controller, log):
+    controller.enter("/estop")
+    controller.enter("/release")
+    assert ("release",) in log
+    assert "is released" not in shown(log)
+    assert controller.latched
+    controller.hear(Notice(1, Reason("released", {"source": "console"})))
+    assert shown(log).count("is released") == 1
+    assert not controller.latched
+
+
+def test_a_refused_release_is_said_and_the_alarm_stays(controller, log):
+    controller.enter("/estop")
+    controller.enter("/release")
+    controller.hear(Notice(1, Reason("release_refused", {"source": "console"})))
+    assert "The emergency stop stays" in shown(log)
+    assert controller.latched
+
+
+def test_news_of_a_release_takes_no_alarm_away_that_was_raised_since(controller):
+    controller.enter("/estop")
+    controller.enter("/release")
+    controller.enter("/estop")
+    controller.hear(Notice(1, Reason("released", {"source": "console"})))
+    assert controller.latched
+
+
+@pytest.mark.parametrize("typed", ["/release notes are in the drawer", "/quit smoking", "/undo the laces"])
+def test_a_command_that_takes_nothing_does_nothing_where_more_was_typed(controller, log, typed):
+    controller.enter(typed)
+    assert told(log) == []
+    assert f"{typed.split()[0]} takes nothing behind it" in shown(log)
+
+
+def test_a_saved_plan_is_told_to_the_session_and_a_broken_one_is_not(controller, log, tmp_path):
+    act = commands.BY_NAME["run-plan"].act
+    (tmp_path / "my plan").write_text("drive 1 m\n")
+    (tmp_path / "bad").write_text("drive 1 m\nfly 2 m\n")
+    act(controller, f"{tmp_path / 'my plan'}")
+    assert told(log) == [("say_plan", "drive 1 m\n")]
+    act(controller, f"{tmp_path / 'bad'}")
+    act(controller, f"{tmp_path / 'none'}")
+    assert len(told(log)) == 1
+    assert "The plan is not driven: " in shown(log)
+    assert "bad: line 2: 'fly 2 m': no step begins like this (one of: arc, drive, " in shown(log)
+    assert "none: No such file or directory" in shown(log)
+
+
+def test_a_map_of_a_size_that_there_is_not_says_which_there_are(controller, log):
+    commands.BY_NAME["map"].act(controller, "huge")
+    assert "There is no map 'huge'. /map shows or hides the small one, /map big draws the big one." in shown(
+        log
+    )
+    assert controller.strip.shows_map
+
+
+@pytest.mark.parametrize(("typed", "word"), [("/stop it now", "stop"), ("/estop now", "emergency_stop")])
+def test_a_stop_is_a_stop_whatever_is_typed_behind_it(controller, log, typed, word):
+    controller.enter(typed)
+    assert told(log)[0][0] == word
