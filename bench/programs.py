@@ -1,6 +1,6 @@
 """How quick programs are rehearsed, and how soon they drive. Run: python -m bench.programs
 
-All through the warm server and the box, in the furnished home. Wall times; a busy machine shows in them, so the
+All through the warm server and the sandbox, in the furnished home. Wall times; a busy machine shows in them, so the
 processor time of both processes stands beside.
 """
 
@@ -14,12 +14,12 @@ from pathlib import Path
 
 import numpy as np
 
-from chatrobot.box.warm_server import WarmServer
 from chatrobot.motion.programs.program_rehearsal import rehearse_program
-from chatrobot.programs.boxed import BoxedProgram, warm_server
 from chatrobot.programs.events import TwistAsked
+from chatrobot.programs.sandboxed import SandboxedProgram, warm_server
 from chatrobot.programs.settings import ProgramSettings, robot_topics
 from chatrobot.robots.load import load_profile
+from chatrobot.sandbox.warm_server import WarmServer
 from chatrobot.sim.load import load_world
 
 PROGRAMS = Path(__file__).parents[1] / "tests" / "programs" / "programs"
@@ -47,7 +47,7 @@ def median_ms(work: Callable[[], float]) -> tuple[float, float, float]:
 def first_velocity_s(server: WarmServer, source: str) -> float:
     """From the launch of a live program to the first velocity it asks for, as its host hears it."""
     topics = robot_topics(load_profile("wheeltec_mini_mec").wiring)
-    program = BoxedProgram(server, ProgramSettings(source, mode="live", topics=topics))
+    program = SandboxedProgram(server, ProgramSettings(source, mode="live", topics=topics))
     began_s = time.monotonic()
     program.start()
     while not any(isinstance(event, TwistAsked) for event in program.poll(1.0)):

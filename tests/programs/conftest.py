@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import pytest
 
-from chatrobot.box.warm_server import WarmServer
-from chatrobot.programs.boxed import warm_server
+from chatrobot.programs.sandboxed import warm_server
+from chatrobot.sandbox.warm_server import WarmServer
 
 
 @pytest.fixture(scope="session")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from chatrobot.box.warm_server import WarmServer
 from chatrobot.motion.programs.program_rehearsal import ProgramRehearsal, rehearse_program
 from chatrobot.programs.events import Died, Ended
 from chatrobot.robots.load import load_profile
+from chatrobot.sandbox.warm_server import WarmServer
 
 MEC = load_profile("wheeltec_mini_mec")
 WRITES = """

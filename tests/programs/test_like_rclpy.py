@@ -1,4 +1,4 @@
-"""The classes of `rclpy` in the box have the names that rclpy's have, of the same kind, and no others."""
+"""The classes of `rclpy` in the sandbox have the names that rclpy's have, of the same kind, and no others."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from typing import Any, NamedTuple
 
 import pytest
 
-from chatrobot.box.warm_server import WarmServer
 from chatrobot.motion.programs.program_rehearsal import ProgramRehearsal, rehearse_program
 from chatrobot.programs.events import Ended, Raised
 from chatrobot.robots.load import load_profile
+from chatrobot.sandbox.warm_server import WarmServer
 
 MODULES = {
     "Node": "node", "Publisher": "publisher", "Subscription": "subscription", "Timer": "timer", "Rate": "timer",

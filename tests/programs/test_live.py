@@ -10,8 +10,6 @@ from textwrap import dedent
 
 import pytest
 
-from chatrobot.box.warm_server import WarmServer
-from chatrobot.programs.boxed import BoxedProgram
 from chatrobot.programs.events import (
     Beat,
     Died,
@@ -23,21 +21,23 @@ from chatrobot.programs.events import (
     Raised,
     TwistAsked,
 )
+from chatrobot.programs.sandboxed import SandboxedProgram
 from chatrobot.programs.settings import ProgramSettings, robot_topics
 from chatrobot.robots.load import load_profile
+from chatrobot.sandbox.warm_server import WarmServer
 
 pytestmark = [pytest.mark.realtime, pytest.mark.alone]
 TOPICS = robot_topics(load_profile("wheeltec_mini_mec").wiring)
 PATIENCE_S = 10.0
 
 
-def launch(server: WarmServer, source: str) -> BoxedProgram:
-    program = BoxedProgram(server, ProgramSettings(dedent(source), mode="live", topics=TOPICS))
+def launch(server: WarmServer, source: str) -> SandboxedProgram:
+    program = SandboxedProgram(server, ProgramSettings(dedent(source), mode="live", topics=TOPICS))
     program.start()
     return program
 
 
-def until(program: BoxedProgram, is_it: Callable[[ProgramEvent], bool]) -> list[ProgramEvent]:
+def until(program: SandboxedProgram, is_it: Callable[[ProgramEvent], bool]) -> list[ProgramEvent]:
     """All events up to the first that `is_it`."""
     events: list[ProgramEvent] = []
     ends_s = time.monotonic() + PATIENCE_S

@@ -1,4 +1,4 @@
-"""Nothing that comes out of the box can hurt its host: the pipe is read strictly, and its end ends the program."""
+"""Nothing that comes out of the sandbox can hurt its host: the pipe is read strictly, and its end ends the program."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from chatrobot.box.limits import BoxLimits
-from chatrobot.box.process import ExitReport
-from chatrobot.programs.boxed import TEXT_BYTES, BoxedProgram
 from chatrobot.programs.events import ENDS, Beat, Died, Ended, Log, TwistAsked, read_event
 from chatrobot.programs.frames import LARGEST_FROM_PROGRAM, FrameReader, PipeError, encode
+from chatrobot.programs.sandboxed import TEXT_BYTES, SandboxedProgram
 from chatrobot.programs.settings import ProgramSettings
+from chatrobot.sandbox.limits import SandboxLimits
+from chatrobot.sandbox.process import ExitReport
 
 SECOND_NS = 1_000_000_000
 GOOD = (
@@ -67,14 +67,14 @@ class FakeServer:
         ours, self.theirs = socket.socketpair()
         self.process = FakeProcess(ours)
 
-    def launch(self, entry: str, payload: bytes = b"", limits: BoxLimits | None = None) -> Any:
+    def launch(self, entry: str, payload: bytes = b"", limits: SandboxLimits | None = None) -> Any:
         return self.process
 
 
 @pytest.fixture
-def fake() -> Iterator[tuple[FakeServer, BoxedProgram]]:
+def fake() -> Iterator[tuple[FakeServer, SandboxedProgram]]:
     server = FakeServer()
-    program = BoxedProgram(server, ProgramSettings(""))
+    program = SandboxedProgram(server, ProgramSettings(""))
     program.start()
     yield server, program
     program.close()
@@ -156,7 +156,7 @@ ATTACKS = {
 
 
 @pytest.mark.parametrize("attack", ATTACKS)
-def test_who_breaks_the_protocol_is_ended(fake: tuple[FakeServer, BoxedProgram], attack: str) -> None:
+def test_who_breaks_the_protocol_is_ended(fake: tuple[FakeServer, SandboxedProgram], attack: str) -> None:
     server, program = fake
     server.theirs.sendall(encode("beat", 1) + ATTACKS[attack])
     events = [event for _ in range(8) for event in program.poll()]
@@ -167,7 +167,7 @@ def test_who_breaks_the_protocol_is_ended(fake: tuple[FakeServer, BoxedProgram],
     assert program.poll() == []
 
 
-def test_what_is_said_after_the_end_does_not_count(fake: tuple[FakeServer, BoxedProgram]) -> None:
+def test_what_is_said_after_the_end_does_not_count(fake: tuple[FakeServer, SandboxedProgram]) -> None:
     server, program = fake
     server.theirs.sendall(encode("ended", 5, "returned", 0) + encode("twist", 6, 1.0, 0.0, 0.0, True))
     assert [type(event) for event in program.poll()] == [Ended]
@@ -175,7 +175,7 @@ def test_what_is_said_after_the_end_does_not_count(fake: tuple[FakeServer, Boxed
     assert program.poll() == []
 
 
-def test_a_pipe_that_closes_is_a_death_with_last_words(fake: tuple[FakeServer, BoxedProgram]) -> None:
+def test_a_pipe_that_closes_is_a_death_with_last_words(fake: tuple[FakeServer, SandboxedProgram]) -> None:
     server, program = fake
     server.theirs.close()
     (died,) = program.poll()
@@ -183,7 +183,7 @@ def test_a_pipe_that_closes_is_a_death_with_last_words(fake: tuple[FakeServer, B
     assert (died.reason.code, died.log) == ("program_vanished", "last words")
 
 
-def test_a_flood_is_read_in_small_sips_and_its_text_is_cut(fake: tuple[FakeServer, BoxedProgram]) -> None:
+def test_a_flood_is_read_in_small_sips_and_its_text_is_cut(fake: tuple[FakeServer, SandboxedProgram]) -> None:
     server, program = fake
     line = encode("log", 0, "INFO", "n", "x" * 8000)
     enough = 2 * TEXT_BYTES // 8000
@@ -201,7 +201,7 @@ def test_a_flood_is_read_in_small_sips_and_its_text_is_cut(fake: tuple[FakeServe
     assert most < 10
 
 
-def test_who_asks_and_never_listens_is_ended(fake: tuple[FakeServer, BoxedProgram]) -> None:
+def test_who_asks_and_never_listens_is_ended(fake: tuple[FakeServer, SandboxedProgram]) -> None:
     server, program = fake
     for _ in range(40):
         program.let_pass(1.0, 2.0, [["scan", 0.0, 0.0, 0.1, 0.1, 9.0, [1.0] * 10_000]])
@@ -211,7 +211,7 @@ def test_who_asks_and_never_listens_is_ended(fake: tuple[FakeServer, BoxedProgra
     assert isinstance(died, ENDS)
 
 
-def test_telling_never_blocks(fake: tuple[FakeServer, BoxedProgram]) -> None:
+def test_telling_never_blocks(fake: tuple[FakeServer, SandboxedProgram]) -> None:
     _, program = fake
     for _ in range(2000):
         program.tell("scan", [0.0, 0.0, 0.1, 0.1, 9.0, [1.0] * 1000])

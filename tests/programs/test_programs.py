@@ -1,13 +1,14 @@
-"""Programs as models and tutorials write them do in the box what they do under ROS, at the times they do it there."""
+"""Programs as models and tutorials write them do in the sandbox what they do under ROS, at the times they do it
+there."""
 
 from __future__ import annotations
 
 import pytest
 
-from chatrobot.box.warm_server import WarmServer
 from chatrobot.motion.programs.program_rehearsal import rehearse_program
 from chatrobot.programs.events import Ended, Raised
 from chatrobot.robots.load import load_profile
+from chatrobot.sandbox.warm_server import WarmServer
 from chatrobot.sim.load import load_world
 from tests.programs.expectations import Expected, all_programs, is_alike, phases_of
 

@@ -7,10 +7,10 @@ from textwrap import dedent
 
 import pytest
 
-from chatrobot.box.warm_server import WarmServer
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.motion.programs.program_rehearsal import ProgramRehearsal, rehearse_program
 from chatrobot.robots.load import load_profile
+from chatrobot.sandbox.warm_server import WarmServer
 from chatrobot.sim.load import load_world
 
 MEC = load_profile("wheeltec_mini_mec")

@@ -10,7 +10,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from chatrobot.box.warm_server import WarmServer
 from chatrobot.link.envelope import MAX_CODE_CHARS, Envelope
 from chatrobot.motion.programs.program_rehearsal import ProgramRehearsal, rehearse_program
 from chatrobot.programs.events import Ended, Raised
@@ -23,6 +22,7 @@ from chatrobot.programs.ros_args import (
     read_ros_args,
 )
 from chatrobot.robots.load import load_profile
+from chatrobot.sandbox.warm_server import WarmServer
 
 MEC = load_profile("wheeltec_mini_mec")
 DRIVER = """

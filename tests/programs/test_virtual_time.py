@@ -6,10 +6,10 @@ from textwrap import dedent
 
 import pytest
 
-from chatrobot.box.warm_server import WarmServer
 from chatrobot.motion.programs.program_rehearsal import ProgramRehearsal, rehearse_program
 from chatrobot.programs.events import Ended, Output
 from chatrobot.robots.load import load_profile
+from chatrobot.sandbox.warm_server import WarmServer
 
 MEC = load_profile("wheeltec_mini_mec")
 

@@ -13,7 +13,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import chatrobot.robots
-from chatrobot.box.warm_server import WarmServer
 from chatrobot.core.geometry import ORIGIN, Pose, wrap_angle
 from chatrobot.governor.kernel import make_kernel
 from chatrobot.motion.programs.program_rehearsal import ProgramRehearsal, rehearse_program
@@ -27,6 +26,7 @@ from chatrobot.programs.writing.fold import folded
 from chatrobot.programs.writing.program import class_name, node_name, write_program
 from chatrobot.programs.writing.wanted import Wanted
 from chatrobot.robots.load import load_profile
+from chatrobot.sandbox.warm_server import WarmServer
 from chatrobot.sim.load import load_world
 from chatrobot.sim.world import EMPTY_WORLD, World
 

@@ -19,7 +19,7 @@ CARRIERS = {"motion/safety/connection.py", "sim/marshalled.py", "sim/robot.py"}
 
 OTHER_GRAPHS = (
     "programs/",
-    "motion/programs/program_stage.py",
+    "motion/programs/rehearsal_environment.py",
     "motion/programs/program_execution.py",
     "wire/",
 )

@@ -234,8 +234,8 @@ _MORE = {
 
 
 def _box() -> Check:
-    """Build the box around nothing, and see which walls stand."""
-    from chatrobot.box.probe import probe
+    """Build the sandbox around nothing, and see which walls stand."""
+    from chatrobot.sandbox.probe import probe
 
     report = probe()
     if report.refusal is not None:

@@ -66,7 +66,7 @@ def _say(conversation: Conversation, draft_of: Callable[[Authoring], Draft], giv
 
 
 def _given(args: argparse.Namespace) -> list[str]:
-    """The program's own command line, its parameter files read: in the box it can open none.
+    """The program's own command line, its parameter files read: in the sandbox it can open none.
 
     Raises:
         InputError: it cannot be given to a program.

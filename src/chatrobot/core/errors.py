@@ -9,7 +9,7 @@ ChatRobotError                 something broke or was given to us broken
 │   └── UsageError             a command-line option or an API argument
 ├── WireError                  the publish/subscribe layer lost its other end
 ├── JointError                 Motion could not be started or does not answer
-├── BoxError                   the box for programs could not be built or has fallen; carries the Reason
+├── SandboxError                   the sandbox for programs could not be built or has fallen; carries the Reason
 └── SafetyError                a rule of the safety design would be broken: never caught, always fatal
 """
 
@@ -73,8 +73,8 @@ class JointError(ChatRobotError):
     """Motion could not be started, or its process is gone."""
 
 
-class BoxError(ChatRobotError):
-    """Programs cannot be boxed in here, or their warm server is gone.
+class SandboxError(ChatRobotError):
+    """Programs cannot be sandboxed in here, or their warm server is gone.
 
     Args:
         reason: what a person is told.

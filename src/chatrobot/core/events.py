@@ -88,7 +88,7 @@ class ProgramWritten(Event):
 
 @dataclass(frozen=True)
 class ProgramRehearsed(Event):
-    """What the program did in its box on virtual time, besides what `rehearsed` tells, which follows.
+    """What the program did in its sandbox on virtual time, besides what `rehearsed` tells, which follows.
 
     `ended` says how: it `returned`, called `exit`, `raised`, `died`, was `stuck` waiting for nothing, or still ran at
     the `horizon`. `problem` is its traceback or the like, `line` where in the program that was, 0 for nowhere.

@@ -21,8 +21,8 @@ from chatrobot.motion.outcomes import OutcomeQueue
 from chatrobot.motion.paused import PausedGoal, Pausing, is_foreign, why_not_kept
 from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planned, Planner, refused
-from chatrobot.motion.programs.program_box import ProgramBox
 from chatrobot.motion.programs.program_goal import ProgramGoal, goal_of, needs_approval
+from chatrobot.motion.programs.program_sandbox import ProgramSandbox
 from chatrobot.motion.safety.stop import Stops
 from chatrobot.motion.stream import Stream
 
@@ -39,7 +39,7 @@ class GoalServer:
         goal_queue: GoalQueue,
         executor: PlanExecutor,
         planner: Planner,
-        programs: ProgramBox,
+        programs: ProgramSandbox,
         budgets: Budgets,
         stops: Stops,
         inbox: Inbox,

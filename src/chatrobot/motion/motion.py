@@ -29,7 +29,7 @@ from chatrobot.motion.outcomes import OutcomeQueue
 from chatrobot.motion.paused import Pausing
 from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planner
-from chatrobot.motion.programs.program_box import NoBox, ProgramBox
+from chatrobot.motion.programs.program_sandbox import NoSandbox, ProgramSandbox
 from chatrobot.motion.safety.guard_link import GuardLink
 from chatrobot.motion.safety.interlock import Interlock
 from chatrobot.motion.safety.stall_detector import StallDetector
@@ -67,13 +67,13 @@ class Motion:
         emit: Callable[[Event], None],
         background: Callable[[Callable[[], None]], None],
         releasers: Collection[str] = RELEASERS,
-        programs: ProgramBox | None = None,
+        programs: ProgramSandbox | None = None,
     ) -> None:
         self._profile = profile
         self._clock = clock
         self._guard = guard
         self._emit = emit
-        self._programs = programs = programs or NoBox()
+        self._programs = programs = programs or NoSandbox()
         epoch = StopEpoch()
         transport = WireTransport(wire, profile.wiring, epoch)
         self._governor = Governor(profile, epoch, planner.allowed_area, releasers)

@@ -19,9 +19,9 @@ from chatrobot.motion.goal_execution import GoalExecution
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.inbox import Inbox
 from chatrobot.motion.outcomes import OutcomeQueue
-from chatrobot.motion.programs.program_box import ProgramBox
 from chatrobot.motion.programs.program_execution import LiveProgram, ProgramExecution
 from chatrobot.motion.programs.program_goal import ProgramGoal
+from chatrobot.motion.programs.program_sandbox import ProgramSandbox
 from chatrobot.motion.safety.interlock import Interlock
 from chatrobot.motion.safety.stop import Stops
 
@@ -39,7 +39,7 @@ class PlanExecutor:
         robot: GovernedRobot,
         interlock: Interlock,
         stops: Stops,
-        programs: ProgramBox,
+        programs: ProgramSandbox,
         inbox: Inbox,
         clock: Clock,
         outcomes: OutcomeQueue,
@@ -82,7 +82,7 @@ class PlanExecutor:
             self._set_out(GoalExecution(goal, self._robot, self._emit, now_s), now_s)
 
     def _launch_program(self, goal: ProgramGoal) -> None:
-        """Start it in its box, off this thread; it runs from the moment it is there."""
+        """Start it in its sandbox, off this thread; it runs from the moment it is there."""
 
         def take(program: LiveProgram | Reason) -> None:
             if isinstance(program, Reason):

@@ -1,1 +1,1 @@
-"""Programs for the robot: taken out of replies, written, read through, run in the box, kept and exported."""
+"""Programs for the robot: taken out of replies, written, read through, run in the sandbox, kept and exported."""

@@ -1,6 +1,6 @@
 """What can be seen by reading a program: syntax, imports, risky lines, another robot's topic. Advice, never the fence.
 
-What contains a program is the box, whatever this file overlooks.
+What contains a program is the sandbox, whatever this file overlooks.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ ROBOT_MODULES = frozenset(
         "example_interfaces.msg", "example_interfaces.srv",
     }
 )  # fmt: skip
-"""What stands in the box for ROS 2."""
+"""What stands in the sandbox for ROS 2."""
 
 FORBIDDEN_MODULES = frozenset(
     {

@@ -1,4 +1,4 @@
-"""What a boxed program does, as its host hears it. Read strictly: the program may say anything.
+"""What a sandboxed program does, as its host hears it. Read strictly: the program may say anything.
 
 Times are seconds since the program's start, by the program's own clock; a live program may lie about them, so the
 host goes by its own.

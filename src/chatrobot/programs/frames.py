@@ -1,7 +1,7 @@
-"""Frames on the pipe between a boxed program and its host: a length, and a list in JSON. Both sides use this.
+"""Frames on the pipe between a sandboxed program and its host: a length, and a list in JSON. Both sides use this.
 
-Nothing that comes out of the box is trusted: a frame is bounded, and whatever is not a list that begins with a word is
-a `PipeError`.
+Nothing that comes out of the sandbox is trusted: a frame is bounded, and whatever is not a list that begins
+with a word is a `PipeError`.
 """
 
 from __future__ import annotations

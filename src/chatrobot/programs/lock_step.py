@@ -9,7 +9,6 @@ from typing import Any, Protocol
 
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
-from chatrobot.programs.boxed import BoxedProgram
 from chatrobot.programs.events import (
     AsksTime,
     Died,
@@ -22,6 +21,7 @@ from chatrobot.programs.events import (
     TopicNoticed,
     TwistAsked,
 )
+from chatrobot.programs.sandboxed import SandboxedProgram
 
 POLL_S = 0.2
 
@@ -79,7 +79,7 @@ class Played:
         )
 
 
-def play(program: BoxedProgram, stage: Stage, wall_limit_s: float) -> Played:
+def play(program: SandboxedProgram, stage: Stage, wall_limit_s: float) -> Played:
     """Start `program`, let it live with `stage` to its end, and close it.
 
     A program that takes longer than `wall_limit_s` here is ended: `Died` of `program_too_busy`.
@@ -100,7 +100,7 @@ def play(program: BoxedProgram, stage: Stage, wall_limit_s: float) -> Played:
     return played
 
 
-def _take(event: ProgramEvent, program: BoxedProgram, stage: Stage, played: Played) -> None:
+def _take(event: ProgramEvent, program: SandboxedProgram, stage: Stage, played: Played) -> None:
     if isinstance(event, Died):
         played.end = event
         return

@@ -1,7 +1,7 @@
 """Command-line arguments as ROS 2 reads them: what stands between `--ros-args` and `--`, or the end.
 
 `-p [NODE:]NAME:=VALUE`, `-r [NODE:]FROM:=TO` (`__node`, `__ns`, `rostopic://…` and `rosservice://…` among them), and
-`--log-level [LOGGER:=]LEVEL`. Used by the host, which refuses what cannot be read, and by `rclpy` in the box.
+`--log-level [LOGGER:=]LEVEL`. Used by the host, which refuses what cannot be read, and by `rclpy` in the sandbox.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ def read_ros_args(args: Sequence[str]) -> RosArguments:
     """The ROS arguments among `args`.
 
     Raises:
-        RosArgumentsError: one of them cannot be read, or names a file: no file can be opened in the box.
+        RosArgumentsError: one of them cannot be read, or names a file: no file can be opened in the sandbox.
     """
     parameters: list[Rule] = []
     remaps: list[Rule] = []

@@ -18,7 +18,7 @@ Mode = Literal["virtual", "live"]
 
 @dataclass(frozen=True)
 class ProgramSettings:
-    """All that goes into the box besides the code that is there anyway.
+    """All that goes into the sandbox besides the code that is there anyway.
 
     `topics` maps what the robot has (cmd_vel, odom, scan, imu, battery, bumper) to resolved ROS names (`/cmd_vel`).
     `remaps` maps names as ROS's remapping does (`/turtle1/cmd_vel` to `/cmd_vel`); `args` are its command-line

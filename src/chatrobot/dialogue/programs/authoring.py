@@ -1,6 +1,6 @@
 """Programs on the understanding side: asked for, written (offline or by a model), read through, mended, kept.
 
-Nothing here runs a program: its source goes to Motion, which rehearses it in the box.
+Nothing here runs a program: its source goes to Motion, which rehearses it in the sandbox.
 """
 
 from __future__ import annotations

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from chatrobot.core.reason import Reason
 from chatrobot.governor.tick import TICK_S
 from chatrobot.motion.programs.program_senses import Senses, stamped
-from chatrobot.programs.boxed import BoxedProgram
 from chatrobot.programs.events import ENDS, AsksTime, Beat, Died, Listens, ProgramEvent
+from chatrobot.programs.sandboxed import SandboxedProgram
 
 POLLS_A_TICK = 8
 """A flood is read on with the next tick: the control loop has other work."""
@@ -22,7 +22,7 @@ _SLACK_S = 1e-9
 class RealTimeProgram:
     """It runs by itself; what it said since the last tick is read, what sensors said is passed on."""
 
-    def __init__(self, program: BoxedProgram, senses: Senses) -> None:
+    def __init__(self, program: SandboxedProgram, senses: Senses) -> None:
         self._program = program
         self._senses = senses
 
@@ -48,7 +48,7 @@ class RealTimeProgram:
 class InStepProgram:
     """It lives on virtual time: it gets as much of it as has passed, and what sensors said meanwhile."""
 
-    def __init__(self, program: BoxedProgram, senses: Senses) -> None:
+    def __init__(self, program: SandboxedProgram, senses: Senses) -> None:
         self._program = program
         self._senses = senses
         self._coming: deque[ProgramEvent] = deque()

@@ -1,4 +1,4 @@
-"""One program under way in its box: what it asks goes through the governor at 50 Hz, and the end is measured.
+"""One program under way in its sandbox: what it asks goes through the governor at 50 Hz, and the end is measured.
 
 Its last velocity is held while it beats, for as long as the profile says that the base would hold it. Whatever ends
 it (its own end, an exception, a kill, silence), the robot is brought to stand.
@@ -35,7 +35,7 @@ LOG_LINES = 500
 
 
 class LiveProgram(Protocol):
-    """A program that is running: `BoxedProgram` in real time, or in step with a simulation."""
+    """A program that is running: `SandboxedProgram` in real time, or in step with a simulation."""
 
     def poll_until(self, now_s: float) -> Sequence[ProgramEvent]:
         """What it did up to `now_s` after its launch. Never blocks on a real clock."""

@@ -13,7 +13,7 @@ from chatrobot.motion.planner import Planned
 
 @dataclass
 class ProgramGoal(Goal):
-    """A `Goal` whose plan is a program in the box.
+    """A `Goal` whose plan is a program in the sandbox.
 
     `ask_findings` asks for a yes where rehearsal found something; `strict` refuses it then, so that it can be mended.
     """

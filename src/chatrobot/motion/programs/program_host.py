@@ -1,8 +1,8 @@
-"""The box as Motion uses it: one warm server, programs rehearsed in it and started from it."""
+"""The sandbox as Motion uses it: one warm server, programs rehearsed in it and started from it."""
 
 from __future__ import annotations
 
-from chatrobot.core.errors import BoxError
+from chatrobot.core.errors import SandboxError
 from chatrobot.core.reason import Reason
 from chatrobot.motion.planner import Planned, Planner
 from chatrobot.motion.programs.live_program import InStepProgram, RealTimeProgram
@@ -12,15 +12,15 @@ from chatrobot.motion.programs.program_goal import ProgramGoal
 from chatrobot.motion.programs.program_rehearsal import rehearse_program
 from chatrobot.motion.programs.program_senses import Senses
 from chatrobot.motion.remembered_obstacles import RememberedObstacles
-from chatrobot.programs.boxed import BoxedProgram, warm_server
 from chatrobot.programs.events import LATEST_S
+from chatrobot.programs.sandboxed import SandboxedProgram, warm_server
 from chatrobot.programs.settings import ProgramSettings, robot_topics
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.wire import Wire
 
 
 class ProgramHost:
-    """A `ProgramBox`. Its server starts with the first program, and anew where it has died.
+    """A `ProgramSandbox`. Its server starts with the first program, and anew where it has died.
 
     Args:
         is_in_step: programs run on the virtual clock of a simulation, not in real time.
@@ -49,7 +49,7 @@ class ProgramHost:
                 args=goal.args,
                 seen=seen,
             )
-        except BoxError as error:
+        except SandboxError as error:
             return Planned(goal.turn, None, error.reason)
         return PlannedProgram(goal.turn, None, program=rehearsal, name=goal.name, strict=goal.strict)
 
@@ -64,12 +64,12 @@ class ProgramHost:
             args=goal.args,
             horizon_s=LATEST_S,
         )
-        program = BoxedProgram(self._server, settings)
+        program = SandboxedProgram(self._server, settings)
         self._senses.forget()
         try:
             self._warm()
             program.start()
-        except BoxError as error:
+        except SandboxError as error:
             return error.reason
         kind = InStepProgram if self._is_in_step else RealTimeProgram
         return kind(program, self._senses)

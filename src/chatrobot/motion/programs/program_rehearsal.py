@@ -1,6 +1,6 @@
-"""Rehearses a program: it runs in the box on virtual time, and what it would do is looked at before a wheel turns.
+"""Rehearses a program: it runs in the sandbox on virtual time, and what it would do is looked at before a wheel turns.
 
-with warm_server() as server:       # chatrobot.programs.boxed; start it once, keep it
+with warm_server() as server:       # chatrobot.programs.sandboxed; start it once, keep it
     rehearsal = rehearse_program(server, source, profile, world, start)
     rehearsal.ok, rehearsal.path, rehearsal.findings, rehearsal.stopped_at_end, rehearsal.cmd_vel
 """
@@ -13,26 +13,26 @@ from typing import Any
 
 import numpy as np
 
-from chatrobot.box.limits import BoxLimits
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.core.reason import Reason
-from chatrobot.motion.programs.program_stage import ProgramStage, limited_reason
+from chatrobot.motion.programs.rehearsal_environment import RehearsalEnvironment, limited_reason
 from chatrobot.motion.remembered_obstacles import RememberedObstacles, with_seen
 from chatrobot.plan.findings import Finding, Severity
 from chatrobot.plan.known_world import Contact, Floats
 from chatrobot.plan.rehearsal import MARGIN_M
 from chatrobot.plan.sweep import area_clearance, first_contact
-from chatrobot.programs.boxed import BoxedProgram, Launcher
 from chatrobot.programs.events import Died, Ended, Log, Output, Raised, TopicNoticed
 from chatrobot.programs.lock_step import Played, play
 from chatrobot.programs.raised import raised_reason
+from chatrobot.programs.sandboxed import Launcher, SandboxedProgram
 from chatrobot.programs.settings import ProgramSettings, robot_topics
 from chatrobot.robots.profile import RobotProfile
+from chatrobot.sandbox.limits import SandboxLimits
 from chatrobot.sim.world import EMPTY_WORLD, World
 
 HORIZON_S = 60.0
 WALL_LIMIT_S = 10.0
-LIMITS = BoxLimits(cpu_s=10)
+LIMITS = SandboxLimits(cpu_s=10)
 _HARMLESS = ("box_tried_files", "box_tried_memory", "box_tried_threads")
 """Honest programs try these, and some can do without."""
 _TWISTS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
@@ -100,7 +100,7 @@ def rehearse_program(
     wall_limit_s: float = WALL_LIMIT_S,
     seen: RememberedObstacles | None = None,
 ) -> ProgramRehearsal:
-    """Rehearse `source` from `start` (odom frame), at most to `horizon_s` of its own time. Raises BoxError.
+    """Rehearse `source` from `start` (odom frame), at most to `horizon_s` of its own time. Raises SandboxError.
 
     `seen` is what the lidar has seen: the program sees it, too.
     """
@@ -113,15 +113,15 @@ def rehearse_program(
         horizon_s=horizon_s,
     )
     area = world.allowed_area.points if world.allowed_area is not None else None
-    stage = ProgramStage(
+    environment = RehearsalEnvironment(
         profile, with_seen(world, seen.clear_of(start)) if seen is not None else world, start
     )
-    played = play(BoxedProgram(server, settings, LIMITS), stage, wall_limit_s)
-    stage.finish()
-    path = np.array(stage.path)
+    played = play(SandboxedProgram(server, settings, LIMITS), environment, wall_limit_s)
+    environment.finish()
+    path = np.array(environment.path)
     findings = [
         *_about_the_end(played, horizon_s),
-        *_about_motion(played, stage),
+        *_about_motion(played, environment),
         *_about_topics(played, settings),
     ]
     findings += _about_the_way(path, profile, world, area, seen)
@@ -177,8 +177,8 @@ def _about_the_end(played: Played, horizon_s: float) -> Iterator[Finding]:
         yield Finding("warn" if attempt.code in _HARMLESS else "refuse", attempt, t_s=played.duration_s)
 
 
-def _about_motion(played: Played, stage: ProgramStage) -> Iterator[Finding]:
-    for t_s, verdict in stage.limited.values():
+def _about_motion(played: Played, environment: RehearsalEnvironment) -> Iterator[Finding]:
+    for t_s, verdict in environment.limited.values():
         if not verdict.asked.is_finite:
             yield _found("refuse", "program_not_finite", t_s)
         else:

@@ -10,7 +10,7 @@ LONGEST_TEXT = 8 * 1024
 
 
 def preload() -> None:
-    """Have all imported that a traceback needs when it is shown: in the box it is too late."""
+    """Have all imported that a traceback needs when it is shown: in the sandbox it is too late."""
     try:
         sum([1, "2"])  # type: ignore[list-item]
     except TypeError:

@@ -1,4 +1,4 @@
-"""Where a boxed process begins: it puts the names and the time in place, and runs the program."""
+"""Where a sandboxed process begins: it puts the names and the time in place, and runs the program."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""asyncio without a socket: the box has none, on virtual time or live. The loop waits on an event instead."""
+"""asyncio without a socket: the sandbox has none, on virtual time or live. The loop waits on an event instead."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class EventSelector(selectors.BaseSelector):
         return {}
 
 
-class BoxedEventLoop(asyncio.SelectorEventLoop):
+class SandboxedEventLoop(asyncio.SelectorEventLoop):
     """Woken by its selector, not by a pair of sockets."""
 
     def __init__(self) -> None:
@@ -58,5 +58,5 @@ def install() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DeprecationWarning)  # policies go with Python 3.16, and so will this
         policy = asyncio.get_event_loop_policy()
-    cast(Any, type(policy))._loop_factory = BoxedEventLoop
-    cast(Any, asyncio).SelectorEventLoop = BoxedEventLoop
+    cast(Any, type(policy))._loop_factory = SandboxedEventLoop
+    cast(Any, asyncio).SelectorEventLoop = SandboxedEventLoop

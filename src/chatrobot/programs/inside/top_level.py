@@ -13,7 +13,7 @@ PREFIX = f"{names.__name__}."
 
 
 def preload() -> list[str]:
-    """Import every module of `names`, and what stands behind them: in the box no file can be opened."""
+    """Import every module of `names`, and what stands behind them: in the sandbox no file can be opened."""
     found = sorted(info.name for info in pkgutil.walk_packages(names.__path__, PREFIX))
     for name in found:
         importlib.import_module(name)

@@ -1,6 +1,6 @@
 """Puts virtual time in the place of real time: in `time`, `datetime`, `threading`, `queue`, `select` and `asyncio`.
 
-Called once, in the box, before the program is compiled: its own imports (`from time import sleep`) then find what
+Called once, in the sandbox, before the program is compiled: its own imports (`from time import sleep`) then find what
 stands here.
 """
 
@@ -182,7 +182,7 @@ def _install_threads(scheduler: Scheduler) -> None:
 
 
 def _install_select(scheduler: Scheduler) -> None:
-    """In the box there is nothing to read from: a select is a wait."""
+    """In the sandbox there is nothing to read from: a select is a wait."""
 
     def wait(
         _r: Any, _w: Any, _x: Any, timeout: float | None = None

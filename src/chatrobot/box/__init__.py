@@ -1,9 +1,0 @@
-"""The box: where a program that a model wrote runs, so that nothing but its one channel leads out.
-
-    server = WarmServer(path=[folder], preload=["runner"])     chatrobot.box.warm_server
-    server.start()
-    process = server.launch("runner:main", payload)            chatrobot.box.process
-    process.channel.recv(4096)
-
-`chatrobot.box.probe` says which walls stand on this machine.
-"""
