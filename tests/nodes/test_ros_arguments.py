@@ -19,7 +19,7 @@ import yaml
 from chatrobot.cli import node as command
 from chatrobot.cli import ros_run, sim
 from chatrobot.cli.arguments import parse, split_ros_args
-from chatrobot.cli.ros_node import open_citizen
+from chatrobot.cli.ros_node import open_ros_interfaces
 from chatrobot.core.errors import UsageError
 from chatrobot.core.motion_budget import MotionBudget
 from chatrobot.nodes import control
@@ -124,8 +124,8 @@ def test_open_loop_is_a_parameter_and_brings_its_robot(ros: fake_rclpy.Ros) -> N
     def values(*ros_args: str) -> dict[str, Any]:
         args = parse(["node", "control", "--on", "ros", "--ros-args", *ros_args])
         args.approval = "profile"
-        citizen = open_citizen(args, "ros:", args.ros_args)
-        citizen.node.close()
+        ros_interfaces = open_ros_interfaces(args, "ros:", args.ros_args)
+        ros_interfaces.node.close()
         return {name: getattr(args, name) for name in ("robot", "open_loop")}
 
     assert values() == {"robot": "wheeltec_mini_mec", "open_loop": False}

@@ -361,7 +361,7 @@ def _rclpy(ros: Ros) -> dict[str, ModuleType]:
     return made
 
 
-_OVER_RCLPY = ("wire.ros.convert", "wire.ros.node", "wire.ros.wire", "nodes.citizen")
+_OVER_RCLPY = ("wire.ros.convert", "wire.ros.node", "wire.ros.wire", "nodes.ros_interfaces")
 
 
 def install(monkeypatch: pytest.MonkeyPatch) -> Ros:

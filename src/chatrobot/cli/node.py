@@ -16,7 +16,7 @@ from chatrobot.core.scheduling import wake_promptly
 from chatrobot.wire.connect import Connect, connect_wire
 
 if TYPE_CHECKING:
-    from chatrobot.nodes.citizen import Citizen
+    from chatrobot.nodes.ros_interfaces import RosInterfaces
 
 REPEATS_S = 2.0
 """`ros2 launch` sends each node the Ctrl-C that the terminal has sent it already: so soon it is the same one."""
@@ -30,27 +30,27 @@ def run(args: argparse.Namespace) -> int:
     args.approval = "all" if args.approve else "none" if args.yes else "profile"
     ros_args = [*args.ros_args, *(word for given in args.parameters for word in ("-p", given))]
     if _address(args).startswith("ros:"):
-        from chatrobot.cli.ros_node import open_citizen
+        from chatrobot.cli.ros_node import open_ros_interfaces
 
-        citizen = open_citizen(args, _address(args), ros_args)
-        connect: Connect = citizen.connect
+        ros_interfaces = open_ros_interfaces(args, _address(args), ros_args)
+        connect: Connect = ros_interfaces.connect
     else:
-        citizen, connect = None, connect_wire
+        ros_interfaces, connect = None, connect_wire
         vars(args).update(read_parameters(parameters_in(ros_args)))
     has_left = {"input": _run_input, "base": _run_base, "control": _run_control}[args.which](
-        args, citizen, connect
+        args, ros_interfaces, connect
     )
-    return STOPPED if has_left and citizen is None else 0
+    return STOPPED if has_left and ros_interfaces is None else 0
 
 
-def _run_control(args: argparse.Namespace, citizen: Citizen | None, connect: Connect) -> bool:
+def _run_control(args: argparse.Namespace, ros_interfaces: RosInterfaces | None, connect: Connect) -> bool:
     from chatrobot.core.events import Event, Started
     from chatrobot.link.topics import CHATGPT_NODE
     from chatrobot.nodes.control import ControlNode, ControlOptions
     from chatrobot.nodes.log import Log, on_stderr
     from chatrobot.nodes.told import told
 
-    log = Log(on_stderr if citizen is None else citizen.log)
+    log = Log(on_stderr if ros_interfaces is None else ros_interfaces.log)
 
     def note(event: Event) -> None:
         line = told(event)
@@ -83,15 +83,15 @@ def _run_control(args: argparse.Namespace, citizen: Citizen | None, connect: Con
         return watch.is_leaving
 
     with contextlib.closing(log), SignalWatch(stop, repeats_s=REPEATS_S) as watch:
-        if citizen is not None:
-            node.introduce(citizen)
+        if ros_interfaces is not None:
+            node.introduce(ros_interfaces)
         way = f"{node.resolved(CHATGPT_NODE)} → {node.cmd_vel_topic}"
         log("info", f"control drives {args.robot} on {_place(args)}: {way}; Ctrl-C stops and ends")
         node.run(is_leaving)
     return True
 
 
-def _run_base(args: argparse.Namespace, citizen: Citizen | None, connect: Connect) -> bool:
+def _run_base(args: argparse.Namespace, ros_interfaces: RosInterfaces | None, connect: Connect) -> bool:
     from chatrobot.cli.choices import model_from
     from chatrobot.cli.folders import config_folder
     from chatrobot.dialogue.llm.terms import ModelOptions
@@ -99,7 +99,7 @@ def _run_base(args: argparse.Namespace, citizen: Citizen | None, connect: Connec
     from chatrobot.nodes.base import BaseNode, BaseOptions
     from chatrobot.nodes.log import Log
 
-    log = Log((lambda _, text: _say(text)) if citizen is None else citizen.log)
+    log = Log((lambda _, text: _say(text)) if ros_interfaces is None else ros_interfaces.log)
     node = BaseNode(
         BaseOptions(
             _address(args),
@@ -118,15 +118,15 @@ def _run_base(args: argparse.Namespace, citizen: Citizen | None, connect: Connec
         connect,
     )
     with contextlib.closing(log), SignalWatch(node.stop, repeats_s=REPEATS_S) as watch:
-        if citizen is not None:
-            node.introduce(citizen)
+        if ros_interfaces is not None:
+            node.introduce(ros_interfaces)
         way = f"{node.resolved(USER_INPUT)} → {node.resolved(CHATGPT_NODE)}"
         ready = f"base understands for {args.robot} on {_place(args)}: {way}"
         node.run(lambda: watch.is_leaving, lambda: log("info", ready))
     return True
 
 
-def _run_input(args: argparse.Namespace, _: Citizen | None, connect: Connect) -> bool:
+def _run_input(args: argparse.Namespace, _: RosInterfaces | None, connect: Connect) -> bool:
     """On standard output alone: it is a person's terminal, and what is said is on topics already."""
     from chatrobot.cli.lines import LineReader
     from chatrobot.language.phrases import say

@@ -11,17 +11,17 @@ from chatrobot.nodes.parameters import PARAMETERS, Value
 from chatrobot.wire.connect import domain_and_namespace, require_ros
 
 if TYPE_CHECKING:
-    from chatrobot.nodes.citizen import Citizen
+    from chatrobot.nodes.ros_interfaces import RosInterfaces
 
 
-def open_citizen(args: argparse.Namespace, address: str, ros_args: list[str]) -> Citizen:
+def open_ros_interfaces(args: argparse.Namespace, address: str, ros_args: list[str]) -> RosInterfaces:
     """The node, with its parameters written into `args`. Command-line options are their defaults.
 
     Raises:
         UsageError: ROS is not here, or what it was given cannot be used.
     """
     require_ros()
-    from chatrobot.nodes.citizen import Citizen
+    from chatrobot.nodes.ros_interfaces import RosInterfaces
 
     type_as_ros_args()
     given: dict[str, Value] = {
@@ -42,7 +42,7 @@ def open_citizen(args: argparse.Namespace, address: str, ros_args: list[str]) ->
         "max_time_s": _parameter_of(args.max_time),
     }
     domain_id, namespace = domain_and_namespace(address)
-    citizen = Citizen(
+    ros_interfaces = RosInterfaces(
         f"chatrobot_{args.which}",
         PARAMETERS[args.which],
         given,
@@ -50,12 +50,12 @@ def open_citizen(args: argparse.Namespace, address: str, ros_args: list[str]) ->
         namespace=namespace,
         domain_id=domain_id,
     )
-    vars(args).update(citizen.values)
+    vars(args).update(ros_interfaces.values)
     args.config_dir = args.config_dir or None
     if args.which == "control":
         args.max_distance = _limit_of(args.max_distance_m)
         args.max_time = _limit_of(args.max_time_s)
-    return citizen
+    return ros_interfaces
 
 
 def _parameter_of(limit: float | None) -> float:

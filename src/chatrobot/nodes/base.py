@@ -64,7 +64,7 @@ from chatrobot.wire.connect import (
 from chatrobot.wire.messages import Flag, Text
 
 if TYPE_CHECKING:
-    from chatrobot.nodes.citizen import Citizen, Diagnosis
+    from chatrobot.nodes.ros_interfaces import Diagnosis, RosInterfaces
 
 NODE = "chatrobot_base"
 PUMP_S = 0.1
@@ -179,10 +179,10 @@ class BaseNode:
         """Stop the robot and drop what waits; from any thread."""
         self._session.stop(why)
 
-    def introduce(self, citizen: Citizen) -> None:
+    def introduce(self, ros_interfaces: RosInterfaces) -> None:
         """Offer to ROS what a node of it offers."""
-        citizen.serve("~/stop", self._serve_stop)
-        citizen.diagnose(self._options.profile, self._diagnose)
+        ros_interfaces.serve("~/stop", self._serve_stop)
+        ros_interfaces.diagnose(self._options.profile, self._diagnose)
 
     # --- the wire's thread ---
 
@@ -194,7 +194,7 @@ class BaseNode:
         return True, "stop sent to control"
 
     def _diagnose(self) -> Diagnosis:
-        from chatrobot.nodes.citizen import Diagnosis
+        from chatrobot.nodes.ros_interfaces import Diagnosis
 
         values = {"interpreter": self._options.interpreter, "profile": self._options.profile}
         if not self._joint.has_control:

@@ -27,7 +27,7 @@ from chatrobot.wire.connect import Connect, advertise, connect_wire, resolved
 from chatrobot.wire.messages import Text
 
 if TYPE_CHECKING:
-    from chatrobot.nodes.citizen import Citizen, Diagnosis
+    from chatrobot.nodes.ros_interfaces import Diagnosis, RosInterfaces
 
 NODE = "chatrobot_control"
 BASE = "base"
@@ -128,13 +128,13 @@ class ControlNode:
         """Zero, now, from any thread."""
         self._runner.halt("control", why)
 
-    def introduce(self, citizen: Citizen) -> None:
+    def introduce(self, ros_interfaces: RosInterfaces) -> None:
         """Offer to ROS what a node of it offers."""
-        citizen.serve("~/stop", self._serve_stop)
-        citizen.serve("~/emergency_stop", self._serve_emergency_stop)
+        ros_interfaces.serve("~/stop", self._serve_stop)
+        ros_interfaces.serve("~/emergency_stop", self._serve_emergency_stop)
         if self._options.release:
-            citizen.serve("~/release", self._serve_release)
-        citizen.diagnose(self._options.profile, self._diagnose)
+            ros_interfaces.serve("~/release", self._serve_release)
+        ros_interfaces.diagnose(self._options.profile, self._diagnose)
 
     def leave(self) -> None:
         """Take no more plans. From any thread."""
@@ -165,7 +165,7 @@ class ControlNode:
         return Envelope(word, source, SERVICE, time.monotonic_ns())
 
     def _diagnose(self) -> Diagnosis:
-        from chatrobot.nodes.citizen import Diagnosis
+        from chatrobot.nodes.ros_interfaces import Diagnosis
 
         motion = self._runner.motion
         barred = motion.latched or motion.interlock.obstruction

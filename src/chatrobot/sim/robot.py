@@ -1,4 +1,4 @@
-"""The simulated robot: a citizen of a wire like any other robot, that moves when somebody lets time pass."""
+"""The simulated robot: a ROS node of a wire like any other robot, that moves when somebody lets time pass."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The simulated robot in real time, on a local wire whose hub it runs, or as a citizen of any other wire."""
+"""The simulated robot in real time, on a local wire whose hub it runs, or as a ROS node of any other wire."""
 
 from __future__ import annotations
 

@@ -32,7 +32,7 @@ class Diagnosis(NamedTuple):
     values: Mapping[str, object]
 
 
-class Citizen:
+class RosInterfaces:
     """A ROS node with its parameters read, before anything else is known of it.
 
     Args:

@@ -168,7 +168,7 @@ def test_motion_keeps_the_simulation_s_time_and_the_guard_real_time(
 def test_without_a_clock_a_node_that_follows_simulated_time_does_not_start(
     monkeypatch: pytest.MonkeyPatch, ros: fake_rclpy.Ros
 ) -> None:
-    monkeypatch.setattr(import_module("chatrobot.nodes.citizen"), "SIMULATED_TIME_S", 0.05)
+    monkeypatch.setattr(import_module("chatrobot.nodes.ros_interfaces"), "SIMULATED_TIME_S", 0.05)
     with pytest.raises(WireError, match="/clock"):
         command.run(parse(["node", "base", "--on", "ros", "--ros-args", "-p", "use_sim_time:=true"]))
     assert not ros.nodes
