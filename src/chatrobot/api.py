@@ -68,7 +68,7 @@ def connect(
 
     Raises:
         InputError: an option cannot be used; it says what is allowed.
-        JointError: the robot's processes do not start.
+        LinkError: the robot's processes do not start.
     """
     on, robot = (
         _text_of("on", on, "'sim', 'dds', 'ros' or 'rosbridge'"),

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from chatrobot.core.clock import VirtualClock
-from chatrobot.core.errors import JointError, UsageError
+from chatrobot.core.errors import LinkError, UsageError
 from chatrobot.core.events import Event, TruePose
 from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.dialogue.llm.camera import Camera, PassedCamera, wire_camera
@@ -22,7 +22,7 @@ from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring
 from chatrobot.dialogue.session import Session
 from chatrobot.dialogue.understanding import Understanding
-from chatrobot.link.in_process import SimulatedJoint
+from chatrobot.link.in_process import InProcessLink
 from chatrobot.link.processes import SIMULATED, MotionProcess, Processes
 from chatrobot.models.seam import Model
 from chatrobot.plan.context import RoutePlanner
@@ -94,7 +94,7 @@ def connect(setup: Setup, on_event: OnEvent) -> Connection:
     Raises:
         InputError: a profile, world or option is wrong; the message says where and what is allowed.
         WireError: nobody answers where the robot should be.
-        JointError: Motion or the simulated robot does not start.
+        LinkError: Motion or the simulated robot does not start.
     """
     on_wire = setup.on not in SIMULATED
     profile = load_profile(setup.robot, profile_dirs(setup.folder))
@@ -194,15 +194,13 @@ def _connect_simulated(
         planner = Planner(profile, world)
         return Motion(profile, wire, clock, planner, guard, emit, lambda job: job(), programs=programs)
 
-    joint = SimulatedJoint(build, wire, clock, robot.step, guard, hub.connect(), profile.wiring.cmd_vel_topic)
-    joint.live(SETTLE_S)
+    link = InProcessLink(build, wire, clock, robot.step, guard, hub.connect(), profile.wiring.cmd_vel_topic)
+    link.live(SETTLE_S)
     if setup.trace:
         hub.connect().subscribe(TRUTH_TOPIC, Odometry, _tracer(on_event))
-        joint.step()  # the trace begins before anything moves
+        link.step()  # the trace begins before anything moves
     authoring = _authoring(setup, profile, world, understanding)
-    session = Session(
-        joint, understanding, on_event, setup.options, authoring, model_setup_of(setup, profile)
-    )
+    session = Session(link, understanding, on_event, setup.options, authoring, model_setup_of(setup, profile))
 
     def close() -> None:
         session.close()
@@ -217,7 +215,7 @@ def _connect_simulated(
 def _connect_real_time(
     setup: Setup, profile: RobotProfile, world: World, understanding: Understanding, on_event: OnEvent
 ) -> Connection:
-    from chatrobot.link.socket_joint import SocketJoint
+    from chatrobot.link.socket_link import SocketLink
     from chatrobot.wire.local import LocalWire
 
     processes = setup.processes or Processes.start(
@@ -228,11 +226,11 @@ def _connect_real_time(
         open_loop=setup.open_loop,
     )
     processes.is_taken = True
-    joint = SocketJoint(processes.motion)
+    link = SocketLink(processes.motion)
     try:
         understanding.warm()
-        joint.wait_until_ready()
-    except JointError:
+        link.wait_until_ready()
+    except LinkError:
         processes.robot.terminate()
         raise
     setup.on_ready()
@@ -247,7 +245,7 @@ def _connect_real_time(
         trace.subscribe(TRUTH_TOPIC, Odometry, _tracer(one_at_a_time))
     authoring = _authoring(setup, profile, world, understanding)
     model_setup = model_setup_of(setup, profile)
-    session = Session(joint, understanding, one_at_a_time, setup.options, authoring, model_setup)
+    session = Session(link, understanding, one_at_a_time, setup.options, authoring, model_setup)
 
     def close() -> None:
         session.close()
@@ -263,7 +261,7 @@ def _connect_real_time(
 def _connect_wire(
     setup: Setup, profile: RobotProfile, world: World, understanding: Understanding, on_event: OnEvent
 ) -> Connection:
-    from chatrobot.link.socket_joint import SocketJoint
+    from chatrobot.link.socket_link import SocketLink
 
     address = wire_address(setup.on)
     for chosen, option in ((setup.fast, "--fast"), (setup.trace, "--trace"), (setup.sim, "--sim")):
@@ -276,12 +274,12 @@ def _connect_wire(
         ).close()  # Motion would wait, and could not say for what
     profile_file = profile_argument(setup.robot, profile_dirs(setup.folder))
     motion = MotionProcess.start(address, profile_file, setup.world, setup.budget, open_loop=setup.open_loop)
-    joint = SocketJoint(motion)
-    joint.wait_until_ready()
+    link = SocketLink(motion)
+    link.wait_until_ready()
     setup.on_ready()
     authoring = _authoring(setup, profile, world, understanding)
     options = replace(setup.options, approve=approve)
-    session = Session(joint, understanding, on_event, options, authoring, model_setup_of(setup, profile))
+    session = Session(link, understanding, on_event, options, authoring, model_setup_of(setup, profile))
     return Connection(session, profile, world, session.close)
 
 

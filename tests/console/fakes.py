@@ -2,7 +2,7 @@
 
 from rich.text import Text
 
-from chatrobot.core.errors import JointError
+from chatrobot.core.errors import LinkError
 from chatrobot.core.events import Interpreted, Rehearsed
 from chatrobot.core.geometry import Pose
 
@@ -19,7 +19,7 @@ class FakeSession:
 
     def _note(self, *what):
         if self.is_lost:
-            raise JointError("Motion is gone")
+            raise LinkError("Motion is gone")
         self.log.append(what)
         return len(self.log)
 

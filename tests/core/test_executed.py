@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from tests.link.joint_rigs import SimulatedRig, events_until, finished, moving, send_plan
+from tests.link.link_rigs import SimulatedRig, events_until, finished, moving, send_plan
 
 from chatrobot.core.events import Finished, Progress, Rehearsed, event_from_json
 from chatrobot.core.summed import summed
@@ -33,7 +33,7 @@ def drive_m(text: str) -> float:
 
 def stopped_while_moving(rig: SimulatedRig, turn: int) -> Finished:
     moving(rig, turn)
-    rig.joint.send("stop")
+    rig.link.send("stop")
     return finished(rig, turn)
 
 
@@ -77,7 +77,7 @@ def test_a_plan_that_was_stopped_before_it_moved_remains_whole(rig: SimulatedRig
     send_plan(rig, 2, "drive 1 m", more=True)
     send_plan(rig, 2, "drive 0.5 m", mode="extend")
     events_until(rig, lambda event: isinstance(event, Rehearsed))
-    rig.joint.send("stop")
+    rig.link.send("stop")
     end = finished(rig, 1)
     assert (end.outcome, end.executed, end.remaining) == ("stopped", "", THREE)
     assert finished(rig, 2).remaining == "drive 1 m\ndrive 0.5 m"

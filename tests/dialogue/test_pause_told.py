@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from tests.dialogue.test_session import Talk
-from tests.link.joint_rigs import SimulatedRig, events_until, finished, send_plan
+from tests.link.link_rigs import SimulatedRig, events_until, finished, send_plan
 from tests.motion.test_pause import pause, run_s
 from tests.motion.test_stream import wait_s
 
@@ -155,7 +155,7 @@ def test_a_pause_with_nothing_left_but_steps_to_come_says_that_it_ended(tmp_path
     send_plan(rig, 1, "drive 0.3 m", "queue", more=True)
     events_until(rig, lambda event: isinstance(event, Progress) and event.pose.x_m > 0.2)
     wait_s(rig, 4.0)
-    rig.joint.send("stop", why="pause", keep=True)
+    rig.link.send("stop", why="pause", keep=True)
     end = finished(rig, 1)
     assert end.outcome == "stopped"
     assert end.reason is not None

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from tests.dialogue.scripted_model import ModelTalk
 from tests.dialogue.test_session import Talk
-from tests.link.joint_rigs import SimulatedRig, events_until, finished, send_plan
+from tests.link.link_rigs import SimulatedRig, events_until, finished, send_plan
 from tests.motion.test_stream import stream, wait_s
 
 from chatrobot.cli.human import HumanPrinter
@@ -82,7 +82,7 @@ def test_a_plan_that_is_still_coming_in_has_no_share_and_then_one() -> None:
     open_shares = {event.fraction for event in wait_s(rig, 1.0) if isinstance(event, Progress)}
     send_plan(rig, 1, "drive 2 m", "extend", more=False)
     events_until(rig, lambda event: isinstance(event, Progress) and event.fraction is not None)
-    rig.joint.send("stop", 1, why="test")
+    rig.link.send("stop", 1, why="test")
     end = finished(rig, 1)
     assert open_shares == {None}
     assert (end.planned_m, end.open_ended) == (pytest.approx(3.0, abs=0.01), False)
@@ -92,7 +92,7 @@ def test_a_plan_that_was_still_coming_in_when_it_was_stopped_has_no_total() -> N
     rig = SimulatedRig(Path())
     stream(rig, 1, "drive 2 m", close=False)
     wait_s(rig, 1.0)
-    rig.joint.send("stop", 1, why="test")
+    rig.link.send("stop", 1, why="test")
     end = finished(rig, 1)
     assert end.open_ended
     assert measured(end).startswith(f"drove {end.path_m:.2f} m, turned")
@@ -134,7 +134,7 @@ def test_the_way_of_the_whole_plan_is_in_the_event_too() -> None:
     rig = SimulatedRig(Path())
     send_plan(rig, 1, "drive 4 m")
     events_until(rig, lambda event: isinstance(event, Progress) and event.pose.x_m > 1.0)
-    rig.joint.send("stop", 1, why="test")
+    rig.link.send("stop", 1, why="test")
     end = events_until(rig, lambda event: isinstance(event, Finished))[-1]
     assert isinstance(end, Finished)
     assert end.planned_m == pytest.approx(4.0, abs=0.001)

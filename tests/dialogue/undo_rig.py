@@ -12,8 +12,8 @@ from chatrobot.core.wiring import JOYSTICK_TOPIC
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.session import Session
 from chatrobot.dialogue.understanding import Understanding
-from chatrobot.link.in_process import SimulatedJoint
-from chatrobot.link.joint import Sender
+from chatrobot.link.in_process import InProcessLink
+from chatrobot.link.motion_link import Sender
 from chatrobot.motion.motion import Motion
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.safety.guard_link import SimulatedGuard
@@ -45,12 +45,12 @@ class UndoRig:
             self._motion_of.append(motion)
             return motion
 
-        joint = SimulatedJoint(
+        link = InProcessLink(
             build, wire, clock, self.robot.step, guard, hub.connect(), profile.wiring.cmd_vel_topic
         )
         self.motion = self._motion_of[0]
         understanding = Understanding(profile, around, None)
-        self.session = Session(joint, understanding, self.events.append, options or Options())
+        self.session = Session(link, understanding, self.events.append, options or Options())
         self.live(0.5)
 
     # --- what a person does ---

@@ -8,7 +8,7 @@ from typing import Any
 
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.events import Event, Finished, Notice
-from chatrobot.link.in_process import SimulatedJoint
+from chatrobot.link.in_process import InProcessLink
 from chatrobot.motion.motion import Motion
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.safety.guard_link import SimulatedGuard
@@ -104,7 +104,7 @@ class Rig:
             self.motion = Motion(profile, wire, self.clock, planner, guard, emit, lambda goal: goal())
             return self.motion
 
-        self.joint = SimulatedJoint(
+        self.link = InProcessLink(
             build, wire, self.clock, self._advance, guard, self.hub.connect(), "cmd_vel"
         )
         self.turn = 0
@@ -117,13 +117,13 @@ class Rig:
     def pass_time(self, duration_s: float) -> None:
         ends_s = self.clock.now_s() + duration_s
         while self.clock.now_s() < ends_s - 1e-9:
-            event = self.joint.next_event(0.02)
+            event = self.link.next_event(0.02)
             if event is not None:
                 self.events.append(event)
 
     def begin(self, plan_text: str) -> None:
         self.turn += 1
-        self.joint.send("plan", self.turn, plan_text=plan_text, mode="queue")
+        self.link.send("plan", self.turn, plan_text=plan_text, mode="queue")
 
     def end_of(self, turn: int) -> Finished | None:
         ends = (event for event in self.events if isinstance(event, Finished) and event.turn == turn)

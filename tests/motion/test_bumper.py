@@ -6,9 +6,9 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from tests.link.joint_rigs import PROFILE, SimulatedRig, finished, moving, send_plan
+from tests.link.link_rigs import PROFILE, SimulatedRig, finished, moving, send_plan
 
-from chatrobot.link.in_process import SimulatedJoint
+from chatrobot.link.in_process import InProcessLink
 from chatrobot.robots.load import load_profile
 from chatrobot.wire.messages import Flag
 
@@ -26,8 +26,8 @@ def test_a_robot_that_bumps_into_something_stops_and_says_so(rig: SimulatedRig) 
     send_plan(rig, 2, "drive 1 m")
     moving(rig, 1)
     rig.hub.connect().publish("bump", Flag(True))
-    assert isinstance(rig.joint, SimulatedJoint)
-    rig.joint.step()
+    assert isinstance(rig.link, InProcessLink)
+    rig.link.step()
     assert not any(rig.velocities[-1]), "the very next tick sends a zero"
     ended = finished(rig, 1)
     assert ended.outcome == "failed"

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 from tests.dialogue.scripted_model import ModelTalk
-from tests.link.joint_rigs import SimulatedRig, finished
+from tests.link.link_rigs import SimulatedRig, finished
 from tests.models.rig import WIRES, model_at, serving
 
 import chatrobot
@@ -24,7 +24,7 @@ from chatrobot.core.events import Event, Finished, Result
 from chatrobot.core.reason import Reason
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.phrases import render_reason
-from chatrobot.link.in_process import SimulatedJoint
+from chatrobot.link.in_process import InProcessLink
 from chatrobot.models.fake.openai_chat import OpenAIChat
 from chatrobot.motion.safety import stall_detector
 from chatrobot.motion.safety.guard_link import SimulatedGuard
@@ -203,35 +203,35 @@ def test_no_reason_in_our_code_is_a_bare_stop() -> None:
 # --- what Motion does not accept any more ---
 
 
-def joint_of(tmp_path: Path) -> tuple[SimulatedRig, SimulatedJoint]:
+def joint_of(tmp_path: Path) -> tuple[SimulatedRig, InProcessLink]:
     rig = SimulatedRig(tmp_path)
-    assert isinstance(rig.joint, SimulatedJoint)
-    return rig, rig.joint
+    assert isinstance(rig.link, InProcessLink)
+    return rig, rig.link
 
 
 def test_a_plan_that_a_stop_has_overtaken_hears_of_that_stop(tmp_path: Path) -> None:
-    rig, joint = joint_of(tmp_path)
-    plan = joint._sender.envelope("plan", 1, plan_text="drive 0.1 m")
-    joint.send("stop", 1, why="hold it")
-    joint._motion.receive(plan)
+    rig, link = joint_of(tmp_path)
+    plan = link._sender.envelope("plan", 1, plan_text="drive 0.1 m")
+    link.send("stop", 1, why="hold it")
+    link._motion.receive(plan)
     assert finished(rig, 1).reason == Reason("stopped_by", {"source": "console", "why": "hold it"})
 
 
 def test_a_plan_that_another_word_has_overtaken_is_not_told_of_a_stop(tmp_path: Path) -> None:
-    rig, joint = joint_of(tmp_path)
-    plan = joint._sender.envelope("plan", 1, plan_text="drive 0.1 m")
-    joint.send("look", 2)
-    joint._motion.receive(plan)
+    rig, link = joint_of(tmp_path)
+    plan = link._sender.envelope("plan", 1, plan_text="drive 0.1 m")
+    link.send("look", 2)
+    link._motion.receive(plan)
     assert finished(rig, 1).reason == Reason("overtaken")
 
 
 def test_a_plan_said_while_a_motion_failed_is_told_of_that_failure(tmp_path: Path) -> None:
-    rig, joint = joint_of(tmp_path)
-    joint.send("plan", 1, plan_text="drive 0.1 m")
-    said_before = joint._motion.stops
-    joint._motion._stops.halt_and_book(Reason("does_not_move"))
-    plan = joint._sender.envelope("plan", 2, plan_text="drive 0.1 m")
-    joint._motion.receive(plan, said_before)
+    rig, link = joint_of(tmp_path)
+    link.send("plan", 1, plan_text="drive 0.1 m")
+    said_before = link._motion.stops
+    link._motion._stops.halt_and_book(Reason("does_not_move"))
+    plan = link._sender.envelope("plan", 2, plan_text="drive 0.1 m")
+    link._motion.receive(plan, said_before)
     assert finished(rig, 2).reason == Reason("does_not_move")
 
 

@@ -34,7 +34,7 @@ def told_end(rig: Rig) -> Finished:
 
 
 def stop(rig: Rig) -> None:
-    rig.joint.send("stop")
+    rig.link.send("stop")
 
 
 def complete(rig: Rig) -> None:
@@ -42,11 +42,11 @@ def complete(rig: Rig) -> None:
 
 
 def replace_it(rig: Rig) -> None:
-    rig.joint.send("plan", 2, plan_text="wait 0.1 s", mode="replace")
+    rig.link.send("plan", 2, plan_text="wait 0.1 s", mode="replace")
 
 
 def lose_the_source(rig: Rig) -> None:
-    rig.joint.beats = False
+    rig.link.beats = False
 
 
 def bring_it_to_jump(rig: Rig) -> None:

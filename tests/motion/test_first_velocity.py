@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.events import Event
-from chatrobot.link.in_process import SimulatedJoint
+from chatrobot.link.in_process import InProcessLink
 from chatrobot.motion.motion import Motion
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.safety.guard_link import SimulatedGuard
@@ -46,11 +46,11 @@ def test_no_zero_follows_the_first_velocity() -> None:
         planner = Planner(profile, load_world("empty"))
         return Motion(profile, wire, ClockThatPasses(clock), planner, guard, emit, lambda goal: goal())
 
-    joint = SimulatedJoint(build, wire, clock, robot.step, guard, hub.connect(), "cmd_vel")
-    joint.next_event(0.3)
-    joint.send("plan", 1, plan_text="drive 0.3 m", mode="queue")
+    link = InProcessLink(build, wire, clock, robot.step, guard, hub.connect(), "cmd_vel")
+    link.next_event(0.3)
+    link.send("plan", 1, plan_text="drive 0.3 m", mode="queue")
     for _ in range(40):
-        joint.next_event(0.02)
+        link.next_event(0.02)
     moving = [any(velocity) for velocity in velocities]
     assert any(moving)
     assert all(moving[moving.index(True) :])

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import psutil
 import pytest
-from tests.link.joint_rigs import SimulatedRig, events_until
+from tests.link.link_rigs import SimulatedRig, events_until
 
 from chatrobot.core import process
 from chatrobot.core.events import Event, Finished, Limited
@@ -17,7 +17,7 @@ from chatrobot.core.process import own_identity, watch_process
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.replies import describe_end
 from chatrobot.governor.lease import LOCAL_TERM_S, LONGEST_S, OVER_S, TERM_S
-from chatrobot.link.in_process import SimulatedJoint
+from chatrobot.link.in_process import InProcessLink
 from chatrobot.motion.safety import interlock, stall_detector
 
 TICK_S = 0.02
@@ -29,17 +29,17 @@ class Robot:
 
     def __init__(self, folder: Path) -> None:
         self.rig = SimulatedRig(folder)
-        joint = self.rig.joint
-        assert isinstance(joint, SimulatedJoint)
-        self.joint, self.motion, self.clock = joint, joint._motion, joint._clock
+        link = self.rig.link
+        assert isinstance(link, InProcessLink)
+        self.link, self.motion, self.clock = link, link._motion, link._clock
         self.events: list[Event] = []
 
     def drive(
         self, text: str = "drive 2 m at 0.5 m/s", of: str | None = None, term_s: float = LOCAL_TERM_S
     ) -> None:
         """Begin, and come up to speed; `of`: the identity of the process that beats."""
-        self.joint.send("hello", term_s=term_s, process=own_identity() if of is None else of)
-        self.joint.send("plan", 1, plan_text=text, mode="queue")
+        self.link.send("hello", term_s=term_s, process=own_identity() if of is None else of)
+        self.link.send("plan", 1, plan_text=text, mode="queue")
         self.live(1.0)
         assert self.speed_mps > 0.45
 
@@ -53,18 +53,18 @@ class Robot:
         for _ in range(round(duration_s / tick_s)):
             for _ in range(round(tick_s / TICK_S) - 1):
                 self.clock.advance(TICK_S)
-                self.joint._advance(TICK_S)
-            self.joint.step()
+                self.link._advance(TICK_S)
+            self.link.step()
             speeds.append(self.speed_mps)
-        while self.joint._events:
-            self.events.append(self.joint._events.popleft())
+        while self.link._events:
+            self.events.append(self.link._events.popleft())
         return speeds
 
     def silence(self, duration_s: float, tick_s: float = TICK_S) -> list[float]:
         """No beat comes for so long; the speed after each tick of it."""
-        self.joint.beats = False
+        self.link.beats = False
         speeds = self.live(duration_s, tick_s)
-        self.joint.beats = True
+        self.link.beats = True
         return speeds
 
     @property
@@ -165,7 +165,7 @@ def test_after_450_ms_it_is_over_and_the_reply_says_how_late_the_beat_was(robot:
     assert robot.end.reason.values["late_s"] == pytest.approx(OVER_S, abs=0.03)
     assert "too busy" in describe_end(robot.end, "en")
     assert "太忙" in describe_end(robot.end, "zh")
-    robot.joint.send("plan", 2, plan_text="drive 0.1 m", mode="queue")
+    robot.link.send("plan", 2, plan_text="drive 0.1 m", mode="queue")
     assert max(robot.live(1.0)) > 0.1, "a new order is done"
 
 
@@ -230,12 +230,12 @@ def test_who_cannot_be_seen_from_here_has_no_such_time(robot: Robot, of: str) ->
 def test_a_beat_tells_how_long_ago_somebody_else_was_heard(robot: Robot) -> None:
     robot.drive()
     for count in range(14):
-        robot.joint.beats = False
-        robot.joint.send("beat", age_s=0.1 + count * TICK_S)
+        robot.link.beats = False
+        robot.link.send("beat", age_s=0.1 + count * TICK_S)
         robot.live(TICK_S)
     assert robot.speed_mps == 0.0
     assert robot.end is None
-    robot.joint.beats = True
+    robot.link.beats = True
     assert robot.live(1.0)[-1] > 0.45
 
 
@@ -252,7 +252,7 @@ def test_a_motion_that_was_stopped_by_a_signal_does_not_drive_on_however_short_i
 
 def test_a_motion_that_was_stopped_while_nothing_moved_is_no_news(robot: Robot) -> None:
     robot.motion.thaw()
-    robot.joint.send("plan", 1, plan_text="drive 0.2 m", mode="queue")
+    robot.link.send("plan", 1, plan_text="drive 0.2 m", mode="queue")
     end = events_until(robot.rig, lambda event: isinstance(event, Finished))[-1]
     assert isinstance(end, Finished)
     assert end.outcome == "completed"

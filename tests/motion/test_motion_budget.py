@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.dialogue.scripted_model import ModelTalk, Options
 from tests.dialogue.test_session import Talk
-from tests.link.joint_rigs import (
+from tests.link.link_rigs import (
     PROFILE,
     ProcessRig,
     SimulatedRig,
@@ -196,19 +196,19 @@ def test_a_model_is_not_asked_to_make_a_plan_shorter_than_was_said() -> None:
 
 def notices(rig: SimulatedRig) -> list[Reason]:
     found: list[Reason] = []
-    while (event := rig.joint.next_event(0.1)) is not None:
+    while (event := rig.link.next_event(0.1)) is not None:
         found += [event.reason] if isinstance(event, Notice) else []
     return found
 
 
 def test_the_person_at_the_local_console_asks_for_it_and_changes_it() -> None:
     rig = SimulatedRig(Path(), profile=limited(2.0))
-    rig.joint.send("limit")
+    rig.link.send("limit")
     assert notices(rig)[:2] == [
         Reason("limit_distance", {"max_m": 2.0}),
         Reason("limit_time", {"max_s": 600.0, "endless_s": 60.0}),
     ]
-    rig.joint.send("limit", max_distance_m=3.0, max_time_s="none")
+    rig.link.send("limit", max_distance_m=3.0, max_time_s="none")
     assert notices(rig)[:2] == [Reason("limit_distance", {"max_m": 3.0}), Reason("limit_no_time")]
     send_plan(rig, 1, "drive 2.5 m")
     assert finished(rig, 1).outcome == "completed"
@@ -218,18 +218,18 @@ def test_a_budget_that_is_lowered_under_way_stops_what_has_driven_more() -> None
     rig = SimulatedRig(Path())
     send_plan(rig, 1, "drive 20 m")
     events_until(rig, lambda event: event.name == "progress" and event.pose.x_m > 1.0)  # type: ignore[attr-defined]
-    rig.joint.send("limit", max_distance_m=0.5)
+    rig.link.send("limit", max_distance_m=0.5)
     assert code(finished(rig, 1)) == "max_distance_reached"
 
 
 @pytest.mark.parametrize("source", ["web", "base", "agent", "program", "chatgpt_node", "joystick", "me"])
 def test_nobody_else_changes_it(source: str) -> None:
     rig = SimulatedRig(Path(), profile=limited(2.0))
-    rig.joint._sender.source = source  # type: ignore[attr-defined]
+    rig.link._sender.source = source  # type: ignore[attr-defined]
     for payload in (INFINITE, {"max_distance_m": 50.0}, {"max_time_s": "none"}):
-        rig.joint.send("limit", **payload)
+        rig.link.send("limit", **payload)
         assert [reason.code for reason in notices(rig)] == ["limit_refused"]
-    rig.joint.send("hello")
+    rig.link.send("hello")
     send_plan(rig, 1, "drive 3 m")
     assert code(finished(rig, 1)) == "over_max_distance"
 
@@ -284,13 +284,13 @@ def test_no_model_lifts_it(reply: str) -> None:
 
 def test_an_agent_goes_on_only_when_a_person_has_ordered_it() -> None:
     rig = SimulatedRig(Path(), profile=limited(2.0))
-    rig.joint._sender.source = "agent"  # type: ignore[attr-defined]
-    rig.joint.send("hello")
+    rig.link._sender.source = "agent"  # type: ignore[attr-defined]
+    rig.link.send("hello")
     send_plan(rig, 1, "drive 1.5 m")
     assert finished(rig, 1).outcome == "completed"
     send_plan(rig, 2, "drive 1.5 m")
     assert code(finished(rig, 2)) == "over_max_distance", "another turn of an agent is no other order"
-    rig.joint.close()
+    rig.link.close()
 
 
 def test_a_persons_yes_to_an_agents_plan_is_an_order() -> None:
@@ -332,7 +332,7 @@ def test_it_holds_in_motions_own_process_too(tmp_path: Path) -> None:
         end = finished(rig, 2)
         assert (end.outcome, code(end)) == ("stopped", "max_distance_reached")
         assert 0.9 <= end.path_m <= 1.02
-        rig.joint.send("limit", max_distance_m="none")
+        rig.link.send("limit", max_distance_m="none")
         send_plan(rig, 3, "drive 1.5 m")
         assert finished(rig, 3).outcome == "completed"
     finally:

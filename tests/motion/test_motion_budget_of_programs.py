@@ -29,7 +29,7 @@ class Runner:
         self.session = self.connection.session
 
     def run(self, code: str, **limits: float | str) -> Result:
-        self.session._joint._motion._budgets.current = MotionBudget()  # type: ignore[attr-defined]
+        self.session._link._motion._budgets.current = MotionBudget()  # type: ignore[attr-defined]
         if limits:
             self.session.limit(**limits)
         self.session.pump(0.1)

@@ -23,7 +23,7 @@ class TestTwoPublishers:
         return rig
 
     def test_on_stop_zeros_go_on_and_the_other_is_named(self, rig: Rig) -> None:
-        rig.joint.send("stop")
+        rig.link.send("stop")
         rig.pass_time(5.0)
         [said] = [event.reason for event in rig.events if isinstance(event, Notice)]
         assert (said.code, said.values["who"]) == ("not_ours_alone", "/teleop")
@@ -32,13 +32,13 @@ class TestTwoPublishers:
         assert rig.velocities[count:].count(TwistMessage(0.0, 0.0, 0.0)) >= 45
 
     def test_nothing_of_ours_begins_while_it_does_not_stand(self, rig: Rig) -> None:
-        rig.joint.send("stop")
+        rig.link.send("stop")
         rig.pass_time(3.0)
         end = rig.do("drive 0.3 m")
         assert (end.outcome, end.reason and end.reason.code) == ("refused", "not_ours_alone")
 
     def test_once_the_other_has_left_all_goes_on(self, rig: Rig) -> None:
-        rig.joint.send("stop")
+        rig.link.send("stop")
         rig.pass_time(3.0)
         rig.each_step = lambda: None
         rig.pass_time(1.0)
@@ -47,14 +47,14 @@ class TestTwoPublishers:
 
     def test_where_nobody_is_known_the_robot_is_said_to_move_on(self, rig: Rig) -> None:
         rig.motion.stop_confirmation.others = ""
-        rig.joint.send("stop")
+        rig.link.send("stop")
         rig.pass_time(5.0)
         assert rig.notices() == ["moves_on"]
 
     def test_it_does_not_keep_motion_from_ending(self, rig: Rig) -> None:
-        rig.joint.send("stop")
+        rig.link.send("stop")
         rig.pass_time(3.0)
-        rig.joint.close()
+        rig.link.close()
 
 
 class TestVelocitiesThroughUs:
@@ -92,7 +92,7 @@ class TestVelocitiesThroughUs:
 
     def test_a_stop_holds_until_they_have_let_go(self, rig: Rig) -> None:
         rig.pass_time(1.0)
-        rig.joint.send("stop")
+        rig.link.send("stop")
         rig.pass_time(3.0)
         assert rig.stands
         self.asks = TwistMessage(0.0, 0.0, 0.0)
@@ -103,7 +103,7 @@ class TestVelocitiesThroughUs:
 
     def test_silence_is_letting_go_too(self, rig: Rig) -> None:
         rig.pass_time(1.0)
-        rig.joint.send("stop")
+        rig.link.send("stop")
         rig.pass_time(2.0)
         ask, rig.each_step = rig.each_step, lambda: None
         rig.pass_time(0.4)
@@ -120,7 +120,7 @@ class TestVelocitiesThroughUs:
 
     def test_an_emergency_stop_holds_for_them_too(self, rig: Rig) -> None:
         rig.pass_time(1.0)
-        rig.joint.send("emergency_stop")
+        rig.link.send("emergency_stop")
         rig.pass_time(1.5)
         rig.each_step, before = (lambda: None), rig.each_step
         rig.pass_time(0.5)

@@ -97,7 +97,7 @@ def test_a_lost_source_drops_it(crowd: Crowd) -> None:
 
 def test_a_silent_source_drops_it(crowd: Crowd) -> None:
     del crowd._senders["console"]
-    crowd.rig.joint.beats = False
+    crowd.rig.link.beats = False
     crowd.live(3.0)
     assert ended_by(crowd) == "lease_lapsed"
 

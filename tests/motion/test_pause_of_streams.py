@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from tests.dialogue.scripted_model import ModelTalk
-from tests.link.joint_rigs import SimulatedRig, events_until, finished, send_plan
+from tests.link.link_rigs import SimulatedRig, events_until, finished, send_plan
 from tests.motion.test_stream import wait_s
 
 from chatrobot.core.events import Event, Finished, Paused, Progress, Rehearsed, Started, TruePose
@@ -23,7 +23,7 @@ def rig(tmp_path: Path) -> Iterator[SimulatedRig]:
     rig = SimulatedRig(tmp_path)
     send_plan(rig, 1, "drive 1 m", "queue", more=True)
     events_until(rig, lambda event: isinstance(event, Progress) and event.pose.x_m > 0.4)
-    rig.joint.send("stop", why="pause", keep=True)
+    rig.link.send("stop", why="pause", keep=True)
     yield rig
     rig.close()
 
@@ -50,7 +50,7 @@ def test_parts_that_come_while_it_is_paused_follow_the_rest(rig: SimulatedRig) -
     rig.velocities.clear()
     wait_s(rig, 5.0)
     assert not any(any(velocity) for velocity in rig.velocities)
-    rig.joint.send("resume", 1)
+    rig.link.send("resume", 1)
     assert end_of_the_l_shape(rig).paused_s >= 5.0
 
 
@@ -58,13 +58,13 @@ def test_parts_that_come_before_the_robot_stands_follow_the_rest(rig: SimulatedR
     send_plan(rig, 1, "turn left 90 deg", "extend", more=True)
     send_plan(rig, 1, "drive 0.5 m", "extend", more=False)
     events_until(rig, is_paused)
-    rig.joint.send("resume", 1)
+    rig.link.send("resume", 1)
     end_of_the_l_shape(rig)
 
 
 def test_parts_that_come_after_it_was_gone_on_with_follow_the_rest(rig: SimulatedRig) -> None:
     events_until(rig, is_paused)
-    rig.joint.send("resume", 1)
+    rig.link.send("resume", 1)
     events_until(rig, lambda event: isinstance(event, Started))
     send_plan(rig, 1, "turn left 90 deg", "extend", more=True)
     wait_s(rig, 8.0)
@@ -76,7 +76,7 @@ def test_parts_that_come_after_it_was_gone_on_with_follow_the_rest(rig: Simulate
 def test_the_rest_is_rehearsed_before_a_later_part(rig: SimulatedRig) -> None:
     paused = next(event for event in events_until(rig, is_paused) if isinstance(event, Paused))
     send_plan(rig, 1, "turn left 90 deg", "extend", more=False)
-    rig.joint.send("resume", 1)
+    rig.link.send("resume", 1)
     events = events_until(rig, lambda event: isinstance(event, Finished))
     ends = [event.end for event in events if isinstance(event, Rehearsed)]
     assert paused.plan_text.startswith("drive 0.")
@@ -86,15 +86,15 @@ def test_the_rest_is_rehearsed_before_a_later_part(rig: SimulatedRig) -> None:
 
 def test_where_nothing_is_left_and_the_next_part_has_not_come_a_pause_is_a_stop(rig: SimulatedRig) -> None:
     events_until(rig, is_paused)
-    rig.joint.send("resume", 1)
+    rig.link.send("resume", 1)
     wait_s(rig, 8.0)
-    rig.joint.send("stop", why="pause", keep=True)
+    rig.link.send("stop", why="pause", keep=True)
     end = finished(rig, 1)
     assert (end.outcome, end.remaining) == ("stopped", "")
     assert end.path_m == pytest.approx(1.0, abs=0.01)
     send_plan(rig, 1, "drive 0.5 m", "extend", more=False)
     rig.velocities.clear()
-    rig.joint.send("resume", 1)
+    rig.link.send("resume", 1)
     wait_s(rig, 3.0)
     assert not any(any(velocity) for velocity in rig.velocities)
 
@@ -102,10 +102,10 @@ def test_where_nothing_is_left_and_the_next_part_has_not_come_a_pause_is_a_stop(
 def test_a_stop_drops_what_came_while_it_was_paused(rig: SimulatedRig) -> None:
     events_until(rig, is_paused)
     send_plan(rig, 1, "turn left 90 deg", "extend", more=False)
-    rig.joint.send("stop", why="stop")
+    rig.link.send("stop", why="stop")
     assert finished(rig, 1).outcome == "stopped"
     rig.velocities.clear()
-    rig.joint.send("resume", 1)
+    rig.link.send("resume", 1)
     wait_s(rig, 3.0)
     assert not any(any(velocity) for velocity in rig.velocities)
 
@@ -114,7 +114,7 @@ def test_a_stop_drops_what_came_while_it_was_paused(rig: SimulatedRig) -> None:
 def test_a_model_that_streams_its_plan_is_driven_to_its_end(comes: str) -> None:
     late = threading.Event()
     talk = ModelTalk(["drive 1 m\n", late, "turn left 90 deg\ndrive 0.5 m\n"])
-    talk.session._joint.is_simulated = False  # time does not stand while this model thinks
+    talk.session._link.is_simulated = False  # time does not stand while this model thinks
     turn = talk.session.say(ASKED)
     talk.pump_until(lambda: any(isinstance(event, TruePose) and event.x_m > 0.3 for event in talk.events))
 

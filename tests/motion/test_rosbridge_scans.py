@@ -39,7 +39,7 @@ def rig_of(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable
 
 
 def drive(rig: NearRig) -> tuple[Rehearsed, Finished]:
-    rig.joint.send("plan", 1, plan_text=PLAN, mode="queue")
+    rig.link.send("plan", 1, plan_text=PLAN, mode="queue")
     rehearsed = rig.wait_for(lambda event: isinstance(event, Rehearsed))
     assert isinstance(rehearsed, Rehearsed)
     return rehearsed, rig.end_of(1)

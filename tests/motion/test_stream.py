@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from tests.link.joint_rigs import (
-    JointRig,
+from tests.link.link_rigs import (
+    LinkRig,
     ProcessRig,
     SimulatedRig,
     events_until,
@@ -29,14 +29,14 @@ def rig(tmp_path: Path) -> Iterator[SimulatedRig]:
     made.close()
 
 
-def stream(rig: JointRig, turn: int, *parts: str, close: bool = True) -> None:
+def stream(rig: LinkRig, turn: int, *parts: str, close: bool = True) -> None:
     """Send `parts` at once; the last one closes."""
     modes = itertools.chain(["queue"], itertools.repeat("extend"))
     for number, (part, mode) in enumerate(zip(parts, modes), 1):
         send_plan(rig, turn, part, mode, more=not close or number < len(parts))
 
 
-def longest_rest_s(rig: JointRig) -> float:
+def longest_rest_s(rig: LinkRig) -> float:
     """The longest run of zeros between two motions, at 50 Hz."""
     moves = [any(velocity) for velocity in rig.velocities]
     within = moves[moves.index(True) : len(moves) - moves[::-1].index(True)]
@@ -113,7 +113,7 @@ def test_a_refused_first_part_moves_nothing(rig: SimulatedRig) -> None:
 def test_a_stop_ends_the_stream_and_later_parts_are_worth_nothing(rig: SimulatedRig) -> None:
     stream(rig, 1, "drive 2 m", close=False)
     events_until(rig, lambda event: isinstance(event, Progress) and event.pose.x_m > 0.1)
-    rig.joint.send("stop", 1, why="stop")
+    rig.link.send("stop", 1, why="stop")
     send_plan(rig, 1, "drive 2 m", "extend", more=True)
     assert finished(rig, 1).outcome == "stopped"
     send_plan(rig, 1, "drive 2 m", "extend", more=False)
@@ -125,7 +125,7 @@ def test_a_stop_ends_the_stream_and_later_parts_are_worth_nothing(rig: Simulated
 def test_a_stop_while_it_waits_for_the_next_part_ends_it(rig: SimulatedRig) -> None:
     stream(rig, 1, "drive 0.2 m", close=False)
     wait_s(rig, 4.0)
-    rig.joint.send("stop", 1, why="stop")
+    rig.link.send("stop", 1, why="stop")
     assert finished(rig, 1).outcome == "stopped"
 
 
@@ -145,12 +145,12 @@ def test_what_is_to_be_approved_comes_whole(rig: SimulatedRig) -> None:
     send_plan(rig, 1, "drive 0.3 m", "queue", more=True, approve=True)
     events_until(rig, lambda event: isinstance(event, Rehearsed) and event.needs_approval)
     send_plan(rig, 1, "drive 5 m", "extend", more=False)
-    rig.joint.send("approve", 1, yes=True)
+    rig.link.send("approve", 1, yes=True)
     assert finished(rig, 1).path_m == pytest.approx(0.3, abs=0.01)
 
 
 def test_who_asks_hears_what_the_lidar_sees(rig: SimulatedRig) -> None:
-    rig.joint.send("look", 3)
+    rig.link.send("look", 3)
     looked = events_until(rig, lambda event: isinstance(event, Looked))[-1]
     assert (looked.turn, looked.sectors_m) == (3, (None,) * 8)  # type: ignore[attr-defined]
 
@@ -174,7 +174,7 @@ def test_a_stream_runs_in_motions_own_process_too(tmp_path: Path) -> None:
         rig.close()
 
 
-def wait_s(rig: JointRig, duration_s: float) -> list[Event]:
+def wait_s(rig: LinkRig, duration_s: float) -> list[Event]:
     """Let time pass; what was told meanwhile."""
-    events = [rig.joint.next_event(0.1) for _ in range(round(duration_s * 50))]
+    events = [rig.link.next_event(0.1) for _ in range(round(duration_s * 50))]
     return [event for event in events if event is not None]

@@ -17,7 +17,7 @@ from tests.wire.fake_rosbridge import FakeRosbridge
 from chatrobot.core.clock import RealClock
 from chatrobot.core.events import Event, Finished, Notice
 from chatrobot.link.processes import MotionProcess
-from chatrobot.link.socket_joint import SocketJoint
+from chatrobot.link.socket_link import SocketLink
 from chatrobot.robots.load import load_profile
 from chatrobot.sim.robot import SimRobot
 from chatrobot.wire.messages import Message, TwistMessage
@@ -66,8 +66,8 @@ class Rig:
         self._thread.start()
         self.events: list[Event] = []
         address = f"rosbridge:ws://{self.host}:{bridge.port}"
-        self.joint = SocketJoint(MotionProcess.start(address, "wheeltec_mini_mec", "empty"))
-        self.joint.wait_until_ready()
+        self.link = SocketLink(MotionProcess.start(address, "wheeltec_mini_mec", "empty"))
+        self.link.wait_until_ready()
 
     def _live(self) -> None:
         while not self._ended.wait(0.02):
@@ -79,7 +79,7 @@ class Rig:
                 return event
         ends_s = time.monotonic() + PATIENCE_S
         while time.monotonic() < ends_s:
-            event = self.joint.next_event(0.1)
+            event = self.link.next_event(0.1)
             if event is not None:
                 self.events.append(event)
                 if wanted(event):
@@ -105,7 +105,7 @@ class Rig:
         return self.robot.true_twist.speed_mps
 
     def close(self) -> None:
-        self.joint.close()
+        self.link.close()
         self._ended.set()
         self._thread.join()
         self.bridge.stop()
@@ -122,12 +122,12 @@ def rig(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Rig]:
 def test_the_session_tells_and_stops_and_recovers(rig: Rig) -> None:
     slow = rig.notice("drives_on_alone")
     assert isinstance(slow, Notice)
-    rig.joint.send("plan", 1, plan_text="drive 5 m at 0.5 m/s", mode="queue")
+    rig.link.send("plan", 1, plan_text="drive 5 m at 0.5 m/s", mode="queue")
     refused = rig.end_of(1)
     assert (
         refused.outcome == "refused"
     )  # more than a robot may do that drives on alone when the network fails
-    rig.joint.send("plan", 2, plan_text="drive 5 m", mode="queue")
+    rig.link.send("plan", 2, plan_text="drive 5 m", mode="queue")
     rig.wait_until(lambda: rig.speed_mps() > 0.08)  # without a lidar it goes at the blind speed
 
     rig.bridge.stop()
@@ -135,7 +135,7 @@ def test_the_session_tells_and_stops_and_recovers(rig: Rig) -> None:
     assert end.reason is not None
     assert (end.outcome, end.reason.code in ("wire_gone", "odometry_silent")) == ("failed", True)
     rig.notice("wire_gone")
-    rig.joint.send("plan", 3, plan_text="drive 0.1 m", mode="queue")
+    rig.link.send("plan", 3, plan_text="drive 0.1 m", mode="queue")
     assert rig.end_of(3).outcome in ("refused", "failed")
     assert rig.speed_mps() > 0.08  # nobody can reach it
 
@@ -144,6 +144,6 @@ def test_the_session_tells_and_stops_and_recovers(rig: Rig) -> None:
     print(f"it stands {took_s:.2f} s after the network is back")
     assert took_s < 2.0
     rig.notice("wire_back")
-    rig.joint.send("plan", 4, plan_text="drive 0.1 m", mode="queue")
+    rig.link.send("plan", 4, plan_text="drive 0.1 m", mode="queue")
     end = rig.end_of(4)
     assert (end.outcome, end.path_m) == ("completed", pytest.approx(0.1, abs=0.01))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from chatrobot.link.envelope import Envelope
-from chatrobot.link.joint import Sender
+from chatrobot.link.motion_link import Sender
 from chatrobot.nodes.control import ControlNode
 from chatrobot.nodes.foreign import Foreign
 from chatrobot.wire.messages import Text

@@ -17,7 +17,7 @@ from chatrobot.core.errors import PlanTextError
 from chatrobot.link.envelope import MODES, PAYLOADS, WORDS, Envelope
 from chatrobot.plan.registry import RESERVED_VERBS, primitives
 from chatrobot.plan.text import parse_plan
-from tests.link.joint_rigs import SimulatedRig, finished, send_plan
+from tests.link.link_rigs import SimulatedRig, finished, send_plan
 
 GOOD: dict[str, dict[str, Any]] = {
     "hello": {"term_s": 0.3, "process": "boot pid:[1] 2 3"},

@@ -68,7 +68,7 @@ def test_a_robot_whose_odometry_falls_silent_is_stopped(change: Any, source: str
         rig.begin("drive 1 m")
     elif source == "program":
         rig.turn = 1
-        rig.joint.send("program", 1, code="drives", mode="queue")
+        rig.link.send("program", 1, code="drives", mode="queue")
     driven(rig, source, 1.5)
     assert rig.robot.true_twist.vx_mps > 0.25
     at_m = rig.robot.true_pose.x_m

@@ -20,8 +20,8 @@ from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.core.reason import Reason
 from chatrobot.execution.executor import UNSEEN_S
 from chatrobot.governor.governor import TICK_S, Governor
-from chatrobot.link.in_process import SimulatedJoint
-from chatrobot.link.topic_joint import TopicJoint
+from chatrobot.link.in_process import InProcessLink
+from chatrobot.link.topic_link import TopicLink
 from chatrobot.motion.safety.competing_controllers import CompetingControllers
 from chatrobot.motion.safety.connection_monitor import ConnectionMonitor
 from chatrobot.motion.safety.stop_confirmation import PATIENCE_S
@@ -139,7 +139,7 @@ def test_no_choice_makes_it_longer(chosen: float | None) -> None:
     profile = as_chosen(without_odometry(load_profile("wheeltec_mini_mec")), budget, open_loop=True)
     assert profile.safety.budget.changed(MotionBudget(max_time_s=math.inf)).time_s == OPEN_LOOP_S
     rig = Rig(lambda _: profile)
-    rig.joint.send("limit", max_time_s="none")
+    rig.link.send("limit", max_time_s="none")
     rig.pass_time(0.1)
     assert rig.do("drive 3 m").outcome == "refused"
 
@@ -155,11 +155,11 @@ def test_what_does_not_end_by_itself_is_ended_in_time() -> None:
     """Parts that come while it is driven, each short enough."""
     rig = Rig(open_loop)
     rig.turn += 1
-    rig.joint.send("plan", 1, plan_text="drive 1 m", mode="queue", more=True)
+    rig.link.send("plan", 1, plan_text="drive 1 m", mode="queue", more=True)
     for _ in range(5):
         rig.pass_time(0.5)
-        rig.joint.send("plan", 1, plan_text="drive 1 m", mode="extend", more=True)
-    rig.joint.send("plan", 1, plan_text="drive 1 m", mode="extend", more=False)
+        rig.link.send("plan", 1, plan_text="drive 1 m", mode="extend", more=True)
+    rig.link.send("plan", 1, plan_text="drive 1 m", mode="extend", more=False)
     rig.pass_time(20.0)
     end = rig.end_of(1)
     assert end is not None
@@ -170,7 +170,7 @@ def test_what_does_not_end_by_itself_is_ended_in_time() -> None:
 def test_zeros_after_a_stop_are_repeated_for_a_bounded_time(rig: Rig) -> None:
     rig.begin("drive 1 m")
     rig.pass_time(1.0)
-    rig.joint.send("stop", why="stop")
+    rig.link.send("stop", why="stop")
     rig.pass_time(0.1)
     count = len(rig.velocities)
     rig.pass_time(20.0)
@@ -333,7 +333,7 @@ def test_a_motion_that_was_broken_off_at_its_very_beginning_was_commanded() -> N
     rig = talk()
     turn = rig.session.say("forward 1 m")
     while not any(event.name == "started" for event in rig.events):
-        rig.session._joint.step()  # type: ignore[attr-defined]
+        rig.session._link.step()  # type: ignore[attr-defined]
         rig.session.pump(0.0)
     rig.session.say("stop")
     rig.live(3.0)
@@ -374,20 +374,20 @@ def test_a_base_that_was_not_told_learns_it_from_motion() -> None:
 
 def test_simulated_time_keeps_the_notice_for_who_asks_later() -> None:
     rig = talk()
-    assert isinstance(rig.session._joint, SimulatedJoint)
+    assert isinstance(rig.session._link, InProcessLink)
     rig.live(0.1)
     assert [event.reason.code for event in rig.events if isinstance(event, Notice)] == ["open_loop"]
 
 
 def test_a_base_that_comes_later_hears_from_controls_beats_how_the_robot_is_driven() -> None:
     hub = MemoryHub()
-    joint = TopicJoint(hub.connect(), "base", is_on_this_machine=True)
-    joint.open()
+    link = TopicLink(hub.connect(), "base", is_on_this_machine=True)
+    link.open()
     notice = Reason("open_loop", {"speed_mps": 0.2, "rate_radps": 0.5, "max_s": 10.0})
     competitors = CompetingControllers(hub.connect(), "chatrobot_control", "cmd_vel", notice)
-    competitors.note_source(joint._sender.lease)
+    competitors.note_source(link._sender.lease)
     competitors.beat()
-    assert joint.next_event(1.0) == Notice(0, notice)
+    assert link.next_event(1.0) == Notice(0, notice)
     competitors.beat()
-    assert joint.next_event(0.05) is None, "once"
-    joint.close()
+    assert link.next_event(0.05) is None, "once"
+    link.close()

@@ -11,7 +11,7 @@ from chatrobot.core.events import Limited, Rehearsed
 from chatrobot.link.envelope import Envelope
 from chatrobot.robots.load import load_profile
 from tests.dialogue.test_session import Talk
-from tests.link.joint_rigs import PROFILE, SimulatedRig, finished, send_plan
+from tests.link.link_rigs import PROFILE, SimulatedRig, finished, send_plan
 
 LIMITS = load_profile(PROFILE).limits
 EPSILON = 1e-9
@@ -55,7 +55,7 @@ def test_raw_velocities_as_a_model_writes_them_are_scaled_and_it_says_so(tmp_pat
     send_plan(rig, 1, text)
     seen = []
     while True:
-        event = rig.joint.next_event(30.0)
+        event = rig.link.next_event(30.0)
         assert event is not None
         seen.append(event)
         if event.name == "finished":

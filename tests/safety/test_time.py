@@ -13,7 +13,7 @@ import chatrobot
 from chatrobot.core.clock import RealClock, VirtualClock, awake_or_not_s
 from chatrobot.core.events import Finished
 from chatrobot.execution.sensors import OLD_NEWS_S, Sensors
-from chatrobot.link.in_process import SimulatedJoint
+from chatrobot.link.in_process import InProcessLink
 from chatrobot.plan.steps import Drive, Plan
 from chatrobot.robots.load import load_profile
 from chatrobot.sim.shapes import rectangle
@@ -21,7 +21,7 @@ from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import Imu, LaserScan, Message, Odometry
 from chatrobot.wire.stamps import StampTranslator
 from chatrobot.wire.wire import M, Wire
-from tests.link.joint_rigs import SimulatedRig, finished, moving, send_plan
+from tests.link.link_rigs import SimulatedRig, finished, moving, send_plan
 from tests.rig import Rig
 
 SOURCE = Path(chatrobot.__file__).parent
@@ -155,8 +155,8 @@ def test_fresh_mail_with_old_news_is_no_news() -> None:
 
 
 def suspend(rig: SimulatedRig, duration_s: float) -> None:
-    assert isinstance(rig.joint, SimulatedJoint)
-    rig.joint._clock.suspend(duration_s)
+    assert isinstance(rig.link, InProcessLink)
+    rig.link._clock.suspend(duration_s)
 
 
 def test_a_machine_that_slept_does_not_drive_on(tmp_path: Path) -> None:
@@ -170,7 +170,7 @@ def test_a_machine_that_slept_does_not_drive_on(tmp_path: Path) -> None:
     assert ends[0].reason is not None
     assert (ends[0].reason.code, ends[0].reason.values) == ("motion_froze", {"gap_s": 3600.02})
     assert not any(rig.velocities[-1])
-    rig.joint.next_event(2.0)
+    rig.link.next_event(2.0)
     send_plan(rig, 3, "drive 0.1 m")
     assert finished(rig, 3).outcome == "completed"
 
@@ -178,11 +178,11 @@ def test_a_machine_that_slept_does_not_drive_on(tmp_path: Path) -> None:
 def test_a_yes_that_slept_counts_no_more(tmp_path: Path) -> None:
     rig = SimulatedRig(tmp_path)
     send_plan(rig, 1, "drive 0.5 m", approve=True)
-    rig.joint.next_event(0.2)
+    rig.link.next_event(0.2)
     suspend(rig, 60.0)
-    rig.joint.next_event(0.04)
-    rig.joint.send("approve", 1, yes=True)
-    rig.joint.next_event(1.0)
+    rig.link.next_event(0.04)
+    rig.link.send("approve", 1, yes=True)
+    rig.link.next_event(1.0)
     assert not any(any(velocity) for velocity in rig.velocities)
 
 

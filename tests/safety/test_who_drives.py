@@ -10,9 +10,9 @@ import pytest
 from chatrobot.core.events import Event, Finished, Notice
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.link.envelope import Envelope
-from chatrobot.link.in_process import SimulatedJoint
-from chatrobot.link.joint import Sender
-from tests.link.joint_rigs import SimulatedRig
+from chatrobot.link.in_process import InProcessLink
+from chatrobot.link.motion_link import Sender
+from tests.link.link_rigs import SimulatedRig
 
 
 class Crowd:
@@ -20,9 +20,9 @@ class Crowd:
 
     def __init__(self, folder: Path, *sources: str, releasers: frozenset[str] = RELEASERS) -> None:
         self.rig = SimulatedRig(folder, releasers)
-        joint = self.rig.joint
-        assert isinstance(joint, SimulatedJoint)
-        self._joint, self.motion = joint, joint._motion
+        link = self.rig.link
+        assert isinstance(link, InProcessLink)
+        self._link, self.motion = link, link._motion
         self._senders = {source: Sender(source) for source in sources}
         self.events: list[Event] = []
         for source in sources:
@@ -38,8 +38,8 @@ class Crowd:
         for _ in range(round(duration_s / 0.02)):
             for source in self._senders:
                 self.say(source, "beat")
-            self._joint.step()
-        while (event := self._joint.next_event(0.0)) is not None:
+            self._link.step()
+        while (event := self._link.next_event(0.0)) is not None:
             self.events.append(event)
 
     def end_of(self, turn: int) -> Finished:

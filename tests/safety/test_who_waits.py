@@ -89,14 +89,14 @@ def test_who_has_said_goodbye_drives_no_more(tmp_path: Path) -> None:
 def test_a_yes_is_worth_nothing_once_the_robot_was_turned() -> None:
     rig = Rig()
     rig.turn = 1
-    rig.joint.send("plan", 1, plan_text="drive 1 m", approve=True)
+    rig.link.send("plan", 1, plan_text="drive 1 m", approve=True)
     rig.pass_time(0.2)
     somebody = rig.hub.connect()
     somebody.publish("cmd_vel", TwistMessage(0.0, 0.0, 0.5))
     rig.pass_time(0.4)
     somebody.publish("cmd_vel", TwistMessage(0.0, 0.0, 0.0))
     rig.pass_time(0.5)
-    rig.joint.send("approve", 1, yes=True)
+    rig.link.send("approve", 1, yes=True)
     rig.pass_time(1.0)
     end = rig.end_of(1)
     assert end is not None

@@ -12,7 +12,7 @@ from chatrobot.cli.entry import STOPPED, forget_stdout
 from chatrobot.cli.printer import Printer
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.compose import Connection, Setup, connect
-from chatrobot.core.errors import JointError
+from chatrobot.core.errors import LinkError
 from chatrobot.core.events import EXIT_CODES, Event, Notice, Result
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.parting import is_parting
@@ -51,7 +51,7 @@ class Conversation:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         if kind is not None:
-            with contextlib.suppress(JointError):
+            with contextlib.suppress(LinkError):
                 self.session.stop("chatrobot broke")
         if self._connection is not None:
             self._connection.close()
@@ -88,7 +88,7 @@ class Conversation:
         if self._setup.fast:
             self.post(lambda: self.session.say(text))
         else:
-            with contextlib.suppress(JointError):  # Motion is gone: the main thread tells
+            with contextlib.suppress(LinkError):  # Motion is gone: the main thread tells
                 self.session.say(text)
 
     @property
@@ -107,7 +107,7 @@ class Conversation:
 
     def halt(self, why: str) -> None:
         """Stop the robot and end here: what was still to be said is not."""
-        with contextlib.suppress(JointError):  # Motion is gone: the main thread tells
+        with contextlib.suppress(LinkError):  # Motion is gone: the main thread tells
             self.stop(why)
         self._is_cut_off = True
 
@@ -155,7 +155,7 @@ class Conversation:
         """Let things happen for a moment.
 
         Raises:
-            JointError: Motion is gone.
+            LinkError: Motion is gone.
         """
         self._do_posted()
         if self._printer.is_broken and not self._is_cut_off:

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from types import TracebackType
 from typing import Any
 
-from chatrobot.core.errors import JointError
+from chatrobot.core.errors import LinkError
 
 QUIT_AT_ONCE = 130
 _WATCHED = {
@@ -76,9 +76,7 @@ class SignalWatch:
                 return
             self._leaving_since_s = time.monotonic()
             self.is_leaving = True
-        with contextlib.suppress(
-            JointError
-        ):  # Motion is gone: its guard halts, and the main thread will tell
+        with contextlib.suppress(LinkError):  # Motion is gone: its guard halts, and the main thread will tell
             self._stop(_WATCHED[number])
         if number == signal.SIGTSTP:
             os.kill(os.getpid(), signal.SIGSTOP)

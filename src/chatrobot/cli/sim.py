@@ -12,7 +12,7 @@ from types import FrameType
 
 from chatrobot.cli.entry import USAGE
 from chatrobot.cli.folders import profile_folders
-from chatrobot.core.errors import JointError, UsageError
+from chatrobot.core.errors import LinkError, UsageError
 from chatrobot.robots.load import profile_argument
 from chatrobot.wire.connect import wire_address
 from chatrobot.wire.runtime_dir import runtime_dir
@@ -39,7 +39,7 @@ def run(args: argparse.Namespace) -> int:
     if robot.stdout.readline() != b"ready\n" and not asked_to_end:
         if robot.wait() == USAGE:
             return USAGE  # it has said what was wrong
-        raise JointError("the simulated robot did not start")
+        raise LinkError("the simulated robot did not start")
     _tell(args.robot, address, path)
     code = robot.wait()
     if not asked_to_end:

@@ -8,7 +8,7 @@ ChatRobotError                 something broke or was given to us broken
 │   ├── CorpusError            a file for `chatrobot eval`
 │   └── UsageError             a command-line option or an API argument
 ├── WireError                  the publish/subscribe layer lost its other end
-├── JointError                 Motion could not be started or does not answer
+├── LinkError                 Motion could not be started or does not answer
 ├── SandboxError                   the sandbox for programs could not be built or has fallen; carries the Reason
 └── SafetyError                a rule of the safety design would be broken: never caught, always fatal
 """
@@ -69,7 +69,7 @@ class WireError(ChatRobotError):
     """A wire is closed or its other end is gone."""
 
 
-class JointError(ChatRobotError):
+class LinkError(ChatRobotError):
     """Motion could not be started, or its process is gone."""
 
 

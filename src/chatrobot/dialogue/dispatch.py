@@ -22,7 +22,7 @@ from chatrobot.dialogue.utterances import Utterance, UtteranceQueue
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import say
 from chatrobot.language.resuming import wants_to_resume
-from chatrobot.link.joint import Joint
+from chatrobot.link.motion_link import MotionLink
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
 
@@ -39,7 +39,7 @@ class Dispatch:
 
     def __init__(
         self,
-        joint: Joint,
+        link: MotionLink,
         goals: GoalClient,
         utterance: UtteranceQueue,
         understanding: Understanding,
@@ -52,7 +52,7 @@ class Dispatch:
         stop: Callable[[str], None],
         hears_robot_soon: Callable[[], bool],
     ) -> None:
-        self._joint = joint
+        self._link = link
         self._goals = goals
         self._utterances = utterance
         self._understanding = understanding
@@ -193,7 +193,7 @@ class Dispatch:
         self._utterances.put_back(utterance)
         self.waits_for_end = utterance.turn
         self._llm.replace()
-        self._joint.send("stop", utterance.turn - 1, why=utterance.text[:80])
+        self._link.send("stop", utterance.turn - 1, why=utterance.text[:80])
 
     def _act_on(self, utterance: Utterance, meant: Interpretation) -> None:
         """Do what was understood without a model."""

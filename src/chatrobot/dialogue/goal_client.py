@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import Any, Literal
 
 from chatrobot.dialogue.options import Options
-from chatrobot.link.joint import Joint
+from chatrobot.link.motion_link import MotionLink
 
 
 class GoalClient:
     """Sends them. `options` may be replaced: those hold for what is sent from then on."""
 
-    def __init__(self, joint: Joint, options: Options) -> None:
-        self._joint = joint
+    def __init__(self, link: MotionLink, options: Options) -> None:
+        self._link = link
         self.options = options
         self.is_paused = False
         self.pauses = 0
@@ -25,14 +25,14 @@ class GoalClient:
 
     def resume(self, turn: int) -> None:
         """Have Motion go on with what is paused."""
-        self._joint.send("resume", turn)
+        self._link.send("resume", turn)
 
     def plan(
         self, turn: int, plan_text: str, mode: Literal["queue", "replace", "append"], *, asks: bool = False
     ) -> None:
         """Have Motion rehearse and drive a plan. `asks`: it waits for a yes whatever the options."""
         options = self.options
-        self._joint.send(
+        self._link.send(
             "plan",
             turn,
             plan_text=plan_text,
@@ -64,7 +64,7 @@ class GoalClient:
         options = self.options
         asks_new = is_new and (options.ask_new or (by_model and options.approve_models))
         asks = asks or asks_new or (is_led_elsewhere and options.ask_findings)
-        self._joint.send(
+        self._link.send(
             "program",
             turn,
             mode=self.mode,

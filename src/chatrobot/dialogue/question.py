@@ -41,7 +41,7 @@ class Question:
         """Answer it, once; False where nothing waits.
 
         Raises:
-            JointError: Motion is gone.
+            LinkError: Motion is gone.
         """
         asked, self._asked = self._asked, None
         if asked is None:

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from chatrobot.core.errors import JointError
+from chatrobot.core.errors import LinkError
 from chatrobot.core.events import Event, Finished, Notice, Paused, Remembered, Result, Telemetry
 from chatrobot.core.motion_budget import OPEN_LOOP
 from chatrobot.core.reason import Reason
@@ -31,7 +31,7 @@ from chatrobot.dialogue.request_log import RequestLog
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.dialogue.utterances import Kind, Utterance, UtteranceQueue
-from chatrobot.link.joint import Joint
+from chatrobot.link.motion_link import MotionLink
 from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 
@@ -50,24 +50,24 @@ class Session:
 
     def __init__(
         self,
-        joint: Joint,
+        link: MotionLink,
         understanding: Understanding,
         on_event: Callable[[Event], None],
         options: Options,
         authoring: Authoring | None = None,
         model_setup: ModelSetup | None = None,
     ) -> None:
-        self._joint = joint
+        self._link = link
         self.understanding = understanding
         self._on_event = on_event
-        self._goals = GoalClient(joint, options)
+        self._goals = GoalClient(link, options)
         self._utterances = UtteranceQueue()
         self._proposals = Proposals(understanding, self._utterances.is_void_turn)
         self._requests = RequestLog(understanding, self._emit)
         self._llm = ModelRequests(
             model_setup,
             options.interpreter,
-            joint,
+            link,
             understanding,
             self._emit,
             self._conclude_model_turn,
@@ -90,7 +90,7 @@ class Session:
                 authoring, understanding, self._requests, self._goals, self._emit, is_void
             )
         self._dispatch = Dispatch(
-            joint,
+            link,
             self._goals,
             self._utterances,
             understanding,
@@ -157,18 +157,18 @@ class Session:
 
     def _take_in(self, text: str, kind: Kind, about: Draft | str = "") -> int:
         turn = self._utterances.add(text, kind, about, is_moving=self.is_moving)
-        self._joint.wake()
+        self._link.wake()
         return turn
 
     def stop(self, why: str = "") -> None:
         """Stop the robot and drop what was said before this moment."""
-        self._joint.send("stop", self._utterances.void(why), why=why)
+        self._link.send("stop", self._utterances.void(why), why=why)
         self._cancel_asking()
 
     def pause(self, why: str = "") -> None:
         """Stop the robot as `stop` does, and keep what it was told; what cannot be kept ends as with a stop."""
         self._utterances.hold(is_under_way=self.is_moving or self._llm.is_busy)
-        self._joint.send("stop", why=why, keep=True)
+        self._link.send("stop", why=why, keep=True)
         self._llm.cancel_unmoved(Reason("paused_by", {"why": why}))
         if self.authoring is not None:
             self.authoring.cancel()
@@ -179,7 +179,7 @@ class Session:
 
     def emergency_stop(self, why: str = "") -> None:
         """Stop the robot and keep it stopped until `release`."""
-        self._joint.send("emergency_stop", self._utterances.void(why), why=why)
+        self._link.send("emergency_stop", self._utterances.void(why), why=why)
         self._cancel_asking()
 
     def _cancel_asking(self) -> None:
@@ -190,18 +190,18 @@ class Session:
 
     def release(self) -> None:
         """Release an emergency stop. For the local console alone."""
-        self._joint.send("release")
+        self._link.send("release")
 
     def limit(self, **limits: Any) -> None:
         """Change the motion budget, or ask for it: `max_distance_m`, `max_time_s`, each a number or `none`.
 
         For the local console alone.
         """
-        self._joint.send("limit", **limits)
+        self._link.send("limit", **limits)
 
     def approve(self, turn: int, yes: bool) -> None:
         """Answer a rehearsed plan that waits for a yes."""
-        self._joint.send("approve", turn, yes=yes)
+        self._link.send("approve", turn, yes=yes)
 
     @property
     def is_moving(self) -> bool:
@@ -254,26 +254,26 @@ class Session:
         """Let things happen for up to `timeout_s`: texts are understood, events heard.
 
         Raises:
-            JointError: Motion is gone.
+            LinkError: Motion is gone.
         """
         self._llm.pump()
         self._take_texts()
-        if self._llm.is_calling and self._joint.is_simulated and not self._requests.is_any_with_motion:
+        if self._llm.is_calling and self._link.is_simulated and not self._requests.is_any_with_motion:
             self._llm.wait(timeout_s)  # a model thinks in no time at all
             self._llm.pump()
             timeout_s = 0.0
-        event = self._joint.next_event(0.0 if self._find_next() is not None else timeout_s)
+        event = self._link.next_event(0.0 if self._find_next() is not None else timeout_s)
         while event is not None:
             self._hear(event)
-            event = self._joint.next_event(0.0)
+            event = self._link.next_event(0.0)
         self._llm.pump()
-        if self._joint.is_lost:
-            raise JointError("Motion is gone, and its guard sends the robot zeros. Start chatrobot again.")
+        if self._link.is_lost:
+            raise LinkError("Motion is gone, and its guard sends the robot zeros. Start chatrobot again.")
         self._take_texts()
 
     def close(self) -> None:
         """Goodbye: what runs is still done."""
-        self._joint.close()
+        self._link.close()
 
     def _emit(self, event: Event) -> None:
         self._proposals.hear(event)
@@ -303,10 +303,10 @@ class Session:
     def _hears_robot_soon(self) -> bool:
         """A robot that is there says where it is within a moment of the start."""
         for _ in range(FIRST_NEWS_LOOKS):
-            event = self._joint.next_event(FIRST_NEWS_LOOK_S)
+            event = self._link.next_event(FIRST_NEWS_LOOK_S)
             while event is not None:
                 self._hear(event)
-                event = self._joint.next_event(0.0)
+                event = self._link.next_event(0.0)
             if self.understanding.hears_robot:
                 return True
         return False

@@ -1,4 +1,4 @@
-"""The one envelope of the joint: what Understanding's half says to Motion's half, whatever carries it."""
+"""The one envelope of the link: what Understanding's half says to Motion's half, whatever carries it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a joint hears from Motion, on its way to the thread that pumps."""
+"""What a link hears from Motion, on its way to the thread that pumps."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from chatrobot.core.events import Event
 
 
 class EventQueue:
-    """Events in order, from any thread; a joint is one of these that knows where they come from."""
+    """Events in order, from any thread; a link is one of these that knows where they come from."""
 
     def __init__(self) -> None:
         # Not a SimpleQueue: where a signal comes in the last moment of its timeout, it waits for ever.

@@ -1,4 +1,4 @@
-"""The joint to a Motion in the caller's thread, on simulated time. The one module that sees both halves."""
+"""The link to a Motion in the caller's thread, on simulated time. The one module that sees both halves."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from chatrobot.wire.wire import Wire
 if TYPE_CHECKING:
     from chatrobot.motion.motion import Motion
 
-from chatrobot.link.joint import Sender
+from chatrobot.link.motion_link import Sender
 
 
-class SimulatedJoint:
+class InProcessLink:
     """Motion in the caller's thread, on a virtual clock that runs only while someone waits for an event.
 
     Args:

@@ -1,6 +1,6 @@
 """The half that moves: plan text in, a moving robot and events out. Knows no language, no model, no screen.
 
-One `Motion` serves both joints: a process of its own in real time, or the caller's thread on a virtual clock. All
+One `Motion` serves both links: a process of its own in real time, or the caller's thread on a virtual clock. All
 methods belong to the control thread but for `halt`, `receive` and `lose`, which any thread may call at any moment, and
 `post`.
 """

@@ -49,7 +49,7 @@ class Outbox:
 
 
 class SocketReader:
-    """The joint's reader: Motion hears a stop in this very thread."""
+    """The link's reader: Motion hears a stop in this very thread."""
 
     def __init__(self, line: socket.socket, runner: MotionRunner) -> None:
         self._line = line
@@ -92,7 +92,7 @@ def main(arguments: list[str]) -> int:
             budget=budget,
             open_loop=bool(options["--open-loop"]),
         )
-        threading.Thread(target=SocketReader(line, runner).run, name="joint", daemon=True).start()
+        threading.Thread(target=SocketReader(line, runner).run, name="link", daemon=True).start()
         line.send(READY)
         runner.run(lambda: runner.motion.has_left, outbox.flush)
     except WireError:

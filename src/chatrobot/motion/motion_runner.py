@@ -1,4 +1,4 @@
-"""Motion with its robot, its guard and its threads, whatever carries the joint.
+"""Motion with its robot, its guard and its threads, whatever carries the link.
 
 Threads: the control loop at 50 Hz (the caller's); the planner, so that a rehearsal never delays a tick; a listener
 for `chatrobot stop`; and a watch for others who drive the same robot. The carrier's reader hands envelopes to

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from chatrobot.core.errors import JointError, WireError
+from chatrobot.core.errors import LinkError, WireError
 from chatrobot.core.events import (
     Event,
     FindingSeen,
@@ -38,7 +38,7 @@ from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.consent import read_consent
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.link.approval import LAPSES_AFTER_S
-from chatrobot.link.topic_joint import TopicJoint
+from chatrobot.link.topic_link import TopicLink
 from chatrobot.link.topics import CHATGPT_NODE, EVENTS, OPERATOR, REPLY, STOP, USER_INPUT
 from chatrobot.models.seam import Model
 from chatrobot.nodes.log import Severity, Write
@@ -114,7 +114,7 @@ class BaseNode:
         understanding = Understanding(profile, world, options.folder)
         understanding.interpret("forward 1 m")  # reads the tables now, not with the first instruction
         self._wire = connect(options.wire, profile.wiring, NODE)
-        self._joint = TopicJoint(
+        self._link = TopicLink(
             self._wire,
             "base",
             is_on_this_machine=is_on_this_machine(options.wire),
@@ -131,7 +131,7 @@ class BaseNode:
         )
         model_setup = self._model_setup(profile)
         self._session = Session(
-            self._joint, understanding, self._hear_event, session_options, authoring, model_setup
+            self._link, understanding, self._hear_event, session_options, authoring, model_setup
         )
         self._operators = Operators(lambda: self._session.is_idle, self._lose_operator)
 
@@ -151,11 +151,11 @@ class BaseNode:
         """Until `is_leaving`; `on_ready` is called once it listens. Understands and pumps in the calling thread.
 
         Raises:
-            JointError: the wire is gone.
+            LinkError: the wire is gone.
         """
         for topic in (REPLY, EVENTS):
             advertise(self._wire, topic, Text)
-        self._joint.open()
+        self._link.open()
         warm_up(self._options.model)
         self._wire.subscribe(STOP, Flag, self._hear_stop)
         self._wire.subscribe(OPERATOR, Text, self._operators.hear_beat)
@@ -189,7 +189,7 @@ class BaseNode:
     def _serve_stop(self) -> tuple[bool, str]:
         try:
             self._session.stop("~/stop")
-        except JointError as error:
+        except LinkError as error:
             return False, str(error)
         return True, "stop sent to control"
 
@@ -197,13 +197,13 @@ class BaseNode:
         from chatrobot.nodes.ros_interfaces import Diagnosis
 
         values = {"interpreter": self._options.interpreter, "profile": self._options.profile}
-        if not self._joint.has_control:
+        if not self._link.has_control:
             return Diagnosis("warn", "no_control", values)
         return Diagnosis("ok", "ready", values)
 
     def _hear(self, message: Text) -> None:
         if message.data.strip():
-            with contextlib.suppress(JointError):  # the wire is closing
+            with contextlib.suppress(LinkError):  # the wire is closing
                 if is_release(message.data):
                     self._session.release()  # control decides, and says what it did
                 else:
@@ -221,12 +221,12 @@ class BaseNode:
         self._question.answer(self._session, yes is True)
 
     def _lose_operator(self) -> None:
-        with contextlib.suppress(JointError):
+        with contextlib.suppress(LinkError):
             self._session.stop("operator lost")
 
     def _hear_stop(self, message: Flag) -> None:
         if message.data:
-            with contextlib.suppress(JointError):
+            with contextlib.suppress(LinkError):
                 self._session.stop(STOP)
 
     # --- the pumping thread ---
@@ -302,7 +302,7 @@ class BaseNode:
             self._publish(REPLY, text)
 
     def _publish(self, topic: str, text: str) -> None:
-        with contextlib.suppress(WireError):  # gone: the joint tells
+        with contextlib.suppress(WireError):  # gone: the link tells
             self._wire.publish(topic, Text(text))
 
 

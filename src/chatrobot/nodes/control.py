@@ -1,4 +1,4 @@
-"""`control`: from `chatgpt_node` to `cmd_vel`. It is Motion's process; only what carries the joint is a topic.
+"""`control`: from `chatgpt_node` to `cmd_vel`. It is Motion's process; only what carries the link is a topic.
 
 Knows no language: its events carry codes with numbers, and whoever starts it may have them written into a log.
 """

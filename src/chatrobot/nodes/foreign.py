@@ -14,7 +14,7 @@ from chatrobot.core.process import own_identity
 from chatrobot.core.reason import Reason
 from chatrobot.governor.lease import LOCAL_TERM_S
 from chatrobot.link.envelope import Envelope
-from chatrobot.link.joint import Sender
+from chatrobot.link.motion_link import Sender
 from chatrobot.link.topics import CHATGPT_NODE
 from chatrobot.motion.motion_runner import MotionRunner
 from chatrobot.plan.steps import Plan, RawTwist

@@ -20,7 +20,7 @@ from chatrobot.cli.console.words import Words, language_of_environment
 from chatrobot.cli.typed_ahead import TypedAhead
 from chatrobot.compose import Setup, connect
 from chatrobot.core.clock import RealClock
-from chatrobot.core.errors import JointError, UsageError
+from chatrobot.core.errors import LinkError, UsageError
 from chatrobot.core.events import Event
 from chatrobot.link.processes import SIMULATED
 
@@ -35,7 +35,7 @@ def run_console(setup: Setup, typed_ahead: TypedAhead) -> int:
 
     Raises:
         InputError: the setup is wrong.
-        JointError: the robot does not start.
+        LinkError: the robot does not start.
     """
     if setup.fast:
         raise UsageError("a conversation is in real time", where="--fast", allowed='chatrobot do "…" --fast')
@@ -69,7 +69,7 @@ def can_chat(environment: Mapping[str, str] = os.environ) -> bool:
 
 def _converse(controller: ChatController, setup: Setup, typed_ahead: TypedAhead) -> int:
     def hang_up() -> None:
-        with contextlib.suppress(JointError):  # nothing is said: nobody is there to read it
+        with contextlib.suppress(LinkError):  # nothing is said: nobody is there to read it
             controller.session.stop("terminal closed")
         controller.connection.close()
 
@@ -88,7 +88,7 @@ def _converse(controller: ChatController, setup: Setup, typed_ahead: TypedAhead)
         controller.leave()
     code = display.run()
     if code != 0:
-        with contextlib.suppress(JointError):
+        with contextlib.suppress(LinkError):
             controller.session.stop("the console has ended")
     elif not controller.has_parted:
         print(f"  {controller.words.say('goodbye')}")

@@ -34,7 +34,7 @@ from chatrobot.cli.edited import Edited
 from chatrobot.cli.lines import texts_in
 from chatrobot.compose import Connection
 from chatrobot.core.clock import Clock
-from chatrobot.core.errors import JointError
+from chatrobot.core.errors import LinkError
 from chatrobot.core.events import Event, Interpreted, Notice, Result, Started, Telemetry
 from chatrobot.dialogue.parting import is_parting
 from chatrobot.dialogue.question import Question
@@ -260,7 +260,7 @@ class ChatController:
         """Do something that needs Motion; without it, this talk is over."""
         try:
             act()
-        except JointError as error:
+        except LinkError as error:
             self.lose(error)
 
     # --- what the robot does ---
@@ -319,7 +319,7 @@ class ChatController:
         self._tell_undone(undone)
         self._say_next()
 
-    def lose(self, error: JointError) -> None:
+    def lose(self, error: LinkError) -> None:
         """Motion is gone: its guard halts the robot; here is nothing left to talk to."""
         self.display.print(marked("✗", "bold red", str(error)))
         self.display.leave(1)

@@ -6,7 +6,7 @@ import queue
 import threading
 from collections.abc import Callable
 
-from chatrobot.core.errors import JointError
+from chatrobot.core.errors import LinkError
 from chatrobot.dialogue.session import Session
 
 PUMP_S = 0.05
@@ -21,7 +21,7 @@ class Pump:
     """
 
     def __init__(
-        self, session: Session, on_lost: Callable[[JointError], None], on_end: Callable[[], None]
+        self, session: Session, on_lost: Callable[[LinkError], None], on_end: Callable[[], None]
     ) -> None:
         self._session = session
         self._on_lost = on_lost
@@ -49,7 +49,7 @@ class Pump:
                 while not self._jobs.empty():
                     self._jobs.get()()
                 self._session.pump(PUMP_S)
-        except JointError as error:
+        except LinkError as error:
             self._on_lost(error)
         finally:
             if not self._ended.is_set():

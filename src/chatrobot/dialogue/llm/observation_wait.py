@@ -9,7 +9,7 @@ from chatrobot.core.events import Looked
 from chatrobot.dialogue.llm.terms import Surroundings
 
 if TYPE_CHECKING:
-    from chatrobot.link.joint import Joint
+    from chatrobot.link.motion_link import MotionLink
 
 LOOK_S = 3.0
 """How long Motion may take to say what the lidar sees, and the camera to be found and to show something."""
@@ -22,13 +22,15 @@ class ObservationWait:
         looks: what the model wants to see.
     """
 
-    def __init__(self, looks: tuple[str, ...], turn: int, joint: Joint, surroundings: Surroundings) -> None:
+    def __init__(
+        self, looks: tuple[str, ...], turn: int, link: MotionLink, surroundings: Surroundings
+    ) -> None:
         self.scan: Looked | None = None
         self._surroundings = surroundings
         self._wants_scan, self._wants_picture = "scan" in looks, "camera" in looks
         self._until_s = time.monotonic() + LOOK_S
         if self._wants_scan:
-            joint.send("look", turn)
+            link.send("look", turn)
         if self._wants_picture:
             surroundings.begin_looking()
 

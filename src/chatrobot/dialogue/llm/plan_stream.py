@@ -11,7 +11,7 @@ from chatrobot.plan.primitives.say import Say
 from chatrobot.plan.text import format_step
 
 if TYPE_CHECKING:
-    from chatrobot.link.joint import Joint
+    from chatrobot.link.motion_link import MotionLink
 
 
 class PlanStream:
@@ -25,7 +25,7 @@ class PlanStream:
     def __init__(
         self,
         turn: int,
-        joint: Joint,
+        link: MotionLink,
         emit: Callable[[Event], None],
         mode: Literal["queue", "replace", "append"],
         *,
@@ -35,7 +35,7 @@ class PlanStream:
     ) -> None:
         self._pauses = pauses
         self._turn = turn
-        self._joint = joint
+        self._link = link
         self._emit = emit
         self._mode = mode
         self._approve = approve
@@ -92,7 +92,7 @@ class PlanStream:
         mode = "extend" if self.is_open else self._mode
         self.is_open = True
         self._is_closed = not more
-        self._joint.send(
+        self._link.send(
             "plan",
             self._turn,
             plan_text=plan_text,

@@ -40,7 +40,7 @@ from chatrobot.plan.primitives.say import Say
 from chatrobot.plan.text import format_step
 
 if TYPE_CHECKING:
-    from chatrobot.link.joint import Joint
+    from chatrobot.link.motion_link import MotionLink
 
 MAX_RETRIES = 2
 """A bad reply never causes more further calls than these."""
@@ -70,7 +70,7 @@ class ModelRequest:
         messages: list[Message],
         model: Model,
         options: ModelOptions,
-        joint: Joint,
+        link: MotionLink,
         surroundings: Surroundings,
         emit: Callable[[Event], None],
         mode: Literal["queue", "replace", "append"],
@@ -86,7 +86,7 @@ class ModelRequest:
         self._messages = messages
         self._model = model
         self._options = options
-        self._joint = joint
+        self._link = link
         self._surroundings = surroundings
         self._emit = emit
         self._comes_whole = approve or rehearse_only or only_talks or not options.streams
@@ -95,7 +95,7 @@ class ModelRequest:
         self._only_talks = only_talks
         self._spending = Spending(options)
         self._feed = PlanStream(
-            turn, joint, emit, mode, approve=approve, rehearse_only=rehearse_only, pauses=pauses
+            turn, link, emit, mode, approve=approve, rehearse_only=rehearse_only, pauses=pauses
         )
         self._cancelled: Reason | None = None
         self._look: ObservationWait | None = None
@@ -184,7 +184,7 @@ class ModelRequest:
         # A model that has been wrong once is read to its end before anything moves.
         self._feed.begin(streams=not self._comes_whole and not self._spending.retries)
         self._round = ModelRound(
-            self._model, self._messages, self._options.limits, self._joint.wake, self._done
+            self._model, self._messages, self._options.limits, self._link.wake, self._done
         )
         if self._cancelled is not None:
             self._round.call.cancel()
@@ -310,7 +310,7 @@ class ModelRequest:
 
     def _begin_look(self) -> None:
         self._feed.say_held()
-        self._look = ObservationWait(self._round.reader.looks, self.turn, self._joint, self._surroundings)
+        self._look = ObservationWait(self._round.reader.looks, self.turn, self._link, self._surroundings)
         self._end_look()
 
     def _end_look(self) -> None:

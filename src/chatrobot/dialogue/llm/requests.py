@@ -29,7 +29,7 @@ from chatrobot.plan.base import Step
 from chatrobot.robots.profile import RobotProfile
 
 if TYPE_CHECKING:
-    from chatrobot.link.joint import Joint
+    from chatrobot.link.motion_link import MotionLink
 
 Interpreter = Literal["auto", "offline", "model"]
 Approve = Literal["", "models", "all"]
@@ -73,7 +73,7 @@ class ModelRequests:
         self,
         model_setup: ModelSetup | None,
         interpreter: Interpreter,
-        joint: Joint,
+        link: MotionLink,
         understanding: Understanding,
         emit: Callable[[Event], None],
         conclude: Callable[[int, str, Ended], None],
@@ -83,7 +83,7 @@ class ModelRequests:
         self._model_setup = model_setup if interpreter != "offline" else None
         self._has_hinted = False
         self._interpreter = interpreter
-        self._joint = joint
+        self._link = link
         self._understanding = understanding
         self._emit = emit
         self._conclude = conclude
@@ -199,7 +199,7 @@ class ModelRequests:
             messages,
             model_setup.model,
             model_setup.options,
-            self._joint,
+            self._link,
             self._shown,
             self._emit,
             mode,

@@ -1,4 +1,4 @@
-"""The joint between the two halves: envelopes one way, events the other. Three carriers, one contract suite."""
+"""The link between the two halves: envelopes one way, events the other. Three carriers, one contract suite."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from chatrobot.core.events import Event
 from chatrobot.link.envelope import Envelope, Word
 
 
-class Joint(Protocol):
+class MotionLink(Protocol):
     """What a session holds of Motion. `send` may be called from any thread.
 
     `beats` is true while the source keeps its lease; a source that is to be taken for frozen sets it to false.
@@ -24,7 +24,7 @@ class Joint(Protocol):
         """Say one word.
 
         Raises:
-            JointError: Motion is gone.
+            LinkError: Motion is gone.
         """
         ...
 

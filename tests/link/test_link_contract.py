@@ -1,4 +1,4 @@
-"""What holds at the joint, whichever carries it."""
+"""What holds at the link, whichever carries it."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from tests.link.joint_rigs import (
-    JointRig,
+from tests.link.link_rigs import (
+    LinkRig,
     ProcessRig,
     SimulatedRig,
     events_until,
@@ -25,24 +25,22 @@ from chatrobot.core.events import Rehearsed
         pytest.param(ProcessRig, id="process", marks=pytest.mark.realtime),
     ]
 )
-def rig(
-    request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> Iterator[JointRig]:
+def rig(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[LinkRig]:
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
-    make: Callable[[Path], JointRig] = request.param
+    make: Callable[[Path], LinkRig] = request.param
     made = make(tmp_path)
     yield made
     made.close()
 
 
-def is_at_rest(rig: JointRig) -> bool:
-    """The last thing on the wire is a zero; its ear may hear it a moment after the joint has told."""
+def is_at_rest(rig: LinkRig) -> bool:
+    """The last thing on the wire is a zero; its ear may hear it a moment after the link has told."""
     for _ in range(20):
-        rig.joint.next_event(0.02)
+        rig.link.next_event(0.02)
     return not any(rig.velocities[-1])
 
 
-def test_a_plan_is_driven_and_measured(rig: JointRig) -> None:
+def test_a_plan_is_driven_and_measured(rig: LinkRig) -> None:
     send_plan(rig, 1, "drive 0.3 m")
     end = finished(rig, 1)
     assert end.outcome == "completed"
@@ -50,18 +48,18 @@ def test_a_plan_is_driven_and_measured(rig: JointRig) -> None:
     assert is_at_rest(rig)
 
 
-def test_plans_queue_and_run_in_order(rig: JointRig) -> None:
+def test_plans_queue_and_run_in_order(rig: LinkRig) -> None:
     send_plan(rig, 1, "drive 0.2 m")
     send_plan(rig, 2, "drive 0.1 m back")
     assert finished(rig, 1).pose.x_m == pytest.approx(0.2, abs=0.01)
     assert finished(rig, 2).pose.x_m == pytest.approx(0.1, abs=0.01)
 
 
-def test_stop_ends_what_runs_and_what_waits(rig: JointRig) -> None:
+def test_stop_ends_what_runs_and_what_waits(rig: LinkRig) -> None:
     send_plan(rig, 1, "drive 5 m")
     send_plan(rig, 2, "drive 1 m")
     moving(rig, 1)
-    rig.joint.send("stop", why="test")
+    rig.link.send("stop", why="test")
     first = finished(rig, 1)
     assert first.outcome == "stopped"
     assert 0.0 < first.path_m < 1.0
@@ -69,40 +67,40 @@ def test_stop_ends_what_runs_and_what_waits(rig: JointRig) -> None:
     assert is_at_rest(rig)
 
 
-def test_after_a_stop_nothing_needs_releasing(rig: JointRig) -> None:
-    rig.joint.send("stop")
+def test_after_a_stop_nothing_needs_releasing(rig: LinkRig) -> None:
+    rig.link.send("stop")
     send_plan(rig, 1, "drive 0.1 m")
     assert finished(rig, 1).outcome == "completed"
 
 
-def test_what_is_said_right_after_a_stop_is_done(rig: JointRig) -> None:
+def test_what_is_said_right_after_a_stop_is_done(rig: LinkRig) -> None:
     send_plan(rig, 1, "drive 5 m")
     moving(rig, 1)
-    rig.joint.send("stop", 1)
+    rig.link.send("stop", 1)
     send_plan(rig, 2, "drive 0.1 m")
     assert finished(rig, 1).outcome == "stopped"
     assert finished(rig, 2).outcome == "completed"
 
 
-def test_an_emergency_stop_holds_until_it_is_released(rig: JointRig) -> None:
+def test_an_emergency_stop_holds_until_it_is_released(rig: LinkRig) -> None:
     send_plan(rig, 1, "drive 5 m")
     moving(rig, 1)
-    rig.joint.send("emergency_stop", why="test")
+    rig.link.send("emergency_stop", why="test")
     assert finished(rig, 1).outcome == "stopped"
     send_plan(rig, 2, "drive 0.1 m")
     refused = finished(rig, 2)
     assert refused.outcome == "refused"
     assert refused.reason is not None
     assert refused.reason.code == "emergency_stop"
-    rig.joint.send("release")
+    rig.link.send("release")
     send_plan(rig, 3, "drive 0.1 m")
     assert finished(rig, 3).outcome == "completed"
 
 
-def test_a_source_that_stops_beating_loses_its_lease(rig: JointRig) -> None:
+def test_a_source_that_stops_beating_loses_its_lease(rig: LinkRig) -> None:
     send_plan(rig, 1, "drive 5 m")
     moving(rig, 1)
-    rig.joint.beats = False
+    rig.link.beats = False
     end = finished(rig, 1)
     assert end.reason is not None
     told = [
@@ -113,7 +111,7 @@ def test_a_source_that_stops_beating_loses_its_lease(rig: JointRig) -> None:
     assert is_at_rest(rig)
 
 
-def test_new_motion_can_replace_the_old_after_a_controlled_stop(rig: JointRig) -> None:
+def test_new_motion_can_replace_the_old_after_a_controlled_stop(rig: LinkRig) -> None:
     send_plan(rig, 1, "drive 5 m")
     moving(rig, 1)
     send_plan(rig, 2, "turn left 20 deg", mode="replace")
@@ -124,7 +122,7 @@ def test_new_motion_can_replace_the_old_after_a_controlled_stop(rig: JointRig) -
     assert finished(rig, 2).outcome == "completed"
 
 
-def test_a_full_queue_refuses_rather_than_forgets(rig: JointRig) -> None:
+def test_a_full_queue_refuses_rather_than_forgets(rig: LinkRig) -> None:
     send_plan(rig, 1, "wait 1000 s")
     for turn in range(2, 13):
         send_plan(rig, turn, "drive 0.1 m")
@@ -132,14 +130,14 @@ def test_a_full_queue_refuses_rather_than_forgets(rig: JointRig) -> None:
     assert refused.outcome == "refused"
     assert refused.reason is not None
     assert refused.reason.code == "queue_full"
-    rig.joint.send("stop")
+    rig.link.send("stop")
 
 
 @pytest.mark.parametrize(
     ("plan_text", "code"), [("fly 1 m", "plan_text"), ("drive 1 m at 50 m/s", "speed_above_limit")]
 )
 def test_what_cannot_be_done_is_refused_with_its_reason_and_nothing_moves(
-    rig: JointRig, plan_text: str, code: str
+    rig: LinkRig, plan_text: str, code: str
 ) -> None:
     send_plan(rig, 1, plan_text)
     end = finished(rig, 1)
@@ -149,47 +147,47 @@ def test_what_cannot_be_done_is_refused_with_its_reason_and_nothing_moves(
     assert not any(any(velocity) for velocity in rig.velocities)
 
 
-def test_a_plan_that_wants_approval_waits_for_it(rig: JointRig) -> None:
+def test_a_plan_that_wants_approval_waits_for_it(rig: LinkRig) -> None:
     send_plan(rig, 1, "drive 0.1 m", approve=True)
     rehearsed = events_until(rig, lambda event: isinstance(event, Rehearsed))[-1]
     assert isinstance(rehearsed, Rehearsed)
     assert rehearsed.needs_approval
     assert not any(any(velocity) for velocity in rig.velocities)
-    rig.joint.send("approve", 1, yes=True)
+    rig.link.send("approve", 1, yes=True)
     assert finished(rig, 1).outcome == "completed"
 
 
-def test_a_no_is_a_refusal(rig: JointRig) -> None:
+def test_a_no_is_a_refusal(rig: LinkRig) -> None:
     send_plan(rig, 1, "drive 0.1 m", approve=True)
     events_until(rig, lambda event: isinstance(event, Rehearsed))
-    rig.joint.send("approve", 1, yes=False)
+    rig.link.send("approve", 1, yes=False)
     assert finished(rig, 1).outcome == "refused"
 
 
-def test_a_rehearsal_alone_moves_nothing(rig: JointRig) -> None:
+def test_a_rehearsal_alone_moves_nothing(rig: LinkRig) -> None:
     send_plan(rig, 1, "drive 1 m", rehearse_only=True)
     assert finished(rig, 1).outcome == "completed"
     assert not any(any(velocity) for velocity in rig.velocities)
 
 
-def test_a_goodbye_lets_what_is_queued_be_done(rig: JointRig) -> None:
+def test_a_goodbye_lets_what_is_queued_be_done(rig: LinkRig) -> None:
     send_plan(rig, 1, "drive 0.2 m")
     send_plan(rig, 2, "drive 0.1 m")
-    rig.joint.close()
+    rig.link.close()
     fastest = max(velocity.vx_mps for velocity in rig.velocities)
     assert fastest > 0.1
     assert is_at_rest(rig)
 
 
-def test_a_source_that_leaves_without_goodbye_stops_the_robot(rig: JointRig) -> None:
+def test_a_source_that_leaves_without_goodbye_stops_the_robot(rig: LinkRig) -> None:
     send_plan(rig, 1, "drive 5 m")
     moving(rig, 1)
-    rig.joint.abandon()
+    rig.link.abandon()
     assert is_at_rest(rig)
 
 
-def test_a_plan_that_was_on_its_way_when_stop_was_said_is_not_driven(rig: JointRig) -> None:
-    rig.joint.send("stop", 3, why="said after turn 3")
+def test_a_plan_that_was_on_its_way_when_stop_was_said_is_not_driven(rig: LinkRig) -> None:
+    rig.link.send("stop", 3, why="said after turn 3")
     send_plan(rig, 3, "drive 1 m")
     send_plan(rig, 4, "drive 0.1 m")
     assert finished(rig, 3).outcome == "stopped"

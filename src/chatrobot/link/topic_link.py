@@ -1,4 +1,4 @@
-"""The joint to a Motion that is a node of its own: envelopes on `chatgpt_node`, events on `chatrobot/events`, and
+"""The link to a Motion that is a node of its own: envelopes on `chatgpt_node`, events on `chatrobot/events`, and
 telemetry on `chatrobot/telemetry`."""
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from chatrobot.core.errors import JointError, WireError
+from chatrobot.core.errors import LinkError, WireError
 from chatrobot.core.events import (
     Finished,
     Interpreted,
@@ -29,7 +29,7 @@ from chatrobot.core.scheduling import wake_promptly
 from chatrobot.governor.lease import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S
 from chatrobot.link.envelope import Envelope, Word
 from chatrobot.link.event_queue import EventQueue
-from chatrobot.link.joint import Sender
+from chatrobot.link.motion_link import Sender
 from chatrobot.link.topics import CHATGPT_NODE, CONTROL, EVENTS, TELEMETRY, read_beat
 from chatrobot.wire.connect import advertise, comes_back
 from chatrobot.wire.messages import Text
@@ -45,7 +45,7 @@ FROZEN_S = 0.5
 """After a gap this long in our own beats it is we who were silent, and what control said is still to be read."""
 
 
-class TopicJoint(EventQueue):
+class TopicLink(EventQueue):
     """Talks to whichever control node is there; it may come, go and come again.
 
     A thread beats the lease. If this process freezes or dies, the beats end and Motion stops the robot. `open`
@@ -114,7 +114,7 @@ class TopicJoint(EventQueue):
     def close(self) -> None:
         if self._closed.is_set():
             return
-        with contextlib.suppress(JointError):
+        with contextlib.suppress(LinkError):
             self.send("goodbye")
         self._closed.set()
 
@@ -165,7 +165,7 @@ class TopicJoint(EventQueue):
             now_s = time.monotonic()
             next_s = max(next_s + self._period_s, now_s)
             if self.beats:
-                with contextlib.suppress(JointError):
+                with contextlib.suppress(LinkError):
                     self.send("beat", term_s=self._term_s, process=self._process, age_s=self._age_s())
             if now_s - last_s > FROZEN_S:
                 self._controls = dict.fromkeys(self._controls, now_s)
@@ -176,7 +176,7 @@ class TopicJoint(EventQueue):
         """End the turns of a control node that is gone; and should it come again, they must not run."""
         for turn, control in tuple(self._in_flight.items()):
             if now_s - self._controls.get(control, 0.0) > SILENT_S and self._in_flight.pop(turn, ""):
-                with contextlib.suppress(JointError):
+                with contextlib.suppress(LinkError):
                     self.send("stop", turn, why="control was silent")
                 self._conclude(turn, "failed", Reason("control_silent"))
 
@@ -189,4 +189,4 @@ class TopicJoint(EventQueue):
             self._wire.publish(CHATGPT_NODE, Text(envelope.to_bytes().decode()))
         except WireError as error:
             if not comes_back(self._wire):
-                raise JointError("the wire to the robot is closed") from error
+                raise LinkError("the wire to the robot is closed") from error

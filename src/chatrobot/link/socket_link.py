@@ -1,4 +1,4 @@
-"""The joint to a Motion in a process of its own, over an inherited socket."""
+"""The link to a Motion in a process of its own, over an inherited socket."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ import threading
 import time
 from typing import Any
 
-from chatrobot.core.errors import JointError
+from chatrobot.core.errors import LinkError
 from chatrobot.core.events import event_from_json
 from chatrobot.core.process import own_identity
 from chatrobot.core.scheduling import wake_promptly
 from chatrobot.governor.lease import LOCAL_BEAT_HZ, LOCAL_TERM_S
 from chatrobot.link.envelope import READY, Word
 from chatrobot.link.event_queue import EventQueue
-from chatrobot.link.joint import Sender
+from chatrobot.link.motion_link import Sender
 from chatrobot.link.processes import MotionProcess
 from chatrobot.wire.local import PACKET_BYTES
 
@@ -25,14 +25,14 @@ START_TIMEOUT_S = 20.0
 END_TIMEOUT_S = 5.0
 
 
-class SocketJoint(EventQueue):
+class SocketLink(EventQueue):
     """Talks to a Motion that has been started.
 
     A thread beats the lease; a thread reads events. If this process freezes or dies, the beats end and Motion
     stops the robot.
 
     Raises:
-        JointError: Motion does not start.
+        LinkError: Motion does not start.
     """
 
     def __init__(self, motion: MotionProcess, source: str = "console") -> None:
@@ -53,18 +53,18 @@ class SocketJoint(EventQueue):
             ready = b""
         if ready != READY:
             self.process.kill()
-            raise JointError("Motion did not start")
+            raise LinkError("Motion did not start")
         self._line.settimeout(None)
         self.send("hello", term_s=LOCAL_TERM_S, process=own_identity())
         threading.Thread(target=self._beat, name="beat", daemon=True).start()
-        threading.Thread(target=self._read, name="joint", daemon=True).start()
+        threading.Thread(target=self._read, name="link", daemon=True).start()
 
     def send(self, word: Word, turn: int = 0, **payload: Any) -> None:
         packet = self._sender.envelope(word, turn, **payload).to_bytes()
         try:
             self._line.send(packet, socket.MSG_NOSIGNAL)
         except OSError as error:
-            raise JointError("Motion is gone") from error
+            raise LinkError("Motion is gone") from error
 
     def abandon(self) -> None:
         self._closed.set()
@@ -74,7 +74,7 @@ class SocketJoint(EventQueue):
     def close(self) -> None:
         if self._closed.is_set():
             return
-        with contextlib.suppress(JointError):
+        with contextlib.suppress(LinkError):
             self.send("goodbye")
         self._closed.set()
         with contextlib.suppress(subprocess.TimeoutExpired):
@@ -90,7 +90,7 @@ class SocketJoint(EventQueue):
             try:
                 if self.beats:
                     self.send("beat")
-            except JointError:
+            except LinkError:
                 return
 
     def _read(self) -> None:

@@ -12,10 +12,10 @@ from chatrobot.core.events import Event, Finished, Telemetry
 from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.link.child import spawn
-from chatrobot.link.in_process import SimulatedJoint
-from chatrobot.link.joint import Joint
+from chatrobot.link.in_process import InProcessLink
+from chatrobot.link.motion_link import MotionLink
 from chatrobot.link.processes import MotionProcess
-from chatrobot.link.socket_joint import SocketJoint
+from chatrobot.link.socket_link import SocketLink
 from chatrobot.motion.motion import Motion
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.safety.guard_link import SimulatedGuard
@@ -31,10 +31,10 @@ from chatrobot.wire.messages import TwistMessage
 PROFILE = "wheeltec_mini_mec"
 
 
-class JointRig(Protocol):
-    """A joint to a robot in the empty world, and an ear on its wire."""
+class LinkRig(Protocol):
+    """A link to a robot in the empty world, and an ear on its wire."""
 
-    joint: Joint
+    link: MotionLink
     velocities: list[TwistMessage]
 
     def close(self) -> None: ...
@@ -59,13 +59,13 @@ class SimulatedRig:
             planner = Planner(profile, load_world("empty"))
             return Motion(profile, wire, clock, planner, guard, emit, lambda goal: goal(), releasers)
 
-        self.joint: Joint = SimulatedJoint(
+        self.link: MotionLink = InProcessLink(
             build, wire, clock, self.robot.step, guard, hub.connect(), "cmd_vel"
         )
-        self.joint.next_event(0.3)
+        self.link.next_event(0.3)
 
     def close(self) -> None:
-        self.joint.close()
+        self.link.close()
 
 
 class ProcessRig:
@@ -74,26 +74,26 @@ class ProcessRig:
     def __init__(self, folder: Path, budget: MotionBudget = NOT_CHOSEN) -> None:
         path = folder / "robot.wire"
         self._robot = spawn("chatrobot.sim", "--socket", str(path), "--profile", PROFILE, "--world", "empty")
-        joint = SocketJoint(MotionProcess.start(str(path), PROFILE, "empty", budget))
-        joint.wait_until_ready()
-        self.joint: Joint = joint
+        link = SocketLink(MotionProcess.start(str(path), PROFILE, "empty", budget))
+        link.wait_until_ready()
+        self.link: MotionLink = link
         self.velocities: list[TwistMessage] = []
         self._ear = LocalWire(path)
         self._ear.subscribe("cmd_vel", TwistMessage, self.velocities.append)
 
     def close(self) -> None:
-        self.joint.close()
+        self.link.close()
         self._ear.close()
         self._robot.terminate()
         self._robot.wait(10.0)
 
 
-def events_until(rig: JointRig, wanted: Callable[[Event], bool], patience_s: float = 30.0) -> list[Event]:
+def events_until(rig: LinkRig, wanted: Callable[[Event], bool], patience_s: float = 30.0) -> list[Event]:
     """All events up to the first wanted one."""
     seen: list[Event] = []
     deadline_s = time.monotonic() + patience_s
     while time.monotonic() < deadline_s:
-        event = rig.joint.next_event(0.1)
+        event = rig.link.next_event(0.1)
         if event is not None:
             seen.append(event)
             if wanted(event):
@@ -102,17 +102,17 @@ def events_until(rig: JointRig, wanted: Callable[[Event], bool], patience_s: flo
     raise AssertionError(f"the event did not come; seen besides telemetry: {told[-8:]}; last: {seen[-1:]}")
 
 
-def finished(rig: JointRig, turn: int) -> Finished:
+def finished(rig: LinkRig, turn: int) -> Finished:
     """The end of a turn."""
     last = events_until(rig, lambda event: isinstance(event, Finished) and event.turn == turn)[-1]
     assert isinstance(last, Finished)
     return last
 
 
-def send_plan(rig: JointRig, turn: int, plan_text: str, mode: str = "queue", **more: Any) -> None:
-    rig.joint.send("plan", turn, plan_text=plan_text, mode=mode, **more)
+def send_plan(rig: LinkRig, turn: int, plan_text: str, mode: str = "queue", **more: Any) -> None:
+    rig.link.send("plan", turn, plan_text=plan_text, mode=mode, **more)
 
 
-def moving(rig: JointRig, turn: int) -> None:
+def moving(rig: LinkRig, turn: int) -> None:
     """Wait until that turn's motion shows in odometry."""
     events_until(rig, lambda event: event.turn == turn and event.name == "progress" and event.pose.x_m > 0.05)  # type: ignore[attr-defined]
