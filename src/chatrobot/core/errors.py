@@ -87,3 +87,8 @@ class SandboxError(ChatRobotError):
 
 class SafetyError(ChatRobotError):
     """A safety rule would be broken by this call. There is nothing to recover: the program is wrong."""
+
+
+# The names of the last release, which programs may catch.
+JointError = LinkError
+BoxError = SandboxError
