@@ -49,7 +49,7 @@ class Setup:
     """What a person chose on the command line or in `connect`.
 
     `on` is auto, sim, or a robot's wire (`wire_address`). `world`: "" is what fits, the furnished home for the
-    simulated robot and nothing known for any other. `sim` holds the lies of the simulated robot (`slip=0.03,…`).
+    simulated robot and nothing known for any other. `sim` holds the faults of the simulated robot (`slip=0.03,…`).
     `yes`: plans of a real robot need no approval. `programs`: who asks for a program gets one written, rehearsed and
     run; else its motion is driven as a plan. `budget` is the motion budget, as far as it is not the profile's.
     `open_loop`: drive a robot that has no odometry (`chatrobot.robots.open_loop`).

@@ -1,4 +1,4 @@
-"""A plan that a question offers, so that every face can show it with a yes and a no."""
+"""A plan that a question offers, so that every display can show it with a yes and a no."""
 
 from __future__ import annotations
 

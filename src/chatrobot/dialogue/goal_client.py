@@ -1,4 +1,4 @@
-"""What a session has Motion do: plans and programs, under its options."""
+"""Sends the goals of a session to Motion: plans and programs, under its options."""
 
 from __future__ import annotations
 

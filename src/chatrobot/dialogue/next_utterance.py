@@ -63,12 +63,12 @@ class NextUtterance:
 
     def drop_held(self) -> None:
         """Drop what waits behind a pause where nothing is paused any more, or something new is done instead."""
-        utterance, llm = self._utterances, self._llm
-        has_begun = self._requests.is_any_with_motion or llm.is_busy
-        is_moving = self._requests.is_any_with_motion or llm.is_moving
-        is_unbegun = utterance.is_unbegun_held
-        if utterance.is_holding and (has_begun if is_unbegun else not is_moving):
-            utterance.drop_held(Reason("replaced") if is_unbegun else self._resuming.ended_by)
+        utterances, llm = self._utterances, self._llm
+        is_with_motion = self._requests.is_any_with_motion
+        is_unbegun = utterances.is_unbegun_held
+        is_over = is_with_motion or llm.is_busy if is_unbegun else not (is_with_motion or llm.is_moving)
+        if utterances.is_holding and is_over:
+            utterances.drop_held(Reason("replaced") if is_unbegun else self._resuming.ended_by)
 
     def _overtakes(self, utterance: Utterance) -> bool:
         """It needs no model, and the one that is being asked says nothing."""

@@ -1,4 +1,4 @@
-"""What became of each turn: it is with Motion, or it has ended with a result."""
+"""Logs what became of each request: it is with Motion, or it has ended with a result."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One conversation with one robot: texts in, events out, whatever face is on top.
+"""One conversation with one robot: texts in, events out, whatever display is on top.
 
 `say`, `stop` and `emergency_stop` may be called from any thread; everything else belongs to the thread that pumps.
 """
@@ -45,7 +45,7 @@ class Session:
     Args:
         on_event: hears every event, in order; it only reads.
         authoring: writes and keeps programs; None where requests for one are driven as plans.
-        mind: the language model to ask, None for none.
+        model_setup: the language model to ask, None for none.
     """
 
     def __init__(

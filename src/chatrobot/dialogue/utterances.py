@@ -1,4 +1,4 @@
-"""What was said and has not been taken up yet, in order; a stop makes void what was said before it."""
+"""Queues utterances that have not been taken up yet, in order; a stop makes void what was said before it."""
 
 from __future__ import annotations
 

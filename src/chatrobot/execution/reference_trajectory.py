@@ -1,4 +1,5 @@
-"""Where the robot should be, at every moment of a plan: on the motion under way, or at the end of the last one."""
+"""The reference trajectory: where the robot should be at every moment of a plan, on the motion under way, or at
+the end of the last one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The rest that feedback left at the end of a motion: a small motion of its own, where it is worth it."""
+"""Corrects what feedback left at the end of a motion, by a small motion of its own where it is worth it."""
 
 from __future__ import annotations
 

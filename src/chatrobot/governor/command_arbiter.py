@@ -1,4 +1,4 @@
-"""The wheel is in one hand at a time, is taken explicitly, and a stop takes it out of every hand."""
+"""Decides which client commands the robot: one at a time, by priority; a stop takes command from all of them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ from chatrobot.governor.lease import Leases
 
 @dataclass(frozen=True)
 class Handover:
-    """What became of taking the wheel: refused with a reason, or taken, and from whom (empty: it was free)."""
+    """The answer to a client that asks for command: refused with a reason, or granted, and taken from whom
+    (empty: nobody was in command)."""
 
     refusal: Reason | None = None
     from_source: str = ""

@@ -118,7 +118,7 @@ class Governor:
     # --- who drives ---
 
     def begin(self, lease_id: str, now_s: float, sensed: Sensed = NOTHING_SENSED) -> Handover:
-        """Take the wheel for a new motion: from nobody, or from a source of lower priority."""
+        """Take command for a new motion: from nobody, or from a source of lower priority."""
         if self._latch is not None:
             return Handover(self._latch)
         if not (self._profile.has_odometry or self._profile.open_loop):
@@ -131,7 +131,7 @@ class Governor:
         return self._command_arbiter.take(lease_id, now_s)
 
     def end(self, lease_id: str) -> None:
-        """That source's motion is over; the wheel is free."""
+        """That source's motion is over; nobody is in command."""
         self._command_arbiter.leave(lease_id)
 
     def narrow(self, speed_mps: float = math.inf, rate_radps: float = math.inf) -> None:

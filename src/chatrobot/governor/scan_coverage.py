@@ -1,4 +1,5 @@
-"""Where the lidar looked. A robot whose lidar does not look all around knows what it comes by from a moment ago."""
+"""Which directions the lidar has scanned. A robot whose lidar does not look all around knows what it comes by
+from a moment ago."""
 
 from __future__ import annotations
 
@@ -16,16 +17,16 @@ Flags = NDArray[np.bool_]
 
 APART_M = 0.05
 APART_RAD = 0.1
-"""So far from the last one that was kept, the next look is kept."""
+"""So far from the last one that was kept, the next view is kept."""
 
 VIEWS_KEPT = 20
 SCANS_VALID = 50
-"""An earlier look counts for so many scans (5 s at 10 Hz): somebody may have come since."""
+"""An earlier view counts for so many scans (5 s at 10 Hz): somebody may have come since."""
 
 
 @dataclass(frozen=True)
 class LidarView:
-    """What one scan looked at: `beams` beams, each `step_rad` on from the first, of a lidar at `lidar` (in `odom`)."""
+    """What one scan covers: `beams` beams, each `step_rad` on from the first, of a lidar at `lidar` (in `odom`)."""
 
     lidar: Pose
     first_rad: float
@@ -48,7 +49,7 @@ class LidarView:
 
 
 class ScanCoverage:
-    """The latest look, and earlier ones that still count."""
+    """The latest view, and earlier ones that still count."""
 
     def __init__(self) -> None:
         self.latest: LidarView | None = None

@@ -1,4 +1,4 @@
-"""Who speaks to Motion. Each source has a lease: opened, kept by what it says, and ended by a goodbye or a loss."""
+"""The clients of Motion. Each has a lease: opened, kept by what it says, and ended by a goodbye or a loss."""
 
 from __future__ import annotations
 

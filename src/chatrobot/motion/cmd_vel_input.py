@@ -4,7 +4,7 @@ Whoever publishes `cmd_vel` may be started with `-r cmd_vel:=chatrobot/cmd_vel`:
 hold for it, too, and it no longer fights with us for the robot. It comes last: a plan takes its place, and after a stop
 or a plan it has to let go (send zero, or nothing for a moment) before it drives again.
 
-A joystick has a topic and a relay of its own: it comes first, takes command from whatever drives, and lets go by
+A joystick has a topic and an input of its own: it comes first, takes command from whatever drives, and lets go by
 itself once it has asked for nothing for a moment, so that one that sends zeros at rest keeps nobody from driving.
 """
 
@@ -90,7 +90,7 @@ class CmdVelInput:
             self._has_to_let_go = True
             self._tell(refusal)
             self._on_end()  # whoever drove until now has been told that it is over
-        elif not is_free():  # stopped a moment ago, from another thread: the wheel was taken after it
+        elif not is_free():  # stopped a moment ago, from another thread: command was taken after it
             self._has_to_let_go = True
             self._robot.governor.end(self._lease)
         self.is_driving = not self._has_to_let_go

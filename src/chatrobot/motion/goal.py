@@ -1,4 +1,4 @@
-"""One turn's plan on its way through Motion: received, rehearsed, approved, run."""
+"""A goal: one turn's plan on its way through Motion, received, rehearsed, approved, run."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What reaches Motion: envelopes in order, each judged by the stops that came before and after it."""
+"""Queues the goals that reach Motion: envelopes in order, each judged by the stops that came before and after it."""
 
 from __future__ import annotations
 

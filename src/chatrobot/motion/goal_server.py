@@ -1,4 +1,4 @@
-"""What Motion was asked to do, one after the other: accepted, rehearsed, approved, and handed to the plan executor."""
+"""Takes goals one after the other: accepts, rehearses, has them approved, and hands them to the plan executor."""
 
 from __future__ import annotations
 

@@ -75,7 +75,7 @@ class PlanExecutor:
         if barrier is not None:
             self._give_up("refused", barrier)
         elif self._stops.is_unbooked:
-            return  # stopped a moment ago, from another thread: the wheel was taken after it; it will end as stopped
+            return  # stopped a moment ago, from another thread: command was taken after it; it ends as stopped
         elif isinstance(goal, ProgramGoal):
             self._launch_program(goal)
         else:
@@ -187,7 +187,7 @@ class PlanExecutor:
         self._robot.governor.end(run.goal.lease)
 
     def _give_up(self, outcome: Outcome, reason: Reason) -> None:
-        """End what has not begun to move. It may have the wheel already: a program that is being launched."""
+        """End what has not begun to move. It may be in command already: a program that is being launched."""
         goal, self.goal = self.goal, None
         assert goal is not None
         self._robot.governor.end(goal.lease)

@@ -1,4 +1,4 @@
-"""What is told ten times a second, whether anything moves or not."""
+"""Publishes telemetry ten times a second, whether anything moves or not."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ TELEMETRY_S = 0.1
 
 
 class TelemetryPublisher:
-    """Tells how far the motion is, and where and how fast the robot goes, as it measures it itself."""
+    """Publishes how far the motion is, and where and how fast the robot goes, as it measures it itself."""
 
     def __init__(self, sensors: Sensors, executor: PlanExecutor, emit: Callable[[Event], None]) -> None:
         self._sensors = sensors

@@ -1,4 +1,4 @@
-"""What makes a node of ours a good citizen of ROS: declared parameters, services and diagnostics."""
+"""The ROS interfaces of a node: declared parameters, log, services and diagnostics."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a simulated robot lies about: slipping wheels, late or lost messages, noise, and worse.
+"""Faults injected into a simulated robot: slipping wheels, late or lost messages, noise, and worse.
 
 `FaultInjection.parse("slip=0.03,latency_s=0.05,noise=on,seed=1")` reads what `--sim` was given.
 """
@@ -35,7 +35,7 @@ ODOM_JUMP_M = 0.5
 
 @dataclass(frozen=True)
 class FaultInjection:
-    """How the simulated robot lies; with nothing said it is honest.
+    """The faults of the simulated robot; without any it measures exactly.
 
     Attributes:
         slip: the wheels report more than happens: true travel, linear and angular, is (1 - slip) of it.

@@ -1,4 +1,4 @@
-"""Puts the console together: robot, talk, and the display that this terminal can carry."""
+"""Puts the console together: robot, controller, and the display that this terminal can carry."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The chat on a real terminal: one line to type in, one strip below it, everything else scrolls above.
+"""The chat on a real terminal: one line to type in, one status bar below it, everything else scrolls above.
 
 One prompt_toolkit application lives as long as the conversation. It runs in the main thread; the session is pumped
 in another, whose output goes through `StdoutProxy`, and whose news of the robot only invalidates the status bar.
@@ -125,7 +125,7 @@ class Chat:
                 self.refresh()
             was_thinking = is_thinking
 
-    # --- what the display does for the talk ---
+    # --- what the display does for the controller ---
 
     @property
     def echoes(self) -> bool:

@@ -257,7 +257,7 @@ class ChatController:
         return True
 
     def attempt(self, act: Callable[[], object]) -> None:
-        """Do something that needs Motion; without it, this talk is over."""
+        """Do something that needs Motion; without it, this conversation is over."""
         try:
             act()
         except LinkError as error:

@@ -1,4 +1,4 @@
-"""What a screen can do for the talk."""
+"""What a screen does for the chat controller."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ MOST_TEXTS = QUEUE_LIMIT + 1
 _GOES_ON: frozenset[Outcome] = frozenset({"completed", "answered"})
 _STOPS = frozenset({"/stop", "/estop"})
 _LAST = ("/program", "/run-plan", "/quit")
-"""What they begin takes a turn of its own, or ends the talk: nothing can follow."""
+"""What they begin takes a turn of its own, or ends the conversation: nothing can follow."""
 _TYPED_ALONE = ("release", "limit")
 _SHOWN_CHARS = 60
 

@@ -1,4 +1,4 @@
-"""The console where a terminal can do little: lines in, lines out, no colours and no strip."""
+"""The console where a terminal can do little: lines in, lines out, no colours and no status bar."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class Plain:
                 signal.signal(number, handler)
         return self._code
 
-    # --- what the display does for the talk ---
+    # --- what the display does for the controller ---
 
     @property
     def echoes(self) -> bool:

@@ -1,4 +1,5 @@
-"""The live strip under the prompt: a small map and how far the robot is. Pure: a `MotionView` in, styled text out."""
+"""The live status bar under the prompt: a small map and how far the robot is. Pure: a `MotionView` in, styled
+text out."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """A map in characters: braille dots, two by four to a cell, with the robot as an arrow.
 
-Shared by the live strip and `/map big`. What it gives is lines of (layer, text) runs; each face has its own colours
-for the layers `wall`, `path`, `trail`, `place` and `robot`; "" is background.
+Shared by the live status bar and `/map big`. What it gives is lines of (layer, text) runs; each display has its
+own colours for the layers `wall`, `path`, `trail`, `place` and `robot`; "" is background.
 """
 
 from __future__ import annotations

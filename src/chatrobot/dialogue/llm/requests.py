@@ -1,4 +1,5 @@
-"""What goes to a model, and what becomes of it: local first, one conversation, several turns at most at once.
+"""Sends requests to a model and follows what becomes of them: local first, one conversation, several turns at
+most at once.
 
 Belongs to the pumping thread, but for `cancel`.
 """
@@ -64,7 +65,7 @@ class ModelRequests:
     """The turns of a conversation that a model plans.
 
     Args:
-        mind: None where no model is set up.
+        model_setup: None where no model is set up.
         conclude: hears how each turn ended.
         pauses: how many there were by now.
     """

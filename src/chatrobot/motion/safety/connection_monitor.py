@@ -1,4 +1,4 @@
-"""Looks out for what is about the robot on its wire: is the wire up, who else drives the same robot, and where is
+"""Monitors the robot's connection: is the wire up, who else drives the same robot, and where is
 odometry that does not come, or comes where there should be none?
 """
 

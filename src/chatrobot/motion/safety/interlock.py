@@ -1,4 +1,4 @@
-"""Whether anything may move just now, and if not, why."""
+"""Allows motion, or says why nothing may move: emergency stop, wire, guard, lease."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Notices that this process stood still, or the machine slept: what moved is over then."""
+"""Detects that this process stalled, or the machine slept: what moved is over then."""
 
 from __future__ import annotations
 

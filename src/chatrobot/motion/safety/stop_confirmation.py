@@ -1,4 +1,5 @@
-"""Zeros after a stop: until the robot is seen standing, and again when one that was lost sight of turns up moving."""
+"""Confirms a stop: sends zeros until the robot is seen standing, and again when one that was lost sight of
+turns up moving."""
 
 from __future__ import annotations
 
