@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from chatrobot.motion.programs.program_rehearsal import rehearse_program
+from chatrobot.motion.programs.rehearsal import rehearse_program
 from chatrobot.programs.events import TwistAsked
 from chatrobot.programs.sandboxed import SandboxedProgram, warm_server
 from chatrobot.programs.settings import ProgramSettings, robot_topics

@@ -30,7 +30,7 @@ def among(names: set[str], unwanted: tuple[str, ...]) -> list[str]:
 
 
 def test_motion_knows_no_language_no_model_and_no_screen() -> None:
-    loaded = loaded_by("import chatrobot.motion.motion_process")
+    loaded = loaded_by("import chatrobot.motion.process")
     assert "chatrobot.motion.motion" in loaded
     assert not among(loaded, ("chatrobot.language", "chatrobot.models", "chatrobot.cli"))
     assert not among(loaded, ("prompt_toolkit", "rich", "chatrobot.dialogue"))

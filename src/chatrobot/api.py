@@ -19,8 +19,8 @@ from chatrobot.compose import connect as compose_connect
 from chatrobot.core.errors import ChatRobotError, UsageError
 from chatrobot.core.events import Event, Result, Telemetry
 from chatrobot.core.geometry import ORIGIN, Pose
-from chatrobot.dialogue.llm.model_choice import chosen_model
 from chatrobot.dialogue.llm.requests import Interpreter
+from chatrobot.dialogue.llm.setup import chosen_model
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.session import Session
 from chatrobot.language.phrases import render_reason

@@ -15,8 +15,8 @@ from chatrobot.core.errors import LinkError, UsageError
 from chatrobot.core.events import Event, TruePose
 from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.dialogue.llm.camera import Camera, PassedCamera, wire_camera
-from chatrobot.dialogue.llm.model_choice import warm_up
 from chatrobot.dialogue.llm.requests import ModelSetup
+from chatrobot.dialogue.llm.setup import warm_up
 from chatrobot.dialogue.llm.terms import ModelOptions
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring
@@ -179,8 +179,8 @@ def _connect_simulated(
 ) -> Connection:
     from chatrobot.motion.motion import Motion
     from chatrobot.motion.planner import Planner
-    from chatrobot.motion.programs.program_host import ProgramHost
-    from chatrobot.motion.safety.guard_link import SimulatedGuard
+    from chatrobot.motion.programs.host import ProgramHost
+    from chatrobot.motion.safety.watchdog import SimulatedGuard
     from chatrobot.wire.memory import MemoryHub
 
     clock = VirtualClock()

@@ -205,7 +205,7 @@ def test_the_end_of_motion_is_told_and_ends_the_talk(chat):
     chat.enter("forward 2 m")
     chat.wait_for(MOVING)
     children = psutil.Process(chat.child.pid).children()
-    motion = next(child for child in children if "chatrobot.motion.motion_process" in child.cmdline())
+    motion = next(child for child in children if "chatrobot.motion.process" in child.cmdline())
     motion.kill()
     assert chat.wait_for_end() == 1
     assert "Motion is gone" in chat.text

@@ -18,7 +18,7 @@ from chatrobot.link.processes import MotionProcess
 from chatrobot.link.socket_link import SocketLink
 from chatrobot.motion.motion import Motion
 from chatrobot.motion.planner import Planner
-from chatrobot.motion.safety.guard_link import SimulatedGuard
+from chatrobot.motion.safety.watchdog import SimulatedGuard
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.fault_injection import FaultInjection

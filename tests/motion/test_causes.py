@@ -27,8 +27,8 @@ from chatrobot.language.phrases import render_reason
 from chatrobot.link.in_process import InProcessLink
 from chatrobot.models.fake.openai_chat import OpenAIChat
 from chatrobot.motion.safety import stall_detector
-from chatrobot.motion.safety.guard_link import SimulatedGuard
 from chatrobot.motion.safety.stall_detector import StallDetector
+from chatrobot.motion.safety.watchdog import SimulatedGuard
 
 ASKED = "please do the thing that the frobnicator did yesterday"
 PLAN = "drive 0.5 m\nturn left 90\ndrive 0.5 m\nturn left 90\n"

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from chatrobot.core.wiring import Wiring
-from chatrobot.motion.discovered import (
+from chatrobot.motion.topic_discovery import (
     IMU,
     ODOMETRY,
     TURTLE_POSE,

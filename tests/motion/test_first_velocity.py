@@ -9,7 +9,7 @@ from chatrobot.core.events import Event
 from chatrobot.link.in_process import InProcessLink
 from chatrobot.motion.motion import Motion
 from chatrobot.motion.planner import Planner
-from chatrobot.motion.safety.guard_link import SimulatedGuard
+from chatrobot.motion.safety.watchdog import SimulatedGuard
 from chatrobot.robots.load import load_profile
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import SimRobot

@@ -20,8 +20,8 @@ from chatrobot.motion.goal_execution import GoalExecution
 from chatrobot.motion.governed_motion import Stopwatch
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.planner import Planner
-from chatrobot.motion.programs.program_execution import ProgramExecution
-from chatrobot.motion.programs.program_goal import ProgramGoal
+from chatrobot.motion.programs.execution import ProgramExecution
+from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.programs.events import ProgramEvent, TwistAsked
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
 from chatrobot.sim.load import load_world

@@ -9,7 +9,7 @@ import pytest
 
 from chatrobot.core.clock import VirtualClock
 from chatrobot.guard.watch import BEAT, ECHO_LOST_S, HANDSHAKE, TRIPPED
-from chatrobot.motion.safety.guard_link import GuardLine
+from chatrobot.motion.safety.watchdog import GuardLine
 
 
 class SlowGuard:

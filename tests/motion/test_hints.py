@@ -8,8 +8,8 @@ from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import Wiring
 from chatrobot.language.phrases import render_reason
 from chatrobot.language.typed import as_ros_args
-from chatrobot.motion.discovered import fit
 from chatrobot.motion.hints import ODOMETRY, TURTLE_POSE, hints, why_unheard
+from chatrobot.motion.topic_discovery import fit
 from chatrobot.robots.load import load_profile
 from chatrobot.wire.connect import Endpoint
 

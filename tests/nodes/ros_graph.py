@@ -18,9 +18,9 @@ from chatrobot.cli import node as command
 from chatrobot.cli.arguments import parse
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.wiring import Wiring
-from chatrobot.motion import motion_runner
+from chatrobot.motion import runner
 from chatrobot.motion.safety import connection, stop_confirmation
-from chatrobot.motion.safety.guard_link import SimulatedGuard
+from chatrobot.motion.safety.watchdog import SimulatedGuard
 from chatrobot.wire.connect import connect_wire
 
 PATIENCE_S = 10.0
@@ -57,7 +57,7 @@ def guards(monkeypatch: pytest.MonkeyPatch) -> list[Guard]:
         made.append(Guard(address, wiring, clock, is_near=is_near))
         return made[-1]
 
-    monkeypatch.setattr(motion_runner, "GuardProcess", make)
+    monkeypatch.setattr(runner, "GuardProcess", make)
     return made
 
 

@@ -19,7 +19,7 @@ from chatrobot.cli.entry import STOPPED
 from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import WireError
 from chatrobot.language.phrases import say
-from chatrobot.motion import motion_runner
+from chatrobot.motion import runner
 from chatrobot.wire.messages import Odometry, Text, TwistMessage
 from tests.nodes.ros_graph import PATIENCE_S, Guard, Silent, fake_rclpy, running, until
 
@@ -153,12 +153,12 @@ def test_motion_keeps_the_simulation_s_time_and_the_guard_real_time(
 ) -> None:
     clocks: list[Any] = []
 
-    class Spy(motion_runner.Motion):
+    class Spy(runner.Motion):
         def __init__(self, profile: Any, wire: Any, clock: Any, *rest: Any) -> None:
             clocks.append(clock)
             super().__init__(profile, wire, clock, *rest)
 
-    monkeypatch.setattr(motion_runner, "Motion", Spy)
+    monkeypatch.setattr(runner, "Motion", Spy)
     ros.clock_s = 12.5
     with running(monkeypatch, ros, "control", "--ros-args", "-p", "use_sim_time:=true"):
         assert clocks[0].now_s() == 12.5

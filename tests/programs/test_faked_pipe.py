@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from chatrobot.motion.programs.program_rehearsal import ProgramRehearsal, rehearse_program
+from chatrobot.motion.programs.rehearsal import ProgramRehearsal, rehearse_program
 from chatrobot.programs.events import Died, Ended
 from chatrobot.robots.load import load_profile
 from chatrobot.sandbox.warm_server import WarmServer

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import pytest
 
-from chatrobot.motion.programs.program_rehearsal import ProgramRehearsal, rehearse_program
+from chatrobot.motion.programs.rehearsal import ProgramRehearsal, rehearse_program
 from chatrobot.programs.events import Ended, Raised
 from chatrobot.robots.load import load_profile
 from chatrobot.sandbox.warm_server import WarmServer

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import pytest
 
-from chatrobot.motion.programs.program_rehearsal import rehearse_program
+from chatrobot.motion.programs.rehearsal import rehearse_program
 from chatrobot.programs.events import Ended, Raised
 from chatrobot.robots.load import load_profile
 from chatrobot.sandbox.warm_server import WarmServer

@@ -8,7 +8,7 @@ from textwrap import dedent
 import pytest
 
 from chatrobot.core.geometry import ORIGIN, Pose
-from chatrobot.motion.programs.program_rehearsal import ProgramRehearsal, rehearse_program
+from chatrobot.motion.programs.rehearsal import ProgramRehearsal, rehearse_program
 from chatrobot.robots.load import load_profile
 from chatrobot.sandbox.warm_server import WarmServer
 from chatrobot.sim.load import load_world

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from chatrobot.link.envelope import MAX_CODE_CHARS, Envelope
-from chatrobot.motion.programs.program_rehearsal import ProgramRehearsal, rehearse_program
+from chatrobot.motion.programs.rehearsal import ProgramRehearsal, rehearse_program
 from chatrobot.programs.events import Ended, Raised
 from chatrobot.programs.ros_args import (
     MOST_ARGS,

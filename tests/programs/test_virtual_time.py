@@ -6,7 +6,7 @@ from textwrap import dedent
 
 import pytest
 
-from chatrobot.motion.programs.program_rehearsal import ProgramRehearsal, rehearse_program
+from chatrobot.motion.programs.rehearsal import ProgramRehearsal, rehearse_program
 from chatrobot.programs.events import Ended, Output
 from chatrobot.robots.load import load_profile
 from chatrobot.sandbox.warm_server import WarmServer

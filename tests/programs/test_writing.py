@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 import chatrobot.robots
 from chatrobot.core.geometry import ORIGIN, Pose, wrap_angle
 from chatrobot.governor.kernel import make_kernel
-from chatrobot.motion.programs.program_rehearsal import ProgramRehearsal, rehearse_program
+from chatrobot.motion.programs.rehearsal import ProgramRehearsal, rehearse_program
 from chatrobot.plan.context import Impossible
 from chatrobot.plan.rehearsal import rehearse
 from chatrobot.plan.route import GridRoutePlanner

@@ -21,7 +21,7 @@ from about import About
 from wire_contract import CAMERA, Inbox, WireContract
 
 from chatrobot.core.wiring import Wiring
-from chatrobot.motion.discovered import fit
+from chatrobot.motion.topic_discovery import fit
 from chatrobot.wire.connect import Endpoint
 from chatrobot.wire.messages import Message, Number, TwistMessage
 from chatrobot.wire.rosbridge import RosbridgeWire

@@ -11,7 +11,7 @@ import pytest
 from chatrobot.core.events import Limited, Notice
 from chatrobot.core.geometry import Twist
 from chatrobot.motion.planner import Planned, Planner
-from chatrobot.motion.programs.program_goal import ProgramGoal
+from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.motion.remembered_obstacles import RememberedObstacles
 from chatrobot.programs.events import ProgramEvent, TwistAsked
 from chatrobot.robots.profile import Circle, RobotProfile

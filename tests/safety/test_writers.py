@@ -20,7 +20,7 @@ CARRIERS = {"motion/safety/connection.py", "sim/marshalled.py", "sim/robot.py"}
 OTHER_GRAPHS = (
     "programs/",
     "motion/programs/rehearsal_environment.py",
-    "motion/programs/program_execution.py",
+    "motion/programs/execution.py",
     "wire/",
 )
 """A program publishes to the box it is in, and what it holds is governed like anything else; a backend is a wire."""

@@ -12,7 +12,7 @@ from chatrobot.cli.parameters import parameters_in, read_parameters
 from chatrobot.compose import Setup
 from chatrobot.core.errors import UsageError
 from chatrobot.core.motion_budget import MotionBudget
-from chatrobot.dialogue.llm.model_choice import chosen_model
+from chatrobot.dialogue.llm.setup import chosen_model
 from chatrobot.dialogue.llm.terms import ModelOptions
 from chatrobot.dialogue.options import Options
 from chatrobot.language.phrases import render_reason, say

@@ -12,7 +12,7 @@ from chatrobot.dialogue.goal_client import GoalClient
 from chatrobot.dialogue.llm.requests import ModelRequests
 from chatrobot.dialogue.parting import parting
 from chatrobot.dialogue.programs.draft import Draft
-from chatrobot.dialogue.programs.program_requests import ProgramRequests
+from chatrobot.dialogue.programs.requests import ProgramRequests
 from chatrobot.dialogue.proposals import Proposals
 from chatrobot.dialogue.replies import describe_waiting
 from chatrobot.dialogue.request_log import RequestLog

@@ -24,7 +24,7 @@ from chatrobot.dialogue.observations import measured
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring
 from chatrobot.dialogue.programs.draft import Draft
-from chatrobot.dialogue.programs.program_requests import ProgramRequests
+from chatrobot.dialogue.programs.requests import ProgramRequests
 from chatrobot.dialogue.proposals import Proposals
 from chatrobot.dialogue.replies import with_offer
 from chatrobot.dialogue.request_log import RequestLog

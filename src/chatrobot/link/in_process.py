@@ -10,7 +10,7 @@ from chatrobot.core.clock import VirtualClock
 from chatrobot.core.events import Event, Notice
 from chatrobot.governor.tick import TICK_S
 from chatrobot.link.envelope import Word
-from chatrobot.motion.safety.guard_link import SimulatedGuard
+from chatrobot.motion.safety.watchdog import SimulatedGuard
 from chatrobot.transports.transport import ZERO
 from chatrobot.wire.wire import Wire
 

@@ -36,7 +36,7 @@ class MotionProcess:
         """`budget` is the motion budget as the command line chose it, `open_loop` that it chose open loop."""
         return cls(
             *spawn_with_line(
-                "chatrobot.motion.motion_process",
+                "chatrobot.motion.process",
                 *("--profile", profile, "--world", world, "--wire", wire),
                 *("--max-distance", limit_text(budget.max_distance_m)),
                 *("--max-time", limit_text(budget.max_time_s)),

@@ -12,8 +12,8 @@ from chatrobot.core.summed import gone_on
 from chatrobot.link.approval import Approval
 from chatrobot.link.envelope import Envelope, seconds
 from chatrobot.motion.budgets import Account, Extent
+from chatrobot.motion.plan_stream import Stream
 from chatrobot.motion.planner import Planned
-from chatrobot.motion.stream import Stream
 from chatrobot.plan.base import Step
 from chatrobot.plan.free_part import Most
 from chatrobot.plan.lowering import Walk

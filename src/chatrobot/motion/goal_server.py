@@ -20,11 +20,11 @@ from chatrobot.motion.inbox import Inbox
 from chatrobot.motion.outcomes import OutcomeQueue
 from chatrobot.motion.paused import PausedGoal, Pausing, is_foreign, why_not_kept
 from chatrobot.motion.plan_executor import PlanExecutor
+from chatrobot.motion.plan_stream import Stream
 from chatrobot.motion.planner import Planned, Planner, refused
-from chatrobot.motion.programs.program_goal import ProgramGoal, goal_of, needs_approval
+from chatrobot.motion.programs.goal import ProgramGoal, goal_of, needs_approval
 from chatrobot.motion.programs.program_sandbox import ProgramSandbox
 from chatrobot.motion.safety.stop import Stops
-from chatrobot.motion.stream import Stream
 
 ODOMETRY_WAIT_S = 2.0
 """A robot that has just been connected may need this long to say where it is."""

@@ -30,11 +30,11 @@ from chatrobot.motion.paused import Pausing
 from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.program_sandbox import NoSandbox, ProgramSandbox
-from chatrobot.motion.safety.guard_link import GuardLink
 from chatrobot.motion.safety.interlock import Interlock
 from chatrobot.motion.safety.stall_detector import StallDetector
 from chatrobot.motion.safety.stop import PAUSED, Stops
 from chatrobot.motion.safety.stop_confirmation import StopConfirmation
+from chatrobot.motion.safety.watchdog import GuardLink
 from chatrobot.motion.sectors import sectors_m
 from chatrobot.motion.telemetry import TelemetryPublisher
 from chatrobot.robots.profile import RobotProfile

@@ -20,7 +20,7 @@ from chatrobot.motion.goal import Goal
 from chatrobot.motion.goal_queue import GoalQueue
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.outcomes import OutcomeQueue
-from chatrobot.motion.programs.program_goal import ProgramGoal
+from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.motion.safety.interlock import Interlock
 from chatrobot.motion.safety.stop import Stops
 

@@ -19,8 +19,8 @@ from chatrobot.motion.goal_execution import GoalExecution
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.inbox import Inbox
 from chatrobot.motion.outcomes import OutcomeQueue
-from chatrobot.motion.programs.program_execution import LiveProgram, ProgramExecution
-from chatrobot.motion.programs.program_goal import ProgramGoal
+from chatrobot.motion.programs.execution import LiveProgram, ProgramExecution
+from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.motion.programs.program_sandbox import ProgramSandbox
 from chatrobot.motion.safety.interlock import Interlock
 from chatrobot.motion.safety.stop import Stops

@@ -26,12 +26,12 @@ from chatrobot.core.events import (
 )
 from chatrobot.core.motion_budget import NOT_CHOSEN
 from chatrobot.dialogue.llm.camera import wire_camera
-from chatrobot.dialogue.llm.model_choice import warm_up
 from chatrobot.dialogue.llm.requests import Interpreter, ModelSetup
+from chatrobot.dialogue.llm.setup import warm_up
 from chatrobot.dialogue.llm.terms import ModelOptions
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring
-from chatrobot.dialogue.programs.program_text import body, headline
+from chatrobot.dialogue.programs.text import body, headline
 from chatrobot.dialogue.question import Question
 from chatrobot.dialogue.session import Session
 from chatrobot.dialogue.understanding import Understanding

@@ -20,7 +20,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.link.envelope import Envelope, Word
 from chatrobot.link.topics import CHATGPT_NODE, EVENTS, TELEMETRY
-from chatrobot.motion.motion_runner import MotionRunner
+from chatrobot.motion.runner import MotionRunner
 from chatrobot.motion.safety.stop_confirmation import Sight
 from chatrobot.nodes.foreign import Foreign
 from chatrobot.wire.connect import Connect, advertise, connect_wire, resolved

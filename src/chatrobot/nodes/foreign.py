@@ -16,7 +16,7 @@ from chatrobot.governor.lease import LOCAL_TERM_S
 from chatrobot.link.envelope import Envelope
 from chatrobot.link.motion_link import Sender
 from chatrobot.link.topics import CHATGPT_NODE
-from chatrobot.motion.motion_runner import MotionRunner
+from chatrobot.motion.runner import MotionRunner
 from chatrobot.plan.steps import Plan, RawTwist
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.plan.tutorial_form import ImpossibleTwistError, read_tutorial_line

@@ -9,8 +9,8 @@ from typing import Protocol
 
 from chatrobot.core.reason import Reason
 from chatrobot.motion.planner import Planned, Planner
-from chatrobot.motion.programs.program_execution import LiveProgram
-from chatrobot.motion.programs.program_goal import ProgramGoal
+from chatrobot.motion.programs.execution import LiveProgram
+from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.motion.remembered_obstacles import RememberedObstacles
 from chatrobot.wire.wire import Wire
 

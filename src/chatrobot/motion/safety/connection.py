@@ -9,7 +9,7 @@ from typing import NamedTuple
 from chatrobot.core.errors import WireError
 from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import Wiring
-from chatrobot.motion.discovered import fit, is_complete
+from chatrobot.motion.topic_discovery import fit, is_complete
 from chatrobot.wire.connect import (
     Connect,
     Endpoint,

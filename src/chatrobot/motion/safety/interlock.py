@@ -5,7 +5,7 @@ from __future__ import annotations
 from chatrobot.core.process import is_machine_busy
 from chatrobot.core.reason import Reason
 from chatrobot.governor.governor import Governor
-from chatrobot.motion.safety.guard_link import GuardLink
+from chatrobot.motion.safety.watchdog import GuardLink
 
 
 class Interlock:

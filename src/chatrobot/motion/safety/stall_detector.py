@@ -10,7 +10,7 @@ from chatrobot.core.process import is_machine_busy
 from chatrobot.core.reason import Reason
 from chatrobot.governor.tick import TICK_S
 from chatrobot.guard.watch import MISSED_S
-from chatrobot.motion.safety.guard_link import GuardLink
+from chatrobot.motion.safety.watchdog import GuardLink
 
 FROZEN_S = MISSED_S
 """A gap this long between two ticks of a moving robot means that this process stood still: the plan is over."""

@@ -18,7 +18,7 @@ from chatrobot.governor.lease import TERM_S
 from chatrobot.motion.deceleration_ramp import decelerated
 from chatrobot.motion.governed_motion import GovernedMotion, is_worth_telling
 from chatrobot.motion.governed_robot import GovernedRobot
-from chatrobot.motion.programs.program_goal import ProgramGoal
+from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.programs.events import Died, Ended, Log, Output, ProgramEvent, Raised, TwistAsked
 from chatrobot.programs.held_twist import HeldTwist
 from chatrobot.programs.raised import raised_reason

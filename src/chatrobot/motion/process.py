@@ -1,4 +1,4 @@
-"""Motion's process under a console: `python -m chatrobot.motion.motion_process --profile … --world … --wire …
+"""Motion's process under a console: `python -m chatrobot.motion.process --profile … --world … --wire …
 --max-distance … --max-time … --open-loop yes|"" --fd N`.
 
 Envelopes come over an inherited socket, and events go back over it; `MotionRunner` does the rest.
@@ -17,7 +17,7 @@ from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Telemetry
 from chatrobot.core.motion_budget import MotionBudget, read_limit_text
 from chatrobot.link.envelope import READY, Envelope
-from chatrobot.motion.motion_runner import MotionRunner
+from chatrobot.motion.runner import MotionRunner
 from chatrobot.wire.local import PACKET_BYTES
 
 OUTBOX_LIMIT = 200

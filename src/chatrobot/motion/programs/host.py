@@ -5,12 +5,12 @@ from __future__ import annotations
 from chatrobot.core.errors import SandboxError
 from chatrobot.core.reason import Reason
 from chatrobot.motion.planner import Planned, Planner
+from chatrobot.motion.programs.execution import LiveProgram
+from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.motion.programs.live_program import InStepProgram, RealTimeProgram
 from chatrobot.motion.programs.planned_program import PlannedProgram
-from chatrobot.motion.programs.program_execution import LiveProgram
-from chatrobot.motion.programs.program_goal import ProgramGoal
-from chatrobot.motion.programs.program_rehearsal import rehearse_program
 from chatrobot.motion.programs.program_senses import Senses
+from chatrobot.motion.programs.rehearsal import rehearse_program
 from chatrobot.motion.remembered_obstacles import RememberedObstacles
 from chatrobot.programs.events import LATEST_S
 from chatrobot.programs.sandboxed import SandboxedProgram, warm_server
