@@ -11,10 +11,9 @@ from chatrobot.core.clock import VirtualClock
 from chatrobot.core.events import Event, Finished, Telemetry
 from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.governor.priority import RELEASERS
-from chatrobot.link.child import spawn
 from chatrobot.link.in_process import InProcessLink
 from chatrobot.link.motion_link import MotionLink
-from chatrobot.link.processes import MotionProcess
+from chatrobot.link.processes import MotionProcess, spawn
 from chatrobot.link.socket_link import SocketLink
 from chatrobot.motion.motion import Motion
 from chatrobot.motion.planner import Planner

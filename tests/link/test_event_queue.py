@@ -10,14 +10,14 @@ from tests.under_signals import see_every_wait_end
 import chatrobot
 from chatrobot.core.events import Notice
 from chatrobot.core.reason import Reason
-from chatrobot.link.event_queue import EventQueue
+from chatrobot.link.motion_link import EventQueue
 
 SOURCES = Path(chatrobot.__file__).parent
 
 
 def test_a_signal_in_the_last_moment_of_a_wait_does_not_make_it_wait_for_ever() -> None:
     see_every_wait_end(
-        "from chatrobot.link.event_queue import EventQueue", "EventQueue()", "next_event(0.002)"
+        "from chatrobot.link.motion_link import EventQueue", "EventQueue()", "next_event(0.002)"
     )
 
 

@@ -11,8 +11,7 @@ from chatrobot.core.events import LEAST_M, LEAST_RAD, Finished, Paused
 from chatrobot.core.geometry import wrap_angle
 from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
-from chatrobot.core.shown import fixed
-from chatrobot.dialogue.quoting import one_line
+from chatrobot.core.shown import fixed, one_line
 from chatrobot.language.phrases import describe_plan, describe_steps, describe_text, render_reason, say
 from chatrobot.plan.steps import Face, Go, RawTwist, Step
 from chatrobot.plan.text import parse_plan

@@ -16,8 +16,7 @@ from chatrobot.core.process import own_identity
 from chatrobot.core.scheduling import wake_promptly
 from chatrobot.governor.lease import LOCAL_BEAT_HZ, LOCAL_TERM_S
 from chatrobot.link.envelope import READY, Word
-from chatrobot.link.event_queue import EventQueue
-from chatrobot.link.motion_link import Sender
+from chatrobot.link.motion_link import EventQueue, Sender
 from chatrobot.link.processes import MotionProcess
 from chatrobot.wire.local import PACKET_BYTES
 

@@ -28,8 +28,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.core.scheduling import wake_promptly
 from chatrobot.governor.lease import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S
 from chatrobot.link.envelope import Envelope, Word
-from chatrobot.link.event_queue import EventQueue
-from chatrobot.link.motion_link import Sender
+from chatrobot.link.motion_link import EventQueue, Sender
 from chatrobot.link.topics import CHATGPT_NODE, CONTROL, EVENTS, TELEMETRY, read_beat
 from chatrobot.wire.connect import advertise, comes_back
 from chatrobot.wire.messages import Text

@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from functools import cache
 
 from chatrobot.core.geometry import Pose
+from chatrobot.core.shown import one_line, quoted
 from chatrobot.dialogue.llm.reply_reader import LOOKS, REST
-from chatrobot.dialogue.quoting import one_line, quoted
 from chatrobot.plan.registry import primitives
 from chatrobot.robots.profile import RobotProfile
 

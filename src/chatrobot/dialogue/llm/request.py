@@ -23,6 +23,7 @@ from chatrobot.core.events import (
 )
 from chatrobot.core.motion_budget import EXCEEDED
 from chatrobot.core.reason import Reason
+from chatrobot.core.shown import one_line
 from chatrobot.core.summed import summed
 from chatrobot.dialogue.llm.call import CallEnd
 from chatrobot.dialogue.llm.observation_wait import ObservationWait
@@ -33,7 +34,6 @@ from chatrobot.dialogue.llm.spending import Spending
 from chatrobot.dialogue.llm.terms import Ended, ModelOptions, Surroundings, told
 from chatrobot.dialogue.llm.tutorial_mode import is_short_form
 from chatrobot.dialogue.observations import without_pictures
-from chatrobot.dialogue.quoting import one_line
 from chatrobot.models.seam import Message, Model
 from chatrobot.plan.base import Step
 from chatrobot.plan.primitives.say import Say

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Literal
 from chatrobot.core.events import Event, Finished, Looked, Notice
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
+from chatrobot.core.shown import one_line
 from chatrobot.dialogue.history import Exchange, History
 from chatrobot.dialogue.llm import prompt
 from chatrobot.dialogue.llm.camera import Camera
@@ -20,7 +21,6 @@ from chatrobot.dialogue.llm.request import ModelRequest
 from chatrobot.dialogue.llm.terms import Ended, ModelOptions
 from chatrobot.dialogue.llm.tutorial_mode import connects_to_the_robot, is_form
 from chatrobot.dialogue.observations import measured, observation
-from chatrobot.dialogue.quoting import one_line
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import say

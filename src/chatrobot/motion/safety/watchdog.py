@@ -8,7 +8,7 @@ from typing import Protocol
 
 from chatrobot.core.clock import Clock
 from chatrobot.guard.watch import BEAT, ECHO_LOST_S, GOODBYE, HANDSHAKE, TRIPPED, Watch
-from chatrobot.link.child import spawn_with_line
+from chatrobot.link.processes import spawn_with_line
 from chatrobot.robots.profile import Wiring
 
 
