@@ -26,9 +26,8 @@ from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.phrases import render_reason
 from chatrobot.link.in_process import InProcessLink
 from chatrobot.models.fake.openai_chat import OpenAIChat
-from chatrobot.motion.safety import stall_detector
-from chatrobot.motion.safety.stall_detector import StallDetector
-from chatrobot.motion.safety.watchdog import SimulatedGuard
+from chatrobot.motion.safety import watchdog
+from chatrobot.motion.safety.watchdog import SimulatedGuard, StallDetector
 
 ASKED = "please do the thing that the frobnicator did yesterday"
 PLAN = "drive 0.5 m\nturn left 90\ndrive 0.5 m\nturn left 90\n"
@@ -239,7 +238,7 @@ def test_a_plan_said_while_a_motion_failed_is_told_of_that_failure(tmp_path: Pat
 def test_a_guard_that_tripped_is_not_told_as_a_freeze_of_ours(
     monkeypatch: pytest.MonkeyPatch, late_s: float, code: str
 ) -> None:
-    monkeypatch.setattr(stall_detector, "is_machine_busy", lambda: False)
+    monkeypatch.setattr(watchdog, "is_machine_busy", lambda: False)
 
     class Tripped(SimulatedGuard):
         def was_tripped(self) -> bool:

@@ -8,8 +8,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import Wiring
 from chatrobot.language.phrases import render_reason
 from chatrobot.language.typed import as_ros_args
-from chatrobot.motion.hints import ODOMETRY, TURTLE_POSE, hints, why_unheard
-from chatrobot.motion.topic_discovery import fit
+from chatrobot.motion.topic_discovery import ODOMETRY, TURTLE_POSE, fit, hints, why_unheard
 from chatrobot.robots.load import load_profile
 from chatrobot.wire.connect import Endpoint
 

@@ -18,7 +18,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.dialogue.replies import describe_end
 from chatrobot.governor.lease import LOCAL_TERM_S, LONGEST_S, OVER_S, TERM_S
 from chatrobot.link.in_process import InProcessLink
-from chatrobot.motion.safety import interlock, stall_detector
+from chatrobot.motion.safety import interlock, watchdog
 
 TICK_S = 0.02
 LATE_S, ZERO_S = 0.13, 0.18
@@ -79,7 +79,7 @@ def robot(tmp_path: Path) -> Robot:
 
 @pytest.fixture(autouse=True)
 def busy(monkeypatch: pytest.MonkeyPatch) -> None:
-    for module in (interlock, stall_detector):
+    for module in (interlock, watchdog):
         monkeypatch.setattr(module, "is_machine_busy", lambda: True)
 
 

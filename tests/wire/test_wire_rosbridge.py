@@ -373,7 +373,7 @@ def test_where_rosapi_runs_the_others_are_known(robot: FakeRosbridge, connect: C
 
 
 def test_the_guard_is_told_the_topics_with_their_namespace(robot: FakeRosbridge) -> None:
-    from chatrobot.motion.safety import connection as link
+    from chatrobot.motion.safety import connection_monitor as link
     from chatrobot.wire.connect import connect_wire, resolved
 
     reached = link.reach(connect_wire, f"rosbridge:{robot.url}", Wiring(namespace="robot1"), "test")
@@ -389,7 +389,7 @@ def test_where_no_rosapi_runs_nobody_is_known(connect: Connect) -> None:
 def test_velocities_of_the_type_that_the_robot_takes_are_sent(
     robot: FakeRosbridge, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from chatrobot.motion.safety import connection as link
+    from chatrobot.motion.safety import connection_monitor as link
     from chatrobot.wire.connect import connect_wire
 
     monkeypatch.setattr(link, "SURVEY_S", 0.1)

@@ -173,7 +173,7 @@ def _domain() -> str:
 def _who_is_on(address: str, args: argparse.Namespace) -> str:
     """Who tells the robot's odometry there, and who sends velocities."""
     from chatrobot.language.phrases import render_reason
-    from chatrobot.motion.hints import why_unheard
+    from chatrobot.motion.topic_discovery import why_unheard
     from chatrobot.robots.load import load_profile
     from chatrobot.wire.connect import Surveying, connect_wire, publishers_of
 

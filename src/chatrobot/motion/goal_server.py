@@ -17,13 +17,12 @@ from chatrobot.motion.goal import Goal
 from chatrobot.motion.goal_queue import GoalQueue
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.inbox import Inbox
-from chatrobot.motion.outcomes import OutcomeQueue
 from chatrobot.motion.paused import PausedGoal, Pausing, is_foreign, why_not_kept
-from chatrobot.motion.plan_executor import PlanExecutor
+from chatrobot.motion.plan_executor import OutcomeQueue, PlanExecutor
 from chatrobot.motion.plan_stream import Stream
 from chatrobot.motion.planner import Planned, Planner, refused
+from chatrobot.motion.programs.execution import ProgramSandbox
 from chatrobot.motion.programs.goal import ProgramGoal, goal_of, needs_approval
-from chatrobot.motion.programs.program_sandbox import ProgramSandbox
 from chatrobot.motion.safety.stop import Stops
 
 ODOMETRY_WAIT_S = 2.0

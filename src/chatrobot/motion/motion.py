@@ -25,18 +25,15 @@ from chatrobot.motion.goal_queue import GoalQueue
 from chatrobot.motion.goal_server import GoalServer
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.inbox import Inbox
-from chatrobot.motion.outcomes import OutcomeQueue
 from chatrobot.motion.paused import Pausing
-from chatrobot.motion.plan_executor import PlanExecutor
+from chatrobot.motion.plan_executor import OutcomeQueue, PlanExecutor
 from chatrobot.motion.planner import Planner
-from chatrobot.motion.programs.program_sandbox import NoSandbox, ProgramSandbox
+from chatrobot.motion.programs.execution import NoSandbox, ProgramSandbox
 from chatrobot.motion.safety.interlock import Interlock
-from chatrobot.motion.safety.stall_detector import StallDetector
 from chatrobot.motion.safety.stop import PAUSED, Stops
 from chatrobot.motion.safety.stop_confirmation import StopConfirmation
-from chatrobot.motion.safety.watchdog import GuardLink
-from chatrobot.motion.sectors import sectors_m
-from chatrobot.motion.telemetry import TelemetryPublisher
+from chatrobot.motion.safety.watchdog import GuardLink, StallDetector
+from chatrobot.motion.telemetry import TelemetryPublisher, sectors_m
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.messages import TwistMessage

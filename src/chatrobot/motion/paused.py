@@ -19,7 +19,7 @@ from chatrobot.link.envelope import Envelope
 from chatrobot.motion.goal import Goal
 from chatrobot.motion.goal_queue import GoalQueue
 from chatrobot.motion.governed_robot import GovernedRobot
-from chatrobot.motion.outcomes import OutcomeQueue
+from chatrobot.motion.plan_executor import OutcomeQueue
 from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.motion.safety.interlock import Interlock
 from chatrobot.motion.safety.stop import Stops

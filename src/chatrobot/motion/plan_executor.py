@@ -6,6 +6,7 @@ and only then do pose, turn and path say what became of the motion.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -18,10 +19,8 @@ from chatrobot.motion.goal import Goal
 from chatrobot.motion.goal_execution import GoalExecution
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.inbox import Inbox
-from chatrobot.motion.outcomes import OutcomeQueue
-from chatrobot.motion.programs.execution import LiveProgram, ProgramExecution
+from chatrobot.motion.programs.execution import LiveProgram, ProgramExecution, ProgramSandbox
 from chatrobot.motion.programs.goal import ProgramGoal
-from chatrobot.motion.programs.program_sandbox import ProgramSandbox
 from chatrobot.motion.safety.interlock import Interlock
 from chatrobot.motion.safety.stop import Stops
 
@@ -192,3 +191,40 @@ class PlanExecutor:
         assert goal is not None
         self._robot.governor.end(goal.lease)
         self._outcomes.tell(lambda: goal.unmoved(outcome, reason, self._robot.pose))
+
+
+class OutcomeQueue:
+    """Belongs to the control thread. An end is made when it is told, so that it says what was measured by then.
+
+    Args:
+        measured: the robot has odometry; without, no end is told as measured, and be it of what never moved.
+    """
+
+    def __init__(self, emit: Callable[[Event], None], *, measured: bool) -> None:
+        self._emit = emit
+        self._measured = measured
+        self._untold: deque[Callable[[], Finished]] = deque()
+
+    @property
+    def are_told(self) -> bool:
+        return not self._untold
+
+    def tell(self, end: Callable[[], Finished]) -> None:
+        """Tell it now, or after those that wait."""
+        if self._untold:
+            self._untold.append(end)
+        else:
+            self._tell(end)
+
+    def tell_later(self, end: Callable[[], Finished]) -> None:
+        """Tell it once the robot stands."""
+        self._untold.append(end)
+
+    def tell_all(self) -> None:
+        """The robot stands, or nobody sees whether it does."""
+        while self._untold:
+            self._tell(self._untold.popleft())
+
+    def _tell(self, end: Callable[[], Finished]) -> None:
+        finished = end()
+        self._emit(finished if self._measured else replace(finished, measured=False))

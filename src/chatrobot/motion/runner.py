@@ -34,10 +34,8 @@ from chatrobot.motion.motion import Motion
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.host import ProgramHost
 from chatrobot.motion.safety.competing_controllers import BEAT_S, CompetingControllers
-from chatrobot.motion.safety.connection import ReconnectingWire, reach
-from chatrobot.motion.safety.connection_monitor import ConnectionMonitor
-from chatrobot.motion.safety.stop import PAUSED
-from chatrobot.motion.safety.stop_socket import remove_stop_socket, serve_stop
+from chatrobot.motion.safety.connection_monitor import ConnectionMonitor, ReconnectingWire, reach
+from chatrobot.motion.safety.stop import PAUSED, remove_stop_socket, serve_stop
 from chatrobot.motion.safety.watchdog import GuardProcess
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.robots.cautious import drives_on_alone, slowed

@@ -6,6 +6,7 @@ it (its own end, an exception, a kill, silence), the robot is brought to stand.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from typing import Protocol
 
@@ -15,13 +16,14 @@ from chatrobot.core.reason import Reason
 from chatrobot.execution.health import STANDS_LATE_S, is_seen_moving, is_seen_standing
 from chatrobot.governor.governor import TICK_S, Verdict
 from chatrobot.governor.lease import TERM_S
-from chatrobot.motion.deceleration_ramp import decelerated
-from chatrobot.motion.governed_motion import GovernedMotion, is_worth_telling
+from chatrobot.motion.governed_motion import GovernedMotion, decelerated, is_worth_telling
 from chatrobot.motion.governed_robot import GovernedRobot
+from chatrobot.motion.planner import Planned, Planner
 from chatrobot.motion.programs.goal import ProgramGoal
+from chatrobot.motion.remembered_obstacles import RememberedObstacles
 from chatrobot.programs.events import Died, Ended, Log, Output, ProgramEvent, Raised, TwistAsked
-from chatrobot.programs.held_twist import HeldTwist
 from chatrobot.programs.raised import raised_reason
+from chatrobot.wire.wire import Wire
 
 SETTLE_S = 1.0
 """A robot that is told to stand is waited for no longer than this, where it is not seen moving."""
@@ -182,3 +184,56 @@ class ProgramExecution:
         if is_worth_telling(verdict) and key not in self._told and len(self._told) < LOG_LINES:
             self._told.add(key)
             self._emit(self._motion.limited(verdict))
+
+
+class ProgramSandbox(Protocol):
+    """What Motion needs of it."""
+
+    def attach(self, wire: Wire) -> None:
+        """Hear the robot's sensors, for programs that listen to them."""
+        ...
+
+    def rehearse(self, goal: ProgramGoal, planner: Planner, seen: RememberedObstacles | None) -> Planned:
+        """Run it on virtual time, among what is known and what the lidar has seen, from where the goal starts."""
+        ...
+
+    def launch(self, goal: ProgramGoal) -> LiveProgram | Reason:
+        """Start it; why it cannot be."""
+        ...
+
+
+class NoSandbox:
+    """Nowhere: every program is refused."""
+
+    def attach(self, wire: Wire) -> None:
+        """There is nothing to hear for."""
+
+    def rehearse(self, goal: ProgramGoal, planner: Planner, seen: RememberedObstacles | None) -> Planned:  # noqa: ARG002
+        return Planned(goal.turn, None, Reason("no_programs_here"))
+
+    def launch(self, goal: ProgramGoal) -> LiveProgram | Reason:  # noqa: ARG002
+        return Reason("no_programs_here")
+
+
+class HeldTwist:
+    """What a program asks for now: what it published last, for as long as the base would have held it.
+
+    Args:
+        base_timeout_s: of the robot's wiring; None holds for ever. The lease ends it in any case.
+    """
+
+    def __init__(self, base_timeout_s: float | None) -> None:
+        self._timeout_s = math.inf if base_timeout_s is None else base_timeout_s
+        self._twist = ZERO_TWIST
+        self._ends_s = -math.inf
+
+    def publish(self, twist: Twist, now_s: float) -> None:
+        self._twist, self._ends_s = twist, now_s + self._timeout_s
+
+    def at(self, now_s: float) -> Twist:
+        return self._twist if now_s < self._ends_s else ZERO_TWIST
+
+    @property
+    def ends_s(self) -> float:
+        """When it turns to zero."""
+        return self._ends_s

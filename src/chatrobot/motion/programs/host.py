@@ -7,9 +7,8 @@ from chatrobot.core.reason import Reason
 from chatrobot.motion.planner import Planned, Planner
 from chatrobot.motion.programs.execution import LiveProgram
 from chatrobot.motion.programs.goal import ProgramGoal
-from chatrobot.motion.programs.live_program import InStepProgram, RealTimeProgram
+from chatrobot.motion.programs.live_program import InStepProgram, RealTimeProgram, Senses
 from chatrobot.motion.programs.planned_program import PlannedProgram
-from chatrobot.motion.programs.program_senses import Senses
 from chatrobot.motion.programs.rehearsal import rehearse_program
 from chatrobot.motion.remembered_obstacles import RememberedObstacles
 from chatrobot.programs.events import LATEST_S

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
+import socket
+from collections.abc import Callable
+
 from chatrobot.core.clock import Clock
 from chatrobot.core.governed import StopEpoch
 from chatrobot.core.reason import Reason
 from chatrobot.motion.safety.stop_confirmation import StopConfirmation
 from chatrobot.transports.transport import Transport
+from chatrobot.wire.runtime_dir import stop_socket_path
 
 PAUSED = "paused_by"
 """The code of a stop that keeps what was under way."""
@@ -85,3 +91,29 @@ class Stops:
         if self._asked is self._booked_ask:
             self._booked, self.last_reason = count, why
         self._stop_confirmation.begin(self._clock.now_s())
+
+
+def serve_stop(stop: Callable[[], str]) -> None:
+    """For ever: who calls on this process's socket stops the robot, and is answered when the zero is out.
+
+    Args:
+        stop: stops, and returns in a word what was found.
+    """
+    path = stop_socket_path(os.getpid())
+    with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as listener:
+        with contextlib.suppress(FileNotFoundError):
+            path.unlink()
+        listener.bind(str(path))
+        listener.listen(4)
+        while True:
+            caller, _ = listener.accept()
+            with caller:
+                found = stop()
+                with contextlib.suppress(OSError):
+                    caller.send(found.encode())
+
+
+def remove_stop_socket() -> None:
+    """Nobody serves it any more."""
+    with contextlib.suppress(OSError):
+        stop_socket_path(os.getpid()).unlink()
