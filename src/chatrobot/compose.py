@@ -15,8 +15,7 @@ from chatrobot.core.errors import LinkError, UsageError
 from chatrobot.core.events import Event, TruePose
 from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.dialogue.llm.camera import Camera, PassedCamera, wire_camera
-from chatrobot.dialogue.llm.requests import ModelSetup
-from chatrobot.dialogue.llm.setup import warm_up
+from chatrobot.dialogue.llm.setup import ModelSetup, warm_up
 from chatrobot.dialogue.llm.terms import ModelOptions
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from tests.dialogue.scripted_model import ModelTalk, Options
 
-from chatrobot.dialogue.parting import is_parting
+from chatrobot.dialogue.replies import is_parting
 
 
 @pytest.mark.parametrize(

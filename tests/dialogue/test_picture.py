@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
 
-from chatrobot.dialogue.llm.picture import MOST_SIDE_PX, as_jpeg
+from chatrobot.dialogue.llm.camera import MOST_SIDE_PX, as_jpeg
 from chatrobot.wire.messages import Picture
 
 RED, GREEN = (200, 30, 20), (20, 180, 40)
@@ -84,7 +84,7 @@ def test_a_file_that_breaks_off_is_no_picture(encoding: str, keep: int) -> None:
 
 
 def test_a_small_file_that_claims_to_be_vast_is_not_unpacked(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("chatrobot.dialogue.llm.picture.MOST_PIXELS", 640 * 480)
+    monkeypatch.setattr("chatrobot.dialogue.llm.camera.MOST_PIXELS", 640 * 480)
     assert as_jpeg(Picture(1.0, "png", 0, 0, 0, file("png", (640, 480)))) is not None
     assert as_jpeg(Picture(1.0, "png", 0, 0, 0, file("png", (641, 480)))) is None
 

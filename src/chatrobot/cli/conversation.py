@@ -15,7 +15,7 @@ from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import EXIT_CODES, Event, Notice, Result
 from chatrobot.core.reason import Reason
-from chatrobot.dialogue.parting import is_parting
+from chatrobot.dialogue.replies import is_parting
 from chatrobot.language.interpretation import LanguageCode
 
 PUMP_S = 0.1

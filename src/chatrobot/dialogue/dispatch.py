@@ -10,11 +10,10 @@ from chatrobot.core.events import Event, Interpreted, Notice, Paused
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.goal_client import GoalClient
 from chatrobot.dialogue.llm.requests import ModelRequests
-from chatrobot.dialogue.parting import parting
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.dialogue.programs.requests import ProgramRequests
 from chatrobot.dialogue.proposals import Proposals
-from chatrobot.dialogue.replies import describe_waiting
+from chatrobot.dialogue.replies import describe_waiting, parting
 from chatrobot.dialogue.request_log import RequestLog
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding

@@ -7,17 +7,19 @@ import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from chatrobot.core.events import LEAST_M, LEAST_RAD, Finished, Paused
+from chatrobot.core.events import LEAST_M, LEAST_RAD, Event, Finished, Paused, Result
 from chatrobot.core.geometry import wrap_angle
 from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
 from chatrobot.core.shown import fixed, one_line
+from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import describe_plan, describe_steps, describe_text, render_reason, say
 from chatrobot.plan.steps import Face, Go, RawTwist, Step
 from chatrobot.plan.text import parse_plan
 
 if TYPE_CHECKING:
     from chatrobot.dialogue.llm.terms import Ended
+
 
 SHOWN_CHARS = 60
 """A text that is quoted is shortened to this."""
@@ -180,3 +182,17 @@ def _turned(turned_deg: float, language: str) -> str:
     shown = fixed(turned_deg, 1)
     code = "turned" if not float(shown) else "turned_left" if turned_deg > 0.0 else "turned_right"
     return say(language, code, turned_deg=shown.lstrip("-"))
+
+
+PARTING = "parting"
+"""The code of such an interpretation, and of the reason in its result."""
+
+
+def parting(meant: Interpretation) -> Reason | None:
+    """The reason of a result that ends the conversation; None for any other."""
+    return Reason(PARTING) if meant.code == PARTING else None
+
+
+def is_parting(event: Event) -> bool:
+    """The person has said goodbye, and has been answered."""
+    return isinstance(event, Result) and event.reason is not None and event.reason.code == PARTING

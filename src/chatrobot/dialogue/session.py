@@ -15,11 +15,11 @@ from chatrobot.core.events import Event, Finished, Notice, Paused, Remembered, R
 from chatrobot.core.motion_budget import OPEN_LOOP
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.dispatch import Dispatch
-from chatrobot.dialogue.early_answers import EarlyAnswers
 from chatrobot.dialogue.goal_client import GoalClient
-from chatrobot.dialogue.llm.requests import ModelRequests, ModelSetup
+from chatrobot.dialogue.llm.requests import ModelRequests
+from chatrobot.dialogue.llm.setup import ModelSetup
 from chatrobot.dialogue.llm.terms import Ended
-from chatrobot.dialogue.next_utterance import NextUtterance
+from chatrobot.dialogue.next_utterance import EarlyAnswers, NextUtterance
 from chatrobot.dialogue.observations import measured
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring

@@ -26,8 +26,8 @@ from chatrobot.core.events import (
 )
 from chatrobot.core.motion_budget import NOT_CHOSEN
 from chatrobot.dialogue.llm.camera import wire_camera
-from chatrobot.dialogue.llm.requests import Interpreter, ModelSetup
-from chatrobot.dialogue.llm.setup import warm_up
+from chatrobot.dialogue.llm.requests import Interpreter
+from chatrobot.dialogue.llm.setup import ModelSetup, warm_up
 from chatrobot.dialogue.llm.terms import ModelOptions
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring

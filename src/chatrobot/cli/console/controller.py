@@ -36,8 +36,8 @@ from chatrobot.compose import Connection
 from chatrobot.core.clock import Clock
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import Event, Interpreted, Notice, Result, Started, Telemetry
-from chatrobot.dialogue.parting import is_parting
 from chatrobot.dialogue.question import Question
+from chatrobot.dialogue.replies import is_parting
 from chatrobot.language.consent import read_consent, wants_to_edit
 from chatrobot.programs.check import MAX_SOURCE_CHARS
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop

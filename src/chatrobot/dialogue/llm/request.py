@@ -26,13 +26,10 @@ from chatrobot.core.reason import Reason
 from chatrobot.core.shown import one_line
 from chatrobot.core.summed import summed
 from chatrobot.dialogue.llm.call import CallEnd
-from chatrobot.dialogue.llm.observation_wait import ObservationWait
 from chatrobot.dialogue.llm.plan_stream import PlanStream
-from chatrobot.dialogue.llm.prompt import correction
-from chatrobot.dialogue.llm.round import ModelRound
-from chatrobot.dialogue.llm.spending import Spending
-from chatrobot.dialogue.llm.terms import Ended, ModelOptions, Surroundings, told
-from chatrobot.dialogue.llm.tutorial_mode import is_short_form
+from chatrobot.dialogue.llm.prompt import correction, is_short_form
+from chatrobot.dialogue.llm.round import ModelRound, ObservationWait
+from chatrobot.dialogue.llm.terms import Ended, ModelOptions, Spending, Surroundings, told
 from chatrobot.dialogue.observations import without_pictures
 from chatrobot.models.seam import Message, Model
 from chatrobot.plan.base import Step

@@ -17,20 +17,21 @@ from chatrobot.core.shown import one_line
 from chatrobot.dialogue.history import Exchange, History
 from chatrobot.dialogue.llm import prompt
 from chatrobot.dialogue.llm.camera import Camera
+from chatrobot.dialogue.llm.prompt import connects_to_the_robot, is_form
 from chatrobot.dialogue.llm.request import ModelRequest
-from chatrobot.dialogue.llm.terms import Ended, ModelOptions
-from chatrobot.dialogue.llm.tutorial_mode import connects_to_the_robot, is_form
+from chatrobot.dialogue.llm.terms import Ended
 from chatrobot.dialogue.observations import measured, observation
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import say
 from chatrobot.language.sight import asks_to_see
-from chatrobot.models.seam import Message, Model
+from chatrobot.models.seam import Message
 from chatrobot.plan.base import Step
-from chatrobot.robots.profile import RobotProfile
 
 if TYPE_CHECKING:
     from chatrobot.link.motion_link import MotionLink
+
+from chatrobot.dialogue.llm.setup import ModelSetup
 
 Interpreter = Literal["auto", "offline", "model"]
 Approve = Literal["", "models", "all"]
@@ -41,16 +42,6 @@ TOGETHER_S = 0.25
 
 PATIENCE_S = 2.0
 """So long such a line waits for a model that says nothing; then it is done before the model's turn."""
-
-
-@dataclass(frozen=True)
-class ModelSetup:
-    """A model and how it is used. `camera` takes pictures for it; None where there is none, or it cannot see."""
-
-    model: Model
-    options: ModelOptions
-    profile: RobotProfile
-    camera: Camera | None = None
 
 
 @dataclass

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
-from chatrobot.core.events import Finished
+from chatrobot.core.events import Finished, Looked
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.llm.call import CallEnd, ModelCall
 from chatrobot.dialogue.llm.reply_reader import ReplyReader
+from chatrobot.dialogue.llm.terms import Surroundings
 from chatrobot.models.seam import CallLimits, Message, Model
 from chatrobot.plan.base import Step
 from chatrobot.plan.primitives.say import Say
 from chatrobot.plan.steps import count_steps
 from chatrobot.plan.text import format_step
+
+if TYPE_CHECKING:
+    from chatrobot.link.motion_link import MotionLink
 
 
 class ModelRound:
@@ -103,3 +109,39 @@ class ModelRound:
                 break
             done.append(step)
         return tuple(done)
+
+
+LOOK_S = 3.0
+"""How long Motion may take to say what the lidar sees, and the camera to be found and to show something."""
+
+
+class ObservationWait:
+    """Begins at once. `hear` what Motion says, until it `is_over`.
+
+    Args:
+        looks: what the model wants to see.
+    """
+
+    def __init__(
+        self, looks: tuple[str, ...], turn: int, link: MotionLink, surroundings: Surroundings
+    ) -> None:
+        self.scan: Looked | None = None
+        self._surroundings = surroundings
+        self._wants_scan, self._wants_picture = "scan" in looks, "camera" in looks
+        self._until_s = time.monotonic() + LOOK_S
+        if self._wants_scan:
+            link.send("look", turn)
+        if self._wants_picture:
+            surroundings.begin_looking()
+
+    def hear(self, scan: Looked) -> None:
+        """What the lidar sees."""
+        self.scan = scan
+
+    @property
+    def is_over(self) -> bool:
+        """All has been seen, or nothing more is waited for."""
+        if time.monotonic() > self._until_s:
+            return True
+        has_scan = self.scan is not None or not self._wants_scan
+        return has_scan and (not self._wants_picture or self._surroundings.has_picture)

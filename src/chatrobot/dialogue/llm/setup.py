@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import time
+from dataclasses import dataclass
 from pathlib import Path
 
+from chatrobot.dialogue.llm.camera import Camera
+from chatrobot.dialogue.llm.terms import ModelOptions
 from chatrobot.models.seam import Model
+from chatrobot.robots.profile import RobotProfile
 
 SERVER_HELD = {"openai": "openai-responses", "openai-compatible": "openai-responses"}
 """Providers whose protocol also knows a conversation that the server holds."""
@@ -41,3 +45,13 @@ def warm_up(model: Model | None) -> None:
         from chatrobot.models.make import warm
 
         warm(model)
+
+
+@dataclass(frozen=True)
+class ModelSetup:
+    """A model and how it is used. `camera` takes pictures for it; None where there is none, or it cannot see."""
+
+    model: Model
+    options: ModelOptions
+    profile: RobotProfile
+    camera: Camera | None = None
