@@ -5,8 +5,8 @@ import threading
 import pytest
 
 from chatrobot.cli.console import commands
-from chatrobot.cli.console.clean import LONGEST_CHARS
 from chatrobot.cli.console.controller import TWICE_S
+from chatrobot.cli.console.pasted import LONGEST_CHARS
 from chatrobot.core.events import Finished, Interpreted, Notice, Result, Started
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from chatrobot.cli.console.limits import read_limits
+from chatrobot.cli.console.commands import read_limits
 from chatrobot.core.events import Notice
 from chatrobot.core.reason import Reason
 from tests.console.fakes import shown, told

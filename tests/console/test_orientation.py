@@ -12,8 +12,7 @@ from chatrobot.cli.console.status_bar import StatusBar
 from chatrobot.cli.console.words import Words
 from chatrobot.cli.draw import draw_plan
 from chatrobot.cli.drawing.extent import extent_of_world
-from chatrobot.cli.drawing.furniture import furniture, thickness_m
-from chatrobot.cli.drawing.map_text import draw_map_text
+from chatrobot.cli.drawing.map_text import draw_map_text, furniture, thickness_m
 from chatrobot.core.events import Started, Telemetry
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.sim.load import load_world

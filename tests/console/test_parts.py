@@ -15,11 +15,11 @@ from rich.text import Text
 
 import chatrobot
 from chatrobot.cli.console import commands
-from chatrobot.cli.console.clean import clean
 from chatrobot.cli.console.completion import COMMON, ChatCompleter
 from chatrobot.cli.console.lines import wrapped
 from chatrobot.cli.console.motion_view import MotionView
 from chatrobot.cli.console.narrator import PLAN_LINES, Narrator
+from chatrobot.cli.console.pasted import clean
 from chatrobot.cli.console.status_bar import MAP_ROWS, StatusBar
 from chatrobot.cli.console.tables import example_place, place_in, places_table
 from chatrobot.cli.console.words import Words, language_of_environment

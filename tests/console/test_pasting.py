@@ -2,8 +2,7 @@
 
 import pytest
 
-from chatrobot.cli.console.clean import LONGEST_CHARS
-from chatrobot.cli.console.pasted import MOST_TEXTS
+from chatrobot.cli.console.pasted import LONGEST_CHARS, MOST_TEXTS
 from chatrobot.core.events import Result
 from tests.console.fakes import ask, shown, told
 

@@ -22,9 +22,7 @@ from chatrobot.plan.route import GridRoutePlanner
 from chatrobot.plan.steps import Drive, Go, Repeat, Step, Wait
 from chatrobot.plan.text import parse_plan
 from chatrobot.programs.check import check
-from chatrobot.programs.writing.fold import folded
-from chatrobot.programs.writing.program import class_name, node_name, write_program
-from chatrobot.programs.writing.wanted import Wanted
+from chatrobot.programs.writing.program import Wanted, class_name, folded, node_name, write_program
 from chatrobot.robots.load import load_profile
 from chatrobot.sandbox.warm_server import WarmServer
 from chatrobot.sim.load import load_world

@@ -9,9 +9,8 @@ from pathlib import Path
 
 from chatrobot.cli.drawing import fonts
 from chatrobot.cli.drawing.canvas import XY, Box, Canvas
-from chatrobot.cli.drawing.extent import Extent, extent_of_world
+from chatrobot.cli.drawing.extent import Extent, Orientation, extent_of_world
 from chatrobot.cli.drawing.map_text import draw_map_text
-from chatrobot.cli.drawing.orientation import Orientation
 from chatrobot.cli.drawing.ways import outline_at, progress_colour, standing_points, where_found
 from chatrobot.core.events import FindingSeen, Rehearsed
 from chatrobot.core.geometry import Pose

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from chatrobot.cli.output import Output
+from chatrobot.cli.json_lines import Output
 from chatrobot.core.events import (
     Event,
     Interpreted,

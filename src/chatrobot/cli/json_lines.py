@@ -1,12 +1,13 @@
-"""Events as one JSON object a line, in UTF-8: what `--json` prints."""
+"""What commands print: standard output as a stream that may break, and events as one JSON object a line, in UTF-8."""
 
 from __future__ import annotations
 
 import json
 import math
+import os
+import select
 from typing import Any
 
-from chatrobot.cli.output import Output
 from chatrobot.core.events import Event
 from chatrobot.language.interpretation import LanguageCode
 
@@ -46,3 +47,36 @@ def _finite(value: Any) -> Any:
     if isinstance(value, list):
         return [_finite(item) for item in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+STDOUT = 1
+
+
+class Output:
+    """Standard output, each piece at once. It never raises: a robot must not run on because a pipe broke."""
+
+    def __init__(self) -> None:
+        self._broken = False
+        self._poll = select.poll()
+        self._poll.register(STDOUT, 0)
+
+    def write(self, text: str) -> None:
+        if self._broken:
+            return
+        data = memoryview(text.encode("utf-8", errors="replace"))
+        try:
+            while data:
+                data = data[os.write(STDOUT, data) :]
+        except OSError:
+            self._broken = True
+
+    @property
+    def is_broken(self) -> bool:
+        """A reader that has left shows before anything more is written to it."""
+        if not self._broken:
+            self._broken = any(state & (select.POLLERR | select.POLLNVAL) for _, state in self._poll.poll(0))
+        return self._broken
+
+    @property
+    def is_terminal(self) -> bool:
+        return os.isatty(STDOUT)

@@ -6,7 +6,7 @@ import argparse
 import sys
 from typing import Protocol
 
-from chatrobot.cli.output import Output
+from chatrobot.cli.json_lines import Output
 from chatrobot.core.events import Event
 from chatrobot.language.interpretation import LanguageCode
 

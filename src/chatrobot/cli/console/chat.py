@@ -26,10 +26,10 @@ from prompt_toolkit.patch_stdout import StdoutProxy
 from prompt_toolkit.styles import Style
 from rich.console import Console, RenderableType
 
-from chatrobot.cli.console.clean import LONGEST_CHARS, clean
 from chatrobot.cli.console.completion import ChatCompleter
 from chatrobot.cli.console.controller import ChatController
 from chatrobot.cli.console.keys import chat_keys
+from chatrobot.cli.console.pasted import LONGEST_CHARS, clean
 from chatrobot.cli.console.status_bar import STYLES
 
 BUNDLE_S = 0.02

@@ -11,15 +11,16 @@ from collections.abc import Callable, Sequence
 from rich.console import RenderableType
 from rich.text import Text
 
-from chatrobot.cli.console.clean import LONGEST_CHARS, clean
 from chatrobot.cli.console.display import Display
 from chatrobot.cli.console.lines import indented, marked
 from chatrobot.cli.console.maps import way_map
 from chatrobot.cli.console.motion_view import MotionView
 from chatrobot.cli.console.narrator import Narrator
 from chatrobot.cli.console.pasted import (
+    LONGEST_CHARS,
     MOST_TEXTS,
     Pasted,
+    clean,
     cut_at_stop,
     ends_a_paste,
     goes_on_after,

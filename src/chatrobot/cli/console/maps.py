@@ -5,9 +5,8 @@ from __future__ import annotations
 from rich.text import Text
 
 from chatrobot.cli.console.motion_view import MotionView
-from chatrobot.cli.drawing.extent import Extent, extent_around, extent_of_world
+from chatrobot.cli.drawing.extent import Extent, Orientation, extent_around, extent_of_world
 from chatrobot.cli.drawing.map_text import MapLines, draw_map_text
-from chatrobot.cli.drawing.orientation import Orientation
 from chatrobot.sim.world import World
 
 COLOURS = {

@@ -9,9 +9,8 @@ from rich.cells import cell_len
 
 from chatrobot.cli.console.motion_view import XY, MotionView
 from chatrobot.cli.console.words import Words
-from chatrobot.cli.drawing.extent import extent_around
+from chatrobot.cli.drawing.extent import Orientation, extent_around
 from chatrobot.cli.drawing.map_text import MapLines, MapText
-from chatrobot.cli.drawing.orientation import Orientation
 from chatrobot.sim.world import World
 
 Fragments = list[tuple[str, str]]

@@ -8,12 +8,10 @@ from __future__ import annotations
 
 import math
 import unicodedata
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby, pairwise
 
-from chatrobot.cli.drawing.extent import XY, Extent
-from chatrobot.cli.drawing.furniture import furniture
-from chatrobot.cli.drawing.orientation import Orientation
+from chatrobot.cli.drawing.extent import XY, Extent, Orientation
 from chatrobot.core.geometry import Pose
 from chatrobot.sim.world import World
 
@@ -200,3 +198,23 @@ def draw_map_text(
 
 def _width(char: str) -> int:
     return 2 if unicodedata.east_asian_width(char) in "WF" else 1
+
+
+WALL_M = 0.15
+"""What is no thicker is a wall, and says by its line what it is."""
+
+
+def furniture(world: World) -> Iterator[tuple[str, tuple[XY, ...]]]:
+    """Names and outlines."""
+    places = {name.casefold() for name in world.places}
+    for name, outline in world.outline():
+        if name.casefold() not in places and thickness_m(outline) > WALL_M:
+            yield name, outline
+
+
+def thickness_m(outline: Sequence[XY]) -> float:
+    """Of a rectangle its shorter side; of other shapes how wide one of the same area and longest side would be."""
+    sides = [*pairwise(outline), (outline[-1], outline[0])]
+    area = abs(sum(ax * by - bx * ay for (ax, ay), (bx, by) in sides)) / 2.0
+    longest = max(math.dist(a, b) for a, b in sides)
+    return area / longest if longest > 0.0 else 0.0

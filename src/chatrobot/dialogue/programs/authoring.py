@@ -26,8 +26,7 @@ from chatrobot.programs.check import check
 from chatrobot.programs.extract import extract
 from chatrobot.programs.library import KeptProgram, Library, Provenance, RunRecord, clean_name, today
 from chatrobot.programs.prompts import mend_prompt, system_prompt
-from chatrobot.programs.writing.program import write_program
-from chatrobot.programs.writing.wanted import Wanted
+from chatrobot.programs.writing.program import Wanted, write_program
 from chatrobot.robots.profile import RobotProfile
 
 MOST_REPAIRS = 2

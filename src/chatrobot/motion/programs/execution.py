@@ -21,8 +21,16 @@ from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.planner import Planned, Planner
 from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.motion.remembered_obstacles import RememberedObstacles
-from chatrobot.programs.events import Died, Ended, Log, Output, ProgramEvent, Raised, TwistAsked
-from chatrobot.programs.raised import raised_reason
+from chatrobot.programs.events import (
+    Died,
+    Ended,
+    Log,
+    Output,
+    ProgramEvent,
+    Raised,
+    TwistAsked,
+    raised_reason,
+)
 from chatrobot.wire.wire import Wire
 
 SETTLE_S = 1.0

@@ -21,9 +21,8 @@ from chatrobot.plan.findings import Finding, Severity
 from chatrobot.plan.known_world import Contact, Floats
 from chatrobot.plan.rehearsal import MARGIN_M
 from chatrobot.plan.sweep import area_clearance, first_contact
-from chatrobot.programs.events import Died, Ended, Log, Output, Raised, TopicNoticed
+from chatrobot.programs.events import Died, Ended, Log, Output, Raised, TopicNoticed, raised_reason
 from chatrobot.programs.lock_step import Played, play
-from chatrobot.programs.raised import raised_reason
 from chatrobot.programs.sandboxed import Launcher, SandboxedProgram
 from chatrobot.programs.settings import ProgramSettings, robot_topics
 from chatrobot.robots.profile import RobotProfile

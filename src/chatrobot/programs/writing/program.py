@@ -9,13 +9,14 @@ from __future__ import annotations
 import keyword
 import re
 import textwrap
+from collections.abc import Sequence
+from dataclasses import dataclass
 
-from chatrobot.plan.context import Impossible, LoweringContext
-from chatrobot.plan.steps import Plan
+from chatrobot.core.geometry import ORIGIN, Pose
+from chatrobot.plan.context import Impossible, LoweringContext, RoutePlanner
+from chatrobot.plan.steps import Block, Go, Plan, Repeat, Step
 from chatrobot.programs.writing import helpers
-from chatrobot.programs.writing.fold import folded
 from chatrobot.programs.writing.lines import Body, number, write_lines
-from chatrobot.programs.writing.wanted import Wanted
 from chatrobot.robots.profile import RobotProfile
 
 PERIOD_S = 0.1
@@ -217,3 +218,53 @@ def class_name(name: str) -> str:
         if found in ("Node", "Twist", "TwistStamped", "Odometry", "LaserScan", "Pose")
         else found
     )
+
+
+def folded(steps: Sequence[Step]) -> tuple[Step, ...]:
+    """The same steps with loops for what repeats. Ways to places are left alone: each begins somewhere else."""
+    found: list[Step] = []
+    at = 0
+    while at < len(steps):
+        length, count = _repeats(steps, at)
+        block = tuple(steps[at : at + length])
+        found.append(Repeat(count, block) if count > 1 else block[0])
+        at += length * count
+    return tuple(found)
+
+
+def _repeats(steps: Sequence[Step], at: int) -> tuple[int, int]:
+    """Length and count of the block that covers most from there on; (1, 1) where nothing repeats."""
+    best = (1, 1)
+    for length in range(1, (len(steps) - at) // 2 + 1):
+        block = steps[at : at + length]
+        if any(isinstance(step, (Go, Block)) for step in block):
+            break
+        count = 1
+        while steps[at + length * count : at + length * (count + 1)] == block:
+            count += 1
+        if count > 1 and length * count > best[0] * best[1]:
+            best = (length, count)
+    return best
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """How the program is to be.
+
+    Args:
+        name: of the program and its node, in words of any language.
+        sentence: what the person said, for the program's docstring.
+        topic: where velocities go as the person wrote it; "" for the robot's own.
+        uses_sleep: time passes by time.sleep, also where sensors are heard.
+        rest_s: how long it stands at its end.
+        start: where the robot stands, in `odom`.
+        routes: finds ways around what is known; without it, `go` drives straight.
+    """
+
+    name: str
+    sentence: str = ""
+    topic: str = ""
+    uses_sleep: bool = False
+    rest_s: float = 1.0
+    start: Pose = ORIGIN
+    routes: RoutePlanner | None = None
