@@ -90,19 +90,9 @@ class Session:
                 authoring, understanding, self._requests, self._goals, self._emit, is_void
             )
         self._dispatch = Dispatch(
-            link,
-            self._goals,
-            self._utterances,
-            understanding,
-            self._requests,
-            self._proposals,
-            self._resuming,
-            self._llm,
-            self._programs,
-            self._emit,
-            self.stop,
-            self._hears_robot_soon,
-        )
+            link, self._goals, self._utterances, understanding, self._requests, self._proposals, self._resuming,
+            self._llm, self._programs, self._emit, self.stop, self._hears_robot_soon,
+        )  # fmt: skip
 
     @property
     def options(self) -> Options:

@@ -92,19 +92,9 @@ class Motion:
         )
         self._budgets = Budgets(profile.safety.budget)
         self._goals = GoalServer(
-            robot,
-            self._goal_queue,
-            self._executor,
-            planner,
-            programs,
-            self._budgets,
-            stops,
-            inbox,
-            clock,
-            pausing,
-            outcomes,
-            emit,
-        )
+            robot, self._goal_queue, self._executor, planner, programs, self._budgets, stops, inbox, clock, pausing,
+            outcomes, emit,
+        )  # fmt: skip
         self._cmd_vel = CmdVelInput(
             clock,
             robot,

@@ -1,0 +1,213 @@
+"""The figures of the house: how far a reader has to go, and how long the pieces are.
+
+python -m scripts.house            print them, beside what tests/house.json holds
+python -m scripts.house --write    hold them from now on (tests/test_house.py refuses what is worse)
+"""
+
+from __future__ import annotations
+
+import ast
+import json
+import os
+import statistics
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).parent.parent
+SOURCE = ROOT / "src" / "chatrobot"
+HELD = ROOT / "tests" / "house.json"
+LONGEST_FILE, LONGEST_FUNCTION, TINY = 350, 40, 45
+MORE_IS_BETTER = {"public docstrings, percent", "median lines of a file"}
+"""All other figures are better when they are smaller."""
+
+WALK = """
+import sys, threading
+from chatrobot.api import connect
+from chatrobot.transports.transport import WireTransport
+
+entered, functions, moved = set(), set(), []
+
+def note(frame, event, _argument):
+    code = frame.f_code
+    if event == "call" and not moved and "/chatrobot/" in code.co_filename:
+        entered.add(code.co_filename)
+        functions.add((code.co_filename, code.co_firstlineno))
+
+send = WireTransport.send
+
+def sending(self, twist):
+    if any(twist.twist) and not moved:
+        moved.append(True)
+    return send(self, twist)
+
+with connect(on="sim", fast=True) as robot:
+    WireTransport.send = sending
+    threading.setprofile(note)
+    sys.setprofile(note)
+    robot.do("forward 0.5 m")
+    sys.setprofile(None)
+assert moved, "the robot did not move"
+outside = {name for name in entered if "/chatrobot/language/" not in name}
+print(len(outside), sum("/chatrobot/language/" not in name for name, _ in functions))
+print(*sorted(name.rpartition("/chatrobot/")[2] for name in outside), sep="\\n")
+"""
+
+
+def figures() -> dict[str, float]:
+    """Every figure by its name."""
+    trees = {file: ast.parse(file.read_text(encoding="utf-8")) for file in sorted(SOURCE.rglob("*.py"))}
+    lines = {file: len(file.read_text(encoding="utf-8").splitlines()) for file in trees}
+    outside = {file: count for file, count in lines.items() if not _is_language(file)}
+    pieces = [count for file, count in outside.items() if file.name != "__init__.py"]
+    functions = [f for file, tree in trees.items() if not _is_language(file) for f in _functions(tree)]
+    documented = [
+        bool(d) for file, tree in trees.items() if not _is_language(file) for d in _public(file, tree)
+    ]
+    files, calls = walk()[:2]
+    return {
+        "import cycles": len(cycles(trees)),
+        "late imports that would close a cycle": late_imports(trees),
+        "files entered from say to the first velocity": files,
+        "functions entered from say to the first velocity": calls,
+        "median lines of a file": statistics.median(pieces),
+        f"files over {LONGEST_FILE} lines": sum(count > LONGEST_FILE for count in outside.values()),
+        f"files of at most {TINY} lines": sum(count <= TINY for count in pieces),
+        "files": len(pieces),
+        f"functions over {LONGEST_FUNCTION} lines": sum(_length(f) > LONGEST_FUNCTION for f in functions),
+        "public docstrings, percent": round(100.0 * sum(documented) / len(documented), 1),
+        "source lines": sum(outside.values()),
+    }
+
+
+def walk() -> tuple[int, int, list[str]]:
+    """Files and functions outside the language that `do("forward 0.5 m")` enters before the first velocity."""
+    done = subprocess.run(
+        [sys.executable, "-c", WALK],
+        capture_output=True,
+        text=True,
+        check=True,
+        cwd=ROOT,
+        env={**os.environ, "PYTHONPATH": str(SOURCE.parent)},
+    )
+    counts, *names = done.stdout.split("\n")
+    files, functions = map(int, counts.split())
+    return files, functions, [name for name in names if name]
+
+
+def cycles(trees: dict[Path, ast.Module]) -> list[list[str]]:
+    """Groups of modules that reach each other by what they import when they are loaded."""
+    graph = {_module(file): set(_loaded(tree)) for file, tree in trees.items()}
+    reached = {name: _reached(name, graph) for name in graph}
+    groups = {
+        tuple(sorted(other for other in graph if other in reached[name] and name in reached[other]))
+        for name in graph
+        if name in reached[name]
+    }
+    return [list(group) for group in sorted(groups)]
+
+
+def _reached(name: str, graph: dict[str, set[str]]) -> set[str]:
+    found: set[str] = set()
+    waiting = [name]
+    while waiting:
+        new = (graph.get(waiting.pop(), set()) & graph.keys()) - found
+        found |= new
+        waiting += new
+    return found
+
+
+def _module(file: Path) -> str:
+    return ".".join(file.relative_to(SOURCE.parent).with_suffix("").parts).removesuffix(".__init__")
+
+
+def _is_language(file: Path) -> bool:
+    return SOURCE / "language" in file.parents
+
+
+def _loaded(tree: ast.Module) -> Iterator[str]:
+    """The modules that the body of a module imports, but for those that only the type checker sees."""
+    waiting: list[ast.AST] = [*tree.body]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, ast.ImportFrom) and node.module:
+            for alias in node.names:
+                whole = f"{node.module}.{alias.name}"
+                is_module = (SOURCE.parent / (whole.replace(".", "/") + ".py")).is_file()
+                yield whole if is_module else node.module
+        elif isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif not isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)) and not _is_for_types(node):
+            waiting += ast.iter_child_nodes(node)
+
+
+def _is_for_types(node: ast.AST) -> bool:
+    return isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test)
+
+
+def late_imports(trees: dict[Path, ast.Module]) -> int:
+    """Imports inside functions that could not stand at the top: their module imports this one."""
+    graph = {_module(file): set(_loaded(tree)) for file, tree in trees.items()}
+    late = 0
+    for file, tree in trees.items():
+        for function in _functions(tree):
+            for target in _loaded(ast.Module([*function.body], [])):
+                late += target != _module(file) and _module(file) in _reached(target, graph)
+    return late
+
+
+def _functions(tree: ast.Module) -> Iterator[ast.FunctionDef | ast.AsyncFunctionDef]:
+    for node in ast.walk(tree):
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
+            yield node
+
+
+def _length(function: ast.FunctionDef | ast.AsyncFunctionDef) -> int:
+    """Its lines without its docstring."""
+    first = function.body[0]
+    is_doc = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant)
+    doc = (first.end_lineno or 0) - first.lineno + 1 if is_doc and ast.get_docstring(function) else 0
+    return (function.end_lineno or 0) - function.lineno + 1 - doc
+
+
+def _public(file: Path, tree: ast.Module) -> Iterator[str | None]:
+    """The docstrings of what others may use: the module, its public classes and functions, their public methods.
+
+    A module that bears the names of ROS's own is documented there. A method that does what its base class or
+    protocol says needs no second docstring; such a one cannot be told apart here, and counts.
+    """
+    if "names" in file.parts and "programs" in file.parts:
+        return
+    if tree.body:
+        yield ast.get_docstring(tree)
+    for node in tree.body:
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and not node.name.startswith("_"):
+            yield ast.get_docstring(node)
+            for inner in node.body if isinstance(node, ast.ClassDef) else ():
+                if isinstance(inner, ast.FunctionDef) and not inner.name.startswith("_"):
+                    yield ast.get_docstring(inner)
+
+
+def worse(now: dict[str, float], held: dict[str, float]) -> list[str]:
+    """Those figures that are worse than they were, each as a sentence."""
+    return [
+        f"{name}: {now.get(name)}, was {was}"
+        for name, was in held.items()
+        if name not in now or ((now[name] < was) if name in MORE_IS_BETTER else (now[name] > was))
+    ]
+
+
+def main() -> None:
+    now = figures()
+    held = json.loads(HELD.read_text(encoding="utf-8")) if HELD.is_file() else {}
+    for name, value in now.items():
+        print(f"{name:52s} {value:>8g}   {'' if name not in held else f'held: {held[name]:g}'}")
+    if "--files" in sys.argv:
+        print(*walk()[2], sep="\n")
+    if "--write" in sys.argv:
+        HELD.write_text(json.dumps(now, indent=2) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
