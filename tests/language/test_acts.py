@@ -136,9 +136,9 @@ def test_weights_are_few_and_the_features_of_a_clause_are_the_same_each_time() -
     assert sorted(features(clauses, 1)) == sorted(features(clauses, 1))
 
 
-def test_nonsense_is_read_at_once() -> None:
+def test_nonsense_costs_little() -> None:
     for text in ("", ",", "？！。", "\n\n", "🙂" * 50, "a, " * 700, "左" * 2000, "?" * 2000):
-        began_s = time.perf_counter()
+        began_s = time.process_time()
         read_acts(text)
         orders(text)
-        assert time.perf_counter() - began_s < 0.5
+        assert time.process_time() - began_s < 0.5, "of the processor, however busy it is"

@@ -40,9 +40,9 @@ TESTS = {
         (*ROS, "launch_ros", "turtlesim"),
         "turtlesim drives a square; DDS without ROS drives it, either started first, LOCALHOST and SUBNET",
     ),
-    "test_programs_like_rclpy.py": (("rclpy",), "programs under real rclpy do what they do in the box"),
-    "test_messages_like_ros.py": (("rclpy",), "message classes of the box against ROS's own"),
-    "test_box_like_rclpy.py": (("rclpy",), "what our rclpy says against what rclpy says"),
+    "test_programs_like_rclpy.py": (("rclpy",), "programs under real rclpy do what they do in the sandbox"),
+    "test_messages_like_ros.py": (("rclpy",), "message classes of the sandbox against ROS's own"),
+    "test_sandbox_like_rclpy.py": (("rclpy",), "what our rclpy says against what rclpy says"),
 }
 """File: what it needs, and what stays untested without."""
 
