@@ -18,7 +18,8 @@ import yaml
 from tests.realtime import RunningRobot
 
 from bench.latency import percentile
-from chatrobot.reflex import is_emergency_stop, is_pause, words_en, words_zh
+from chatrobot.reflex import is_emergency_stop, is_pause
+from chatrobot.reflex.words import ALL
 
 MEDIAN_S, P99_S = 0.003, 0.010
 CORPUS = Path(__file__).parent.parent / "tests" / "corpus"
@@ -89,7 +90,7 @@ def line(name: str, values_s: list[float], *, is_promised: bool = True) -> bool:
 
 def main() -> None:
     repetitions = int(sys.argv[1]) if len(sys.argv) > 1 else 10
-    pauses = [word for word in (*words_en.PAUSE, *words_zh.PAUSE) if is_pause(word)]
+    pauses = [word for word in ALL.pause if is_pause(word)]
     print(f"{'typed while it drives -> zero in another process':58s} {'median':>10s} {'p99':>10s}")
     with tempfile.TemporaryDirectory() as folder:
         robot, turns = RunningRobot(Path(folder)), itertools.count(1)
