@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from chatrobot.reflex import is_emergency_stop, is_release, is_stop, leads_with_stop
+from chatrobot.reflex import is_emergency_stop, is_pause, is_release, is_stop, leads_with_stop, stop
 from chatrobot.reflex.phrases import phrases
 
 STOPS = [
@@ -122,3 +122,17 @@ def test_a_release_is_short() -> None:
     assert len(just) == 300
     assert is_release(just)
     assert not is_release(just + " ")
+
+
+@pytest.mark.parametrize("text", ["stop", "please stop", "halt", "STOP!!", "停", "快停下", "stopp"])
+def test_a_plain_stop_waits_for_no_table_of_mistyped_words(
+    text: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """They take 30 ms to make, once: the first stop of a process would be that much later."""
+
+    def too_early() -> None:
+        raise AssertionError("made before the stop is out")
+
+    monkeypatch.setattr(stop, "_mistyped_stop", too_early)
+    monkeypatch.setattr(stop, "_mistyped_pause", too_early)
+    assert (is_stop(text), leads_with_stop(text), is_pause(text)) == (True, True, False)
