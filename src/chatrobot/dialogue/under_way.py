@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Sequence
 
 from chatrobot.core.events import Event, Progress, Started
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.language.phrases import describe_steps, say
-from chatrobot.plan.steps import Drive, Repeat, Step, Turn
+from chatrobot.plan.base import expanded
+from chatrobot.plan.steps import Drive, Step, Turn
 
 _LEAST = 0.05
 """Metres or radians: less of a step is not worth naming."""
@@ -41,9 +42,9 @@ class UnderWay:
         self._began_at = self._pose = pose
         self._turned_rad = 0.0
 
-    def told(self, turn: int, steps: Iterable[Step], language: str, speed_mps: float) -> str:
+    def told(self, turn: int, steps: Sequence[Step], language: str, speed_mps: float) -> str:
         """The step that runs, with what is left of it and after it; an empty string where that is not known."""
-        flat = list(_flat(steps))
+        flat = list(expanded(steps))
         if turn != self._turn or not 0 < self._step <= len(flat):
             return ""
         now, after = flat[self._step - 1], flat[self._step :]
@@ -62,12 +63,3 @@ class UnderWay:
             left_rad = math.radians(round(math.degrees(step.angle_rad - abs(self._turned_rad))))
             return dataclasses.replace(step, angle_rad=left_rad) if left_rad >= _LEAST else None
         return step
-
-
-def _flat(steps: Iterable[Step]) -> Iterator[Step]:
-    for step in steps:
-        if isinstance(step, Repeat):
-            for _ in range(step.count):
-                yield from _flat(step.steps)
-        else:
-            yield step

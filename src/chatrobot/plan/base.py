@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
@@ -91,6 +92,16 @@ class Block(Step):
     def times(self) -> int:
         """How often the steps inside are done."""
         raise NotImplementedError
+
+
+def expanded(steps: Sequence[Step]) -> Iterator[Step]:
+    """The steps with repeats counted out."""
+    for step in steps:
+        if isinstance(step, Block):
+            for _ in range(step.times):
+                yield from expanded(step.steps)
+        else:
+            yield step
 
 
 @dataclass(frozen=True)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from chatrobot.core.geometry import ORIGIN, Twist
-from chatrobot.plan.base import Block, Step
+from chatrobot.plan.base import Step, expanded
 from chatrobot.plan.context import Impossible, LoweringContext
 from chatrobot.plan.core_motion import Pause, RampedTwist
 from chatrobot.plan.lowering import PlannedMotion, iterate_core
@@ -74,16 +74,6 @@ def _pauses_s(items: Sequence[PlannedMotion]) -> float:
     moving = [i for i, item in enumerate(items) if isinstance(item.motion, RampedTwist)]
     between = items[moving[0] : moving[-1]] if moving else []
     return sum(item.motion.duration_s for item in between if isinstance(item.motion, Pause))
-
-
-def expanded(steps: Sequence[Step]) -> Iterator[Step]:
-    """The steps with repeats counted out."""
-    for step in steps:
-        if isinstance(step, Block):
-            for _ in range(step.times):
-                yield from expanded(step.steps)
-        else:
-            yield step
 
 
 def without_last_turn(steps: Sequence[Step]) -> list[Step] | None:

@@ -12,9 +12,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from chatrobot.cli.eval.corpus import Meant
-from chatrobot.cli.eval.ideal import Ideal, expanded, ideal, without_last_turn
+from chatrobot.cli.eval.ideal import Ideal, ideal, without_last_turn
 from chatrobot.cli.eval.measure import Measured
-from chatrobot.plan.base import Step
+from chatrobot.plan.base import Step, expanded
 from chatrobot.robots.profile import RobotProfile
 
 POSITION_M, POSITION_SHARE, POSITION_PATH_SHARE = 0.06, 0.05, 0.02
