@@ -23,6 +23,7 @@ LEVELS = {
     "compose": 8, "nodes": 8,
     "cli": 9, "api": 9,
     "__init__": 10, "__main__": 10,
+    "testing": 10,
 }  # fmt: skip
 BESIDE = {"guard": {"core", "wire"}}
 """Packages that stand beside the levels: what each may import. Of the levels, motion alone knows them."""
@@ -169,6 +170,12 @@ def test_only_the_governor_mints_velocities() -> None:
             assert "Mint" not in {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}, (
                 name
             )
+
+
+def test_only_the_test_kit_knows_pytest() -> None:
+    assert {package(found.importer) for found in imports() if found.module.startswith("pytest")} == {
+        "testing"
+    }
 
 
 @pytest.mark.parametrize("secret", ["TRUTH_TOPIC", "chatrobot/sim/truth"])
