@@ -32,13 +32,15 @@ def test_a_figure_that_got_worse_is_named() -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["speed_mps", "x_m", "_ends_s", "s", "step_count", "turn", "RATE_HZ", "slip_share"]
+    "name", ["speed_mps", "x_m", "_ends_s", "s", "step_count", "turn", "RATE_HZ", "slip_share", "steps_done"]
 )
 def test_a_number_says_its_unit_or_that_it_has_none(name: str) -> None:
     assert house.says_unit(name)
 
 
-@pytest.mark.parametrize("name", ["speed", "x", "duration", "turn_rate", "timeout", "m_speed", "counted"])
+@pytest.mark.parametrize(
+    "name", ["speed", "x", "duration", "turn_rate", "timeout", "m_speed", "counted", "done"]
+)
 def test_a_number_that_says_neither_is_found(name: str) -> None:
     assert not house.says_unit(name)
 
