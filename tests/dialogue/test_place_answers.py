@@ -7,7 +7,7 @@ import math
 import pytest
 
 from chatrobot.core.geometry import Pose
-from chatrobot.dialogue.map_ways import MapWays
+from chatrobot.dialogue.places import MapWays
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.context import RobotState
 from chatrobot.language.interpretation import Interpretation

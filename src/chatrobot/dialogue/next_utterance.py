@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from chatrobot.core.reason import Reason
+from chatrobot.dialogue.goal_client import RequestLog
 from chatrobot.dialogue.llm.requests import ModelRequests
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring, NotWrittenError
-from chatrobot.dialogue.request_log import RequestLog
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.dialogue.utterances import Utterance, UtteranceQueue

@@ -15,7 +15,7 @@ from chatrobot.core.events import Event, Finished, Notice, Paused, Remembered, R
 from chatrobot.core.motion_budget import OPEN_LOOP
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.dispatch import Dispatch
-from chatrobot.dialogue.goal_client import GoalClient
+from chatrobot.dialogue.goal_client import GoalClient, RequestLog
 from chatrobot.dialogue.llm.requests import ModelRequests
 from chatrobot.dialogue.llm.setup import ModelSetup
 from chatrobot.dialogue.llm.terms import Ended
@@ -25,9 +25,8 @@ from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.dialogue.programs.requests import ProgramRequests
-from chatrobot.dialogue.proposals import Proposals
+from chatrobot.dialogue.question import Proposals
 from chatrobot.dialogue.replies import with_offer
-from chatrobot.dialogue.request_log import RequestLog
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.dialogue.utterances import Kind, Utterance, UtteranceQueue

@@ -13,8 +13,7 @@ from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Finished, Outcome, Remembered, Telemetry
 from chatrobot.core.geometry import ZERO_TWIST, Pose
 from chatrobot.core.reason import Reason
-from chatrobot.dialogue.map_ways import MapWays
-from chatrobot.dialogue.places import Places
+from chatrobot.dialogue.places import MapWays, Places
 from chatrobot.dialogue.replies import describe_end, describe_model_end
 from chatrobot.dialogue.rest_watch import UNMEASURED, RestWatch
 from chatrobot.language.context import Context, Dialogue, RobotState

@@ -13,8 +13,7 @@ from chatrobot.governor.priority import Priority
 from chatrobot.link.approval import Approval
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.budgets import Budgets
-from chatrobot.motion.goal import Goal
-from chatrobot.motion.goal_queue import GoalQueue
+from chatrobot.motion.goal import Goal, GoalQueue
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.inbox import Inbox
 from chatrobot.motion.paused import PausedGoal, Pausing, is_foreign, why_not_kept

@@ -19,9 +19,8 @@ from chatrobot.governor.governor import Governor
 from chatrobot.governor.priority import RELEASERS, Priority, priority_of
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.budgets import Budgets, open_loop_notice
-from chatrobot.motion.clients import Clients
-from chatrobot.motion.cmd_vel_input import CmdVelInput
-from chatrobot.motion.goal_queue import GoalQueue
+from chatrobot.motion.clients import Clients, CmdVelInput
+from chatrobot.motion.goal import GoalQueue
 from chatrobot.motion.goal_server import GoalServer
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.inbox import Inbox
@@ -29,10 +28,8 @@ from chatrobot.motion.paused import Pausing
 from chatrobot.motion.plan_executor import OutcomeQueue, PlanExecutor
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.execution import NoSandbox, ProgramSandbox
-from chatrobot.motion.safety.interlock import Interlock
-from chatrobot.motion.safety.stop import PAUSED, Stops
-from chatrobot.motion.safety.stop_confirmation import StopConfirmation
-from chatrobot.motion.safety.watchdog import GuardLink, StallDetector
+from chatrobot.motion.safety.stop import PAUSED, StopConfirmation, Stops
+from chatrobot.motion.safety.watchdog import GuardLink, Interlock, StallDetector
 from chatrobot.motion.telemetry import TelemetryPublisher, sectors_m
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.transports.transport import WireTransport

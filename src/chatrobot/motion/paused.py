@@ -16,13 +16,12 @@ from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import Priority
 from chatrobot.link.approval import LAPSES_AFTER_M, LAPSES_AFTER_RAD
 from chatrobot.link.envelope import Envelope
-from chatrobot.motion.goal import Goal
-from chatrobot.motion.goal_queue import GoalQueue
+from chatrobot.motion.goal import Goal, GoalQueue
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.plan_executor import OutcomeQueue
 from chatrobot.motion.programs.goal import ProgramGoal
-from chatrobot.motion.safety.interlock import Interlock
 from chatrobot.motion.safety.stop import Stops
+from chatrobot.motion.safety.watchdog import Interlock
 
 KEPT_S = 600.0
 SILENT_S = 2.0

@@ -14,8 +14,7 @@ from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.governor.kernel import Kernel, make_kernel
 from chatrobot.motion.budgets import Extent
-from chatrobot.motion.obstacle_routes import RoutesAroundObstacles
-from chatrobot.motion.remembered_obstacles import RememberedObstacles, seen_but_unknown
+from chatrobot.motion.remembered_obstacles import RememberedObstacles, RoutesAroundObstacles, seen_but_unknown
 from chatrobot.plan.context import RoutePlanner
 from chatrobot.plan.free_part import ANY_WAY, Most
 from chatrobot.plan.known_world import Floats
