@@ -19,7 +19,6 @@ from chatrobot.dialogue.goal_client import GoalClient, RequestLog
 from chatrobot.dialogue.llm.requests import ModelRequests
 from chatrobot.dialogue.llm.setup import ModelSetup
 from chatrobot.dialogue.llm.terms import Ended
-from chatrobot.dialogue.next_utterance import EarlyAnswers, NextUtterance
 from chatrobot.dialogue.observations import measured
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring
@@ -29,7 +28,7 @@ from chatrobot.dialogue.question import Proposals
 from chatrobot.dialogue.replies import with_offer
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
-from chatrobot.dialogue.utterances import Kind, Utterance, UtteranceQueue
+from chatrobot.dialogue.utterances import EarlyAnswers, Kind, NextUtterance, Utterance, UtteranceQueue
 from chatrobot.link.motion_link import MotionLink
 from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop

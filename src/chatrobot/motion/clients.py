@@ -16,7 +16,6 @@ from chatrobot.core.clock import Clock
 from chatrobot.core.geometry import Twist
 from chatrobot.core.process import watch_process
 from chatrobot.core.reason import Reason
-from chatrobot.core.wiring import CMD_VEL_INPUT_TOPIC
 from chatrobot.governor.lease import LOCAL_TERM_S, TERM_S, Leases
 from chatrobot.link.envelope import Envelope, seconds
 from chatrobot.motion.governed_robot import GovernedRobot
@@ -120,23 +119,23 @@ _NEVER = -1e9
 
 
 class CmdVelInput:
-    """`hear` comes from the wire's thread; the rest belongs to the control thread.
+    """Lets velocities from a topic through the governor. All but `hear` belongs to the control thread.
 
     Args:
         source: in whose name it drives, which is also its lease; it decides before whom it goes.
         takes_over: called before it takes command.
-        on_end: the robot was driven and is to stand now.
+        on_end: called when the robot was driven and is to stand now.
         tell: hears why it may not be driven.
     """
 
     def __init__(
         self,
+        source: str,
         clock: Clock,
         robot: GovernedRobot,
+        takes_over: Callable[[], None],
         on_end: Callable[[], None],
         tell: Callable[[Reason], None],
-        source: str = CMD_VEL_INPUT_TOPIC,
-        takes_over: Callable[[], None] = lambda: None,
     ) -> None:
         self._lease = source
         self._takes_over = takes_over

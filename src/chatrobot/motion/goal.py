@@ -1,11 +1,12 @@
-"""A goal: one turn's plan on its way through Motion, received, rehearsed, approved, run; and the queue of goals."""
+"""A goal: one turn's plan on its way through Motion; and what waits for the control thread: goals, and actions."""
 
 from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Collection
-from dataclasses import dataclass, field
+from collections.abc import Callable, Collection
+from dataclasses import dataclass, field, replace
+from typing import TypeVar
 
 from chatrobot.core.events import Finished, Outcome
 from chatrobot.core.geometry import ORIGIN, Pose
@@ -13,13 +14,10 @@ from chatrobot.core.reason import Reason
 from chatrobot.core.summed import gone_on
 from chatrobot.link.approval import Approval
 from chatrobot.link.envelope import QUEUE_LIMIT, Envelope, seconds
-from chatrobot.motion.budgets import Account, Extent
+from chatrobot.motion.budgets import Account
 from chatrobot.motion.plan_stream import Stream
 from chatrobot.motion.planner import Planned
-from chatrobot.plan.base import Step
 from chatrobot.plan.free_part import Most
-from chatrobot.plan.lowering import Walk
-from chatrobot.plan.rehearsal import Rehearsal
 
 
 @dataclass
@@ -27,9 +25,9 @@ class Goal:
     """`epoch` is the stop epoch it was received in: a later stop makes it void. `start` is where it begins.
 
     `longest_s` is what the source may take: a plan that rehearsal expects to last longer is refused. `stream` holds
-    what comes after `plan_text` where the plan comes in parts. `account` is what its text may drive, and has driven.
-    Where the goal is the rest of a plan that was paused, `plan_start` is where the whole began and `so_far` what was
-    measured of it.
+    its parts: one that begins with `plan_text`, and those that follow while it runs. `planned` is the first of them.
+    `account` is what its text may drive, and has driven. Where the goal is the rest of a plan that was paused,
+    `plan_start` is where the whole began and `so_far` what was measured of it.
     """
 
     turn: int
@@ -43,7 +41,7 @@ class Goal:
     start: Pose = ORIGIN
     planned: Planned | None = None
     approval: Approval | None = None
-    stream: Stream | None = None
+    stream: Stream = field(default_factory=Stream)
     pauses: int | None = None
     account: Account = field(default_factory=Account)
     plan_start: Pose | None = None
@@ -51,120 +49,66 @@ class Goal:
 
     @classmethod
     def of(cls, envelope: Envelope, epoch: int, now_s: float, account: Account | None = None) -> Goal:
-        """The goal that a `plan` envelope asks for."""
-        payload, account = envelope.payload, account or Account()
-        longest_s = seconds(payload.get("longest_s"), math.inf)
-        comes_whole = payload.get("approve") or payload.get("rehearse_only") or not payload.get("more")
+        """Make the goal that a `plan` envelope asks for."""
+        payload = envelope.payload
+        approve, rehearse_only = bool(payload.get("approve")), bool(payload.get("rehearse_only"))
         return cls(
             turn=envelope.turn,
             lease=envelope.lease,
             plan_text=str(payload.get("plan_text", "")),
-            approve=bool(payload.get("approve")),
-            rehearse_only=bool(payload.get("rehearse_only")),
+            approve=approve,
+            rehearse_only=rehearse_only,
             epoch=epoch,
             received_s=now_s,
-            longest_s=longest_s,
-            stream=None if comes_whole else Stream(longest_s, account),
+            longest_s=seconds(payload.get("longest_s"), math.inf),
+            stream=Stream(is_open=bool(payload.get("more")) and not (approve or rehearse_only)),
             pauses=payload.get("pauses"),
-            account=account,
+            account=account or Account(),
         )
 
     @property
     def refusal(self) -> Reason | None:
         """Why what was planned may not run."""
-        if self.planned is None:
-            return None
-        if self.planned.ok and self.planned.duration_s > self.longest_s:
-            return Reason("lasts_too_long", {"duration_s": self.planned.duration_s, "max_s": self.longest_s})
-        return self.planned.refusal or self.account.refusal(self.planned.certain)
+        return self.stream.refusal
 
     @property
-    def certain(self) -> Extent:
-        """What it drives at least, as far as it is there."""
-        if self.stream is not None:
-            return self.stream.certain
-        return self.planned.certain if self.planned is not None else Extent()
+    def length_m(self) -> float:
+        """The length of the whole way, as it was rehearsed."""
+        return self.stream.length_m
+
+    @property
+    def is_open_ended(self) -> bool:
+        """True where the whole way is not known."""
+        return self.stream.is_open_ended
 
     @property
     def left(self) -> Most:
         """What its budget leaves for what comes next."""
-        return self.account.left(self.stream.certain if self.stream is not None else Extent())
-
-    @property
-    def length_m(self) -> float:
-        """Of the whole way, as it was rehearsed."""
-        if self.stream is not None:
-            return self.stream.length_m
-        return self.planned.length_m if self.planned is not None else 0.0
-
-    @property
-    def is_open_ended(self) -> bool:
-        """The whole way is not known."""
-        if self.stream is not None:
-            return self.stream.is_open_ended
-        return self.planned is not None and self.planned.is_open_ended
+        return self.account.left(self.stream.certain)
 
     def take(self, planned: Planned) -> Reason | None:
-        """What it begins with, rehearsed; why it may not run."""
-        self.planned = planned
-        return self.stream.accept(planned) if self.stream is not None else self.refusal
-
-    def walk(self) -> Walk:
-        """What is to be driven; `take` has accepted its beginning."""
-        if self.stream is not None and self.stream.walk is not None:
-            return self.stream.walk
-        assert self.planned is not None
-        return self.planned.walk()
-
-    @property
-    def rehearsal(self) -> Rehearsal | None:
-        """Of what it begins with."""
-        return self.planned.rehearsal if self.planned is not None else None
-
-    @property
-    def steps(self) -> tuple[Step, ...]:
-        """What was accepted to be driven."""
-        if self.stream is not None:
-            return self.stream.accepted
-        return self.rehearsal.plan.steps if self.rehearsal is not None else ()
+        """Append the next part as it was rehearsed; return why it may not run."""
+        self.planned = self.planned or planned
+        return self.stream.accept(planned, self.account, self.longest_s)
 
     def unmoved(self, outcome: Outcome, reason: Reason | None, pose: Pose) -> Finished:
-        """Its end where nothing moved."""
-        remaining = self.unread if outcome == "stopped" and not self.rehearse_only else ""
-        is_blocked = outcome == "refused" and self.planned is not None and reason == self.planned.refusal
-        possible = self.planned.possible if is_blocked and self.planned is not None else ""
-        return self.whole(
-            Finished(
-                self.turn,
-                outcome,
-                reason,
-                pose,
-                pose,
-                0.0,
-                0.0,
-                0.0,
-                0.0,
-                planned_m=self._left_m,
-                possible=possible,
-                remaining=remaining,
-            )
-        )
-
-    @property
-    def _left_m(self) -> float:
-        """The way that was still to be driven, where a part of it was driven before a pause."""
-        so_far = self.so_far
-        return max(0.0, so_far.planned_m - so_far.path_m) if so_far is not None else 0.0
+        """Return its end where nothing moved."""
+        is_blocked = outcome == "refused" and reason == self.stream.refusal
+        # The way that was still to be driven, where a part of it was driven before a pause.
+        left_m = max(0.0, self.so_far.planned_m - self.so_far.path_m) if self.so_far is not None else 0.0
+        unmoved = Finished(self.turn, outcome, reason, pose, pose, 0.0, 0.0, 0.0, 0.0, planned_m=left_m)
+        possible = self.stream.possible if is_blocked else ""
+        remaining = self._unread if outcome == "stopped" and not self.rehearse_only else ""
+        return self.whole(replace(unmoved, possible=possible, remaining=remaining))
 
     def whole(self, finished: Finished) -> Finished:
-        """Its end, together with what was done before it was paused."""
+        """Return its end together with what was done before it was paused."""
         return gone_on(self.so_far, finished) if self.so_far is not None else finished
 
     @property
-    def unread(self) -> str:
+    def _unread(self) -> str:
         """All the plan text that came."""
-        parts = self.stream.waiting if self.stream is not None else ()
-        return "\n".join(part.strip("\n") for part in (self.plan_text, *parts))
+        return "\n".join(part.strip("\n") for part in (self.plan_text, *self.stream.waiting))
 
 
 class GoalQueue:
@@ -234,3 +178,38 @@ class GoalQueue:
         goals = list(self.goals)
         self.goals.clear()
         return goals
+
+
+T = TypeVar("T")
+
+
+class Inbox:
+    """Keeps the actions that wait for the next tick. All but `post` belongs to the control thread.
+
+    Args:
+        background: runs a function off the control thread; a simulation runs it at once.
+    """
+
+    def __init__(self, background: Callable[[Callable[[], None]], None]) -> None:
+        self._background = background
+        self._actions: deque[Callable[[], None]] = deque()
+
+    def post(self, action: Callable[[], None]) -> None:
+        """Have `action` done with the next tick."""
+        self._actions.append(action)
+
+    def fetch(self, work: Callable[[], T], take: Callable[[T], None]) -> None:
+        """Have `work` done off the control thread; what it gives is taken on it, with a tick to come."""
+
+        def run() -> None:
+            result = work()
+            self.post(lambda: take(result))
+
+        self._background(run)
+
+    def take(self) -> Callable[[], None] | None:
+        """The next action, None where there is none."""
+        return self._actions.popleft() if self._actions else None
+
+    def __bool__(self) -> bool:
+        return bool(self._actions)

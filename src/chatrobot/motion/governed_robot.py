@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from chatrobot.core.events import Finished, Limited, Outcome
+from chatrobot.core.events import Event, Finished, Limited, Outcome, Progress, Telemetry
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 from chatrobot.core.governed import GovernedTwist
 from chatrobot.core.reason import Reason
 from chatrobot.execution.executor import RAMP_RULES
 from chatrobot.execution.health import freshness, sensor_fault, silence
+from chatrobot.execution.lookahead import nearest_m
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import LATE_BEAT, Governor, Verdict
 from chatrobot.governor.rule import Sensed
@@ -166,7 +169,9 @@ class GovernedMotion:
         self._start_path_m = sensors.estimate.path_m if sensors.estimate is not None else 0.0
         is_endless = goal.planned is not None and goal.planned.is_endless
         limits = robot.profile.limits
-        self._meter = Meter(goal.account, lambda: goal.certain, sensors, limits, now_s, is_endless=is_endless)
+        self._meter = Meter(
+            goal.account, lambda: goal.stream.certain, sensors, limits, now_s, is_endless=is_endless
+        )
 
     def send(self, asked: Twist, now_s: float) -> Verdict:
         """Send what the governor allows of `asked`."""
@@ -255,3 +260,78 @@ def decelerated(asked: Twist, sent: Twist, limits: Limits, dt_s: float) -> Twist
     if sent.wz_radps:
         share = min(share, limits.angular_acceleration_radps2 * dt_s / abs(sent.wz_radps))
     return sent.scaled(1.0 - share) if share < 1.0 else ZERO_TWIST
+
+
+TELEMETRY_S = 0.1
+
+
+class TelemetryPublisher:
+    """Publishes how far the motion is, and where and how fast the robot goes, as it measures it itself.
+
+    Args:
+        progress: how far the motion under way is; None where nothing is.
+    """
+
+    def __init__(
+        self, sensors: Sensors, progress: Callable[[float], Progress | None], emit: Callable[[Event], None]
+    ) -> None:
+        self._sensors = sensors
+        self._progress = progress
+        self._emit = emit
+        self._next_s = 0.0
+
+    def tick(self, now_s: float) -> None:
+        """Publish it every `TELEMETRY_S`, once the robot has said where it is."""
+        if now_s < self._next_s:
+            return
+        self._next_s = now_s + TELEMETRY_S
+        estimate, scan = self._sensors.estimate, self._sensors.scan
+        if estimate is None:
+            return
+        progress = self._progress(now_s)
+        if progress is not None:
+            self._emit(progress)
+        self._emit(
+            Telemetry(
+                progress.turn if progress is not None else 0,
+                estimate.pose,
+                estimate.twist,
+                estimate.path_m,
+                self._sensors.battery_percent,
+                nearest_m(scan) if scan is not None else None,
+                progress is not None,
+                self._sensors.estimator.epoch,
+            )
+        )
+
+
+SECTORS = 8
+"""Each 45 degrees wide; the first is centred on straight ahead, the next lie to the left of it, counter-clockwise."""
+
+
+def sectors_m(profile: RobotProfile, scan: LaserScan | None) -> tuple[float | None, ...]:
+    """Return the metres from the footprint's edge to the nearest return in each sector, in the robot's frame.
+
+    None in a sector where nothing is seen; empty where there is no lidar or it has not spoken.
+    """
+    lidar = profile.lidar
+    if lidar is None or scan is None:
+        return ()
+    nearest = [math.inf] * SECTORS
+    for count, distance in enumerate(scan.ranges_m):
+        if not scan.range_min_m <= distance <= scan.range_max_m:
+            continue
+        angle = scan.angle_min_rad + count * scan.angle_increment_rad + lidar.yaw_rad
+        x, y = lidar.x_m + distance * math.cos(angle), lidar.y_m + distance * math.sin(angle)
+        sector = round(math.atan2(y, x) / (2.0 * math.pi) * SECTORS) % SECTORS
+        free_m = math.hypot(x, y) - _reach_m(profile, x, y)
+        nearest[sector] = min(nearest[sector], max(0.0, free_m))
+    return tuple(round(d, 2) if math.isfinite(d) else None for d in nearest)
+
+
+def _reach_m(profile: RobotProfile, x_m: float, y_m: float) -> float:
+    """How far the footprint reaches towards that point."""
+    distance_m = math.hypot(x_m, y_m)
+    if distance_m == 0.0:
+        return 0.0
+    return max(0.0, max((x * x_m + y * y_m) / distance_m for x, y in profile.footprint))

@@ -74,8 +74,7 @@ class PausedGoal:
     def rest(self, epoch: int, now_s: float) -> Goal:
         """What is left, as a goal of the same turn."""
         goal, so_far = self.goal, self._waited(now_s)
-        if goal.stream is not None:
-            goal.stream.rewind()
+        goal.stream.rewind()
         return replace(
             goal,
             plan_text=so_far.remaining,

@@ -17,9 +17,8 @@ from chatrobot.execution.executor import Executor
 from chatrobot.execution.health import is_seen_moving
 from chatrobot.governor.governor import Verdict
 from chatrobot.motion.budgets import REACHED
-from chatrobot.motion.goal import Goal
+from chatrobot.motion.goal import Goal, Inbox
 from chatrobot.motion.governed_robot import GovernedMotion, GovernedRobot, is_worth_telling
-from chatrobot.motion.inbox import Inbox
 from chatrobot.motion.programs.execution import LiveProgram, ProgramExecution, ProgramSandbox
 from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.motion.safety.stop import Stops
@@ -33,14 +32,14 @@ class GoalExecution:
     """Drives the plan of `goal`, which has been rehearsed. `tick` until `is_done`, or until it is stopped."""
 
     def __init__(self, goal: Goal, robot: GovernedRobot, emit: Callable[[Event], None], now_s: float) -> None:
-        assert goal.planned is not None
+        assert goal.stream.walk is not None
         self.goal = goal
         self._emit = emit
         self._robot = robot
         self._motion = GovernedMotion(goal, robot, now_s)
         self._told: set[tuple[int, str]] = set()
         self._executor = Executor(robot.profile, robot.sensors, emit)
-        self._executor.start(goal.turn, goal.walk(), goal.planned.duration_s, now_s)
+        self._executor.start(goal.turn, goal.stream.walk, goal.stream.duration_s, now_s)
 
     def tick(self, now_s: float) -> None:
         """One period: what the executor asks, as far as the governor allows it."""
@@ -101,11 +100,11 @@ class GoalExecution:
 
     def _parts(self) -> tuple[str, str]:
         """The text of the part that was driven, and of the rest; nothing where it was not measured."""
-        reached, rehearsal = self._executor.reached, self.goal.rehearsal
-        if reached is None or rehearsal is None:
+        reached, planned = self._executor.reached, self.goal.planned
+        if reached is None or planned is None or planned.rehearsal is None:
             return "", ""
-        context = replace(rehearsal.context, pose=self._robot.pose)
-        parts = split(self.goal.steps, reached, context)
+        context = replace(planned.rehearsal.context, pose=self._robot.pose)
+        parts = split(self.goal.stream.accepted, reached, context)
         return _text(parts.executed), _text(parts.remaining)
 
     def _tell(self, verdict: Verdict) -> None:
@@ -268,7 +267,7 @@ class PlanExecutor:
     def _end(self, run: GoalExecution | ProgramExecution, outcome: Outcome, reason: Reason | None) -> None:
         self._let_go(run)
         stream, possible = run.goal.stream, ""
-        if outcome == "completed" and stream is not None and stream.refusal is not None:
+        if outcome == "completed" and stream.refusal is not None:
             reason = stream.refusal  # what came before it has been done
             outcome = "stopped" if reason.code in REACHED else "refused"
             possible = stream.possible

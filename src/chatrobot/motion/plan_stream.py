@@ -1,5 +1,5 @@
-"""A plan that comes in parts while it runs: each is rehearsed from where the ones before it will end, and all of them
-are walked as one, so that the robot does not stop where a whole plan would not."""
+"""The parts of a goal, one or more: each is rehearsed from where the ones before it will end, and all are walked as
+one, so that the robot does not stop between the parts of a plan that still comes while it runs."""
 
 from __future__ import annotations
 
@@ -20,31 +20,31 @@ PARTS_LIMIT = MAX_LINES
 
 
 class Stream:
-    """The parts of one turn's plan, and the walk through those that were accepted. Belongs to the control thread.
+    """The parts of one goal, and the walk through those that were accepted. Belongs to the control thread.
 
     `is_open` while more may come; `refusal` is why a part was not accepted: those after it are dropped, those before
-    it are still done. `possible` is what can be done of that part.
+    it are still done. `possible` is what can be done of that part. A program is one part, without a walk.
     """
 
-    def __init__(self, longest_s: float, account: Account) -> None:
-        self.is_open = True
+    def __init__(self, *, is_open: bool = False) -> None:
+        self.is_open = is_open
         self._planning: str | None = None
+        self._waiting: deque[str] = deque()
+        self._count = 1
         self.refusal: Reason | None = None
         self.possible = ""
+        self.rewind()
+
+    def rewind(self) -> None:
+        """Begin anew with the rest of what was accepted: it comes first, and those that were not rehearsed follow."""
+        if self._planning is not None:
+            self._waiting.appendleft(self._planning)
+        self._planning = None
+        self.walk: PartedWalk | None = None
         self.duration_s = self.length_m = 0.0
         self.certain = Extent()
         self.accepted: tuple[Step, ...] = ()
-        self._account = account
         self._has_unknown_part = False
-        self._longest_s = min(longest_s, MAX_DURATION_S)
-        self._waiting: deque[str] = deque()
-        self._count = 1
-        self.walk: PartedWalk | None = None
-
-    @property
-    def steps(self) -> int:
-        """How many were accepted."""
-        return len(self.accepted)
 
     @property
     def waiting(self) -> tuple[str, ...]:
@@ -64,47 +64,34 @@ class Stream:
 
     def take(self) -> str | None:
         """The next part to rehearse; None while one is being rehearsed, or none waits."""
-        if self.is_planning or not self._waiting:
+        if self._planning is not None or not self._waiting:
             return None
         self._planning = self._waiting.popleft()
         return self._planning
 
-    @property
-    def is_planning(self) -> bool:
-        """A part is being rehearsed."""
-        return self._planning is not None
-
-    def rewind(self) -> None:
-        """Begin anew with the rest of what was accepted: it comes first, and those that were not rehearsed follow."""
-        if self._planning is not None:
-            self._waiting.appendleft(self._planning)
-        self._planning, self.walk = None, None
-        self.duration_s = self.length_m = 0.0
-        self.certain, self.accepted = Extent(), ()
-
-    def accept(self, planned: Planned) -> Reason | None:
-        """The next part as it was rehearsed; why it is not accepted."""
+    def accept(self, planned: Planned, account: Account, longest_s: float) -> Reason | None:
+        """Append the next part as it was rehearsed; return why it is not accepted."""
         self._planning = None
-        duration_s = self.duration_s + planned.duration_s
+        duration_s, certain = self.duration_s + planned.duration_s, self.certain.plus(planned.certain)
+        longest_s = min(longest_s, MAX_DURATION_S)
         refusal = planned.refusal
-        if refusal is None and duration_s > self._longest_s:
-            refusal = Reason("lasts_too_long", {"duration_s": duration_s, "max_s": self._longest_s})
-        certain = self.certain.plus(planned.certain)
+        if refusal is None and duration_s > longest_s:
+            refusal = Reason("lasts_too_long", {"duration_s": duration_s, "max_s": longest_s})
         # The first part that is too much is refused; a later one ends what is under way.
-        refusal = refusal or (self._account.refusal if self.walk is None else self._account.end)(certain)
+        refusal = refusal or (account.refusal if self.walk is None else account.end)(certain)
         if refusal is not None:
             self.possible = planned.possible if refusal == planned.refusal else ""
             self.refuse(refusal)
             return refusal
-        assert planned.rehearsal is not None
         self.duration_s, self.certain = duration_s, certain
         self.length_m += planned.length_m
         self._has_unknown_part = self._has_unknown_part or planned.is_open_ended
-        self.accepted += planned.rehearsal.plan.steps
-        if self.walk is None:
-            self.walk = PartedWalk(self, planned.rehearsal)
-        else:
-            self.walk.add(planned.rehearsal)
+        if planned.rehearsal is not None:
+            self.accepted += planned.rehearsal.plan.steps
+            if self.walk is None:
+                self.walk = PartedWalk(self, planned.rehearsal)
+            else:
+                self.walk.add(planned.rehearsal)
         return None
 
     def refuse(self, reason: Reason) -> None:
@@ -121,7 +108,7 @@ class Stream:
     @property
     def may_go_on(self) -> bool:
         """Another part may still become part of the walk."""
-        return self.is_open or self.is_planning or bool(self._waiting)
+        return self.is_open or self._planning is not None or bool(self._waiting)
 
 
 class PartedWalk:
@@ -139,6 +126,7 @@ class PartedWalk:
         self.add(first)
 
     def add(self, part: Rehearsal) -> None:
+        """Append a part to the end of the walk."""
         self._parts.append(part)
         self._end = part.end_pose
         self._total += count_steps(part.plan.steps)
@@ -154,7 +142,7 @@ class PartedWalk:
         return self._end if self._parts or self._walk is not None else self._pose
 
     def ended_at(self, pose: Pose) -> None:
-        """See `CoreWalk`."""
+        """Go on from `pose`, where the last motion ended."""
         if self._walk is not None:
             self._walk.ended_at(pose)
         else:

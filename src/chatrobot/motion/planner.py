@@ -18,7 +18,6 @@ from chatrobot.motion.remembered_obstacles import RememberedObstacles, RoutesAro
 from chatrobot.plan.context import RoutePlanner
 from chatrobot.plan.free_part import ANY_WAY, Most
 from chatrobot.plan.known_world import Floats
-from chatrobot.plan.lowering import CoreWalk
 from chatrobot.plan.rehearsal import Rehearsal, rehearse
 from chatrobot.plan.route import GridRoutePlanner
 from chatrobot.plan.steps import Plan
@@ -108,11 +107,6 @@ class Planned:
     def has_findings(self) -> bool:
         """Something that a person should look at before it runs."""
         return False
-
-    def walk(self) -> CoreWalk:
-        """The very motions that were rehearsed."""
-        assert self.rehearsal is not None
-        return self.rehearsal.walk()
 
     def events(self, needs_approval: bool) -> tuple[Event, ...]:
         """All that is told of it."""
