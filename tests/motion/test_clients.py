@@ -11,7 +11,7 @@ from tests.safety.test_who_drives import Crowd
 from chatrobot.governor.lease import Leases
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.clients import MANY_SOURCES, MOST_SOURCES, Clients
-from chatrobot.motion.goal import GoalQueue
+from chatrobot.motion.goal_queue import GoalQueue
 from chatrobot.motion.safety import competing_controllers
 from chatrobot.motion.safety.competing_controllers import CompetingControllers
 from chatrobot.wire.memory import MemoryHub

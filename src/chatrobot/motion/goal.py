@@ -1,23 +1,195 @@
-"""A goal: one turn's plan on its way through Motion; and what waits for the control thread: goals, and actions."""
+"""A goal: one turn's plan on its way through Motion, received, rehearsed, approved, run, in one part or more.
+
+Each part is rehearsed from where those before it will end, and all are walked as one, so that the robot does not stop
+between the parts of a plan that still comes while it runs.
+"""
 
 from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Callable, Collection
 from dataclasses import dataclass, field, replace
-from typing import TypeVar
 
 from chatrobot.core.events import Finished, Outcome
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.core.reason import Reason
 from chatrobot.core.summed import gone_on
 from chatrobot.link.approval import Approval
-from chatrobot.link.envelope import QUEUE_LIMIT, Envelope, seconds
-from chatrobot.motion.budgets import Account
-from chatrobot.motion.plan_stream import Stream
+from chatrobot.link.envelope import Envelope, seconds
+from chatrobot.motion.budgets import Account, Extent
 from chatrobot.motion.planner import Planned
+from chatrobot.plan.base import Step
+from chatrobot.plan.context import MAX_DURATION_S
 from chatrobot.plan.free_part import Most
+from chatrobot.plan.lowering import NOT_YET, CoreWalk, NotYet, PlannedMotion, WalkItem, iterate_core
+from chatrobot.plan.rehearsal import Rehearsal
+from chatrobot.plan.steps import MAX_LINES, count_steps
+
+PARTS_LIMIT = MAX_LINES
+
+
+class Stream:
+    """The parts of one goal, and the walk through those that were accepted. Belongs to the control thread.
+
+    `is_open` while more may come; `refusal` is why a part was not accepted: those after it are dropped, those before
+    it are still done. `possible` is what can be done of that part. A program is one part, without a walk.
+    """
+
+    def __init__(self, *, is_open: bool = False) -> None:
+        self.is_open = is_open
+        self._planning: str | None = None
+        self._waiting: deque[str] = deque()
+        self._count = 1
+        self.refusal: Reason | None = None
+        self.possible = ""
+        self.rewind()
+
+    def rewind(self) -> None:
+        """Begin anew with the rest of what was accepted: it comes first, and those that were not rehearsed follow."""
+        if self._planning is not None:
+            self._waiting.appendleft(self._planning)
+        self._planning = None
+        self.walk: PartedWalk | None = None
+        self.duration_s = self.length_m = 0.0
+        self.certain = Extent()
+        self.accepted: tuple[Step, ...] = ()
+        self._has_unknown_part = False
+
+    @property
+    def waiting(self) -> tuple[str, ...]:
+        """The parts that have not been rehearsed."""
+        return tuple(self._waiting)
+
+    def add(self, plan_text: str, more: bool) -> None:
+        """Take in a part, which may be empty; nothing after the last one counts."""
+        if not self.is_open:
+            return
+        self.is_open = more
+        if plan_text.strip():
+            self._count += 1
+            self._waiting.append(plan_text)
+        if self._count > PARTS_LIMIT:
+            self.refuse(Reason("plan_too_large", {"steps": self._count}))
+
+    def take(self) -> str | None:
+        """The next part to rehearse; None while one is being rehearsed, or none waits."""
+        if self._planning is not None or not self._waiting:
+            return None
+        self._planning = self._waiting.popleft()
+        return self._planning
+
+    def accept(self, planned: Planned, account: Account, longest_s: float) -> Reason | None:
+        """Append the next part as it was rehearsed; return why it is not accepted."""
+        self._planning = None
+        duration_s, certain = self.duration_s + planned.duration_s, self.certain.plus(planned.certain)
+        longest_s = min(longest_s, MAX_DURATION_S)
+        refusal = planned.refusal
+        if refusal is None and duration_s > longest_s:
+            refusal = Reason("lasts_too_long", {"duration_s": duration_s, "max_s": longest_s})
+        # The first part that is too much is refused; a later one ends what is under way.
+        refusal = refusal or (account.refusal if self.walk is None else account.end)(certain)
+        if refusal is not None:
+            self.possible = planned.possible if refusal == planned.refusal else ""
+            self.refuse(refusal)
+            return refusal
+        self.duration_s, self.certain = duration_s, certain
+        self.length_m += planned.length_m
+        self._has_unknown_part = self._has_unknown_part or planned.is_open_ended
+        if planned.rehearsal is not None:
+            self.accepted += planned.rehearsal.plan.steps
+            if self.walk is None:
+                self.walk = PartedWalk(self, planned.rehearsal)
+            else:
+                self.walk.add(planned.rehearsal)
+        return None
+
+    def refuse(self, reason: Reason) -> None:
+        """Nothing more is taken."""
+        self.refusal = self.refusal or reason
+        self.is_open = False
+        self._waiting.clear()
+
+    @property
+    def is_open_ended(self) -> bool:
+        """The whole way is not known."""
+        return self.may_go_on or self._has_unknown_part
+
+    @property
+    def may_go_on(self) -> bool:
+        """Another part may still become part of the walk."""
+        return self.is_open or self._planning is not None or bool(self._waiting)
+
+
+class PartedWalk:
+    """Walks part after part; `NOT_YET` where the next one is still to come. Made with the first part."""
+
+    def __init__(self, stream: Stream, first: Rehearsal) -> None:
+        self._stream = stream
+        self._parts: deque[Rehearsal] = deque()
+        self._walk: CoreWalk | None = None
+        self._pose = first.context.pose
+        self._end = self._pose
+        self._numbers_before = self._steps_before = 0
+        self._walked = (0, 0)
+        self._total = 0
+        self.add(first)
+
+    def add(self, part: Rehearsal) -> None:
+        """Append a part to the end of the walk."""
+        self._parts.append(part)
+        self._end = part.end_pose
+        self._total += count_steps(part.plan.steps)
+
+    @property
+    def pose(self) -> Pose:
+        """Where the last motion ends."""
+        return self._walk.pose if self._walk is not None else self._pose
+
+    @property
+    def end(self) -> Pose:
+        """Where all that was accepted will end: as predicted, or as it did where it has been walked already."""
+        return self._end if self._parts or self._walk is not None else self._pose
+
+    def ended_at(self, pose: Pose) -> None:
+        """Go on from `pose`, where the last motion ended."""
+        if self._walk is not None:
+            self._walk.ended_at(pose)
+        else:
+            self._pose = pose
+
+    def __next__(self) -> WalkItem:
+        while True:
+            item = next(self._walk, None) if self._walk is not None else None
+            if isinstance(item, PlannedMotion):
+                return self._counted(item)
+            if item is not None:
+                return item
+            if not self._begin_part():
+                return self._nothing()
+
+    def _nothing(self) -> NotYet:
+        if self._stream.may_go_on:
+            return NOT_YET
+        raise StopIteration
+
+    def _begin_part(self) -> bool:
+        if self._walk is not None:
+            self._pose, self._walk = self._walk.pose, None
+        if not self._parts:
+            return False
+        part = self._parts.popleft()
+        steps, numbers = self._walked
+        self._steps_before += steps
+        self._numbers_before += numbers
+        self._walked = (len(part.plan.steps), count_steps(part.plan.steps))
+        # From where the part before it really ended: its condition may have come true early.
+        self._walk = iterate_core(part.plan, replace(part.context, pose=self._pose))
+        return True
+
+    def _counted(self, item: PlannedMotion) -> PlannedMotion:
+        """Numbered as a step of the whole."""
+        index = (self._steps_before + item.index[0], *item.index[1:])
+        return replace(item, index=index, number=self._numbers_before + item.number, total=self._total)
 
 
 @dataclass
@@ -109,107 +281,3 @@ class Goal:
     def _unread(self) -> str:
         """All the plan text that came."""
         return "\n".join(part.strip("\n") for part in (self.plan_text, *self.stream.waiting))
-
-
-class GoalQueue:
-    """The queue of goals, and who may still join it. `void_turn` and `pause` may be called from any thread."""
-
-    def __init__(self) -> None:
-        self.goals: deque[Goal] = deque()
-        self._sequences: dict[tuple[str, bool], int] = {}
-        self._void_turns: dict[str, int] = {}
-        self._pauses: dict[str, int] = {}
-
-    def void_turn(self, lease: str, turn: int) -> None:
-        """A stop said after that turn: plans of it and of earlier ones may still be on their way."""
-        self._void_turns[lease] = max(turn, self._void_turns.get(lease, turn))
-
-    def pause(self, lease: str) -> None:
-        """A pause of that source: what it asked for before may still be on its way, and must not begin after it."""
-        self._pauses[lease] = self._pauses.get(lease, 0) + 1
-
-    def resume(self, goal: Goal) -> None:
-        """Put the rest of a plan that was paused before all others."""
-        self.goals.appendleft(goal)
-
-    def forget(self, lease: str) -> None:
-        """Nothing is to be known of that lease any more."""
-        self._void_turns.pop(lease, None)
-        self._pauses.pop(lease, None)
-        for is_beat in (True, False):
-            self._sequences.pop((lease, is_beat), None)
-
-    def is_old(self, envelope: Envelope) -> bool:
-        """A later one of the same lease was here before. Beats, sent by a thread of their own, count for themselves."""
-        kind = (envelope.lease, envelope.word == "beat")
-        if envelope.sequence <= self._sequences.get(kind, -1):
-            return True
-        self._sequences[kind] = envelope.sequence
-        return False
-
-    def is_void(self, goal: Goal, epoch: int) -> bool:
-        """A stop has overtaken it."""
-        is_paused = goal.pauses is not None and goal.pauses < self._pauses.get(goal.lease, 0)
-        return goal.epoch != epoch or is_paused or goal.turn <= self._void_turns.get(goal.lease, -1)
-
-    def add(self, goal: Goal) -> Reason | None:
-        """Queue `goal`, or say why not: too many wait."""
-        if len(self.goals) >= QUEUE_LIMIT:
-            return Reason("queue_full", {"limit": QUEUE_LIMIT})
-        self.goals.append(goal)
-        return None
-
-    def take_void(self, epoch: int) -> list[Goal]:
-        """Remove and return what was received before the stop that began `epoch`; what came after it stays."""
-        void = [goal for goal in self.goals if goal.epoch != epoch]
-        for goal in void:
-            self.goals.remove(goal)
-        return void
-
-    def take(self, goals: Collection[Goal]) -> list[Goal]:
-        """Remove and return those of `goals` that wait."""
-        taken = [goal for goal in self.goals if any(goal is one for one in goals)]
-        for goal in taken:
-            self.goals.remove(goal)
-        return taken
-
-    def take_all(self) -> list[Goal]:
-        """Remove and return everything."""
-        goals = list(self.goals)
-        self.goals.clear()
-        return goals
-
-
-T = TypeVar("T")
-
-
-class Inbox:
-    """Keeps the actions that wait for the next tick. All but `post` belongs to the control thread.
-
-    Args:
-        background: runs a function off the control thread; a simulation runs it at once.
-    """
-
-    def __init__(self, background: Callable[[Callable[[], None]], None]) -> None:
-        self._background = background
-        self._actions: deque[Callable[[], None]] = deque()
-
-    def post(self, action: Callable[[], None]) -> None:
-        """Have `action` done with the next tick."""
-        self._actions.append(action)
-
-    def fetch(self, work: Callable[[], T], take: Callable[[T], None]) -> None:
-        """Have `work` done off the control thread; what it gives is taken on it, with a tick to come."""
-
-        def run() -> None:
-            result = work()
-            self.post(lambda: take(result))
-
-        self._background(run)
-
-    def take(self) -> Callable[[], None] | None:
-        """The next action, None where there is none."""
-        return self._actions.popleft() if self._actions else None
-
-    def __bool__(self) -> bool:
-        return bool(self._actions)

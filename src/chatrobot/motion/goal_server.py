@@ -13,10 +13,18 @@ from chatrobot.governor.priority import Priority
 from chatrobot.link.approval import Approval
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.budgets import Budgets
-from chatrobot.motion.goal import Goal, GoalQueue, Inbox
+from chatrobot.motion.goal import Goal
+from chatrobot.motion.goal_queue import (
+    GoalQueue,
+    Inbox,
+    OutcomeQueue,
+    PausedGoal,
+    Pausing,
+    is_foreign,
+    why_not_kept,
+)
 from chatrobot.motion.governed_robot import GovernedRobot
-from chatrobot.motion.paused import PausedGoal, Pausing, is_foreign, why_not_kept
-from chatrobot.motion.plan_executor import OutcomeQueue, PlanExecutor
+from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planned, Planner, refused
 from chatrobot.motion.programs.execution import ProgramSandbox
 from chatrobot.motion.programs.goal import ProgramGoal, goal_of, needs_approval

@@ -20,11 +20,10 @@ from chatrobot.governor.priority import RELEASERS, Priority, priority_of
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.budgets import Budgets, open_loop_notice
 from chatrobot.motion.clients import Clients, CmdVelInput
-from chatrobot.motion.goal import GoalQueue, Inbox
+from chatrobot.motion.goal_queue import GoalQueue, Inbox, OutcomeQueue, Pausing
 from chatrobot.motion.goal_server import GoalServer
 from chatrobot.motion.governed_robot import GovernedRobot, TelemetryPublisher, sectors_m
-from chatrobot.motion.paused import Pausing
-from chatrobot.motion.plan_executor import OutcomeQueue, PlanExecutor
+from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.execution import NoSandbox, ProgramSandbox
 from chatrobot.motion.safety.stop import PAUSED, StopConfirmation, Stops

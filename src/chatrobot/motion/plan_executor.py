@@ -6,7 +6,6 @@ and only then do pose, turn and path say what became of the motion.
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -17,7 +16,8 @@ from chatrobot.execution.executor import Executor
 from chatrobot.execution.health import is_seen_moving
 from chatrobot.governor.governor import Verdict
 from chatrobot.motion.budgets import REACHED
-from chatrobot.motion.goal import Goal, Inbox
+from chatrobot.motion.goal import Goal
+from chatrobot.motion.goal_queue import Inbox, OutcomeQueue
 from chatrobot.motion.governed_robot import GovernedMotion, GovernedRobot, is_worth_telling
 from chatrobot.motion.programs.execution import LiveProgram, ProgramExecution, ProgramSandbox
 from chatrobot.motion.programs.goal import ProgramGoal
@@ -286,40 +286,3 @@ class PlanExecutor:
         assert goal is not None
         self._robot.governor.end(goal.lease)
         self._outcomes.tell(lambda: goal.unmoved(outcome, reason, self._robot.pose))
-
-
-class OutcomeQueue:
-    """Belongs to the control thread. An end is made when it is told, so that it says what was measured by then.
-
-    Args:
-        measured: the robot has odometry; without, no end is told as measured, and be it of what never moved.
-    """
-
-    def __init__(self, emit: Callable[[Event], None], *, measured: bool) -> None:
-        self._emit = emit
-        self._measured = measured
-        self._untold: deque[Callable[[], Finished]] = deque()
-
-    @property
-    def are_told(self) -> bool:
-        return not self._untold
-
-    def tell(self, end: Callable[[], Finished]) -> None:
-        """Tell it now, or after those that wait."""
-        if self._untold:
-            self._untold.append(end)
-        else:
-            self._tell(end)
-
-    def tell_later(self, end: Callable[[], Finished]) -> None:
-        """Tell it once the robot stands."""
-        self._untold.append(end)
-
-    def tell_all(self) -> None:
-        """The robot stands, or nobody sees whether it does."""
-        while self._untold:
-            self._tell(self._untold.popleft())
-
-    def _tell(self, end: Callable[[], Finished]) -> None:
-        finished = end()
-        self._emit(finished if self._measured else replace(finished, measured=False))

@@ -1,13 +1,12 @@
-"""A plan that was paused: what is left of it, and until when it may be gone on with.
-
-It belongs to the control thread. Nothing of ours drives meanwhile, and nothing of it begins again by itself.
-"""
+"""What waits for the control thread: goals in their order, the plan that is paused, actions, and ends to be told."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections import deque
+from collections.abc import Callable, Collection
 from dataclasses import replace
+from typing import TypeVar
 
 from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Finished, Notice, Paused
@@ -15,13 +14,154 @@ from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import Priority
 from chatrobot.link.approval import LAPSES_AFTER_M, LAPSES_AFTER_RAD
-from chatrobot.link.envelope import Envelope
-from chatrobot.motion.goal import Goal, GoalQueue
+from chatrobot.link.envelope import QUEUE_LIMIT, Envelope
+from chatrobot.motion.goal import Goal
 from chatrobot.motion.governed_robot import GovernedRobot
-from chatrobot.motion.plan_executor import OutcomeQueue
 from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.motion.safety.stop import Stops
 from chatrobot.motion.safety.watchdog import Interlock
+
+
+class GoalQueue:
+    """The queue of goals, and who may still join it. `void_turn` and `pause` may be called from any thread."""
+
+    def __init__(self) -> None:
+        self.goals: deque[Goal] = deque()
+        self._sequences: dict[tuple[str, bool], int] = {}
+        self._void_turns: dict[str, int] = {}
+        self._pauses: dict[str, int] = {}
+
+    def void_turn(self, lease: str, turn: int) -> None:
+        """A stop said after that turn: plans of it and of earlier ones may still be on their way."""
+        self._void_turns[lease] = max(turn, self._void_turns.get(lease, turn))
+
+    def pause(self, lease: str) -> None:
+        """A pause of that source: what it asked for before may still be on its way, and must not begin after it."""
+        self._pauses[lease] = self._pauses.get(lease, 0) + 1
+
+    def resume(self, goal: Goal) -> None:
+        """Put the rest of a plan that was paused before all others."""
+        self.goals.appendleft(goal)
+
+    def forget(self, lease: str) -> None:
+        """Nothing is to be known of that lease any more."""
+        self._void_turns.pop(lease, None)
+        self._pauses.pop(lease, None)
+        for is_beat in (True, False):
+            self._sequences.pop((lease, is_beat), None)
+
+    def is_old(self, envelope: Envelope) -> bool:
+        """A later one of the same lease was here before. Beats, sent by a thread of their own, count for themselves."""
+        kind = (envelope.lease, envelope.word == "beat")
+        if envelope.sequence <= self._sequences.get(kind, -1):
+            return True
+        self._sequences[kind] = envelope.sequence
+        return False
+
+    def is_void(self, goal: Goal, epoch: int) -> bool:
+        """A stop has overtaken it."""
+        is_paused = goal.pauses is not None and goal.pauses < self._pauses.get(goal.lease, 0)
+        return goal.epoch != epoch or is_paused or goal.turn <= self._void_turns.get(goal.lease, -1)
+
+    def add(self, goal: Goal) -> Reason | None:
+        """Queue `goal`, or say why not: too many wait."""
+        if len(self.goals) >= QUEUE_LIMIT:
+            return Reason("queue_full", {"limit": QUEUE_LIMIT})
+        self.goals.append(goal)
+        return None
+
+    def take_void(self, epoch: int) -> list[Goal]:
+        """Remove and return what was received before the stop that began `epoch`; what came after it stays."""
+        void = [goal for goal in self.goals if goal.epoch != epoch]
+        for goal in void:
+            self.goals.remove(goal)
+        return void
+
+    def take(self, goals: Collection[Goal]) -> list[Goal]:
+        """Remove and return those of `goals` that wait."""
+        taken = [goal for goal in self.goals if any(goal is one for one in goals)]
+        for goal in taken:
+            self.goals.remove(goal)
+        return taken
+
+    def take_all(self) -> list[Goal]:
+        """Remove and return everything."""
+        goals = list(self.goals)
+        self.goals.clear()
+        return goals
+
+
+T = TypeVar("T")
+
+
+class Inbox:
+    """Keeps the actions that wait for the next tick. All but `post` belongs to the control thread.
+
+    Args:
+        background: runs a function off the control thread; a simulation runs it at once.
+    """
+
+    def __init__(self, background: Callable[[Callable[[], None]], None]) -> None:
+        self._background = background
+        self._actions: deque[Callable[[], None]] = deque()
+
+    def post(self, action: Callable[[], None]) -> None:
+        """Have `action` done with the next tick."""
+        self._actions.append(action)
+
+    def fetch(self, work: Callable[[], T], take: Callable[[T], None]) -> None:
+        """Have `work` done off the control thread; what it gives is taken on it, with a tick to come."""
+
+        def run() -> None:
+            result = work()
+            self.post(lambda: take(result))
+
+        self._background(run)
+
+    def take(self) -> Callable[[], None] | None:
+        """The next action, None where there is none."""
+        return self._actions.popleft() if self._actions else None
+
+    def __bool__(self) -> bool:
+        return bool(self._actions)
+
+
+class OutcomeQueue:
+    """Belongs to the control thread. An end is made when it is told, so that it says what was measured by then.
+
+    Args:
+        measured: the robot has odometry; without, no end is told as measured, and be it of what never moved.
+    """
+
+    def __init__(self, emit: Callable[[Event], None], *, measured: bool) -> None:
+        self._emit = emit
+        self._measured = measured
+        self._untold: deque[Callable[[], Finished]] = deque()
+
+    @property
+    def are_told(self) -> bool:
+        return not self._untold
+
+    def tell(self, end: Callable[[], Finished]) -> None:
+        """Tell it now, or after those that wait."""
+        if self._untold:
+            self._untold.append(end)
+        else:
+            self._tell(end)
+
+    def tell_later(self, end: Callable[[], Finished]) -> None:
+        """Tell it once the robot stands."""
+        self._untold.append(end)
+
+    def tell_all(self) -> None:
+        """The robot stands, or nobody sees whether it does."""
+        while self._untold:
+            self._tell(self._untold.popleft())
+
+    def _tell(self, end: Callable[[], Finished]) -> None:
+        finished = end()
+        self._emit(finished if self._measured else replace(finished, measured=False))
+
 
 KEPT_S = 600.0
 SILENT_S = 2.0
