@@ -70,6 +70,13 @@ def test_the_nearest_is_that_by_the_way(text: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("text", "near"), [("where is the televisn?", "TV"), ("how far is the charging dok?", "charging dock")]
+)
+def test_a_place_that_is_meant_is_shown_as_it_is_written_and_once(text: str, near: str) -> None:
+    assert asked(text).reply.endswith(f"Did you mean one of these: {near}?")
+
+
+@pytest.mark.parametrize(
     ("text", "told"),
     [("厨房在哪里", "厨房在我的正前方"), ("厨房在左边吗？", "不是。"), ("离厨房还有多远", "按我会走的路"),
      ("你知道哪些地方", "冰箱"),
