@@ -7,7 +7,7 @@ import math
 import pytest
 
 from chatrobot.core.geometry import Pose
-from chatrobot.dialogue.map_ways import MapWays
+from chatrobot.dialogue.places import MapWays
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.context import RobotState
 from chatrobot.language.interpretation import Interpretation
@@ -67,6 +67,13 @@ def test_the_nearest_is_that_by_the_way(text: str) -> None:
         if (way := ways(Pose(), pose)) is not None and way > 0.25
     }
     assert f"{min(far.values()):.2f}" in asked(text).reply
+
+
+@pytest.mark.parametrize(
+    ("text", "near"), [("where is the televisn?", "TV"), ("how far is the charging dok?", "charging dock")]
+)
+def test_a_place_that_is_meant_is_shown_as_it_is_written_and_once(text: str, near: str) -> None:
+    assert asked(text).reply.endswith(f"Did you mean one of these: {near}?")
 
 
 @pytest.mark.parametrize(

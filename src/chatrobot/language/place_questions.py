@@ -107,9 +107,9 @@ def _unknown(named: str, known: list[str], language: str, context: Context) -> s
     off = {name: edit_distance(_plain(named), name, _FAR_OFF) for name in known}
     near = [name for name in sorted(off, key=lambda name: off[name]) if off[name] * 2 < len(name)]
     if near:
-        return (
-            f"{reply} {say(language, 'places_near', places=say(language, 'join').join(near[:_MOST_NAMED]))}"
-        )
+        places = _known(context, language)
+        shown = list(dict.fromkeys(places[name].name for name in near))[:_MOST_NAMED]
+        return f"{reply} {say(language, 'places_near', places=say(language, 'join').join(shown))}"
     return f"{reply} {say(language, 'answer_places', places=places_known(context, language))}"
 
 

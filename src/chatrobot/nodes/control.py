@@ -21,7 +21,7 @@ from chatrobot.governor.priority import RELEASERS
 from chatrobot.link.envelope import Envelope, Word
 from chatrobot.link.topics import CHATGPT_NODE, EVENTS, TELEMETRY
 from chatrobot.motion.runner import MotionRunner
-from chatrobot.motion.safety.stop_confirmation import Sight
+from chatrobot.motion.safety.stop import Sight
 from chatrobot.nodes.foreign import Foreign
 from chatrobot.wire.connect import Connect, advertise, connect_wire, resolved
 from chatrobot.wire.messages import Text

@@ -17,10 +17,9 @@ from chatrobot.core.events import (
     Started,
 )
 from chatrobot.core.reason import Reason
-from chatrobot.dialogue.goal_client import GoalClient
+from chatrobot.dialogue.goal_client import GoalClient, RequestLog
 from chatrobot.dialogue.programs.authoring import MOST_REPAIRS, Authoring, NotWrittenError, Rehearsal
 from chatrobot.dialogue.programs.draft import Draft
-from chatrobot.dialogue.request_log import RequestLog
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.normalise import has_chinese
