@@ -38,6 +38,7 @@ from chatrobot.sim.load import load_world
 from chatrobot.sim.start import check_known
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import TwistMessage
+from chatrobot.wire.wire import Wire
 from tests.dialogue.undo_rig import UndoRig
 from tests.motion.far_robot import Rig
 
@@ -189,8 +190,10 @@ def test_the_end_of_a_plan_is_a_bounded_row_of_zeros(rig: Rig) -> None:
 # --- where odometry turns up ---
 
 
-class Knowing:
+class Knowing(Wire):
     """An end of a wire on which somebody may begin to tell odometry."""
+
+    knows_others = True
 
     def __init__(self, inner: Any) -> None:
         self._inner, self.odometry = inner, list[str]()

@@ -30,7 +30,6 @@ from chatrobot.governor.lease import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_
 from chatrobot.link.envelope import Envelope, Word
 from chatrobot.link.motion_link import EventQueue, Sender
 from chatrobot.link.topics import CHATGPT_NODE, CONTROL, EVENTS, TELEMETRY, read_beat
-from chatrobot.wire.connect import advertise, comes_back
 from chatrobot.wire.messages import Text
 from chatrobot.wire.wire import Wire
 
@@ -81,7 +80,7 @@ class TopicLink(EventQueue):
 
     def open(self) -> None:
         """Listen, and begin to beat."""
-        advertise(self._wire, CHATGPT_NODE, Text)
+        self._wire.advertise(CHATGPT_NODE, Text)
         self._wire.subscribe(CONTROL, Text, self._hear_control)
         self._wire.subscribe(TELEMETRY, Text, self._hear_event)  # first: older than an end that comes with it
         self._wire.subscribe(EVENTS, Text, self._hear_event)
@@ -187,5 +186,5 @@ class TopicLink(EventQueue):
         try:
             self._wire.publish(CHATGPT_NODE, Text(envelope.to_bytes().decode()))
         except WireError as error:
-            if not comes_back(self._wire):
+            if not self._wire.comes_back:
                 raise LinkError("the wire to the robot is closed") from error

@@ -46,12 +46,8 @@ from chatrobot.sim.load import load_world
 from chatrobot.sim.start import check_known
 from chatrobot.wire.connect import (
     Connect,
-    Knowing,
-    clock_of,
     connect_wire,
     is_on_this_machine,
-    namespace_of,
-    resolved,
 )
 from chatrobot.wire.messages import Flag, Text
 from chatrobot.wire.wire import Wire
@@ -115,7 +111,7 @@ class MotionRunner:
         self.motion = Motion(
             self.profile,
             self.wire,
-            clock_of(self.wire),
+            self.wire.clock,
             Planner(self.profile, known_world),
             self._guard,
             emit,
@@ -152,7 +148,7 @@ class MotionRunner:
         for reason in said:
             self.notice(reason)
         self._lookout.look_around()
-        if isinstance(self.wire, Knowing):  # whoever else drives is named before anything moves
+        if self.wire.knows_others:  # whoever else drives is named before anything moves
             time.sleep(BEAT_S)
             self._lookout.look_around()
 
@@ -272,6 +268,9 @@ def _settle_memory() -> None:
 
 def _as_others_name_it(wire: Wire, wiring: Wiring) -> Wiring:
     """The guard is another end of the wire, which is told our namespace, and the topics as our remappings have them."""
-    cmd_vel_topic, odom_topic = resolved(wire, wiring.cmd_vel_topic), resolved(wire, wiring.odom_topic)
-    namespace = namespace_of(wire) or wiring.namespace
+    cmd_vel_topic, odom_topic = (
+        wire.resolve(wiring.cmd_vel_topic),
+        wiring.odom_topic and wire.resolve(wiring.odom_topic),
+    )
+    namespace = wire.namespace or wiring.namespace
     return replace(wiring, cmd_vel_topic=cmd_vel_topic, odom_topic=odom_topic, namespace=namespace)

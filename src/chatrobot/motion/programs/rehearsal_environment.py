@@ -23,7 +23,7 @@ from chatrobot.sim.world import EMPTY_WORLD, World
 from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import Flag, Imu, LaserScan, Message, Number
-from chatrobot.wire.sensor_topics import subscribe_sensors
+from chatrobot.wire.wire import subscribe_sensors
 
 LEASE = "rehearsal"
 STEADY_STEP_S = 2.0 * TICK_S

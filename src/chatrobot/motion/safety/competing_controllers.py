@@ -11,7 +11,6 @@ from typing import Any
 
 from chatrobot.core.reason import Reason
 from chatrobot.link.topics import CONTROL, read_beat
-from chatrobot.wire.connect import advertise, publishers_of
 from chatrobot.wire.messages import Text
 from chatrobot.wire.wire import Wire
 
@@ -48,7 +47,7 @@ class CompetingControllers:
             self._about["open_loop"] = dict(open_loop.values)
         self._hears: dict[str, None] = {}
         self._heard: dict[str, tuple[float, str]] = {}
-        advertise(wire, CONTROL, Text)
+        wire.advertise(CONTROL, Text)
         wire.subscribe(CONTROL, Text, self._hear)
 
     def note_source(self, lease: str) -> None:
@@ -72,7 +71,7 @@ class CompetingControllers:
         return [name for name in self._publishers() if _node(name) not in (*NODES, *GUARDS)]
 
     def _publishers(self) -> list[str]:
-        return publishers_of(self._wire, self._topic)
+        return self._wire.publishers_of(self._topic)
 
     def _hear(self, message: Text) -> None:
         about = read_beat(message.data)
