@@ -14,13 +14,13 @@ import sys
 import time
 from collections.abc import Callable
 
-from chatrobot.core.clock import awake_or_not_s
+from chatrobot.core.clock import TICK_S, awake_or_not_s
 from chatrobot.core.errors import WireError
 from chatrobot.core.memory_pressure import GUARD, prefer
 from chatrobot.core.scheduling import wake_promptly
 from chatrobot.core.wiring import Wiring
 from chatrobot.guard.departure import Departure
-from chatrobot.guard.watch import BEAT_S, GOODBYE, HANDSHAKE, TRIPPED, Watch
+from chatrobot.guard.watch import GOODBYE, HANDSHAKE, TRIPPED, Watch
 from chatrobot.wire.connect import connect_wire
 from chatrobot.wire.messages import Odometry, TwistMessage
 from chatrobot.wire.wire import Wire
@@ -108,7 +108,7 @@ class Guard:
     def _listen(self, timeout_s: float) -> bool:
         """Take in Motion's words for up to `timeout_s`; True for a goodbye."""
         if self._motion_is_gone:
-            time.sleep(BEAT_S)
+            time.sleep(TICK_S)
             return False
         readable, _, _ = select.select([self._line], [], [], timeout_s)
         if not readable:

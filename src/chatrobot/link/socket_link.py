@@ -10,11 +10,11 @@ import threading
 import time
 from typing import Any
 
+from chatrobot.core.clock import LOCAL_BEAT_HZ, LOCAL_TERM_S
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import event_from_json
 from chatrobot.core.process import own_identity
 from chatrobot.core.scheduling import wake_promptly
-from chatrobot.governor.lease import LOCAL_BEAT_HZ, LOCAL_TERM_S
 from chatrobot.link.envelope import READY, Word
 from chatrobot.link.motion_link import EventQueue, Sender
 from chatrobot.link.processes import MotionProcess

@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+from chatrobot.core.clock import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S
 from chatrobot.core.errors import LinkError, WireError
 from chatrobot.core.events import (
     Finished,
@@ -26,7 +27,6 @@ from chatrobot.core.motion_budget import OPEN_LOOP
 from chatrobot.core.process import own_identity
 from chatrobot.core.reason import Reason
 from chatrobot.core.scheduling import wake_promptly
-from chatrobot.governor.lease import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S
 from chatrobot.link.envelope import Envelope, Word
 from chatrobot.link.motion_link import EventQueue, Sender
 from chatrobot.link.topics import CHATGPT_NODE, CONTROL, EVENTS, TELEMETRY, read_beat

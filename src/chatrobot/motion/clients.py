@@ -6,8 +6,9 @@ import math
 from collections.abc import Callable
 from itertools import islice
 
+from chatrobot.core.clock import LOCAL_TERM_S
 from chatrobot.core.process import watch_process
-from chatrobot.governor.lease import LOCAL_TERM_S, Leases
+from chatrobot.governor.lease import Leases
 from chatrobot.link.envelope import Envelope, seconds
 
 LONGEST_TERM_S = 1.0

@@ -12,11 +12,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from chatrobot.core.clock import Clock
+from chatrobot.core.clock import TERM_S, Clock
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import CMD_VEL_INPUT_TOPIC
-from chatrobot.governor.lease import TERM_S
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.wire.messages import TwistMessage
 

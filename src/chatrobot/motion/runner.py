@@ -16,7 +16,7 @@ import time
 from collections.abc import Callable, Collection
 from dataclasses import replace
 
-from chatrobot.core.clock import RealClock
+from chatrobot.core.clock import PRESENCE_S, TICK_S, RealClock
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Notice
 from chatrobot.core.memory_pressure import MOTION, prefer
@@ -25,7 +25,6 @@ from chatrobot.core.reason import Reason
 from chatrobot.core.scheduling import wake_promptly
 from chatrobot.core.wiring import Wiring
 from chatrobot.governor.priority import RELEASERS
-from chatrobot.governor.tick import TICK_S
 from chatrobot.guard.departure import Departure
 from chatrobot.link.envelope import Envelope
 from chatrobot.link.topics import STOP, USER_INPUT
@@ -33,7 +32,7 @@ from chatrobot.motion.budgets import open_loop_notice
 from chatrobot.motion.motion import Motion
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.host import ProgramHost
-from chatrobot.motion.safety.competing_controllers import BEAT_S, CompetingControllers
+from chatrobot.motion.safety.competing_controllers import CompetingControllers
 from chatrobot.motion.safety.connection_monitor import ConnectionMonitor, ReconnectingWire, reach
 from chatrobot.motion.safety.stop import PAUSED, remove_stop_socket, serve_stop
 from chatrobot.motion.safety.watchdog import GuardProcess
@@ -149,7 +148,7 @@ class MotionRunner:
             self.notice(reason)
         self._lookout.look_around()
         if self.wire.knows_others:  # whoever else drives is named before anything moves
-            time.sleep(BEAT_S)
+            time.sleep(PRESENCE_S)
             self._lookout.look_around()
 
     def run(self, has_left: Callable[[], bool], each_tick: Callable[[], None]) -> None:

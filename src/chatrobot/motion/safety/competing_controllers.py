@@ -14,7 +14,6 @@ from chatrobot.link.topics import CONTROL, read_beat
 from chatrobot.wire.messages import Text
 from chatrobot.wire.wire import Wire
 
-BEAT_S = 0.1
 MANY_SOURCES = 20
 MANY_MOTIONS = 20
 SILENT_S = 1.0
@@ -56,7 +55,7 @@ class CompetingControllers:
             self._hears = dict.fromkeys([*self._hears, lease][-MANY_SOURCES:])
 
     def beat(self) -> None:
-        """Say that we are there, and whom we hear; every `BEAT_S`."""
+        """Say that we are there, and whom we hear; every `PRESENCE_S`."""
         about = {**self._about, "hears": list(self._hears)}
         self._wire.publish(CONTROL, Text(json.dumps(about, separators=(",", ":"))))
 

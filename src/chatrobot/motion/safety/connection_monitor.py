@@ -7,11 +7,12 @@ import time
 from collections.abc import Callable
 from typing import NamedTuple
 
+from chatrobot.core.clock import PRESENCE_S
 from chatrobot.core.errors import WireError
 from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import ODOM_TOPIC, Wiring
 from chatrobot.motion.motion import Motion
-from chatrobot.motion.safety.competing_controllers import BEAT_S, CompetingControllers
+from chatrobot.motion.safety.competing_controllers import CompetingControllers
 from chatrobot.motion.topic_discovery import fit, is_complete, why_unheard
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.connect import Connect
@@ -68,7 +69,7 @@ class ConnectionMonitor:
                 if count % SURVEY_EVERY == 0:
                     self._look_for_odometry()
             count += 1
-            time.sleep(BEAT_S)
+            time.sleep(PRESENCE_S)
 
     def look_around(self) -> None:
         """See who else drives, and whether scans come whole."""
