@@ -27,7 +27,7 @@ from chatrobot.core.motion_budget import OPEN_LOOP
 from chatrobot.core.process import own_identity
 from chatrobot.core.reason import Reason
 from chatrobot.core.scheduling import wake_promptly
-from chatrobot.link.envelope import Envelope, Word
+from chatrobot.link.envelope import PROTOCOL, Envelope, Word, other_protocol
 from chatrobot.link.motion_link import EventQueue, Sender
 from chatrobot.link.topics import CHATGPT_NODE, CONTROL, EVENTS, TELEMETRY, read_beat
 from chatrobot.wire.messages import Text
@@ -72,6 +72,8 @@ class TopicLink(EventQueue):
         self._term_s = LOCAL_TERM_S if is_on_this_machine else TERM_S
         self._closed = threading.Event()
         self._controls: dict[str, float] = {}
+        self._strangers: dict[int, float] = {}
+        """When a control node of another protocol was last heard, by that."""
         self._control_came = threading.Condition()
         self._in_flight: dict[int, str] = {}
         self._pose: Pose = ORIGIN
@@ -101,7 +103,7 @@ class TopicLink(EventQueue):
         if word == "program" or (word == "plan" and payload.get("mode") != "extend"):
             control = self._find_control()
             if control is None:
-                self._conclude(turn, "failed", Reason("no_control"))
+                self._conclude(turn, "failed", self._why_none())
                 return
             self._in_flight[turn] = control
         self._publish(self._sender.envelope(word, turn, **payload))
@@ -122,7 +124,10 @@ class TopicLink(EventQueue):
         about = read_beat(message.data)
         if about is not None:
             with self._control_came:
-                if self._sender.lease in about.hears:
+                if about.protocol != PROTOCOL:
+                    self._strangers[about.protocol] = time.monotonic()
+                    self._control_came.notify_all()
+                elif self._sender.lease in about.hears:
                     if about.open_loop is not None and about.id not in self._controls:
                         self._events.put(Notice(0, Reason(OPEN_LOOP, about.open_loop)))
                     self._controls[about.id] = time.monotonic()
@@ -136,8 +141,21 @@ class TopicLink(EventQueue):
     def _find_control(self) -> str | None:
         """A control node, waited for. That a wire knows it as a listener is not enough: it must have heard us."""
         with self._control_came:
-            self._control_came.wait_for(lambda: self._present() is not None, FIRST_ANSWER_S)
+            self._control_came.wait_for(
+                lambda: self._present() is not None or self._stranger() is not None, FIRST_ANSWER_S
+            )
         return self._present()
+
+    def _stranger(self) -> int | None:
+        """The protocol of a control node that beats, and is none for us."""
+        since_s = time.monotonic() - SILENT_S
+        return next((known for known, at_s in self._strangers.items() if at_s > since_s), None)
+
+    def _why_none(self) -> Reason:
+        stranger = self._stranger()
+        if stranger is None:
+            return Reason("no_control")
+        return other_protocol(motion=stranger, dialogue=PROTOCOL)
 
     def _hear_event(self, message: Text) -> None:
         try:

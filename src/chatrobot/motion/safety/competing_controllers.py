@@ -10,6 +10,7 @@ import uuid
 from typing import Any
 
 from chatrobot.core.reason import Reason
+from chatrobot.link.envelope import PROTOCOL
 from chatrobot.link.topics import CONTROL, read_beat
 from chatrobot.wire.messages import Text
 from chatrobot.wire.wire import Wire
@@ -41,6 +42,7 @@ class CompetingControllers:
             "node": node,
             "host": socket.gethostname(),
             "pid": os.getpid(),
+            "protocol": PROTOCOL,
         }
         if open_loop is not None:
             self._about["open_loop"] = dict(open_loop.values)
