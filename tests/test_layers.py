@@ -186,7 +186,7 @@ def test_only_the_simulation_and_those_who_show_it_know_the_truth(secret: str) -
             assert secret not in file.read_text(encoding="utf-8"), file.name
 
 
-EXTRAS = ("chatrobot.wire.dds.", "chatrobot.wire.ros.", "chatrobot.wire.rosbridge")
+EXTRAS = ("chatrobot.wire.dds.", "chatrobot.wire.ros.", "chatrobot.wire.rosbridge.")
 """Backends that are installed apart, and loaded only by who names them in a wire's address."""
 
 

@@ -13,8 +13,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from chatrobot.core import process
+from chatrobot.core.clock import LOCAL_TERM_S, TERM_S
 from chatrobot.core.wiring import Wiring
-from chatrobot.governor.lease import LOCAL_TERM_S, LONGEST_S, TERM_S
+from chatrobot.governor.lease import LONGEST_S
 from chatrobot.link.topics import OPERATOR, USER_INPUT
 from chatrobot.nodes.input import InputNode
 from chatrobot.nodes.operator import CLAIMED_WITHIN_S, OperatorBeat, Operators

@@ -135,7 +135,8 @@ def _ros(args: argparse.Namespace) -> Check:
     """What is sourced here, and who is there in a moment's listening."""
     from importlib.util import find_spec
 
-    from chatrobot.wire.ros.environment import HOW_TO_GET_IT, reaches_this_machine_alone
+    from chatrobot.wire.discovery import ros_reaches_this_machine_alone
+    from chatrobot.wire.ros import HOW_TO_GET_IT
 
     distribution = os.environ.get("ROS_DISTRO", "")
     if find_spec("rclpy") is None:
@@ -150,7 +151,7 @@ def _ros(args: argparse.Namespace) -> Check:
         seen = _who_is_on("ros:", args)
     except (ChatRobotError, ImportError, RuntimeError) as error:
         return Check("ROS 2", "later", f"{distribution} does not work with this Python: {error}")
-    reach = "this machine" if reaches_this_machine_alone(os.environ) else "the whole network"
+    reach = "this machine" if ros_reaches_this_machine_alone(os.environ) else "the whole network"
     return Check("ROS 2", "ok", f"{distribution} with {middleware}; {_domain()}, {reach}, {seen}")
 
 
@@ -175,7 +176,7 @@ def _who_is_on(address: str, args: argparse.Namespace) -> str:
     from chatrobot.language.phrases import render_reason
     from chatrobot.motion.topic_discovery import why_unheard
     from chatrobot.robots.load import load_profile
-    from chatrobot.wire.connect import Surveying, connect_wire, publishers_of
+    from chatrobot.wire.connect import connect_wire
 
     wiring = load_profile(args.robot, profile_folders(args)).wiring
     wire = connect_wire(address, wiring, "chatrobot_doctor")
@@ -183,13 +184,9 @@ def _who_is_on(address: str, args: argparse.Namespace) -> str:
     robots: list[str] = []
     while not robots and time.monotonic() < ends_s:
         time.sleep(0.05)
-        robots = publishers_of(wire, wiring.odom_topic) if wiring.odom_topic else []
-    drivers = publishers_of(wire, wiring.cmd_vel_topic)
-    told = (
-        why_unheard(wiring, wire.survey(), wire.resolve)
-        if isinstance(wire, Surveying) and not robots
-        else None
-    )
+        robots = wire.publishers_of(wiring.odom_topic) if wiring.odom_topic else []
+    drivers = wire.publishers_of(wiring.cmd_vel_topic)
+    told = None if robots else why_unheard(wiring, wire.survey(), wire.resolve)
     wire.close()
     text = (
         f"{', '.join(robots)} tells {wiring.odom_topic}"

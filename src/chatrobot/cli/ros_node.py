@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from chatrobot.language.typed import type_as_ros_args
 from chatrobot.nodes.parameters import PARAMETERS, Value
-from chatrobot.wire.connect import domain_and_namespace, require_ros
+from chatrobot.wire.discovery import domain_and_namespace
+from chatrobot.wire.ros import require_ros
 
 if TYPE_CHECKING:
     from chatrobot.nodes.ros_interfaces import RosInterfaces

@@ -53,14 +53,7 @@ from chatrobot.robots.open_loop import as_chosen
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.load import load_world
 from chatrobot.sim.world import World
-from chatrobot.wire.connect import (
-    Connect,
-    advertise,
-    connect_wire,
-    is_on_this_machine,
-    publishers_of,
-    resolved,
-)
+from chatrobot.wire.connect import Connect, connect_wire, is_on_this_machine
 from chatrobot.wire.messages import Flag, Text
 
 if TYPE_CHECKING:
@@ -143,7 +136,7 @@ class BaseNode:
         streams = profile.approval == "stream" and profile.can_turn_on_the_spot
         wiring = profile.wiring
         if wiring.camera_topic:  # as this node finds it, remapped or in a namespace
-            wiring = replace(wiring, camera_topic=resolved(self._wire, wiring.camera_topic))
+            wiring = replace(wiring, camera_topic=self._wire.resolve(wiring.camera_topic))
         camera = wire_camera(options.wire, wiring)
         return ModelSetup(options.model, replace(options.model_options, streams=streams), profile, camera)
 
@@ -154,7 +147,7 @@ class BaseNode:
             LinkError: the wire is gone.
         """
         for topic in (REPLY, EVENTS):
-            advertise(self._wire, topic, Text)
+            self._wire.advertise(topic, Text)
         self._link.open()
         warm_up(self._options.model)
         self._wire.subscribe(STOP, Flag, self._hear_stop)
@@ -173,7 +166,7 @@ class BaseNode:
 
     def resolved(self, topic: str) -> str:
         """The name of that topic on the wire."""
-        return resolved(self._wire, topic)
+        return self._wire.resolve(topic)
 
     def stop(self, why: str) -> None:
         """Stop the robot and drop what waits; from any thread."""
@@ -246,7 +239,7 @@ class BaseNode:
         if now_s < self._next_look_s:
             return
         self._next_look_s = now_s + LOOK_S
-        has_twin = any(name.endswith(f"/{NODE}") for name in publishers_of(self._wire, CHATGPT_NODE))
+        has_twin = any(name.endswith(f"/{NODE}") for name in self._wire.publishers_of(CHATGPT_NODE))
         if has_twin and not self._has_twin:
             self._say(say(self._session.understanding.language, "another_base"), "warn")
         self._has_twin = has_twin

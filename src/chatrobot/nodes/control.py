@@ -23,7 +23,7 @@ from chatrobot.link.topics import CHATGPT_NODE, EVENTS, TELEMETRY
 from chatrobot.motion.runner import MotionRunner
 from chatrobot.motion.safety.stop import Sight
 from chatrobot.nodes.foreign import Foreign
-from chatrobot.wire.connect import Connect, advertise, connect_wire, resolved
+from chatrobot.wire.connect import Connect, connect_wire
 from chatrobot.wire.messages import Text
 
 if TYPE_CHECKING:
@@ -96,7 +96,7 @@ class ControlNode:
         )
         self._foreign = Foreign(self._runner, lambda: bool(self._ours))
         for topic in (EVENTS, TELEMETRY):
-            advertise(self._runner.wire, topic, Text)
+            self._runner.wire.advertise(topic, Text)
         self._runner.wire.subscribe(CHATGPT_NODE, Text, self._hear)
 
     def run(self, is_leaving: Callable[[], bool]) -> None:
@@ -117,7 +117,7 @@ class ControlNode:
 
     def resolved(self, topic: str) -> str:
         """The name of that topic on the wire."""
-        return resolved(self._runner.wire, topic)
+        return self._runner.wire.resolve(topic)
 
     @property
     def cmd_vel_topic(self) -> str:

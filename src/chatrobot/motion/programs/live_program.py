@@ -8,14 +8,13 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import Wiring
-from chatrobot.governor.tick import TICK_S
 from chatrobot.programs.events import ENDS, AsksTime, Beat, Died, Listens, ProgramEvent
 from chatrobot.programs.sandboxed import SandboxedProgram
 from chatrobot.wire.messages import Odometry
-from chatrobot.wire.sensor_topics import subscribe_sensors
-from chatrobot.wire.wire import Wire
+from chatrobot.wire.wire import Wire, subscribe_sensors
 
 POLLS_A_TICK = 8
 """A flood is read on with the next tick: the control loop has other work."""

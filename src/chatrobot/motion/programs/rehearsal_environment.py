@@ -8,11 +8,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
-from chatrobot.core.clock import VirtualClock
+from chatrobot.core.clock import TICK_S, VirtualClock
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 from chatrobot.core.governed import StopEpoch
 from chatrobot.core.reason import Reason
-from chatrobot.governor.governor import TICK_S, Governor, Verdict
+from chatrobot.governor.governor import Governor, Verdict
 from chatrobot.governor.rule import Sensed
 from chatrobot.motion.governed_robot import decelerated, is_cut_short
 from chatrobot.motion.programs.execution import HeldTwist
@@ -23,7 +23,7 @@ from chatrobot.sim.world import EMPTY_WORLD, World
 from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import Flag, Imu, LaserScan, Message, Number
-from chatrobot.wire.sensor_topics import subscribe_sensors
+from chatrobot.wire.wire import subscribe_sensors
 
 LEASE = "rehearsal"
 STEADY_STEP_S = 2.0 * TICK_S

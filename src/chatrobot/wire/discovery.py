@@ -1,4 +1,4 @@
-"""Whom to meet on DDS: ROS 2's environment variables turned into Cyclone's configuration. Pure.
+"""Whom to meet on ROS 2: its environment variables, and for DDS the configuration of Cyclone made of them. Pure.
 
 Measured against ROS 2 processes with rmw_cyclonedds in LOCALHOST and SUBNET range, either started first, and on
 machines whose only network is `lo` (docs/wires.md has the table). Two interfaces and multicast left on is what meets
@@ -9,6 +9,7 @@ addresses are peers because who listens without multicast binds only one of them
 from __future__ import annotations
 
 import fcntl
+import re
 import socket
 import struct
 from collections.abc import Mapping, Sequence
@@ -24,6 +25,42 @@ MAX_DOMAIN_ID = 232
 """From 233 on its ports lie beyond 65535 (OMG DDSI-RTPS 2.5, 9.6.2)."""
 LOOPBACK = "127.0.0.1"
 _SIOCGIFADDR = 0x8915
+_WITHOUT_RANGES = ("foxy", "galactic", "humble")
+"""These know ROS_LOCALHOST_ONLY alone."""
+_ADDRESS = re.compile(
+    r"(?:dds|ros):(?://(?P<domain>[0-9]{0,3})(?:/(?P<namespace>[A-Za-z_][A-Za-z0-9_/]*)?)?)?"
+)
+
+
+def domain_and_namespace(address: str) -> tuple[int | None, str]:
+    """Read what `dds://42/robot1` or `ros://42/robot1` names; None for the environment's domain.
+
+    Raises:
+        UsageError: it names no domain.
+    """
+    match = _ADDRESS.fullmatch(address)
+    domain_id = int(match["domain"]) if match and match["domain"] else None
+    if match is None or (domain_id or 0) > MAX_DOMAIN_ID:
+        scheme = address.partition(":")[0]
+        raise UsageError(
+            f"{address!r} names no ROS 2 domain",
+            allowed=f"{scheme}: or {scheme}://0/NAMESPACE to {scheme}://{MAX_DOMAIN_ID}/NAMESPACE",
+        )
+    return domain_id, match["namespace"] or ""
+
+
+def ros_reaches_this_machine_alone(environ: Mapping[str, str]) -> bool:
+    """Whether nobody on another machine can meet ROS nodes started with these variables.
+
+    Unlike on DDS we choose no range of our own: in Jazzy a node in LOCALHOST range and one in SUBNET range, ROS's
+    default, may not meet even on one machine, and then the robot's own driver would not hear us (decision 8).
+    """
+    if environ.get("ROS_LOCALHOST_ONLY", "").strip() == "1":
+        return True
+    has_peers = environ.get("ROS_STATIC_PEERS", "").strip("; ")
+    if environ.get("ROS_DISTRO", "").lower() in _WITHOUT_RANGES or has_peers:
+        return False
+    return environ.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "").strip() in ("LOCALHOST", "OFF")
 
 
 @dataclass(frozen=True)
@@ -68,7 +105,7 @@ def discovery_from(environ: Mapping[str, str], domain_id: int | None = None) -> 
 
 def _domain_id(text: str, where: str) -> int:
     if not (text.isascii() and text.isdigit() and int(text) <= MAX_DOMAIN_ID):
-        raise UsageError(f"{text!r} is no domain", where=where, allowed=f"0 to {MAX_DOMAIN_ID}")
+        raise UsageError(f"{text!r} is not a ROS 2 domain", where=where, allowed=f"0 to {MAX_DOMAIN_ID}")
     return int(text)
 
 
@@ -83,7 +120,7 @@ def _range(environ: Mapping[str, str]) -> Range:
         return "LOCALHOST" if asked == "LOCALHOST" else "OFF"
     if asked:
         raise UsageError(
-            f"{asked!r} is no range",
+            f"{asked!r} is not a discovery range",
             where="ROS_AUTOMATIC_DISCOVERY_RANGE",
             allowed="LOCALHOST, SUBNET, OFF or SYSTEM_DEFAULT",
         )

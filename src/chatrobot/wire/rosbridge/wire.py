@@ -17,7 +17,6 @@ import struct
 import threading
 import time
 from collections.abc import Callable
-from types import SimpleNamespace
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -27,13 +26,12 @@ from websockets.sync.client import ClientConnection, connect
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.core.wiring import Wiring
 from chatrobot.wire.codec import as_base64
-from chatrobot.wire.connect import Endpoint
 from chatrobot.wire.messages import LaserScan, Message
 from chatrobot.wire.ros_messages import RosForm, ros_form, stamped
-from chatrobot.wire.rosapi import RosApi
-from chatrobot.wire.rosbridge_cbor import read_cbor
+from chatrobot.wire.rosbridge.protocol import advertise_request, read, request_id, subscribe_request
+from chatrobot.wire.rosbridge.rosapi import RosApi
 from chatrobot.wire.stamps import StampTranslator, to_wall_s
-from chatrobot.wire.wire import M
+from chatrobot.wire.wire import Endpoint, M, Wire
 
 OPEN_TIMEOUT_S = 3.0
 UNACKNOWLEDGED_S = 1.0
@@ -47,11 +45,6 @@ ANSWER_S = 0.5
 QUEUE_BYTES = 65_536
 """With more than this on its way the other end does not read: what comes now is dropped."""
 MESSAGE_BYTES = 8_388_608
-_VELOCITIES = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
-_PICTURES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage")
-PICTURE_MS = 200
-_IN_CBOR = ("sensor_msgs/msg/LaserScan", *_PICTURES)
-"""Not odometry and gyros: rosbridge_server 2.1.0 fails to write arrays of fixed length (covariances) as CBOR."""
 _SIOCOUTQ = 0x5411
 
 
@@ -77,7 +70,7 @@ class _Subscription:
             callback(message)
 
 
-class RosbridgeWire:
+class RosbridgeWire(Wire):
     """A process's end of a robot's rosbridge. Connects at once; a thread of its own delivers and reconnects.
 
     Args:
@@ -90,11 +83,16 @@ class RosbridgeWire:
         UsageError: that is no websocket's address.
     """
 
+    comes_back = True
+    knows_others = True
+
     def __init__(self, url: str, wiring: Wiring, *, namespace: str = "") -> None:
-        self._url, self._wiring, self._namespace = url, wiring, namespace.strip("/")
+        self._url, self._wiring, self.namespace = url, wiring, namespace.strip("/")
         parts = urlsplit(url)
         if parts.scheme not in ("ws", "wss") or not parts.hostname:
-            raise UsageError(f"{url!r} is no rosbridge", allowed="ws://host:9090 or wss://host")
+            raise UsageError(
+                f"{url!r} is not the address of a rosbridge", allowed="ws://HOST:9090 or wss://HOST"
+            )
         self._place = (
             f"{parts.scheme}://{parts.hostname}:{parts.port or (443 if parts.scheme == 'wss' else 80)}"
         )
@@ -117,7 +115,7 @@ class RosbridgeWire:
 
     def publish(self, topic: str, message: Message) -> None:
         form = self._advertised.get((topic, type(message))) or self._advertise(topic, type(message))
-        refusal = self._refused.get(_id("advertise", topic, form))
+        refusal = self._refused.get(request_id("advertise", topic, form))
         if refusal is not None:
             raise WireError(f"rosbridge refuses {topic}: {refusal}")
         timed = stamped(message)
@@ -136,7 +134,7 @@ class RosbridgeWire:
             subscription.callbacks = (*subscription.callbacks, callback)
             if len(subscription.callbacks) == 1:
                 with contextlib.suppress(WireError):  # where it is gone just now, it is told on its return
-                    self._send(self._subscribe_request(topic, subscription.form))
+                    self._send(subscribe_request(self.resolve(topic), topic, subscription.form))
 
     def close(self) -> None:
         self._ended.set()
@@ -150,31 +148,25 @@ class RosbridgeWire:
 
     @property
     def is_connected(self) -> bool:
-        """Whether the robot is there now."""
         return self._connection is not None
 
     @property
     def has_null_ranges(self) -> bool:
-        """Whether a scan came with null for a range: JSON says it for infinity (open space) and for NaN alike."""
         return self._has_null_ranges
 
     def rewire(self, wiring: Wiring) -> None:
-        """Take the robot to be wired like this; before anything is published or listened to."""
         self._wiring = wiring
 
     def survey(self) -> list[Endpoint]:
-        """The endpoints of others, as the robot's `rosapi` tells them; none where it does not run."""
         return self._rosapi.survey()
 
     def publishers_of(self, topic: str) -> list[str]:
-        """The nodes that publish on `topic`, without the bridge itself, as far as `rosapi` tells."""
         return self._rosapi.publishers_of(self.resolve(topic))
 
     def resolve(self, topic: str) -> str:
-        """`cmd_vel` in namespace `robot1` is `/robot1/cmd_vel`."""
         if topic.startswith("/"):
             return topic
-        return f"/{self._namespace}/{topic}" if self._namespace else f"/{topic}"
+        return f"/{self.namespace}/{topic}" if self.namespace else f"/{topic}"
 
     def _call(self, service: str, arguments: dict[str, Any]) -> dict[str, Any] | None:
         """What a service of the robot answers; None where there is none, or no answer."""
@@ -191,7 +183,7 @@ class RosbridgeWire:
     def _advertise(self, topic: str, kind: type[Message]) -> RosForm:
         with self._lock:
             form = ros_form(topic, kind, self._wiring)
-            self._send(self._advertise_request(topic, form))
+            self._send(advertise_request(self.resolve(topic), topic, form))
             self._advertised = {**self._advertised, (topic, kind): form}
             return form
 
@@ -227,9 +219,9 @@ class RosbridgeWire:
             self._connection = connection
             with contextlib.suppress(WireError):  # gone already: the reader will see it, too
                 for (topic, _), form in self._advertised.items():
-                    self._send(self._advertise_request(topic, form))
+                    self._send(advertise_request(self.resolve(topic), topic, form))
                 for (topic, _), subscription in self._subscriptions.items():
-                    self._send(self._subscribe_request(topic, subscription.form))
+                    self._send(subscribe_request(self.resolve(topic), topic, subscription.form))
         return connection
 
     def _run(self, connection: ClientConnection | None) -> None:
@@ -262,13 +254,13 @@ class RosbridgeWire:
 
     def _hear(self, text: str | bytes) -> None:
         try:
-            heard = read_cbor(text) if isinstance(text, bytes) else _read_json(text)
+            heard = read(text)
             operation = heard.op
             if operation == "publish":
                 for (topic, kind), subscription in tuple(self._subscriptions.items()):
                     if self.resolve(topic) == heard.topic and not self._ended.is_set():
                         subscription.deliver(heard.msg)
-                        if kind is LaserScan and not self._has_null_ranges:
+                        if kind is LaserScan and not self._has_null_ranges:  # infinity and NaN alike, in JSON
                             self._has_null_ranges = None in heard.msg.ranges
             elif operation == "service_response" and heard.id in self._answers:
                 self._answers[heard.id].put(vars(heard.values) if heard.result else {})
@@ -276,28 +268,6 @@ class RosbridgeWire:
                 self._refused[str(heard.id)] = str(heard.msg)
         except (ValueError, TypeError, AttributeError, RecursionError):
             return
-
-    def _advertise_request(self, topic: str, form: RosForm) -> dict[str, Any]:
-        request = {"op": "advertise", "id": _id("advertise", topic, form)}
-        # The bridge repeats its last second of messages to who comes late: of velocities only the very last.
-        depth = {"queue_size": 1} if form.type_name in _VELOCITIES else {}
-        return {**request, "topic": self.resolve(topic), "type": form.type_name, **depth}
-
-    def _subscribe_request(self, topic: str, form: RosForm) -> dict[str, Any]:
-        request = {"op": "subscribe", "id": _id("subscribe", topic, form)}
-        # Of pictures the newest, now and then: they share the line with odometry.
-        gently = {"throttle_rate": PICTURE_MS, "queue_length": 1} if form.type_name in _PICTURES else {}
-        encoded = {"compression": "cbor"} if form.type_name in _IN_CBOR else {}
-        about = {"topic": self.resolve(topic), "type": form.type_name, "throttle_rate": 0}
-        return {**request, **about, **gently, **encoded}
-
-
-def _read_json(text: str) -> Any:
-    return json.loads(text, object_hook=lambda fields: SimpleNamespace(**fields))
-
-
-def _id(operation: str, topic: str, form: RosForm) -> str:
-    return f"{operation}:{topic}:{form.type_name}"
 
 
 def _queued_bytes(raw: socket.socket) -> int:

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from typing import Any, Literal
 
-from chatrobot.wire.connect import Endpoint
+from chatrobot.wire.wire import Endpoint
 
 Call = Callable[[str, dict[str, Any]], "dict[str, Any] | None"]
 """Calls a service with arguments: its answer, {} where it failed, None where nobody answered."""
