@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from chatrobot.cli.arguments import commands_parser
-from chatrobot.cli.options import OPTIONS
 from chatrobot.core.errors import ChatRobotError
+from chatrobot.options import OPTIONS
 
 _SHELLS = Path(__file__).with_name("shells")
 _DASHES = "--"

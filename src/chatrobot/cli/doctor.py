@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Literal
 
 from chatrobot import __version__
 from chatrobot.cli.folders import config_folder, profile_folders
-from chatrobot.cli.options import DEFAULT_ROBOT
 from chatrobot.core.errors import ChatRobotError
 from chatrobot.core.events import Event
+from chatrobot.options import DEFAULT_ROBOT
 
 if TYPE_CHECKING:
     from chatrobot.compose import Setup
