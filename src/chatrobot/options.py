@@ -125,8 +125,8 @@ OPTIONS = (
             "sim": f"where others find it: dds, {_WIRES} (default: a wire of its own, see --socket; ros2 run: ros)"}),
     Option("--robot", f"a robot profile, by name or .toml file (default: {DEFAULT_ROBOT}); chatrobot robots lists them",
         (*UNDERSTAND, "calibrate", "doctor", "sim", "program show"), COMMON, DEFAULT_ROBOT, "PROFILE",
-        offers="robots", parameter=Parameter("robot", _BOTH, DEFAULT_ROBOT, "The robot's profile: a built-in name, or the "
-            "path of a .toml file; with open_loop no_odometry is the default.", open_loop=NO_ODOMETRY)),
+        offers="robots", parameter=Parameter("robot", _BOTH, DEFAULT_ROBOT, "The robot's profile: a built-in name, or "
+            "the path of a .toml file; with open_loop no_odometry is the default.", open_loop=NO_ODOMETRY)),
     Option("--world", _WORLD.format("home"), (*UNDERSTAND, "calibrate", "sim"), COMMON, "", "WORLD", offers="worlds",
         helps=dict.fromkeys(("eval", "node", "calibrate"), _WORLD.format("empty")),
         parameter=Parameter("world", _BOTH, "empty",
@@ -179,8 +179,8 @@ OF_NODES = (
     Option("--accept-others", "control: drive though another ChatRobot is on the same robot", ("node",), COMMON,
         False, parameter=Parameter("accept_others", _CONTROL, False,
             "Drive though another ChatRobot is on the same robot.")),
-    Option("--on-robot", "control: this machine is the robot, so no network can part us from its base", ("node",), COMMON,
-        False, parameter=Parameter("on_robot", _CONTROL, False,
+    Option("--on-robot", "control: this machine is the robot, so no network can part us from its base", ("node",),
+        COMMON, False, parameter=Parameter("on_robot", _CONTROL, False,
             "This machine is the robot's own: no network lies between control and base.")),
 )
 """`chatrobot node` alone accepts these."""

@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from chatrobot.cli.console.maps import big_map, way_map
 from chatrobot.cli.console.motion_view import MotionView
 from chatrobot.cli.console.status_bar import StatusBar
+from chatrobot.cli.console.tables import big_map, way_map
 from chatrobot.cli.console.words import Words
 from chatrobot.cli.draw import draw_plan
 from chatrobot.cli.drawing.extent import extent_of_world

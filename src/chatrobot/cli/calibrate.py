@@ -19,8 +19,8 @@ from chatrobot.cli.choices import setup_from
 from chatrobot.cli.conversation import Conversation
 from chatrobot.cli.entry import FAILED, STOPPED
 from chatrobot.cli.folders import profile_folders
+from chatrobot.cli.json_lines import Printer, printer_for
 from chatrobot.cli.lines import LineReader
-from chatrobot.cli.printer import Printer, printer_for
 from chatrobot.core.errors import UsageError
 from chatrobot.core.events import Event, Result, TruePose
 from chatrobot.core.geometry import wrap_angle

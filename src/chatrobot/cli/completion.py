@@ -131,10 +131,10 @@ class _Line:
 
 
 def _robots(args: argparse.Namespace) -> Iterator[Offer]:
-    from chatrobot.cli.robots import entries
+    from chatrobot.cli.lists import robot_titles
 
     yield FILES
-    yield from (Offer(entry.name, about) for entry, about in entries(args))
+    yield from (Offer(*each) for each in robot_titles(args))
 
 
 def _worlds(_: argparse.Namespace) -> Iterator[Offer]:

@@ -7,17 +7,13 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 from pathlib import Path
 
-from chatrobot.cli.drawing import fonts
-from chatrobot.cli.drawing.canvas import XY, Box, Canvas
+from chatrobot.cli.drawing.canvas import XY, Box, Canvas, font_for
 from chatrobot.cli.drawing.extent import Extent, Orientation, extent_of_world
-from chatrobot.cli.drawing.map_text import draw_map_text
 from chatrobot.cli.drawing.ways import outline_at, progress_colour, standing_points, where_found
 from chatrobot.core.events import FindingSeen, Rehearsed
 from chatrobot.core.geometry import Pose
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.world import World
-
-__all__ = ["draw_map_text", "draw_plan"]
 
 PAPER, INK, FAINT, GRID, GRID_STRONG = (
     (252, 252, 250),
@@ -252,7 +248,7 @@ class _Picture:
     def _fitting(self, title: str) -> str:
         """The title, cut where the picture ends; "plan" where no font has its letters."""
         shown = " ".join(title.split())
-        if not shown or fonts.for_text(shown, TITLE_SIZE_PX) is None:
+        if not shown or font_for(shown, TITLE_SIZE_PX) is None:
             return "plan"
         while self.canvas.text_box((0.0, 0.0), shown, TITLE_SIZE_PX)[2] > self._map_w:
             shown = f"{shown[:-2].rstrip()}…"

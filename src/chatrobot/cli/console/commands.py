@@ -12,8 +12,8 @@ from rich.text import Text
 
 from chatrobot.cli.console import tables
 from chatrobot.cli.console.controller import ChatController
-from chatrobot.cli.console.maps import big_map
-from chatrobot.cli.plan_file import read_plan_file
+from chatrobot.cli.console.tables import big_map
+from chatrobot.cli.plan import read_plan_file
 from chatrobot.core.errors import UsageError
 from chatrobot.core.motion_budget import NONE
 
@@ -39,6 +39,7 @@ class Command:
 
     @property
     def help_code(self) -> str:
+        """The code of its help text in the tables."""
         return f"command_{self.name.replace('-', '_')}"
 
 
@@ -67,10 +68,11 @@ def _unknown(controller: ChatController, word: str) -> None:
     if near:
         controller.tell("nearest_command", command=f"/{word}", nearest=f"/{near}")
     else:
-        controller.display.print(
-            Text("  ").append(controller.words.say("no_such_command", command=f"/{word}")).append(" ")
-            .append(controller.words.say("all_commands"))
-        )  # fmt: skip
+        told = (
+            controller.words.say("no_such_command", command=f"/{word}"),
+            controller.words.say("all_commands"),
+        )
+        controller.display.print(Text(f"  {' '.join(told)}"))
 
 
 def _help(controller: ChatController, _: str) -> None:
@@ -152,8 +154,8 @@ def _map(controller: ChatController, argument: str) -> None:
     if argument:
         controller.tell("no_such_map", size=argument)
         return
-    controller.strip.shows_map = not controller.strip.shows_map
-    controller.tell("map_on" if controller.strip.shows_map else "map_off")
+    controller.status_bar.shows_map = not controller.status_bar.shows_map
+    controller.tell("map_on" if controller.status_bar.shows_map else "map_off")
 
 
 def _stop(controller: ChatController, _: str) -> None:
