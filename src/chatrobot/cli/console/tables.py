@@ -15,7 +15,7 @@ from chatrobot.cli.console.lines import INDENT, indented
 from chatrobot.cli.console.motion_view import MotionView
 from chatrobot.cli.console.words import Words
 from chatrobot.cli.drawing.extent import Extent, Orientation, extent_around, extent_of_world
-from chatrobot.cli.drawing.map_text import MapLines, draw_map_text
+from chatrobot.cli.drawing.map_text import MapText
 from chatrobot.language.context import Place
 from chatrobot.language.names import by_language
 from chatrobot.robots.profile import RobotProfile
@@ -89,11 +89,6 @@ def robot_tables(words: Words, profile: RobotProfile) -> Iterator[RenderableType
     yield Padding(table, (1, 0, 0, INDENT))
 
 
-def world_table(words: Words, world: World) -> RenderableType:
-    """The world's named places."""
-    return places_table(words, world, {})
-
-
 def places_table(words: Words, world: World, remembered: Mapping[str, Place]) -> RenderableType:
     """The person's own places first, then the world's."""
     if not world.places and not remembered:
@@ -140,29 +135,15 @@ def way_map(motion_view: MotionView, world: World) -> Text:
 
 
 def _draw(motion_view: MotionView, world: World, extent: Extent, columns: int, rows: int) -> Text:
-    columns, rows = _shape(extent, columns, rows)
-    lines = draw_map_text(
-        world,
-        extent,
-        columns=columns,
-        rows=rows,
-        path=motion_view.path,
-        trail=motion_view.trail,
-        pose=motion_view.pose,
-        names=True,
-    )
-    return _text(lines)
-
-
-def _shape(extent: Extent, columns: int, rows: int) -> tuple[int, int]:
-    """As many cells as the extent fills; a braille dot is as wide as it is high, a cell has two by four."""
+    # As many cells as the extent fills; a braille dot is as wide as it is high, a cell has two by four.
     dots_per_m = min(columns * 2 / extent.width_m, rows * 4 / extent.height_m)
-    return max(4, round(extent.width_m * dots_per_m / 2)), max(2, round(extent.height_m * dots_per_m / 4))
-
-
-def _text(lines: MapLines) -> Text:
+    columns, rows = (
+        max(4, round(extent.width_m * dots_per_m / 2)),
+        max(2, round(extent.height_m * dots_per_m / 4)),
+    )
+    drawing = MapText(world, extent, columns=columns, rows=rows, path=motion_view.path, names=True)
     text = Text(no_wrap=True)
-    for number, line in enumerate(lines):
+    for number, line in enumerate(drawing.lines(trail=motion_view.trail, pose=motion_view.pose)):
         text.append("\n  " if number else "  ")
         for layer, run in line:
             text.append(run, COLOURS[layer])
