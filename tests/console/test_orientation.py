@@ -84,7 +84,12 @@ def test_the_picture_has_the_same_orientation(tmp_path: Path, yaw_deg):
     """The box stands to the west of the start: left of the way, whichever way the robot starts."""
     way = tuple((*point, 0.0) for point in turned(yaw_deg, *WAY))
     draw_plan(
-        tmp_path / "a.png", world=world(yaw_deg), profile=PROFILE, rehearsed=rehearsed(way=way), title="t"
+        tmp_path / "a.png",
+        world=world(yaw_deg),
+        profile=PROFILE,
+        rehearsed=rehearsed(way=way),
+        title="t",
+        words=lambda _: "hits it",
     )
     image = Image.open(tmp_path / "a.png").convert("RGB")
     size = (image.width // 4, image.height // 4)
