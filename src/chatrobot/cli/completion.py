@@ -9,7 +9,7 @@ of today.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -157,26 +157,13 @@ def _models(_: argparse.Namespace) -> Iterator[Offer]:
     yield from (Offer(f"{provider.name}:", provider.title) for provider in providers().values())
 
 
-def _files(_: argparse.Namespace) -> Iterator[Offer]:
-    yield FILES
-
-
-def _folders(_: argparse.Namespace) -> Iterator[Offer]:
-    yield FOLDERS
-
-
-def _programs_or_files(args: argparse.Namespace) -> Iterator[Offer]:
-    yield FILES
-    yield from _programs(args)
-
-
-OFFERS: dict[str, Callable[[argparse.Namespace], Iterator[Offer]]] = {
+OFFERS: dict[str, Callable[[argparse.Namespace], Iterable[Offer]]] = {
     "robots": _robots,
     "worlds": _worlds,
     "programs": _programs,
-    "programs or files": _programs_or_files,
+    "programs or files": lambda args: (FILES, *_programs(args)),
     "models": _models,
-    "files": _files,
-    "folders": _folders,
+    "files": lambda _: (FILES,),
+    "folders": lambda _: (FOLDERS,),
 }
 """What an argument's value is completed with, by the name that `options.offer` was given."""

@@ -87,6 +87,7 @@ class LineReader:
         self._ended.wait(timeout_s)
 
     def start(self) -> None:
+        """Begin to read."""
         threading.Thread(target=self._read, name="input", daemon=True).start()
 
     def _read(self) -> None:
@@ -94,7 +95,7 @@ class LineReader:
         while True:
             if self._joiner.is_holding and not select.select([STDIN], [], [], PASTE_S)[0]:
                 self._say(self._joiner.let_go())
-            chunk = _read_chunk()
+            chunk = read_chunk()
             if not chunk:
                 break
             *lines, rest = (rest + chunk).split(b"\n")
@@ -115,7 +116,7 @@ class LineReader:
             self._on_line(text)
 
 
-def _read_chunk() -> bytes:
+def read_chunk() -> bytes:
     """What is there; nothing at the end, or where a terminal has gone away."""
     try:
         return os.read(STDIN, MAX_LINE_BYTES)
@@ -138,6 +139,7 @@ class TypedAhead:
         self._thread = threading.Thread(target=self._read, name="typed-ahead", daemon=True)
 
     def start(self) -> None:
+        """Begin to read."""
         self._thread.start()
 
     def stop(self) -> list[str]:

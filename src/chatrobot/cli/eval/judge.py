@@ -27,14 +27,7 @@ from chatrobot.robots.profile import RobotProfile
 
 Kind = Literal["correct", "wrong", "abstained"]
 
-POSITION_M, POSITION_SHARE = 0.05, 0.05
-HEADING_DEG = 4.0
-TURNED_SHARE, TURNED_ZERO_DEG = 0.03, 1.0
-PATH_SHARE, PATH_ZERO_M = 0.05, 0.05
-DURATION_S, DURATION_SHARE = 0.5, 0.10
-PAUSE_S = 0.5
-SPEED_SHARE, SPEED_ZERO = 0.10, 0.01
-CLOSED_M = 0.1
+POSITION_M, HEADING_DEG, CLOSED_M, PAUSE_S = 0.05, 4.0, 0.1, 0.5
 _ROUNDING = 1e-9
 
 _OUTCOMES: Mapping[str, Outcome] = {"clarify": "unclear", "refuse": "refused", "info": "answered"}
@@ -126,11 +119,8 @@ def _motion_problems(expect: Expect, measured: Measured) -> Iterator[str]:
         if not _holds(key, wanted, actual):
             yield f"{key} is {actual:.3f}, not {wanted:g}"
     for axis, sign in expect.sign.items():
-        actual, slack = {
-            "x": (measured.x, POSITION_M),
-            "y": (measured.y, POSITION_M),
-            "yaw": (measured.turned_deg, HEADING_DEG),
-        }[axis]
+        actual = measured.turned_deg if axis == "yaw" else getattr(measured, axis)
+        slack = HEADING_DEG if axis == "yaw" else POSITION_M
         if sign != ("0" if abs(actual) <= slack else "+" if actual > 0.0 else "-"):
             yield f"{axis} is {actual:.3f}, not {sign}"
     if expect.closed and measured.distance_m > CLOSED_M + _ROUNDING:
@@ -147,32 +137,21 @@ def _holds(key: str, wanted: float, actual: float) -> bool:
 
 def _tolerance(key: str, wanted: float) -> float:
     """How far off a number may be. A share of nothing would be nothing: zero has a tolerance of its own."""
-    if key in ("x", "y"):
-        return max(POSITION_M, POSITION_SHARE * wanted)
-    if key == "turned_deg":
-        return TURNED_SHARE * wanted or TURNED_ZERO_DEG
-    if key == "path_m":
-        return PATH_SHARE * wanted or PATH_ZERO_M
-    if key == "duration_s":
-        return max(DURATION_S, DURATION_SHARE * wanted)
-    if key == "pause_s":
-        return PAUSE_S
-    return SPEED_SHARE * wanted or SPEED_ZERO
+    at_least = {
+        "x": (POSITION_M, 0.05),
+        "y": (POSITION_M, 0.05),
+        "duration_s": (0.5, 0.10),
+        "pause_s": (PAUSE_S, 0.0),
+    }
+    if key in at_least:
+        least, share = at_least[key]
+        return max(least, share * wanted)
+    share, of_zero = {"turned_deg": (0.03, 1.0), "path_m": (0.05, 0.05)}.get(key, (0.10, 0.01))
+    return share * wanted or of_zero
 
 
 _MAX_STEPS_LEFT_OUT_OF = 60
 """Longer plans are only compared whole: the number of ways to leave something out grows with the square."""
-
-
-class _OfPlan:
-    """How far what was driven may be from what a plan says: (at least, share of what is wanted)."""
-
-    POSITION_M, POSITION_SHARE, POSITION_PATH_SHARE = 0.06, 0.05, 0.02
-    HEADING_DEG = 5.0
-    TURNED_DEG, TURNED_SHARE = 5.0, 0.03
-    PATH_M, PATH_SHARE = 0.06, 0.06
-    PAUSE_S, PAUSE_SHARE = 0.6, 0.10
-    SPEED_SHARE = 0.12
 
 
 def misfit(meant: Meant, driven: Measured, profile: RobotProfile) -> tuple[str, ...]:
@@ -215,44 +194,29 @@ def _wanted(steps: Sequence[Step], meant: Meant, profile: RobotProfile) -> Itera
         if numbers is not None:
             yield numbers
             if meant.mirror_ok:
-                yield _mirrored(numbers)
-
-
-def _mirrored(numbers: Ideal) -> Ideal:
-    return replace(numbers, y=-numbers.y, turned_deg=-numbers.turned_deg)
+                yield replace(numbers, y=-numbers.y, turned_deg=-numbers.turned_deg)
 
 
 def _problems(wanted: Ideal, driven: Measured) -> Iterator[str]:
+    """What was driven otherwise than a plan says. A tolerance is at least so much, or a share of what is wanted."""
     off_m = math.hypot(driven.x - wanted.x, driven.y - wanted.y)
-    far_m = math.hypot(wanted.x, wanted.y)
-    if off_m > max(
-        _OfPlan.POSITION_M, _OfPlan.POSITION_SHARE * far_m, _OfPlan.POSITION_PATH_SHARE * wanted.path_m
-    ):
+    if off_m > max(0.06, 0.05 * math.hypot(wanted.x, wanted.y), 0.02 * wanted.path_m):
         yield f"it ended at ({driven.x:.2f}, {driven.y:.2f}), not ({wanted.x:.2f}, {wanted.y:.2f})"
-    if (
-        not wanted.free_heading
-        and abs(math.remainder(driven.turned_deg - wanted.turned_deg, 360)) > _OfPlan.HEADING_DEG
-    ):
+    off_deg = abs(math.remainder(driven.turned_deg - wanted.turned_deg, 360))
+    if not wanted.free_heading and off_deg > 5.0:
         yield f"its heading is {driven.turned_deg:.0f}°, not {wanted.turned_deg:.0f}°"
-    if not wanted.routed:
-        yield from _rotation_problems(wanted, driven)
-    if abs(driven.path_m - wanted.path_m) > max(_OfPlan.PATH_M, _OfPlan.PATH_SHARE * wanted.path_m):
-        yield f"its path is {driven.path_m:.2f} m, not {wanted.path_m:.2f} m"
-    if abs(driven.pause_s - wanted.pause_s) > max(_OfPlan.PAUSE_S, _OfPlan.PAUSE_SHARE * wanted.pause_s):
-        yield f"it stood for {driven.pause_s:.1f} s, not {wanted.pause_s:.1f} s"
-    if wanted.max_speed is not None and _is_off(driven.max_speed, wanted.max_speed):
-        yield f"its top speed is {driven.max_speed:.2f} m/s, not {wanted.max_speed:.2f} m/s"
-    if wanted.max_turn_rate is not None and _is_off(driven.max_turn_rate, wanted.max_turn_rate):
-        yield f"its top rate is {driven.max_turn_rate:.2f} rad/s, not {wanted.max_turn_rate:.2f} rad/s"
-
-
-def _rotation_problems(wanted: Ideal, driven: Measured) -> Iterator[str]:
-    slack_deg = max(_OfPlan.TURNED_DEG, _OfPlan.TURNED_SHARE * wanted.rotation_deg)
-    if abs(driven.turned_deg - wanted.turned_deg) > slack_deg:
+    slack_deg = max(5.0, 0.03 * wanted.rotation_deg)
+    if not wanted.routed and abs(driven.turned_deg - wanted.turned_deg) > slack_deg:
         yield f"it turned {driven.turned_deg:.0f}°, not {wanted.turned_deg:.0f}°"
-    if abs(driven.rotation_deg - wanted.rotation_deg) > slack_deg:
+    if not wanted.routed and abs(driven.rotation_deg - wanted.rotation_deg) > slack_deg:
         yield f"it turned {driven.rotation_deg:.0f}° to either side, not {wanted.rotation_deg:.0f}°"
-
-
-def _is_off(driven: float, wanted: float) -> bool:
-    return abs(driven - wanted) > _OfPlan.SPEED_SHARE * wanted
+    if abs(driven.path_m - wanted.path_m) > max(0.06, 0.06 * wanted.path_m):
+        yield f"its path is {driven.path_m:.2f} m, not {wanted.path_m:.2f} m"
+    if abs(driven.pause_s - wanted.pause_s) > max(0.6, 0.10 * wanted.pause_s):
+        yield f"it stood for {driven.pause_s:.1f} s, not {wanted.pause_s:.1f} s"
+    for name, unit, is_, should in (
+        ("speed", "m/s", driven.max_speed, wanted.max_speed),
+        ("rate", "rad/s", driven.max_turn_rate, wanted.max_turn_rate),
+    ):
+        if should is not None and abs(is_ - should) > 0.12 * should:
+            yield f"its top {name} is {is_:.2f} {unit}, not {should:.2f} {unit}"
