@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from chatrobot.cli.plan_file import MOST_BYTES, read_plan_file
+from chatrobot.cli.plan import MOST_BYTES, read_plan_file
 from chatrobot.core.errors import UsageError
 from tests.cli.running import Command
 

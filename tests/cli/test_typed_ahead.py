@@ -10,7 +10,7 @@ from collections.abc import Iterator
 import pytest
 
 from chatrobot.cli import typed_ahead
-from chatrobot.cli.typed_ahead import AT_ONCE_S, TypedAhead
+from chatrobot.cli.lines import AT_ONCE_S, TypedAhead
 from tests.cli.running import Command
 
 

@@ -9,8 +9,7 @@ import threading
 from collections.abc import Callable
 
 from chatrobot.cli.console.motion_view import MotionView
-from chatrobot.cli.edited import Edited
-from chatrobot.cli.editor import edited_text
+from chatrobot.cli.editing import Edited, edited_text
 from chatrobot.core.errors import UsageError
 from chatrobot.core.events import Event, Result
 from chatrobot.dialogue.question import Question
@@ -133,7 +132,7 @@ class Approver:
     def _draw_way(self) -> None:
         from rich.console import Console
 
-        from chatrobot.cli.console.maps import way_map
+        from chatrobot.cli.console.tables import way_map
 
         if self._world is not None and len(self._motion_view.path) > 1:
             Console(stderr=True, highlight=False).print(way_map(self._motion_view, self._world))

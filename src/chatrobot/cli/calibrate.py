@@ -8,19 +8,20 @@ from __future__ import annotations
 import argparse
 import datetime
 import math
-import os
 import queue
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 
 from chatrobot.cli.approver import Approver
 from chatrobot.cli.choices import setup_from
+from chatrobot.cli.console.words import language_of_environment
 from chatrobot.cli.conversation import Conversation
 from chatrobot.cli.entry import FAILED, STOPPED
 from chatrobot.cli.folders import profile_folders
+from chatrobot.cli.json_lines import Printer, printer_for
 from chatrobot.cli.lines import LineReader
-from chatrobot.cli.printer import Printer, printer_for
 from chatrobot.core.errors import UsageError
 from chatrobot.core.events import Event, Result, TruePose
 from chatrobot.core.geometry import wrap_angle
@@ -84,12 +85,15 @@ class Truth:
 
     @property
     def is_broken(self) -> bool:
+        """Nobody reads what is written."""
         return self._printer.is_broken
 
     def turn(self, text: str) -> None:
+        """Show what begins a turn."""
         self._printer.turn(text)
 
     def show(self, event: Event, language: LanguageCode) -> None:
+        """Keep a true pose; show any other event."""
         if isinstance(event, TruePose):
             self._poses.append(event)
         else:
@@ -129,12 +133,13 @@ class Dialogue:
     def __init__(self, conversation: Conversation, truth: Truth | None) -> None:
         self.conversation = conversation
         self.truth = truth
-        self._phrases = load_table(_language(), "calibrate")
+        self._phrases = _phrases()
         self._lines: queue.SimpleQueue[str] = queue.SimpleQueue()
         self._reader = LineReader(self._hear)
         self._reader.start()
 
     def say(self, code: str, **values: object) -> None:
+        """Print the phrase of that code."""
         print(self._phrases[code].format(**values), flush=True)
 
     def ask(self, code: str, **values: object) -> str:
@@ -155,13 +160,10 @@ class Dialogue:
 
     def drive(self, plan_text: str) -> Result:
         """Have it done, and see it through."""
-        session = self.conversation.session
-        turn = session.say_plan(plan_text)
-        while turn not in session.results:
-            self.conversation.step()
-        if self.conversation.is_leaving or session.results[turn].outcome == "stopped":
+        result = self.conversation.see_through(self.conversation.session.say_plan(plan_text))
+        if self.conversation.is_leaving or result.outcome == "stopped":
             raise Left
-        return session.results[turn]
+        return result
 
     def _hear(self, line: str) -> None:
         if is_stop(line):
@@ -197,7 +199,7 @@ def _calibrate(dialogue: Dialogue, profile: RobotProfile, robot: str, folder: Pa
 
 
 def _measure(dialogue: Dialogue, trial: Trial) -> Measured | None:
-    """What the person measured, and what odometry saw; None where they skip it."""
+    """Return what the person measured, and what odometry saw; None where they skip it."""
     truth = dialogue.truth
     answer = dialogue.ask(f"{trial.name}_ready" if truth is None else f"{trial.name}_ready_simulated")
     if read_consent(answer) is not True:
@@ -223,19 +225,14 @@ def _measure(dialogue: Dialogue, trial: Trial) -> Measured | None:
 
 def _reset(profile: RobotProfile, robot: str, folder: Path) -> int:
     """Take back what was saved."""
-    phrases = load_table(_language(), "calibrate")
     before = profile.calibration
     file = reset_calibration(robot, folder)
     numbers = {"distance": before.distance_scale, "turn": before.turn_scale}
-    print(
-        phrases["reset" if file is not None else "not_calibrated"].format(robot=robot, file=file, **numbers)
-    )
+    code = "reset" if file is not None else "not_calibrated"
+    print(_phrases()[code].format(robot=robot, file=file, **numbers))
     return 0
 
 
-def _language() -> str:
-    """Of the terminal: nobody has said anything yet."""
-    locale = next(
-        (os.environ[name] for name in ("LC_ALL", "LC_MESSAGES", "LANG") if os.environ.get(name)), ""
-    )
-    return "zh" if locale.startswith("zh") else "en"
+def _phrases() -> Mapping[str, str]:
+    """In the language of the terminal: nobody has said anything yet."""
+    return load_table(language_of_environment(), "calibrate")

@@ -9,7 +9,7 @@ from types import TracebackType
 
 from chatrobot.cli.approver import Approver
 from chatrobot.cli.entry import STOPPED, forget_stdout
-from chatrobot.cli.printer import Printer
+from chatrobot.cli.json_lines import Printer
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.errors import LinkError

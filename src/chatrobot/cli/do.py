@@ -8,10 +8,10 @@ from chatrobot.cli.approver import Approver
 from chatrobot.cli.choices import setup_from
 from chatrobot.cli.console.pasted import goes_on_after, quoted
 from chatrobot.cli.conversation import Conversation
+from chatrobot.cli.json_lines import printer_for
 from chatrobot.cli.keyboard import Keyboard
 from chatrobot.cli.lines import has_keyboard
-from chatrobot.cli.plan_file import read_plan_file
-from chatrobot.cli.printer import printer_for
+from chatrobot.cli.plan import read_plan_file
 from chatrobot.core.events import EXIT_CODES, Notice, Result
 from chatrobot.core.reason import Reason
 from chatrobot.language.consent import read_consent

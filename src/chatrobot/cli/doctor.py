@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING, Literal
 
 from chatrobot import __version__
 from chatrobot.cli.folders import config_folder, profile_folders
-from chatrobot.cli.options import DEFAULT_ROBOT
 from chatrobot.core.errors import ChatRobotError
-from chatrobot.core.events import Event
+from chatrobot.options import DEFAULT_ROBOT
 
 if TYPE_CHECKING:
     from chatrobot.compose import Setup
@@ -108,7 +107,7 @@ def _simulated_robot(args: argparse.Namespace) -> str:
     from chatrobot.compose import connect
 
     began_s = time.monotonic()
-    connection = connect(_setup(args, fast=True), _ignore)
+    connection = connect(_setup(args, fast=True), lambda _: None)
     result = connection.session.do("forward 1 m")
     connection.close()
     if result.outcome != "completed":
@@ -121,14 +120,10 @@ def _in_real_time(args: argparse.Namespace) -> str:
     from chatrobot.compose import connect
 
     began_s = time.monotonic()
-    connection = connect(_setup(args, fast=False), _ignore)
+    connection = connect(_setup(args, fast=False), lambda _: None)
     ready_s = time.monotonic() - began_s
     connection.close()
     return f"robot, control loop and guard run {ready_s:.2f} s after they are asked to"
-
-
-def _ignore(_: Event) -> None:
-    """Only the result counts here."""
 
 
 def _ros(args: argparse.Namespace) -> Check:
@@ -147,12 +142,11 @@ def _ros(args: argparse.Namespace) -> Check:
     try:
         from rclpy.utilities import get_rmw_implementation_identifier
 
-        middleware = get_rmw_implementation_identifier()
-        seen = _who_is_on("ros:", args)
+        works = f"{distribution} with {get_rmw_implementation_identifier()}"
+        found = _found("ros:", args, is_near=ros_reaches_this_machine_alone(os.environ))
     except (ChatRobotError, ImportError, RuntimeError) as error:
         return Check("ROS 2", "later", f"{distribution} does not work with this Python: {error}")
-    reach = "this machine" if ros_reaches_this_machine_alone(os.environ) else "the whole network"
-    return Check("ROS 2", "ok", f"{distribution} with {middleware}; {_domain()}, {reach}, {seen}")
+    return Check("ROS 2", "ok", f"{works}; {found}")
 
 
 def _dds(args: argparse.Namespace) -> Check:
@@ -160,19 +154,13 @@ def _dds(args: argparse.Namespace) -> Check:
     from chatrobot.wire.connect import is_on_this_machine
 
     try:
-        seen = _who_is_on("dds:", args)
+        return Check("DDS", "ok", f"works; {_found('dds:', args, is_near=is_on_this_machine('dds:'))}")
     except (ChatRobotError, OSError) as error:
         return Check("DDS", "later", str(error))
-    reach = "this machine" if is_on_this_machine("dds:") else "the whole network"
-    return Check("DDS", "ok", f"works; {_domain()}, {reach}, {seen}")
 
 
-def _domain() -> str:
-    return f"on domain {os.environ.get('ROS_DOMAIN_ID', '').strip() or '0'}"
-
-
-def _who_is_on(address: str, args: argparse.Namespace) -> str:
-    """Who tells the robot's odometry there, and who sends velocities."""
+def _found(address: str, args: argparse.Namespace, *, is_near: bool) -> str:
+    """Say how far that wire reaches, who publishes the robot's odometry there, and who its velocities."""
     from chatrobot.language.phrases import render_reason
     from chatrobot.motion.topic_discovery import why_unheard
     from chatrobot.robots.load import load_profile
@@ -188,11 +176,9 @@ def _who_is_on(address: str, args: argparse.Namespace) -> str:
     drivers = wire.publishers_of(wiring.cmd_vel_topic)
     told = None if robots else why_unheard(wiring, wire.survey(), wire.resolve)
     wire.close()
-    text = (
-        f"{', '.join(robots)} tells {wiring.odom_topic}"
-        if robots
-        else f"nobody tells {wiring.odom_topic or 'odometry'}"
-    )
+    reach = f"on domain {os.environ.get('ROS_DOMAIN_ID', '').strip() or '0'}, "
+    reach += "this machine" if is_near else "the whole network"
+    text = f"{reach}, {', '.join(robots) or 'nobody'} tells {wiring.odom_topic or 'odometry'}"
     text += f"; {', '.join(drivers)} sends {wiring.cmd_vel_topic}" if drivers else ""
     return f"{text}. {render_reason(told, 'en')}" if told is not None else text
 
@@ -216,9 +202,8 @@ def _model(args: argparse.Namespace) -> Check:
     if problem is not None:
         text = render_reason(problem, "en")
         return Check("language model", "missing", text if choice.name in text else f"{choice.name}: {text}")
-    source = {"option": "--model", "environment": "CHATROBOT_MODEL", "stored": "chatrobot model use"}[
-        choice.source
-    ]
+    sources = {"option": "--model", "environment": "CHATROBOT_MODEL", "stored": "chatrobot model use"}
+    source = sources[choice.source]
     return Check("language model", "ok", f"{choice.name}, by {source}; chatrobot model test tries it")
 
 

@@ -8,8 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from chatrobot.cli.lines import has_keyboard
-from chatrobot.cli.typed_ahead import TypedAhead
+from chatrobot.cli.lines import TypedAhead, has_keyboard
 from chatrobot.core.motion_budget import MotionBudget
 from chatrobot.link.processes import SIMULATED, Processes
 

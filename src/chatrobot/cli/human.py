@@ -43,29 +43,33 @@ class HumanPrinter:
 
     @property
     def is_broken(self) -> bool:
+        """Nobody reads what is written."""
         return self._output.is_broken
 
     def turn(self, text: str) -> None:
+        """Show what begins a turn."""
         self._line(f"> {text}")
 
     def show(self, event: Event, language: LanguageCode) -> None:
-        if isinstance(event, Streamed):
-            if self._streamed != event.turn:
-                self._streamed, self._way = event.turn, _Way()
-            self._show_plan(event.plan_text)
-        elif isinstance(event, Interpreted):
-            self._show_interpreted(event)
-        elif isinstance(event, Rehearsed):
-            self._show_rehearsed(event, language)
-        elif isinstance(event, Started):
-            self._way.start(event.pose)
-        elif isinstance(event, Progress):
-            self._show_progress(event)
-        elif isinstance(event, Result):
-            asks = f" {say(language, 'yes_or_no')}" if event.proposal is not None else ""
-            self._line(f"{event.reply}{asks}")
-        else:
-            self._show_rest(event, language)
+        """Show an event, in the language of the question."""
+        match event:
+            case Streamed():
+                if self._streamed != event.turn:
+                    self._streamed, self._way = event.turn, _Way()
+                self._show_plan(event.plan_text)
+            case Interpreted():
+                self._show_interpreted(event)
+            case Rehearsed():
+                self._show_rehearsed(event, language)
+            case Started():
+                self._way.start(event.pose)
+            case Progress():
+                self._show_progress(event)
+            case ProgramWritten() | ProgramRehearsed():
+                self._show_program(event, language)
+            case _:
+                if line := _line_of(event, language):
+                    self._line(line)
 
     def _show_interpreted(self, event: Interpreted) -> None:
         if not event.plan_text or event.turn == self._streamed:
@@ -98,41 +102,45 @@ class HumanPrinter:
         elif metres:
             self._line(status)
 
-    def _show_rest(self, event: Event, language: LanguageCode) -> None:
-        if isinstance(event, Said):
-            self._line(f"  “{event.text}”")
-        elif isinstance(event, Remembered):
-            self._line(f"  {event.place}: x {fixed(event.pose.x_m, 2)} m, y {fixed(event.pose.y_m, 2)} m")
-        elif isinstance(event, Limited):
-            self._line(f"  · {_twist(event.asked)} → {_twist(event.sent)}")
-        elif isinstance(event, Notice):
-            self._line(f"  ! {event.text or render_reason(event.reason, language)}")
-        elif isinstance(event, ProgramWritten):
-            self._show_program(event, language)
-        elif isinstance(event, ProgramRehearsed):
-            self._show_program_rehearsed(event, language)
-        elif isinstance(event, ProgramLog):
-            self._line(f"  | {event.text}")
-        elif isinstance(event, TruePose):
-            x, y, yaw = fixed(event.x_m, 3), fixed(event.y_m, 3), fixed(math.degrees(event.yaw_rad), 1)
-            self._line(f"  {event.t_s:8.2f} s  x {x} m  y {y} m  {yaw}°")
-
-    def _show_program(self, event: ProgramWritten, language: LanguageCode) -> None:
+    def _show_program(self, event: ProgramWritten | ProgramRehearsed, language: LanguageCode) -> None:
         from chatrobot.dialogue.programs.text import body, headline
 
-        for line in (headline(event, language), *body(event, language)):
+        if isinstance(event, ProgramWritten):
+            lines = [headline(event, language), *body(event, language)]
+        else:
+            values = {"speed": f"{event.top_speed_mps:.2f}", "rate": f"{event.top_rate_radps:.2f}"}
+            lines = [f"  ≈ {say(language, 'program_speeds', **values)}"]
+            lines += [f"    {line}" for line in event.problem.splitlines()]
+        for line in lines:
             self._line(line)
-
-    def _show_program_rehearsed(self, event: ProgramRehearsed, language: LanguageCode) -> None:
-        values = {"speed": f"{event.top_speed_mps:.2f}", "rate": f"{event.top_rate_radps:.2f}"}
-        self._line(f"  ≈ {say(language, 'program_speeds', **values)}")
-        for line in event.problem.splitlines():
-            self._line(f"    {line}")
 
     def _line(self, text: str) -> None:
         clear = _CLEAR_LINE if self._has_status else ""
         self._has_status = False
         self._output.write(f"{clear}{text}\n")
+
+
+def _line_of(event: Event, language: LanguageCode) -> str:
+    """Put an event into one line; "" for one that people do without."""
+    match event:
+        case Result():
+            return (
+                f"{event.reply} {say(language, 'yes_or_no')}" if event.proposal is not None else event.reply
+            )
+        case Said():
+            return f"  “{event.text}”"
+        case Remembered():
+            return f"  {event.place}: x {fixed(event.pose.x_m, 2)} m, y {fixed(event.pose.y_m, 2)} m"
+        case Limited():
+            return f"  · {_twist(event.asked)} → {_twist(event.sent)}"
+        case Notice():
+            return f"  ! {event.text or render_reason(event.reason, language)}"
+        case ProgramLog():
+            return f"  | {event.text}"
+        case TruePose():
+            x, y, yaw = fixed(event.x_m, 3), fixed(event.y_m, 3), fixed(math.degrees(event.yaw_rad), 1)
+            return f"  {event.t_s:8.2f} s  x {x} m  y {y} m  {yaw}°"
+    return ""
 
 
 class _Way:

@@ -1,12 +1,14 @@
-"""What commands print: standard output as a stream that may break, and events as one JSON object a line, in UTF-8."""
+"""How commands print a session's events on standard output, which may break; JSON, one object a line, in UTF-8."""
 
 from __future__ import annotations
 
+import argparse
 import json
 import math
 import os
 import select
-from typing import Any
+import sys
+from typing import Any, Protocol
 
 from chatrobot.core.events import Event
 from chatrobot.language.interpretation import LanguageCode
@@ -80,3 +82,30 @@ class Output:
     @property
     def is_terminal(self) -> bool:
         return os.isatty(STDOUT)
+
+
+class Printer(Protocol):
+    """Shows events as they come."""
+
+    @property
+    def is_broken(self) -> bool:
+        """Nobody reads what is written."""
+        ...
+
+    def turn(self, text: str) -> None:
+        """A turn of a dialogue begins with `text`."""
+        ...
+
+    def show(self, event: Event, language: LanguageCode) -> None: ...
+
+
+def printer_for(args: argparse.Namespace) -> Printer:
+    """For machines with `--json`, else for people."""
+    sys.stdout.flush()
+    if args.json:
+        from chatrobot.cli.json_lines import JsonPrinter
+
+        return JsonPrinter(Output())
+    from chatrobot.cli.human import HumanPrinter
+
+    return HumanPrinter(Output())

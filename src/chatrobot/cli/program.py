@@ -10,13 +10,12 @@ from pathlib import Path
 from chatrobot.cli.approver import Approver
 from chatrobot.cli.choices import setup_from
 from chatrobot.cli.conversation import Conversation
-from chatrobot.cli.editor import edited_text
+from chatrobot.cli.editing import edited_text
 from chatrobot.cli.folders import config_folder, profile_folders
-from chatrobot.cli.json_lines import json_line
+from chatrobot.cli.json_lines import json_line, printer_for
 from chatrobot.cli.keyboard import Keyboard
 from chatrobot.cli.lines import has_keyboard
-from chatrobot.cli.parameter_files import with_parameter_files
-from chatrobot.cli.printer import printer_for
+from chatrobot.cli.parameters import with_parameter_files
 from chatrobot.core.errors import UsageError
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring

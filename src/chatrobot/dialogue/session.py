@@ -233,7 +233,10 @@ class Session:
 
     def do(self, text: str) -> Result:
         """Say it and see it through: the result of its turn."""
-        turn = self.say(text)
+        return self.see_through(self.say(text))
+
+    def see_through(self, turn: int) -> Result:
+        """Let things happen until that turn has its result."""
         while turn not in self.results:
             self.pump(0.1)
         return self.results[turn]

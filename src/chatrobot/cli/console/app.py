@@ -17,7 +17,7 @@ from chatrobot.cli.console.controller import ChatController
 from chatrobot.cli.console.lines import indented
 from chatrobot.cli.console.tables import example_place, place_in
 from chatrobot.cli.console.words import Words, language_of_environment
-from chatrobot.cli.typed_ahead import TypedAhead
+from chatrobot.cli.lines import TypedAhead
 from chatrobot.compose import Setup, connect
 from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import LinkError, UsageError

@@ -11,9 +11,7 @@ from collections.abc import Callable, Sequence
 from rich.console import RenderableType
 from rich.text import Text
 
-from chatrobot.cli.console.display import Display
-from chatrobot.cli.console.lines import indented, marked
-from chatrobot.cli.console.maps import way_map
+from chatrobot.cli.console.lines import Display, indented, marked
 from chatrobot.cli.console.motion_view import MotionView
 from chatrobot.cli.console.narrator import Narrator
 from chatrobot.cli.console.pasted import (
@@ -28,15 +26,16 @@ from chatrobot.cli.console.pasted import (
     must_be_typed,
     quoted,
 )
-from chatrobot.cli.console.pump import Pump
 from chatrobot.cli.console.status_bar import StatusBar
+from chatrobot.cli.console.tables import way_map
 from chatrobot.cli.console.words import Words
-from chatrobot.cli.edited import Edited
+from chatrobot.cli.editing import Edited
 from chatrobot.cli.lines import texts_in
 from chatrobot.compose import Connection
 from chatrobot.core.clock import Clock
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import Event, Interpreted, Notice, Result, Started, Telemetry
+from chatrobot.dialogue.pump import Pump
 from chatrobot.dialogue.question import Question
 from chatrobot.dialogue.replies import is_parting
 from chatrobot.language.consent import read_consent, wants_to_edit
@@ -66,9 +65,9 @@ class ChatController:
         self.session = connection.session
         self.words = words
         self.motion_view = MotionView()
-        self.strip = StatusBar(self.motion_view, words, connection.world)
+        self.status_bar = StatusBar(self.motion_view, words, connection.world)
         self.narrator = Narrator(words)
-        self.pump = Pump(self.session, self.lose, lambda: self.display.leave(1))
+        self.pump = Pump(self.session, self._end)
         self.latched = False
         self.has_parted = False
         """The person said goodbye in words, and was answered."""
@@ -198,6 +197,7 @@ class ChatController:
         self._tell_undone(self._pasted.drop())
 
     def emergency_stop(self, why: str) -> None:
+        """Stop the robot and keep it stopped until it is released."""
         self.attempt(lambda: self.session.emergency_stop(why))
         self._tell_undone(self._pasted.drop())
         self._raise_alarm()
@@ -212,9 +212,7 @@ class ChatController:
         """What was typed takes the place of all that runs and waits."""
         self.words.follow(text)
         self._pauses_again = is_pause(text) and self.session.is_plan_paused
-        if self._is_stop(
-            text
-        ):  # it waits for no lock: the other thread may hang in a terminal that was halted
+        if self._is_stop(text):  # waits for no lock: the other thread may hang in a terminal that was halted
             self.attempt(lambda: self.session.say(text))
             undone = self._pasted.drop()
             self._echo(text)
@@ -275,16 +273,10 @@ class ChatController:
         with self._order:
             lines: list[RenderableType] = list(self.narrator.tell(event))
             if self._question.hear(event):
-                lines += [
-                    way_map(self.motion_view, self.connection.world),
-                    Text(f"  {self.words.say('ask_approval')}", "bold"),
-                ]
-            if (
-                isinstance(event, Interpreted)
-                and event.by == "reflex"
-                and (self.motion_view.is_moving or self._said_stopped or self.session.is_plan_paused)
-                and not self._pauses_again
-            ):
+                question = Text(f"  {self.words.say('ask_approval')}", "bold")
+                lines += [way_map(self.motion_view, self.connection.world), question]
+            is_stop = isinstance(event, Interpreted) and event.by == "reflex" and not self._pauses_again
+            if is_stop and (self.motion_view.is_moving or self._said_stopped or self.session.is_plan_paused):
                 self._muted.add(event.turn)  # what was moving says how it ended
             if isinstance(event, Result):
                 self._said_stopped = event.outcome == "stopped"
@@ -297,9 +289,8 @@ class ChatController:
                 self.leave()
             if self._leaving and self._has_nothing_to_do:
                 self.display.leave(0)
-        if isinstance(event, (Telemetry, Started, Result)) and (
-            self.motion_view.is_moving or not isinstance(event, Telemetry)
-        ):
+        moves = isinstance(event, Telemetry) and self.motion_view.is_moving
+        if moves or isinstance(event, (Started, Result)):
             self.display.refresh()
 
     def _is_muted(self, event: Event) -> bool:
@@ -321,9 +312,17 @@ class ChatController:
         self._say_next()
 
     def lose(self, error: LinkError) -> None:
-        """Motion is gone: its guard halts the robot; here is nothing left to talk to."""
+        """Tell that Motion is gone, and leave: its guard halts the robot."""
         self.display.print(marked("✗", "bold red", str(error)))
         self.display.leave(1)
+
+    def _end(self, error: Exception) -> None:
+        """The pumping thread has ended."""
+        if isinstance(error, LinkError):
+            self.lose(error)
+        else:
+            self.display.leave(1)
+            raise error
 
     # --- printing ---
 

@@ -1,8 +1,12 @@
-"""Lines that wrap under themselves, without blanks at their ends: they can be copied, and survive a resize."""
+"""The screen, and lines for it that wrap under themselves, without blanks at their ends.
+
+So they can be copied, and survive a resize.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 from rich.cells import cell_len
 from rich.console import Console, ConsoleOptions, RenderableType, RenderResult
@@ -69,3 +73,33 @@ def _may_part(before: str, char: str) -> bool:
     if char.isspace() or char in _CLOSING or before in _OPENING:
         return False
     return before.isspace() or cell_len(before) == 2 or cell_len(char) == 2
+
+
+class Display(Protocol):
+    """A screen. All of it may be called from any thread."""
+
+    @property
+    def echoes(self) -> bool:
+        """What was typed stays to be seen without our help."""
+        ...
+
+    @property
+    def width(self) -> int:
+        """Columns."""
+        ...
+
+    def print(self, *lines: RenderableType) -> None:
+        """Show lines above the prompt."""
+        ...
+
+    def refresh(self) -> None:
+        """Something that the status bar shows has changed."""
+        ...
+
+    def edit(self, plan_text: str) -> None:
+        """Let the person change a plan; it comes back through `ChatController.take_edited`."""
+        ...
+
+    def leave(self, code: int) -> None:
+        """End the conversation; `code` is the exit code."""
+        ...

@@ -30,9 +30,11 @@ class Pasted:
 
     @property
     def is_waiting(self) -> bool:
+        """Something waits."""
         return bool(self._texts)
 
     def keep(self, texts: Sequence[str]) -> None:
+        """Have them wait, in their order."""
         self._texts.extend(texts)
 
     def next(self) -> str | None:

@@ -1,4 +1,4 @@
-"""The console's own words, in the language of the last question. The tables are `language/data/<code>/console.toml`."""
+"""The console's own words, in the language of the last question: `language/data/<code>/console.toml`."""
 
 from __future__ import annotations
 

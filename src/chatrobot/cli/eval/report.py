@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
+from chatrobot.cli.eval.command import Judged
 from chatrobot.cli.eval.corpus import CATEGORIES
-from chatrobot.cli.eval.run import Judged
 
 
 def item_json(judged: Judged) -> dict[str, Any]:

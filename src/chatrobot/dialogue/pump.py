@@ -1,4 +1,4 @@
-"""The thread that pumps the session: the screen never waits for the robot."""
+"""The thread that pumps a session: whoever draws a screen or calls from a program never waits for the robot."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import queue
 import threading
 from collections.abc import Callable
 
-from chatrobot.core.errors import LinkError
 from chatrobot.dialogue.session import Session
 
 PUMP_S = 0.05
@@ -16,21 +15,25 @@ class Pump:
     """Runs `session.pump` until `stop`; everything that belongs to that thread is posted here.
 
     Args:
-        on_lost: hears, on the thread, that Motion is gone; the thread ends then.
-        on_end: hears that the thread has ended, for whatever reason, without `stop`.
+        on_end: hears, on the thread, which error has ended it without `stop`.
+        on_step: called after each pump.
     """
 
     def __init__(
-        self, session: Session, on_lost: Callable[[LinkError], None], on_end: Callable[[], None]
+        self,
+        session: Session,
+        on_end: Callable[[Exception], None],
+        on_step: Callable[[], None] = lambda: None,
     ) -> None:
         self._session = session
-        self._on_lost = on_lost
         self._on_end = on_end
+        self._on_step = on_step
         self._jobs: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
-        self._ended = threading.Event()
+        self._is_stopped = False
         self._thread = threading.Thread(target=self._run, name="pump", daemon=True)
 
     def start(self) -> None:
+        """Begin to pump."""
         self._thread.start()
 
     def post(self, job: Callable[[], None]) -> None:
@@ -39,18 +42,17 @@ class Pump:
 
     def stop(self) -> None:
         """End the thread and wait for it."""
-        self._ended.set()
+        self._is_stopped = True
         if threading.current_thread() is not self._thread:
             self._thread.join()
 
     def _run(self) -> None:
         try:
-            while not self._ended.is_set():
+            while not self._is_stopped:
                 while not self._jobs.empty():
                     self._jobs.get()()
                 self._session.pump(PUMP_S)
-        except LinkError as error:
-            self._on_lost(error)
-        finally:
-            if not self._ended.is_set():
-                self._on_end()
+                self._on_step()
+        except Exception as error:  # noqa: BLE001  # the outermost boundary of a thread: who waits for it is told
+            if not self._is_stopped:
+                self._on_end(error)

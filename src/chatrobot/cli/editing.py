@@ -1,10 +1,57 @@
-"""What a person makes of a plan or a program at the question; what cannot be read is there again at the next edit."""
+"""A plan or a program in the person's own editor, and what becomes of what they made of it."""
 
 from __future__ import annotations
 
+import os
+import shlex
+import subprocess
+import tempfile
+from pathlib import Path
 from typing import Protocol
 
+from chatrobot.core.errors import UsageError
 from chatrobot.core.events import Event, Finished, Notice, ProgramWritten, Started
+
+_OTHERWISE = "vi"
+
+
+def edited_text(text: str, suffix: str) -> str:
+    """`text` as the person leaves it.
+
+    Raises:
+        UsageError: there is no such editor, it failed, or what it left is no text.
+    """
+    command = _command()
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / f"program{suffix}"
+        path.write_text(text, encoding="utf-8")
+        try:
+            code = subprocess.run([*command, str(path)], check=False).returncode
+            edited = path.read_text(encoding="utf-8")
+        except FileNotFoundError as error:
+            raise _unusable("cannot be started: there is no such command", command) from error
+        except OSError as error:
+            raise _unusable(f"cannot be used: {error.strerror}", command) from error
+        except UnicodeDecodeError as error:
+            raise _unusable("left no text in UTF-8", command) from error
+    if code != 0:
+        raise _unusable(f"ended with exit code {code}, so nothing was changed", command)
+    return edited
+
+
+def _command() -> list[str]:
+    named = os.environ.get("VISUAL") or os.environ.get("EDITOR") or _OTHERWISE
+    try:
+        return shlex.split(named) or [_OTHERWISE]
+    except ValueError as error:
+        raise _unusable(f"cannot be read: {error}", [named]) from error
+
+
+def _unusable(problem: str, command: list[str]) -> UsageError:
+    return UsageError(
+        f"the editor {command[0]!r} {problem}", allowed="VISUAL, or else EDITOR, names the one to use"
+    )
+
 
 UNREADABLE = "edit_unreadable"
 """The code of the notice that what was edited is asked about as it was before."""
