@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.llm.requests import ModelRequests
@@ -17,7 +17,11 @@ from chatrobot.plan.steps import Remember, Step
 
 
 class NextUtterance:
-    """Belongs to the pumping thread."""
+    """Belongs to the pumping thread.
+
+    Args:
+        is_writing: a model writes a program; what is said meanwhile comes after it.
+    """
 
     def __init__(
         self,
@@ -27,6 +31,7 @@ class NextUtterance:
         understanding: Understanding,
         resuming: Resuming,
         early: EarlyAnswers,
+        is_writing: Callable[[], bool],
     ) -> None:
         self._utterances = utterance
         self._requests = book
@@ -34,6 +39,7 @@ class NextUtterance:
         self._understanding = understanding
         self._resuming = resuming
         self._early = early
+        self._is_writing = is_writing
 
     def find(self, options: Options, waits_for_end: int | None) -> Utterance | None:
         """The one to take now: the first, unless it has to wait.
@@ -48,7 +54,7 @@ class NextUtterance:
                 return None if is_about_a_pause and self.is_being_paused else utterance
             if self._utterances.is_held(utterance):
                 continue
-            if self.is_being_paused:
+            if self.is_being_paused or self._is_writing():
                 return None
             replaces = self._resuming.paused is not None or options.while_moving == "replace"
             if replaces and utterance.turn != waits_for_end:
