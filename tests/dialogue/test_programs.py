@@ -30,7 +30,7 @@ from chatrobot.core.events import (
 )
 from chatrobot.dialogue.options import Options
 from chatrobot.models.seam import CallLimits, Message, Usage
-from chatrobot.models.usage_log import totals
+from chatrobot.models.usage import totals
 from chatrobot.programs.library import KeptProgram
 
 ASKED = "Write a ROS 2 Python program that makes the robot dance as you like"

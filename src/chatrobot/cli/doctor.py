@@ -203,9 +203,8 @@ def _who_is_on(address: str, args: argparse.Namespace) -> str:
 def _model(args: argparse.Namespace) -> Check:
     """What would be asked; it is not asked, that may cost: `chatrobot model test` does."""
     from chatrobot.language.phrases import render_reason
-    from chatrobot.models.choice import resolve
-    from chatrobot.models.config import ModelConfig
-    from chatrobot.models.state import problem_with
+    from chatrobot.models.config import ModelConfig, resolve
+    from chatrobot.models.make import problem_with
 
     config = ModelConfig(folder=config_folder(args))
     try:

@@ -8,8 +8,7 @@ from dataclasses import asdict
 
 from chatrobot.cli.folders import config_folder
 from chatrobot.cli.json_lines import json_line
-from chatrobot.models.prices import check_prices, prices_date
-from chatrobot.models.usage_log import Total, totals
+from chatrobot.models.usage import Total, check_prices, totals
 
 
 def run(args: argparse.Namespace) -> int:
@@ -30,7 +29,7 @@ def run(args: argparse.Namespace) -> int:
         print(_row(name, total))
         whole.join(total)
     print(_row("all", whole))
-    print(f"tokens; US dollars at the prices of {prices_date()} (“+?”: some calls have no known price)")
+    print("tokens; US dollars at the list prices known when each call was made (“?”: a price is unknown)")
     return 0
 
 
