@@ -186,9 +186,8 @@ def _found(address: str, args: argparse.Namespace, *, is_near: bool) -> str:
 def _model(args: argparse.Namespace) -> Check:
     """What would be asked; it is not asked, that may cost: `chatrobot model test` does."""
     from chatrobot.language.phrases import render_reason
-    from chatrobot.models.choice import resolve
-    from chatrobot.models.config import ModelConfig
-    from chatrobot.models.state import problem_with
+    from chatrobot.models.config import ModelConfig, resolve
+    from chatrobot.models.make import problem_with
 
     config = ModelConfig(folder=config_folder(args))
     try:
