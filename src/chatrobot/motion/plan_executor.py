@@ -19,7 +19,8 @@ from chatrobot.motion.goal import Goal
 from chatrobot.motion.goal_execution import GoalExecution
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.inbox import Inbox
-from chatrobot.motion.programs.execution import LiveProgram, ProgramExecution, ProgramSandbox
+from chatrobot.motion.programs.clocks import LiveProgram
+from chatrobot.motion.programs.execution import ProgramExecution, ProgramSandbox
 from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.motion.safety.interlock import Interlock
 from chatrobot.motion.safety.stop import Stops

@@ -6,8 +6,7 @@ it (its own end, an exception, a kill, silence), the robot is brought to stand.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Protocol
 
 from chatrobot.core.events import Event, Finished, Outcome, ProgramLog, Progress
@@ -19,18 +18,10 @@ from chatrobot.governor.lease import TERM_S
 from chatrobot.motion.governed_motion import GovernedMotion, decelerated, is_worth_telling
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.planner import Planned, Planner
+from chatrobot.motion.programs.clocks import HeldTwist, LiveProgram
 from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.motion.remembered_obstacles import RememberedObstacles
-from chatrobot.programs.events import (
-    Died,
-    Ended,
-    Log,
-    Output,
-    ProgramEvent,
-    Raised,
-    TwistAsked,
-    raised_reason,
-)
+from chatrobot.programs.events import Died, Ended, Log, Output, ProgramEvent, Raised, TwistAsked
 from chatrobot.wire.wire import Wire
 
 SETTLE_S = 1.0
@@ -42,18 +33,6 @@ FARTHER_SHARE, FARTHER_M = 0.1, 0.1
 """A program that lasts or drives so much more than its rehearsal does something else: its rehearsal is no measure."""
 LOG_LINES = 500
 """More of what a program logs is not told; it may go on for an hour."""
-
-
-class LiveProgram(Protocol):
-    """A program that is running: `SandboxedProgram` in real time, or in step with a simulation."""
-
-    def poll_until(self, now_s: float) -> Sequence[ProgramEvent]:
-        """What it did up to `now_s` after its launch. Never blocks on a real clock."""
-        ...
-
-    def close(self) -> None:
-        """End it now, if it still runs."""
-        ...
 
 
 class ProgramExecution:
@@ -159,7 +138,7 @@ class ProgramExecution:
             self._end("failed" if code else "completed", reason)
         elif isinstance(event, Raised):
             self._log(now_s, "traceback", event.traceback)
-            self._end("failed", raised_reason(event))
+            self._end("failed", event.as_reason)
         elif isinstance(event, Died):
             self._end("failed", event.reason)
 
@@ -221,27 +200,3 @@ class NoSandbox:
 
     def launch(self, goal: ProgramGoal) -> LiveProgram | Reason:  # noqa: ARG002
         return Reason("no_programs_here")
-
-
-class HeldTwist:
-    """What a program asks for now: what it published last, for as long as the base would have held it.
-
-    Args:
-        base_timeout_s: of the robot's wiring; None holds for ever. The lease ends it in any case.
-    """
-
-    def __init__(self, base_timeout_s: float | None) -> None:
-        self._timeout_s = math.inf if base_timeout_s is None else base_timeout_s
-        self._twist = ZERO_TWIST
-        self._ends_s = -math.inf
-
-    def publish(self, twist: Twist, now_s: float) -> None:
-        self._twist, self._ends_s = twist, now_s + self._timeout_s
-
-    def at(self, now_s: float) -> Twist:
-        return self._twist if now_s < self._ends_s else ZERO_TWIST
-
-    @property
-    def ends_s(self) -> float:
-        """When it turns to zero."""
-        return self._ends_s
