@@ -29,7 +29,7 @@ from chatrobot.sandbox.process import ExitReport, SandboxedProcess
 from chatrobot.sandbox.warm_server import WarmServer
 
 ENTRY = "chatrobot.programs.inside.entry:run"
-PRELOAD = ("chatrobot.programs.inside.preloaded",)
+PRELOAD = ("chatrobot.programs.inside.entry",)
 BYTES_A_POLL = 16 * 1024
 """A flood may not keep the host from its other work."""
 TEXT_BYTES = 1024 * 1024
