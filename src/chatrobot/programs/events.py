@@ -130,7 +130,7 @@ ENDS = (Ended, Raised, Died)
 
 
 def read_event(frame: list[Any]) -> ProgramEvent:
-    """Raises PipeError for whatever is not exactly one of the words."""
+    """Read one frame. Raises PipeError for whatever is not exactly one of the words."""
     reader = _READERS.get(frame[0])
     if reader is None:
         raise PipeError(f"an unknown word: {frame[0][:40]!r}")

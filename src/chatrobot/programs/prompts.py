@@ -27,7 +27,7 @@ Answer with the whole corrected program in one ```python fence."""
 
 
 def system_prompt(profile: RobotProfile) -> str:
-    """The rules of the house, for one robot."""
+    """Return the rules for writing programs for one robot."""
     wiring = profile.wiring
     sensors = [f"odometry ({wiring.odom_type}) on {wiring.odom_topic}"] if wiring.odom_topic else []
     sensors += (
@@ -52,5 +52,5 @@ def system_prompt(profile: RobotProfile) -> str:
 
 
 def mend_prompt(where: str, problem: str) -> str:
-    """What is wrong with the program that was just given. `where` is a sentence or ""."""
+    """Return what is wrong with the program that was just given. `where` is a sentence or ""."""
     return _MEND.format(where=where, problem=problem.strip()[-4000:])

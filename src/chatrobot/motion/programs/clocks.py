@@ -77,7 +77,7 @@ class SensorMailbox:
 
     @property
     def sensors(self) -> frozenset[str]:
-        """The sensors that the program listens to."""
+        """Return the sensors that the program listens to."""
         return frozenset(self._kept)
 
     def collect(self, now_s: float) -> None:
@@ -197,7 +197,7 @@ class SteppedProgram:
 
     @property
     def next_s(self) -> float:
-        """When it next does something, or hears something, as far as is known; after `poll_until`."""
+        """Return when it next does or hears something, as far as is known after `poll_until`."""
         known_s = self._horizon_s
         if self._coming:
             known_s = self._time_of(self._coming[0])

@@ -66,7 +66,7 @@ class ProgramExecution:
         self._told: set[tuple[str, Twist]] = set()
 
     def tick(self, now_s: float) -> None:
-        """One period: what the program asks, as far as the governor allows it."""
+        """Send what the program asks for, as far as the governor allows it: one period."""
         since_s, self._now_s = self._now_s, now_s
         if self._ended_s is None:
             for event in self._program.poll_until(now_s - self._began_s):
@@ -88,17 +88,17 @@ class ProgramExecution:
             self.is_done = standing or now_s - self._ended_s > patience_s
 
     def ramp_down(self, why: Reason) -> None:
-        """A controlled stop: the program is ended, the robot brought to stand."""
+        """End the program and bring the robot to stand, as its limits allow."""
         self._ramps_down = self._ended_s is None
         self._end("stopped", why)
 
     def close(self) -> None:
-        """The program is not to run on, whatever ended this run."""
+        """End the program, whatever ended this run."""
         self._program.close()
         self._motion.close()
 
     def progress(self, now_s: float) -> Progress:
-        """By the duration that was rehearsed; a program that goes on for longer has no share of it."""
+        """Return how far it is of the rehearsed duration; a program that goes on for longer has no share of it."""
         estimate = self._sensors.estimate
         assert estimate is not None
         assert self.goal.planned is not None
@@ -108,7 +108,7 @@ class ProgramExecution:
         return Progress(self.goal.turn, 1, 1, fraction, estimate.pose, estimate.twist)
 
     def finished(self, outcome: Outcome, reason: Reason | None) -> Finished:
-        """The end, as odometry measured it."""
+        """Return the end, as odometry measured it."""
         planned_m = self.goal.length_m
         goes_on_m = planned_m * (1.0 + FARTHER_SHARE) + FARTHER_M
         return self._motion.finished(
@@ -185,7 +185,7 @@ class ProgramSandbox(Protocol):
         ...
 
     def launch(self, goal: ProgramGoal) -> LiveProgram | Reason:
-        """Start it; why it cannot be."""
+        """Start it; return why where it cannot be."""
         ...
 
 
@@ -193,7 +193,7 @@ class NoSandbox:
     """Nowhere: every program is refused."""
 
     def attach(self, wire: Wire) -> None:
-        """There is nothing to hear for."""
+        """Do nothing: there are no programs to hear for."""
 
     def rehearse(self, goal: ProgramGoal, planner: Planner, seen: RememberedObstacles | None) -> Planned:  # noqa: ARG002
         return Planned(goal.turn, None, Reason("no_programs_here"))

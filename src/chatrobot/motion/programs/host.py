@@ -52,7 +52,7 @@ class ProgramHost:
         return PlannedProgram(goal.turn, None, program=rehearsal, name=goal.name, strict=goal.strict)
 
     def launch(self, goal: ProgramGoal) -> LiveProgram | Reason:
-        """Start it; why it cannot be."""
+        """Start it; return why where it cannot be."""
         settings = ProgramSettings(
             goal.code,
             name=_file_name(goal.name),

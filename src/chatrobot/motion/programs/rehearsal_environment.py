@@ -59,7 +59,7 @@ class RehearsalEnvironment:
 
     @property
     def now_s(self) -> float:
-        """The time since the program's start."""
+        """Return the time since the program's start."""
         return self._clock.now_s()
 
     def ask(self, twist: Twist) -> None:

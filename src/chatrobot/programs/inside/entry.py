@@ -16,26 +16,19 @@ from types import CodeType, ModuleType
 from typing import Any, NoReturn
 
 from chatrobot.programs.inside import event_loop, top_level, virtual_time
-from chatrobot.programs.inside.link import Link, LiveLink, VirtualLink, set_link
+from chatrobot.programs.inside.link import Link, open_link
 from chatrobot.programs.settings import ProgramSettings
-
-AnyLink = VirtualLink | LiveLink
 
 
 def run(channel: socket.socket, payload: bytes) -> None:
     """Run the program of `payload` (`ProgramSettings`) on `channel`. Does not return."""
     settings = ProgramSettings.from_bytes(payload)
-    link: AnyLink
-    if settings.mode == "virtual":
-        link = VirtualLink(channel, settings)
+    link = open_link(channel, settings)
+    if link.scheduler is not None:
         virtual_time.install(link.scheduler, settings.start_ns)
-    else:
-        link = LiveLink(channel, settings)
-        link.start()
-    set_link(link)
     top_level.install()
     event_loop.install()
-    sys.stdout, sys.stderr = PipeStream(link, "stdout"), PipeStream(link, "stderr")
+    sys.stdout, sys.stderr = _PipeStream(link, "stdout"), _PipeStream(link, "stderr")
     sys.stdin = io.StringIO("")
     threading.excepthook = _tell_of_thread
     link.send("ready")
@@ -98,7 +91,7 @@ def _exit_code(end: SystemExit) -> int:
     return 1
 
 
-def _end(link: AnyLink, how: str, code: int, error: BaseException | None) -> NoReturn:
+def _end(link: Link, how: str, code: int, error: BaseException | None) -> NoReturn:
     """Tell what became of it, once its threads are over, as the interpreter would wait for them."""
     told = complaint(error) if error is not None else None
     for at_exit in reversed(threading._threading_atexits):  # type: ignore[attr-defined]
@@ -161,7 +154,7 @@ def _keep_own_frames(told: traceback.TracebackException | None) -> None:
         depth += 1
 
 
-class PipeStream(io.TextIOBase):
+class _PipeStream(io.TextIOBase):
     """Stands for `sys.stdout` or `sys.stderr`."""
 
     encoding = "utf-8"
@@ -191,7 +184,7 @@ class PipeStream(io.TextIOBase):
 
 
 class _Bytes(io.RawIOBase):
-    def __init__(self, text: PipeStream) -> None:
+    def __init__(self, text: _PipeStream) -> None:
         self._text = text
 
     def writable(self) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from array import array
+from collections import defaultdict
 from collections.abc import Callable, Mapping
 from copy import deepcopy
 from typing import Any
@@ -11,75 +12,47 @@ from typing import Any
 from chatrobot.programs.inside.interfaces import kind
 from chatrobot.programs.inside.link import get_link
 
-_subscriptions: dict[str, list[Any]] = {}
-_publishers: dict[str, list[Any]] = {}
-_services: dict[str, Any] = {}
+subscriptions: defaultdict[str, list[Any]] = defaultdict(list)
+publishers: defaultdict[str, list[Any]] = defaultdict(list)
+"""By their topics, publishers as their handles."""
+services: dict[str, Any] = {}
 nodes: list[Any] = []
 
 
 def add_subscription(subscription: Any) -> None:
-    """What was published before comes to it if both sides keep it (transient local)."""
-    _subscriptions.setdefault(subscription.handle.name, []).append(subscription)
-    for publisher in _publishers.get(subscription.handle.name, ()):
+    """Add it; what was published before comes to it if both sides keep it (transient local)."""
+    subscriptions[subscription.handle.name].append(subscription)
+    for publisher in publishers[subscription.handle.name]:
         for message in publisher.kept_for(subscription):
             subscription._receive(deepcopy(message))
 
 
-def remove_subscription(subscription: Any) -> None:
-    _subscriptions[subscription.handle.name].remove(subscription)
-
-
-def add_publisher(publisher: Any) -> None:
-    _publishers.setdefault(publisher.name, []).append(publisher)
-
-
-def remove_publisher(publisher: Any) -> None:
-    _publishers[publisher.name].remove(publisher)
-
-
 def publish(publisher: Any, message: Any) -> None:
-    """To every subscription of that topic and type, each with a copy of its own."""
-    for subscription in tuple(_subscriptions.get(publisher.name, ())):
+    """Hand `message` to every subscription of that topic and type, each with a copy of its own."""
+    for subscription in tuple(subscriptions[publisher.name]):
         if subscription.msg_type is publisher.msg_type:
             subscription._receive(deepcopy(message))
 
 
-def count_publishers(topic: str) -> int:
-    return len(_publishers.get(topic, ()))
-
-
-def count_subscriptions(topic: str) -> int:
-    return len(_subscriptions.get(topic, ()))
-
-
 def topic_types() -> list[tuple[str, list[str]]]:
-    found: dict[str, list[str]] = {}
-    for ends in (_publishers, _subscriptions):
-        for topic, entities in ends.items():
+    """Return every topic with the types that go over it, sorted."""
+    found: dict[str, dict[str, None]] = {}
+    for ends in (publishers, subscriptions):
+        for topic, entities in list(ends.items()):
             for entity in entities:
-                names = found.setdefault(topic, [])
-                if entity.msg_type._type_name not in names:
-                    names.append(entity.msg_type._type_name)
-    return sorted(found.items())
-
-
-def add_service(service: Any) -> None:
-    _services[service.name] = service
-
-
-def remove_service(service: Any) -> None:
-    if find_service(service.name, service.srv_type) is service:
-        del _services[service.name]
+                found.setdefault(topic, {})[entity.msg_type._type_name] = None
+    return sorted((topic, list(types)) for topic, types in found.items())
 
 
 def find_service(name: str, srv_type: Any) -> Any:
-    """None where nobody serves it."""
-    service = _services.get(name)
+    """Return the handle of that service; None where nobody serves it."""
+    service = services.get(name)
     return service if service is not None and service.srv_type is srv_type else None
 
 
 def service_types() -> list[tuple[str, list[str]]]:
-    return sorted((name, [served.srv_type._type_name]) for name, served in _services.items())
+    """Return every service with its type, sorted."""
+    return sorted((name, [served.srv_type._type_name]) for name, served in services.items())
 
 
 Twist, TwistStamped = kind("geometry_msgs/Twist"), kind("geometry_msgs/TwistStamped")
@@ -92,7 +65,7 @@ Values = list[Any]
 
 
 def sender(topic: str, kind: type[Any]) -> Callable[[Any], None] | None:
-    """Takes what is published on `topic` to the robot, where that is its velocity."""
+    """Return what takes what is published on `topic` to the robot; None where that is no velocity of it."""
     if topic != get_link().settings.topics.get("cmd_vel"):
         return None
     if kind is Twist:
@@ -107,7 +80,7 @@ def _send(twist: Any) -> None:
 
 
 def sensor_of(topic: str, kind: type[Any]) -> tuple[str, Callable[[Values], Any]] | None:
-    """The robot's sensor behind `topic` and what makes a message of type `kind` of its words."""
+    """Return the robot's sensor behind `topic`, and what makes a message of type `kind` of its words."""
     for sensor, name in get_link().settings.topics.items():
         converter = CONVERTERS.get((sensor, kind))
         if name == topic and converter is not None:

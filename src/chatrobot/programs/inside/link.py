@@ -23,7 +23,12 @@ SAME_TWIST_NS = 20_000_000
 
 
 class Link:
-    """What both kinds of time share. `wanted` counts the threads that wait for what sensors may say."""
+    """What both kinds of time share.
+
+    `wanted` counts the threads that wait for what sensors may say; `scheduler` is the clock on virtual time.
+    """
+
+    scheduler: Scheduler | None = None
 
     def __init__(self, channel: socket.socket, settings: ProgramSettings) -> None:
         self.settings = settings
@@ -34,32 +39,39 @@ class Link:
         self._depths: dict[str, int] = {}
         self._last_twist: tuple[float, ...] = ()
         self._last_twist_ns = 0
-        self._thrift = Thrift()
+        self._thrift = _Thrift()
 
     # --- each kind of time has its own ---
 
     def now_ns(self) -> int:
-        """Since the program's start. Costs nothing."""
+        """Return the time since the program's start. Costs nothing."""
         raise NotImplementedError
 
     def look(self) -> int:
-        """`now_ns` for a program that asks what time it is, or whether something has happened."""
+        """Return `now_ns` for a program that asks what time it is, or whether something has happened."""
         raise NotImplementedError
 
     def count_publish(self) -> None:
-        """The program publishes: that takes a little time too."""
+        """Let the little time pass that publishing takes."""
 
     def send(self, word: str, *values: Any) -> None:
-        """A word, with the time put first."""
+        """Send a word, with the time put first."""
         raise NotImplementedError
+
+    def start(self) -> None:
+        """Begin to hear the host, where that takes threads."""
+
+    def flush(self) -> None:
+        """Send what is kept back."""
 
     # --- what names stand on ---
 
     def wall_ns(self) -> int:
-        """ROS time, which is system time."""
+        """Return ROS time, which is system time."""
         return self.settings.start_ns + self.look()
 
     def twist(self, vx_mps: float, vy_mps: float, wz_radps: float, planar: bool) -> None:
+        """Ask for a velocity; `planar`: without the parts that no ground robot has."""
         twist, now_ns = (vx_mps, vy_mps, wz_radps), self.now_ns()
         if twist == self._last_twist and now_ns - self._last_twist_ns < SAME_TWIST_NS:
             return
@@ -74,17 +86,20 @@ class Link:
             self.send("listens", sensor, min(depth, 1000))
 
     def unlisten(self, sensor: str, listener: Listener) -> None:
+        """Undo `listen`."""
         self._listeners[sensor].remove(listener)
 
     def log(self, level: str, name: str, text: str) -> None:
+        """Tell a line of a logger."""
         self._say("log", (level, name[:200]), text)
 
     def output(self, stream: str, text: str) -> None:
+        """Tell a printed line."""
         self._say("out", (stream,), text)
 
     @contextmanager
     def waiting(self) -> Iterator[None]:
-        """Around a wait that what sensors say may end."""
+        """Stand around a wait that what sensors say may end."""
         self.wanted += 1
         try:
             yield
@@ -123,12 +138,16 @@ class Link:
 _current: list[Link] = []
 
 
-def set_link(link: Link) -> None:
+def open_link(channel: socket.socket, settings: ProgramSettings) -> Link:
+    """Begin to speak with the host on `channel`, for this whole process."""
+    link = _VirtualLink(channel, settings) if settings.mode == "virtual" else _LiveLink(channel, settings)
     _current[:] = [link]
+    link.start()
+    return link
 
 
 def get_link() -> Link:
-    """The one of this process."""
+    """Return the one of this process."""
     return _current[0]
 
 
@@ -136,7 +155,7 @@ BURST_BYTES = 64 * 1024
 BYTES_PER_S = 8 * 1024
 
 
-class Thrift:
+class _Thrift:
     """A budget of text that refills with time."""
 
     def __init__(self) -> None:
@@ -145,7 +164,7 @@ class Thrift:
         self._dropped = 0
 
     def passes(self, text: str, now_ns: int) -> Iterator[str]:
-        """`text` where the budget allows it, after a word on what it did not allow before."""
+        """Yield `text` where the budget allows it, after a word on what it did not allow before."""
         self._left += max(0, now_ns - self._counted_ns) * 1e-9 * BYTES_PER_S
         self._left = min(self._left, float(BURST_BYTES))
         self._counted_ns = now_ns
@@ -162,8 +181,8 @@ class Thrift:
 BEAT_S = 0.1
 
 
-class LiveLink(Link):
-    """`start` starts the two threads."""
+class _LiveLink(Link):
+    """In real time: words go out at once, a thread takes in what sensors say, another one beats."""
 
     def __init__(self, channel: socket.socket, settings: ProgramSettings) -> None:
         super().__init__(channel, settings)
@@ -177,8 +196,7 @@ class LiveLink(Link):
     def now_ns(self) -> int:
         return time.monotonic_ns() - self._began_ns
 
-    def look(self) -> int:
-        return self.now_ns()
+    look = now_ns
 
     def wall_ns(self) -> int:
         return time.time_ns()
@@ -187,9 +205,6 @@ class LiveLink(Link):
         frame = self._encoded(word, values)
         with self._sending:
             self._channel.sendall(frame)
-
-    def flush(self) -> None:
-        """Nothing is kept back."""
 
     def _beat(self) -> None:
         while True:
@@ -211,8 +226,14 @@ PUBLISH_WEIGHT = 0.1
 """What publishing costs, and how much of a look at the clock it is."""
 
 
-class VirtualLink(Link):
-    """`scheduler` is the process's clock."""
+class _VirtualLink(Link):
+    """On virtual time: the host's simulated robot and the program move in lock step.
+
+    A program that listens to nothing needs no answers: what it does goes out with the time it did it at, and the host
+    follows. One that listens asks the host for time, and gets it up to the next message.
+    """
+
+    scheduler: Scheduler
 
     def __init__(self, channel: socket.socket, settings: ProgramSettings) -> None:
         super().__init__(channel, settings)

@@ -26,7 +26,7 @@ UPTIME_NS = 1_000_000_000_000
 
 
 def install(scheduler: Scheduler, start_ns: int) -> None:
-    """From here on this process lives on virtual time, which begins at the wall clock's `start_ns`."""
+    """Have this process live on virtual time, which begins at the wall clock's `start_ns`."""
     VirtualLock.scheduler = scheduler
     _install_clocks(scheduler, start_ns)
     _install_dates(scheduler, start_ns)
@@ -213,6 +213,7 @@ class VirtualLock:
         self._waiters: deque[Task] = deque()
 
     def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
+        """Take the lock, or wait for it at most `timeout` seconds."""
         if not blocking and timeout != -1:
             raise ValueError("can't specify a timeout for a non-blocking call")
         if timeout < 0 and timeout != -1:
@@ -234,6 +235,7 @@ class VirtualLock:
         return woken
 
     def release(self) -> None:
+        """Give it back, or hand it on."""
         if not self._locked:
             raise RuntimeError("release unlocked lock")
         while self._waiters:
@@ -244,6 +246,7 @@ class VirtualLock:
         self._locked = False
 
     def locked(self) -> bool:
+        """Tell whether somebody has it."""
         self.scheduler.look(weight=GLANCE)
         return self._locked
 

@@ -1,7 +1,9 @@
-"""What rclpy raises (`rclpy.exceptions`, `rclpy._rclpy_pybind11`), and the handles below what it makes."""
+"""rclpy.exceptions and rclpy._rclpy_pybind11: what rclpy raises, and what stands below all that a node makes."""
 
 from __future__ import annotations
 
+from collections import deque
+from collections.abc import Callable
 from typing import Any
 
 
@@ -40,6 +42,38 @@ class Destroyable:
 
     def destroy_when_not_in_use(self) -> None:
         self.is_destroyed = True
+
+
+class Entity:
+    """Something that a node made, which a callback group has: usable until it was destroyed."""
+
+    def __init__(self, handle: Destroyable) -> None:
+        self.__handle = handle
+
+    @property
+    def handle(self) -> Any:
+        return self.__handle
+
+    def destroy(self) -> None:
+        self.__handle.destroy_when_not_in_use()
+
+
+class Queue(Destroyable):
+    """What waits at an entity until an executor takes it; `wake` is the executor's."""
+
+    def __init__(self, wake: Callable[[], None], name: str) -> None:
+        super().__init__()
+        self.wake = wake
+        self.name = name
+        self.queue: deque[Any] = deque()
+
+    @property
+    def is_waiting(self) -> bool:
+        return bool(self.queue)
+
+    def put(self, item: Any) -> None:
+        self.queue.append(item)
+        self.wake()
 
 
 class NotInitializedException(Exception):

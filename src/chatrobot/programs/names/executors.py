@@ -285,7 +285,7 @@ def _guard_call(guard: Any) -> Call:
 
 
 def _response_call(client: Any) -> Call:
-    future, response = client.handle.responses.popleft()
+    future, response = client.handle.queue.popleft()
     return lambda: future.set_result(response)
 
 

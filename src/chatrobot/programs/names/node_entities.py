@@ -134,7 +134,7 @@ class NodeEntities(NodeGraph):
         check_type("service", srv_type)
         self.__check("Failed to create client: rcl node's context is invalid")
         group = self.default_callback_group if callback_group is None else callback_group
-        impl = ClientHandle(self._wake_executor, self.resolve_service_name(srv_name), srv_type)
+        impl = ClientHandle(self._wake_executor, self.resolve_service_name(srv_name))
         client = Client(self.context, impl, srv_type, srv_name, qos_profile, group)
         self.__add(self._clients, client, group)
         return client

@@ -36,11 +36,11 @@ class NodeGraph:
             return resolve(service, names.name, names.namespace, {} if only_expand else names.services)
 
     def count_publishers(self, topic_name: str) -> int:
-        return graph.count_publishers(self.resolve_topic_name(topic_name))
+        return len(graph.publishers[self.resolve_topic_name(topic_name)])
 
     def count_subscribers(self, topic_name: str) -> int:
         name = self.resolve_topic_name(topic_name)
-        return graph.count_subscriptions(name) + (name == get_link().settings.topics.get("cmd_vel"))
+        return len(graph.subscriptions[name]) + (name == get_link().settings.topics.get("cmd_vel"))
 
     def get_topic_names_and_types(self, no_demangle: bool = False) -> list[tuple[str, list[str]]]:
         return graph.topic_types()

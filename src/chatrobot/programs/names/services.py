@@ -5,38 +5,23 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
-from collections.abc import Callable
 from copy import deepcopy
 from typing import Any, NoReturn
 
 from chatrobot.programs.inside import graph
 from chatrobot.programs.inside.link import get_link
-from chatrobot.programs.names.errors import Destroyable
+from chatrobot.programs.names.errors import Entity, Queue
 from chatrobot.programs.names.qos import QoSProfile
 from chatrobot.programs.names.task import Future
 
 
-class ServiceHandle(Destroyable):
-    """What is asked of a service, until an executor takes it."""
+class ServiceHandle(Queue):
+    """What is asked of a service: requests, each with what takes its response."""
 
-    def __init__(self, wake: Callable[[], None], name: str) -> None:
-        super().__init__()
-        self.wake = wake
-        self.name = name
-        self.srv_type: Any = None
-        self.queue: deque[tuple[Any, Any]] = deque()
-
-    @property
-    def is_waiting(self) -> bool:
-        return bool(self.queue)
-
-    def receive(self, request: Any, answer: Any) -> None:
-        """A request; `answer` takes the response."""
-        self.queue.append((request, answer))
-        self.wake()
+    srv_type: Any = None
 
 
-class Service:
+class Service(Entity):
     """Answers the program's own clients."""
 
     def __init__(
@@ -48,6 +33,7 @@ class Service:
         callback_group: Any,
         qos_profile: QoSProfile,
     ) -> None:
+        super().__init__(service_impl)
         self.__service = service_impl
         self.srv_type = srv_type
         self.srv_name = srv_name
@@ -55,7 +41,7 @@ class Service:
         self.callback_group = callback_group
         self.qos_profile = qos_profile
         service_impl.srv_type = srv_type
-        graph.add_service(service_impl)
+        graph.services[service_impl.name] = service_impl
 
     def send_response(self, response: Any, header: Any) -> None:
         """`header` is of the request: it takes the response to who asked."""
@@ -69,10 +55,6 @@ class Service:
         with self.handle:
             return self.__service.name
 
-    @property
-    def handle(self) -> Any:
-        return self.__service
-
     def configure_introspection(
         self, clock: Any, service_event_qos_profile: Any, introspection_state: Any
     ) -> None:
@@ -80,36 +62,24 @@ class Service:
 
     def destroy(self) -> None:
         self.__service.destroy_when_not_in_use()
-        graph.remove_service(self.__service)
+        if graph.services.get(self.__service.name) is self.__service:
+            del graph.services[self.__service.name]
 
 
 LOOKS_EVERY_S = 0.25
 
 
-class ClientHandle(Destroyable):
-    """What services answer, until an executor takes it."""
+class ClientHandle(Queue):
+    """What services answer: a future and its response."""
 
-    def __init__(self, wake: Callable[[], None], name: str, srv_type: Any) -> None:
-        super().__init__()
-        self.wake = wake
-        self.name = name
-        self.srv_type = srv_type
-        self.responses: deque[tuple[Future, Any]] = deque()
-
-    @property
-    def is_waiting(self) -> bool:
-        return bool(self.responses)
+    srv_type: Any = None
 
     def find_service(self) -> Any:
         """Who serves it, None for nobody."""
         return graph.find_service(self.name, self.srv_type)
 
-    def receive(self, future: Future, response: Any) -> None:
-        self.responses.append((future, response))
-        self.wake()
 
-
-class Client:
+class Client(Entity):
     """Calls a service of the program; there is no other."""
 
     def __init__(
@@ -122,7 +92,9 @@ class Client:
         callback_group: Any,
     ) -> None:
         self.context = context
+        super().__init__(client_impl)
         self.__client = client_impl
+        client_impl.srv_type = srv_type
         self.srv_type = srv_type
         self.srv_name = srv_name
         self.qos_profile = qos_profile
@@ -136,7 +108,7 @@ class Client:
             impl, future = self.__client, Future()
             service = impl.find_service()
             if service is not None:
-                service.receive(deepcopy(request), lambda response: impl.receive(future, deepcopy(response)))
+                service.put((deepcopy(request), lambda response: impl.put((future, deepcopy(response)))))
             return future
 
     def call(self, request: Any, timeout_sec: float | None = None) -> Any:
@@ -155,7 +127,7 @@ class Client:
     def remove_pending_request(self, future: Future) -> None:
         """Its answer is not wanted any more."""
         impl = self.__client
-        impl.responses = deque(entry for entry in impl.responses if entry[0] is not future)
+        impl.queue = deque(entry for entry in impl.queue if entry[0] is not future)
 
     def service_is_ready(self) -> bool:
         with self.handle:
@@ -176,17 +148,10 @@ class Client:
         with self.handle:
             return self.__client.name
 
-    @property
-    def handle(self) -> Any:
-        return self.__client
-
     def configure_introspection(
         self, clock: Any, service_event_qos_profile: Any, introspection_state: Any
     ) -> None:
         """Nobody outside could look on."""
-
-    def destroy(self) -> None:
-        self.__client.destroy_when_not_in_use()
 
 
 def _refuse(name: str) -> NoReturn:

@@ -6,7 +6,7 @@ import threading
 from typing import Any
 
 from chatrobot.programs.inside.link import get_link
-from chatrobot.programs.names.errors import Destroyable, RCLError, ROSInterruptException
+from chatrobot.programs.names.errors import Destroyable, Entity, RCLError, ROSInterruptException
 
 
 class TimerHandle(Destroyable):
@@ -36,7 +36,7 @@ class TimerHandle(Destroyable):
             self.next_ns = self.next_ns + missed * self.period_ns if self.period_ns else now_ns
 
 
-class Timer:
+class Timer(Entity):
     """Calls back once a period."""
 
     def __init__(
@@ -59,12 +59,9 @@ class Timer:
         self._context = context
         self._clock = clock
         self.__timer = TimerHandle(int(timer_period_ns), is_canceled=not autostart)
+        super().__init__(self.__timer)
         self.callback = callback
         self.callback_group = callback_group
-
-    @property
-    def handle(self) -> Any:
-        return self.__timer
 
     @property
     def clock(self) -> Any:
@@ -105,9 +102,6 @@ class Timer:
     def time_until_next_call(self) -> int | None:
         with self.handle:
             return None if self.__timer.is_canceled else self.__timer.next_ns - get_link().look()
-
-    def destroy(self) -> None:
-        self.__timer.destroy_when_not_in_use()
 
 
 class Rate:
@@ -154,23 +148,17 @@ class GuardHandle(Destroyable):
         self.wake: Any = lambda: None
 
 
-class GuardCondition:
+class GuardCondition(Entity):
     """Has an executor call something, from any thread."""
 
     def __init__(self, callback: Any, callback_group: Any, context: Any = None) -> None:
         self._context = context
         self.__gc = GuardHandle()
+        super().__init__(self.__gc)
         self.callback = callback
         self.callback_group = callback_group
-
-    @property
-    def handle(self) -> Any:
-        return self.__gc
 
     def trigger(self) -> None:
         with self.handle:
             self.__gc.is_waiting = True
             self.__gc.wake()
-
-    def destroy(self) -> None:
-        self.__gc.destroy_when_not_in_use()

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import inspect
 from collections import deque
-from collections.abc import Callable
 from copy import deepcopy
 from typing import Any
 
 from chatrobot.programs.inside import graph
 from chatrobot.programs.inside.link import get_link
-from chatrobot.programs.names.errors import Destroyable, RCLError
+from chatrobot.programs.names.errors import Destroyable, Entity, Queue, RCLError
 from chatrobot.programs.names.qos import DurabilityPolicy, QoSProfile
 
 
@@ -31,7 +30,7 @@ class PublisherHandle(Destroyable):
         return list(self.kept) if late and subscription.msg_type is self.msg_type else []
 
 
-class Publisher:
+class Publisher(Entity):
     """Sends to the program's own subscriptions, and to the robot where its topic is the robot's."""
 
     def __init__(
@@ -43,13 +42,14 @@ class Publisher:
         event_callbacks: Any,
         callback_group: Any,
     ) -> None:
+        super().__init__(publisher_impl)
         self.__publisher = publisher_impl
         self.msg_type = msg_type
         self.topic = topic
         self.qos_profile = qos_profile
         self.event_handlers: list[Any] = []
         publisher_impl.kept = deque(maxlen=max(1, qos_profile.depth))
-        graph.add_publisher(publisher_impl)
+        graph.publishers[publisher_impl.name].append(publisher_impl)
         get_link().send("topic", "publishes", publisher_impl.name, msg_type._type_name)
 
     def publish(self, msg: Any) -> None:
@@ -72,16 +72,12 @@ class Publisher:
         """The robot listens to its own topic."""
         with self.handle:
             get_link().look()
-            return graph.count_subscriptions(self.__publisher.name) + (self.__publisher.send is not None)
+            return len(graph.subscriptions[self.__publisher.name]) + (self.__publisher.send is not None)
 
     @property
     def topic_name(self) -> str:
         with self.handle:
             return self.__publisher.name
-
-    @property
-    def handle(self) -> Any:
-        return self.__publisher
 
     def assert_liveliness(self) -> None:
         """It lives."""
@@ -92,29 +88,20 @@ class Publisher:
     def destroy(self) -> None:
         if not self.__publisher.is_destroyed:
             self.__publisher.destroy_when_not_in_use()
-            graph.remove_publisher(self.__publisher)
+            graph.publishers[self.__publisher.name].remove(self.__publisher)
 
 
 class MessageInfo(dict[str, Any]):
     """What a callback with two arguments gets besides the message."""
 
 
-class SubscriptionHandle(Destroyable):
-    """What comes in on `name`, until an executor takes it: the last messages, as many as the depth."""
+class SubscriptionHandle(Queue):
+    """What comes in on `name`: the last messages, as many as the depth."""
 
-    def __init__(self, wake: Callable[[], None], name: str) -> None:
-        super().__init__()
-        self.wake = wake
-        self.name = name
-        self.queue: deque[Any] = deque()
-        self.sensor = ""
-
-    @property
-    def is_waiting(self) -> bool:
-        return bool(self.queue)
+    sensor = ""
 
 
-class Subscription:
+class Subscription(Entity):
     """Calls back with what the program or the robot's sensors say."""
 
     def __init__(
@@ -128,6 +115,7 @@ class Subscription:
         raw: bool,
         event_callbacks: Any,
     ) -> None:
+        super().__init__(subscription_impl)
         self.__subscription = impl = subscription_impl
         self.msg_type = msg_type
         self.topic = topic
@@ -149,8 +137,7 @@ class Subscription:
         self._receive(self.__convert(values))
 
     def _receive(self, message: Any) -> None:
-        self.__subscription.queue.append(message)
-        self.__subscription.wake()
+        self.__subscription.put(message)
 
     def _take(self) -> tuple[Any, ...]:
         message = self.__subscription.queue.popleft()
@@ -159,16 +146,12 @@ class Subscription:
     def get_publisher_count(self) -> int:
         with self.handle:
             get_link().look()
-            return graph.count_publishers(self.__subscription.name) + bool(self.__subscription.sensor)
+            return len(graph.publishers[self.__subscription.name]) + bool(self.__subscription.sensor)
 
     @property
     def topic_name(self) -> str:
         with self.handle:
             return self.__subscription.name
-
-    @property
-    def handle(self) -> Any:
-        return self.__subscription
 
     @property
     def callback(self) -> Any:
@@ -183,7 +166,7 @@ class Subscription:
         impl = self.__subscription
         if not impl.is_destroyed:
             impl.destroy_when_not_in_use()
-            graph.remove_subscription(self)
+            graph.subscriptions[impl.name].remove(self)
             if impl.sensor:
                 get_link().unlisten(impl.sensor, self.__hear)
 
