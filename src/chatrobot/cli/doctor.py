@@ -173,12 +173,9 @@ def _found(address: str, args: argparse.Namespace, *, is_near: bool) -> str:
         time.sleep(0.05)
         robots = publishers_of(wire, wiring.odom_topic) if wiring.odom_topic else []
     drivers = publishers_of(wire, wiring.cmd_vel_topic)
-    survey = wire.survey() if isinstance(wire, Surveying) and not robots else None
-    told = (
-        why_unheard(wiring, survey, wire.resolve)
-        if isinstance(wire, Surveying) and survey is not None
-        else None
-    )
+    told = None
+    if isinstance(wire, Surveying) and not robots:
+        told = why_unheard(wiring, wire.survey(), wire.resolve)
     wire.close()
     reach = f"on domain {os.environ.get('ROS_DOMAIN_ID', '').strip() or '0'}, "
     reach += "this machine" if is_near else "the whole network"
