@@ -153,7 +153,7 @@ class _Way:
         self._driven_m = 0.0
 
     def start(self, pose: Pose) -> None:
-        """The robot begins to move there."""
+        """Begin to measure there, where the robot begins to move."""
         self._last, self._start_yaw_rad, self._driven_m = pose, pose.yaw_rad, 0.0
 
     def advance(self, pose: Pose) -> bool:
@@ -165,7 +165,7 @@ class _Way:
         return math.floor(self._driven_m) > math.floor(before_m)
 
     def text(self, fraction: float | None) -> str:
-        """How far, and which turn; of how much, and the share, where the whole is known."""
+        """Say how far, and which turn; of how much, and the share, where the whole is known."""
         turned_deg = math.degrees(self._last.yaw_rad - self._start_yaw_rad) if self._last is not None else 0.0
         rounded = fixed(turned_deg, 0)
         turned = f"{'+' if float(rounded) > 0 else ''}{rounded}°"

@@ -34,7 +34,9 @@ def run(args: argparse.Namespace) -> int:
         WireError: nobody answers on that wire.
     """
     if args.fast or args.trace or args.sim:
-        raise UsageError("a node drives a robot on a wire", allowed="leave out --fast, --trace and --sim")
+        raise UsageError(
+            "--fast, --trace and --sim are for the simulated robot, not for nodes", allowed="leave them out"
+        )
     wake_promptly()  # before there are threads, which take after this one
     args.on = wire_address("dds" if args.on == "auto" else args.on)
     args.approval = "all" if args.approve else "none" if args.yes else "profile"

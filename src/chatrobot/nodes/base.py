@@ -114,7 +114,7 @@ class BaseNode:
         self._operators = Operators(lambda: self._session.is_idle, self._lose_operator)
 
     def run(self, is_leaving: Callable[[], bool], on_ready: Callable[[], None]) -> None:
-        """Until `is_leaving`; `on_ready` is called once it listens. Understands and pumps in the calling thread.
+        """Run until `is_leaving`; `on_ready` is called once it listens. Understands and pumps in the calling thread.
 
         Raises:
             LinkError: the wire is gone.
@@ -138,7 +138,7 @@ class BaseNode:
         self._wire.close()
 
     def resolved(self, topic: str) -> str:
-        """The name of that topic on the wire."""
+        """Return the name of that topic on the wire."""
         return resolved(self._wire, topic)
 
     def stop(self, why: str) -> None:
@@ -254,5 +254,5 @@ class BaseNode:
 
 
 def _bare_stops(language: str) -> tuple[str, ...]:
-    """What is said of a stop that tells no more than that it came."""
+    """List what is said of a stop that tells no more than that it came."""
     return tuple(say(language, code) for code in ("stopped_now", "stopped_now_unmeasured"))

@@ -82,7 +82,7 @@ class ControlNode:
         self._runner.wire.subscribe(CHATGPT_NODE, Text, self._hear)
 
     def run(self, is_leaving: Callable[[], bool]) -> None:
-        """Until `is_leaving`, and then until the robot stands or is gone; where time stands still not for ever."""
+        """Run until `is_leaving`, and then until the robot stands or is gone; where time stands still not for ever."""
         leaving_since_s: float | None = None
 
         def has_left() -> bool:
@@ -98,7 +98,7 @@ class ControlNode:
         self._runner.run(has_left, self._each_tick)
 
     def resolved(self, topic: str) -> str:
-        """The name of that topic on the wire."""
+        """Return the name of that topic on the wire."""
         return resolved(self._runner.wire, topic)
 
     @property
@@ -107,7 +107,7 @@ class ControlNode:
         return self.resolved(self._runner.profile.wiring.cmd_vel_topic)
 
     def stop(self, why: str) -> None:
-        """Zero, now, from any thread."""
+        """Stop the robot now, from any thread."""
         self._runner.halt("control", why)
 
     def introduce(self, ros_interfaces: RosInterfaces) -> None:

@@ -85,7 +85,7 @@ class MotionView:
             self.is_measured = False
 
     def _grow(self, event: Streamed) -> None:
-        """A plan that comes in step by step."""
+        """Take in a step of a plan that comes step by step."""
         goes_on = event.turn == self._streamed
         self.plan_text = f"{self.plan_text}\n{event.plan_text}" if goes_on else event.plan_text
         self._streamed, self.program = event.turn, None

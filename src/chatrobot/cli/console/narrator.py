@@ -61,7 +61,7 @@ class Narrator:
         self._programs: set[int] = set()
 
     def tell(self, event: Event) -> Iterator[RenderableType]:
-        """The lines to print for `event`; none for most."""
+        """Give the lines to print for `event`; none for most."""
         match event:
             case Streamed():
                 return self._streamed_step(event)
@@ -92,7 +92,7 @@ class Narrator:
     def plan(
         self, plan_text: str, rehearsed: Rehearsed | None, limit: int | None = None
     ) -> Iterator[RenderableType]:
-        """A plan's numbered lines under its predicted length and duration, and what rehearsal found."""
+        """Give a plan's numbered lines under its predicted length and duration, and what rehearsal found."""
         head = Text("  ").append(self._words.say("plan"), "bold")
         if rehearsed is not None and rehearsed.ok:
             facts = self._words.say(
@@ -117,7 +117,7 @@ class Narrator:
                 yield self.finding(finding)
 
     def finding(self, finding: FindingSeen) -> RenderableType:
-        """One thing that rehearsal found, in words."""
+        """Put one thing that rehearsal found into words."""
         mark, style = _FINDINGS[finding.severity]
         return marked(mark, style, render_reason(finding.reason, self._words.language))
 
@@ -146,7 +146,7 @@ class Narrator:
             yield from self._findings(event)
 
     def _streamed_step(self, event: Streamed) -> Iterator[RenderableType]:
-        """A step of a plan that is still coming in."""
+        """Give a step of a plan that is still coming in."""
         if event.turn not in self._streamed:
             yield Text("  ").append(self._words.say("plan"), "bold")
         for line in shown_plan(event.plan_text).splitlines():
@@ -208,7 +208,7 @@ _VERB = re.compile(r"^ *(?:\d+ × \(?)*([a-z_]+)")
 
 
 def _plan_line(line: str) -> Text:
-    """The first verb in bold, so that a plan reads at a glance."""
+    """Put the first verb in bold, so that a plan reads at a glance."""
     text = Text(line)
     if verb := _VERB.match(line):
         text.stylize("bold cyan", *verb.span(1))

@@ -21,7 +21,7 @@ _REPORTED_EVERY_S = 0.2
 
 
 def run(args: argparse.Namespace) -> int:
-    """0 where the files are valid, whatever the verdicts.
+    """Return 0 where the files are valid, whatever the verdicts.
 
     Raises:
         CorpusError: a file is not.
@@ -85,7 +85,7 @@ class _Progress:
 
 
 def item_json(judged: Judged) -> dict[str, Any]:
-    """One item as an object of one `--json` line."""
+    """Put one item as an object of one `--json` line."""
     measured = judged.measured
     return {
         "event": "item",
@@ -109,7 +109,7 @@ def item_json(judged: Judged) -> dict[str, Any]:
 
 
 def totals_json(all_judged: Sequence[Judged]) -> dict[str, Any]:
-    """The last `--json` line: counts per category and in total."""
+    """Put counts per category and in total as the last `--json` line."""
     return {
         "event": "total",
         **_counts_json(_count(all_judged)),

@@ -127,7 +127,7 @@ class _Reader:
         fields = self._mapping(data, "an item", _ITEM_KEYS)
         name = fields.get("id")
         if not isinstance(name, str) or not name.strip():
-            raise self._error("id is missing or no text", "such as en-0001")
+            raise self._error("id is missing or is not text", "such as en-0001")
         self._where = f"{self._path}: {name}"
         if fields.get("category") not in CATEGORIES:
             raise self._error(f"category is {fields.get('category')!r}", ", ".join(CATEGORIES))
@@ -176,7 +176,7 @@ class _Reader:
         fields = self._mapping(data, "a turn", ("say", "expect")) if isinstance(data, dict) else {"say": data}
         say = fields.get("say")
         if not isinstance(say, str):
-            raise self._error(f"{say!r} is no text", "put it in quotes")
+            raise self._error(f"{say!r} is not text", "put it in quotes")
         return Turn(say, self._expect(fields["expect"]) if "expect" in fields else None)
 
     def _expect(self, data: Any) -> Expect:

@@ -49,7 +49,7 @@ class Judged:
 
 
 def run_items(items: list[Item], setup: Setup) -> Iterator[Judged]:
-    """Each item as it is done. `setup` says which robot and interpreter; its folder is not touched."""
+    """Run each item, and give it as it is done. `setup` says which robot and interpreter; its folder is not touched."""
     profile = setup.profile
     for item in items:
         judged = _run_item(item, setup, profile)
@@ -73,7 +73,7 @@ class _Listener:
             self.plans.append(event.plan_text)
 
     def take(self) -> list[Sample]:
-        """The poses since the last call, beginning with the last one before."""
+        """Return the poses since the last call, beginning with the last one before."""
         taken, self.trace = self.trace, self.trace[-1:]
         return taken
 
@@ -100,8 +100,5 @@ def _run_item(item: Item, setup: Setup, profile: RobotProfile, *, agrees: bool =
 
 
 def proposed_plan(result: Result) -> str:
-    """The plan text that a result proposes; an empty string where it proposes none."""
-    proposal = getattr(result, "proposal", None)
-    if isinstance(proposal, dict):
-        return str(proposal.get("plan_text", ""))
-    return str(getattr(proposal, "plan_text", ""))
+    """Return the plan text that a result proposes; an empty string where it proposes none."""
+    return result.proposal.plan_text if result.proposal is not None else ""
