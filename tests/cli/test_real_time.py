@@ -69,7 +69,7 @@ def test_chatrobot_stop_stops_what_runs_elsewhere(chatrobot: Command) -> None:
         moving(robot)
         done = chatrobot.apart("stop")
         assert done.code == 0
-        assert "stopped: it was moving" in done.out
+        assert "Stopped. It was moving" in done.out
         assert robot.event("result")["outcome"] == "stopped"
         assert robot.end() == 5
 
