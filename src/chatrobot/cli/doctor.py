@@ -212,7 +212,7 @@ def _model(args: argparse.Namespace) -> Check:
 
 _MORE = {
     "landlock": "Landlock: Linux 5.13 or later with lsm=landlock among the kernel's boot options",
-    "own user": "a user of its own: start chatrobot as an ordinary user, or in a container that has more users than root",
+    "own user": "a user of its own: start it as an ordinary user, or in a container that has more users than root",
     "namespaces": "namespaces: install bubblewrap, or allow user namespaces (in a container: its seccomp profile)",
 }
 """How to get the walls that do not stand here."""

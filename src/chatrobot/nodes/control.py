@@ -89,6 +89,7 @@ class ControlNode:
             nonlocal leaving_since_s
             if not is_leaving():
                 return False
+            self._is_leaving = True  # it takes no more plans
             now_s = time.monotonic()
             leaving_since_s = now_s if leaving_since_s is None else leaving_since_s
             if not self._runner.motion.is_busy or self._runner.robot_has_left:
@@ -108,7 +109,8 @@ class ControlNode:
 
     def stop(self, why: str) -> None:
         """Stop the robot now, from any thread."""
-        self._runner.halt("control", why)
+        with contextlib.suppress(WireError):
+            self._runner.halt("control", why)
 
     def introduce(self, ros_interfaces: RosInterfaces) -> None:
         """Offer to ROS what a node of it offers."""
@@ -117,10 +119,6 @@ class ControlNode:
         if self._may_release:
             ros_interfaces.serve("~/release", self._serve_release)
         ros_interfaces.diagnose(self._profile, self._diagnose)
-
-    def leave(self) -> None:
-        """Take no more plans. From any thread."""
-        self._is_leaving = True
 
     # --- the wire's thread ---
 
