@@ -124,7 +124,7 @@ class Prepared:
         )
 
     def _authoring(self) -> Authoring | None:
-        """Who writes programs and keeps them; None where requests for them are driven as plans."""
+        """Make what writes programs and keeps them; None where requests for them are driven as plans."""
         setup = self.setup
         if not setup.programs:
             return None
@@ -140,7 +140,7 @@ class Prepared:
         )
 
     def _model_setup(self) -> ModelSetup | None:
-        """The model and how it drives this robot.
+        """Return the model and how it drives this robot.
 
         Its steps run as they come where the profile allows that; on a base that steers like a car a plan comes whole,
         because corners can be rounded only where both legs are known.
@@ -182,12 +182,12 @@ def connect(setup: Setup, on_event: OnEvent) -> Connection:
 
 
 def default_world(on: str, *, open_loop: bool = False) -> str:
-    """What is known of the surroundings where nobody says: of a robot that is not ours, or lost in them, nothing."""
+    """Return the world where nobody chose one: of a robot that is not ours, or lost in it, nothing is known."""
     return "home" if on in SIMULATED and not open_loop else "empty"
 
 
 def _camera(setup: Setup, profile: RobotProfile) -> Camera | None:
-    """What was passed goes before what the robot has; the simulated robot has none."""
+    """Return the camera that was passed, else the robot's; the simulated robot has none."""
     if setup.camera is not None:
         return PassedCamera(setup.camera)
     return None if setup.on in SIMULATED else wire_camera(wire_address(setup.on), profile.wiring)
@@ -201,7 +201,7 @@ def explain_server_held(model: Model | None, language: LanguageCode) -> str:
 
 
 def profile_dirs(folder: Path | None) -> tuple[Path, ...]:
-    """Where a person's own robot profiles live."""
+    """Return where a person's own robot profiles live."""
     return (folder / "robots",) if folder is not None else ()
 
 

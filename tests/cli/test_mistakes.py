@@ -25,7 +25,7 @@ from chatrobot.core.errors import UsageError
         (["do", "hi", "--rounds", "1.5"], "'1.5' is not a whole number"),
         (["fake-model", "x.yaml", "--port", "99999"], "0 to 65535"),
         (["model", "key"], "the key of which provider?"),
-        (["program", "run", "no-such.py"], "no-such.py: it cannot be read"),
+        (["program", "run", "no-such.py"], "no-such.py: cannot be read"),
     ],
 )
 def test_wrong_usage_is_told(

@@ -8,8 +8,8 @@ from pathlib import Path
 import pexpect
 import pytest
 
-from chatrobot.cli.eval.command import run_items
 from chatrobot.cli.eval.corpus import Expect, Item, Meant, Turn, load_corpus
+from chatrobot.cli.eval.run import run_items
 from chatrobot.compose import Setup
 from chatrobot.plan.text import parse_plan
 from tests.cli.running import PATIENCE_S, Command, chatrobot, environment
@@ -113,7 +113,7 @@ def test_of_what_must_stand_it_is_told_how_much_moved(chatrobot: Command, tmp_pa
 def test_what_was_asked_back_is_driven_as_a_yes_would(monkeypatch: pytest.MonkeyPatch) -> None:
     item = Item("a-1", "metric", (Turn("florble the wug"),), meant=Meant((parse_plan("drive 1 m"),)))
     for proposal, is_right in (("drive 1 m", True), ("drive 2 m", False)):
-        monkeypatch.setattr("chatrobot.cli.eval.command.proposed_plan", lambda _, text=proposal: text)
+        monkeypatch.setattr("chatrobot.cli.eval.run.proposed_plan", lambda _, text=proposal: text)
         (judged,) = run_items([item], Setup(world="empty"))
         assert judged.verdict.kind == "abstained"
         assert judged.was_proposed is is_right

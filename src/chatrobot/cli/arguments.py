@@ -92,7 +92,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     _check_ros_args(parsed)
     if program_args and (parsed.command, getattr(parsed, "action", "")) != ("program", "run"):
         raise UsageError(
-            "only a program that is run takes arguments behind --", allowed="chatrobot program run …"
+            "only a program that is run takes arguments after --", allowed="chatrobot program run …"
         )
     parsed.names_robot = hasattr(parsed, "robot")
     if not parsed.names_robot and getattr(parsed, "open_loop", False):
@@ -124,7 +124,7 @@ def _check_ros_args(parsed: argparse.Namespace) -> None:
 
 
 def _expect_words(texts: Sequence[str], command: str) -> None:
-    """An empty text would be asked of a language model.
+    """Refuse an empty text, which would be asked of a language model.
 
     Raises:
         UsageError: one of them has nothing in it that could be read.
@@ -162,7 +162,7 @@ def split_ros_args(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
 
 
 def _split_program_args(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
-    """The arguments before the first `--`, and those behind it, which `program` hands on to a program."""
+    """Return the arguments before the first `--`, and those behind it, which `program` hands on to a program."""
     if "--" not in arguments or _first_word(arguments) != "program":
         return list(arguments), []
     at = list(arguments).index("--")
@@ -170,7 +170,7 @@ def _split_program_args(arguments: Sequence[str]) -> tuple[list[str], list[str]]
 
 
 def _first_word(arguments: Sequence[str]) -> str | None:
-    """The first argument that is neither an option nor the value of one."""
+    """Return the first argument that is neither an option nor the value of one."""
     takes_value = {option.flag for option in OPTIONS if option.takes_value}
     rest = iter(arguments)
     for argument in rest:

@@ -47,9 +47,11 @@ _SKIP = ("skip", "跳过")
 
 
 def run(args: argparse.Namespace) -> int:
-    """0 where a correction was saved, taken back or not needed, 1 where robot or measure is not right, 5 for a stop."""
+    """Return 0 for a correction saved, taken back or not needed, 1 for a wrong robot or measure, 5 for a stop."""
     if args.json:
-        raise UsageError("a person has to measure", where="--json", allowed="calibrate without it")
+        raise UsageError(
+            "calibrate asks a person to measure", where="--json", allowed="calibrate without --json"
+        )
     folders = profile_folders(args)
     profile = load_profile(args.robot, folders)
     if args.reset:
@@ -104,12 +106,12 @@ class Truth:
         del self._poses[:-1]
 
     def gone_m(self) -> float:
-        """How far it is from where the measuring began."""
+        """Return how far it is from where the measuring began."""
         first, last = self._poses[0], self._poses[-1]
         return math.hypot(last.x_m - first.x_m, last.y_m - first.y_m)
 
     def turned_deg(self) -> float:
-        """How far it has turned since then, whole turns included."""
+        """Return how far it has turned since then, whole turns included."""
         steps = (wrap_angle(after.yaw_rad - before.yaw_rad) for before, after in pairwise(self._poses))
         return math.degrees(abs(sum(steps)))
 
@@ -143,7 +145,7 @@ class Dialogue:
         print(self._phrases[code].format(**values), flush=True)
 
     def ask(self, code: str, **values: object) -> str:
-        """The answer, in lower case.
+        """Return the answer, in lower case.
 
         Raises:
             Left: there will be none.
@@ -234,5 +236,5 @@ def _reset(profile: RobotProfile, robot: str, folder: Path) -> int:
 
 
 def _phrases() -> Mapping[str, str]:
-    """In the language of the terminal: nobody has said anything yet."""
+    """Load the phrases in the language of the terminal: nobody has said anything yet."""
     return load_table(language_of_environment(), "calibrate")

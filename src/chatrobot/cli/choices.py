@@ -29,7 +29,7 @@ def setup_from(
     named_model: bool = False,
     programs: bool = False,
 ) -> Setup:
-    """What a person chose. `world` is the one where nothing is said; "" for the one that fits the robot.
+    """Gather what a person chose. `world` is the one where nothing is said; "" for the one that fits the robot.
 
     Args:
         named_model: only a model that is named on this very command line counts.
@@ -89,7 +89,7 @@ def model_from(args: argparse.Namespace, *, named: bool = False) -> Model | None
 
 
 def _source_of_model(args: argparse.Namespace) -> str:
-    """Where the name of the model comes from."""
+    """Say where the name of the model comes from."""
     from chatrobot.models.config import ModelConfig, resolve
 
     choice = resolve(args.model, ModelConfig(config_folder(args)))

@@ -48,7 +48,7 @@ def print_words(words: Sequence[str]) -> int:
 
 
 def offers_for(words: Sequence[str]) -> list[Offer]:
-    """What the last of `words` may become; those before it are the command line up to there."""
+    """List what the last of `words` may become; those before it are the command line up to there."""
     *before, current = words or [""]
     line = _Line(commands_parser())
     for word in before:
@@ -81,7 +81,7 @@ class _Line:
         self._arguments = [action for action in parser._actions if not action.option_strings]
 
     def take(self, word: str) -> None:
-        """A word that stands before the cursor."""
+        """Take in a word that stands before the cursor."""
         if self._is_behind_dashes or word == _DASHES:
             self._is_behind_dashes = True
         elif word == "=":
@@ -112,7 +112,7 @@ class _Line:
                 yield Offer(max(action.option_strings, key=len), action.help or "")
 
     def offers(self) -> Iterator[Offer]:
-        """What the option or the argument at the cursor may be."""
+        """List what the option or the argument at the cursor may be."""
         if self._is_behind_dashes:
             yield FILES
         elif self._waits is not None:

@@ -33,7 +33,7 @@ class Check:
 
 
 def run(args: argparse.Namespace) -> int:
-    """0 where the simulated robot works, 1 where something has to be mended."""
+    """Return 0 where the simulated robot works, 1 where something has to be mended."""
     checks: list[Check] = []
     for check in _checks(args):
         if args.json:
@@ -47,7 +47,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _told_once(check: Check, before: Sequence[Check]) -> str:
-    """What was found; where it is what an earlier check has found, which."""
+    """Say what was found; where it is what an earlier check has found, which."""
     same = next((each.name for each in before if each.text == check.text), "")
     return f"as above: {same}" if same else check.text
 
@@ -94,7 +94,7 @@ def _profile(args: argparse.Namespace) -> str:
 
 
 def _setup(args: argparse.Namespace, *, fast: bool) -> Setup:
-    """The simulated robot in an empty world."""
+    """Return the simulated robot in an empty world."""
     from chatrobot.compose import Setup
     from chatrobot.robots.load import profile_argument
 
@@ -127,7 +127,7 @@ def _in_real_time(args: argparse.Namespace) -> str:
 
 
 def _ros(args: argparse.Namespace) -> Check:
-    """What is sourced here, and who is there in a moment's listening."""
+    """Look what is sourced here, and who is there in a moment's listening."""
     from importlib.util import find_spec
 
     from chatrobot.wire.discovery import ros_reaches_this_machine_alone
@@ -136,7 +136,9 @@ def _ros(args: argparse.Namespace) -> Check:
     distribution = os.environ.get("ROS_DISTRO", "")
     if find_spec("rclpy") is None:
         here = (
-            f"{distribution} is sourced, but not for this Python" if distribution else "not here, nor needed"
+            f"{distribution} is sourced, but not for this Python"
+            if distribution
+            else "not installed, and not needed for the simulated robot"
         )
         return Check("ROS 2", "later", f"{here}; for --on ros {HOW_TO_GET_IT}")
     try:
@@ -150,7 +152,7 @@ def _ros(args: argparse.Namespace) -> Check:
 
 
 def _dds(args: argparse.Namespace) -> Check:
-    """Who is there in a moment's listening."""
+    """Look who is there in a moment's listening."""
     from chatrobot.wire.connect import is_on_this_machine
 
     try:
@@ -178,13 +180,13 @@ def _found(address: str, args: argparse.Namespace, *, is_near: bool) -> str:
     wire.close()
     reach = f"on domain {os.environ.get('ROS_DOMAIN_ID', '').strip() or '0'}, "
     reach += "this machine" if is_near else "the whole network"
-    text = f"{reach}, {', '.join(robots) or 'nobody'} tells {wiring.odom_topic or 'odometry'}"
-    text += f"; {', '.join(drivers)} sends {wiring.cmd_vel_topic}" if drivers else ""
+    text = f"{reach}, {', '.join(robots) or 'nobody'} publishes {wiring.odom_topic or 'odometry'}"
+    text += f"; {', '.join(drivers)} publishes {wiring.cmd_vel_topic}" if drivers else ""
     return f"{text}. {render_reason(told, 'en')}" if told is not None else text
 
 
 def _model(args: argparse.Namespace) -> Check:
-    """What would be asked; it is not asked, that may cost: `chatrobot model test` does."""
+    """Name the model that would be asked; to ask it may cost: `chatrobot model test` does."""
     from chatrobot.language.phrases import render_reason
     from chatrobot.models.config import ModelConfig, resolve
     from chatrobot.models.make import problem_with
@@ -208,8 +210,8 @@ def _model(args: argparse.Namespace) -> Check:
 
 _MORE = {
     "landlock": "Landlock: Linux 5.13 or later with lsm=landlock among the kernel's boot options",
-    "own user": "an own user: start it as an ordinary user, or in a container that has more users than root",
-    "namespaces": "an empty world: install bubblewrap, or allow user namespaces (in a container: its seccomp profile)",
+    "own user": "a user of its own: start it as an ordinary user, or in a container that has more users than root",
+    "namespaces": "namespaces: install bubblewrap, or allow user namespaces (in a container: its seccomp profile)",
 }
 """How to get the walls that do not stand here."""
 
@@ -221,10 +223,10 @@ def _box() -> Check:
     report = probe()
     if report.refusal is not None:
         missing = report.problems.get("seccomp") or str(dict(report.refusal.values))
-        return Check("box for programs", "missing", f"none, so programs are refused: {missing}")
+        return Check("sandbox", "missing", f"none, so programs are refused: {missing}")
     walls = ", ".join(("filter", "limits", *(each for each in report.standing if each != "seccomp")))
     wanting = [each for each in _MORE if each not in report.standing]
     if "bubblewrap" in report.standing:
         wanting.remove("namespaces")
     more = "".join(f"; more with {_MORE[each]}" for each in wanting)
-    return Check("box for programs", "ok", f"{report.level}: {walls}{more}")
+    return Check("sandbox", "ok", f"{report.level}: {walls}{more}")

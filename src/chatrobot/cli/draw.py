@@ -76,11 +76,11 @@ class _Picture:
         return self.canvas
 
     def _at(self, x_m: float, y_m: float) -> XY:
-        """A point in the frame of the start."""
+        """Place a point in the frame of the start."""
         return self._on_grid(*self._orientation.point(x_m, y_m))
 
     def _on_grid(self, right_m: float, up_m: float) -> XY:
-        """A point so far from the start along the axes of the picture."""
+        """Place a point so far from the start along the axes of the picture."""
         return (
             self._off_x + (right_m - self._extent.min_x_m) * self._px_per_m,
             self._off_y + (self._extent.max_y_m - up_m) * self._px_per_m,
@@ -228,7 +228,7 @@ class _Picture:
         self.canvas.text((LEFT_PX + self._map_w, 54), f"{profile.title} {where}", FAINT, 13, "ra")
 
     def _fitting(self, title: str) -> str:
-        """The title, cut where the picture ends; "plan" where no font has its letters."""
+        """Cut the title where the picture ends; "plan" where no font has its letters."""
         shown = " ".join(title.split())
         if not shown or font_for(shown, TITLE_SIZE_PX) is None:
             return "plan"

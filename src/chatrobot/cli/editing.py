@@ -16,7 +16,7 @@ _OTHERWISE = "vi"
 
 
 def edited_text(text: str, suffix: str) -> str:
-    """`text` as the person leaves it.
+    """Return `text` as the person leaves it.
 
     Raises:
         UsageError: there is no such editor, it failed, or what it left is no text.
@@ -33,7 +33,7 @@ def edited_text(text: str, suffix: str) -> str:
         except OSError as error:
             raise _unusable(f"cannot be used: {error.strerror}", command) from error
         except UnicodeDecodeError as error:
-            raise _unusable("left no text in UTF-8", command) from error
+            raise _unusable("left a file that is not UTF-8 text", command) from error
     if code != 0:
         raise _unusable(f"ended with exit code {code}, so nothing was changed", command)
     return edited
@@ -60,9 +60,13 @@ UNREADABLE = "edit_unreadable"
 class TakesEdits(Protocol):
     """A `Session`, as far as an edit needs it."""
 
-    def say_edited_plan(self, plan_text: str, instead_of: str = "") -> int: ...
+    def say_edited_plan(self, plan_text: str, instead_of: str = "") -> int:
+        """Take in what a person made of a plan."""
+        ...
 
-    def say_source(self, name: str, source: str) -> int: ...
+    def say_source(self, name: str, source: str) -> int:
+        """Take in what a person made of a program."""
+        ...
 
 
 class Edited:
@@ -74,7 +78,7 @@ class Edited:
         self._turn = 0
 
     def begin(self, plan_text: str, program: ProgramWritten | None) -> str:
-        """The text to be edited: that plan, or that program, or what was made of it before and could not be read."""
+        """Return the text to be edited: the plan, the program, or what was made of it before and could not be read."""
         self._program = program
         self._before = program.source if program is not None else plan_text
         text, self._unreadable = self._unreadable or self._before, ""
@@ -82,6 +86,7 @@ class Edited:
 
     @property
     def is_program(self) -> bool:
+        """A program is edited, and no plan."""
         return self._program is not None
 
     def say(self, session: TakesEdits, text: str) -> int:
@@ -94,6 +99,7 @@ class Edited:
         return self._turn
 
     def hear(self, event: Event) -> None:
+        """Take an event in."""
         if isinstance(event, Notice) and event.reason.code == UNREADABLE:
             self._unreadable = self._typed
         elif isinstance(event, (Started, Finished)) and event.turn == self._turn:

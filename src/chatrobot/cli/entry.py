@@ -39,7 +39,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _mend_streams() -> None:
-    """A stream that was closed (`>&-`) becomes empty, before a socket gets its number; no locale is an error."""
+    """Open a stream that was closed (`>&-`) as empty, before a socket gets its number; no locale is an error."""
     for number, (name, mode) in enumerate((("stdin", "r"), ("stdout", "w"), ("stderr", "w"))):
         if getattr(sys, name) is None:
             os.open(os.devnull, os.O_RDWR)  # takes the lowest number that is free: this one

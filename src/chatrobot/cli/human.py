@@ -5,23 +5,8 @@ from __future__ import annotations
 import math
 
 from chatrobot.cli.json_lines import Output
-from chatrobot.core.events import (
-    Event,
-    Interpreted,
-    Limited,
-    Notice,
-    ProgramLog,
-    ProgramRehearsed,
-    ProgramWritten,
-    Progress,
-    Rehearsed,
-    Remembered,
-    Result,
-    Said,
-    Started,
-    Streamed,
-    TruePose,
-)
+from chatrobot.core import events
+from chatrobot.core.events import Event
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.shown import fixed
 from chatrobot.language.interpretation import LanguageCode
@@ -53,25 +38,25 @@ class HumanPrinter:
     def show(self, event: Event, language: LanguageCode) -> None:
         """Show an event, in the language of the question."""
         match event:
-            case Streamed():
+            case events.Streamed():
                 if self._streamed != event.turn:
                     self._streamed, self._way = event.turn, _Way()
                 self._show_plan(event.plan_text)
-            case Interpreted():
+            case events.Interpreted():
                 self._show_interpreted(event)
-            case Rehearsed():
+            case events.Rehearsed():
                 self._show_rehearsed(event, language)
-            case Started():
+            case events.Started():
                 self._way.start(event.pose)
-            case Progress():
+            case events.Progress():
                 self._show_progress(event)
-            case ProgramWritten() | ProgramRehearsed():
+            case events.ProgramWritten() | events.ProgramRehearsed():
                 self._show_program(event, language)
             case _:
                 if line := _line_of(event, language):
                     self._line(line)
 
-    def _show_interpreted(self, event: Interpreted) -> None:
+    def _show_interpreted(self, event: events.Interpreted) -> None:
         if not event.plan_text or event.turn == self._streamed:
             return  # the reply comes again with the result, and a plan that streamed in is there already
         if event.reply:
@@ -82,7 +67,7 @@ class HumanPrinter:
         for line in folded_plan(plan_text):
             self._line(f"    {line.text}")
 
-    def _show_rehearsed(self, event: Rehearsed, language: LanguageCode) -> None:
+    def _show_rehearsed(self, event: events.Rehearsed, language: LanguageCode) -> None:
         if event.turn == self._streamed:
             self._way.planned_m += event.length_m
         else:
@@ -93,7 +78,7 @@ class HumanPrinter:
             if finding.severity != "refuse":  # that one is the reply
                 self._line(f"  {_MARKS[finding.severity]} {render_reason(finding.reason, language)}")
 
-    def _show_progress(self, event: Progress) -> None:
+    def _show_progress(self, event: events.Progress) -> None:
         metres = self._way.advance(event.pose)
         status = f"  {self._way.text(event.fraction)}"
         if self._output.is_terminal:
@@ -102,10 +87,12 @@ class HumanPrinter:
         elif metres:
             self._line(status)
 
-    def _show_program(self, event: ProgramWritten | ProgramRehearsed, language: LanguageCode) -> None:
+    def _show_program(
+        self, event: events.ProgramWritten | events.ProgramRehearsed, language: LanguageCode
+    ) -> None:
         from chatrobot.dialogue.programs.text import body, headline
 
-        if isinstance(event, ProgramWritten):
+        if isinstance(event, events.ProgramWritten):
             lines = [headline(event, language), *body(event, language)]
         else:
             values = {"speed": f"{event.top_speed_mps:.2f}", "rate": f"{event.top_rate_radps:.2f}"}
@@ -123,21 +110,21 @@ class HumanPrinter:
 def _line_of(event: Event, language: LanguageCode) -> str:
     """Put an event into one line; "" for one that people do without."""
     match event:
-        case Result():
+        case events.Result():
             return (
                 f"{event.reply} {say(language, 'yes_or_no')}" if event.proposal is not None else event.reply
             )
-        case Said():
+        case events.Said():
             return f"  “{event.text}”"
-        case Remembered():
+        case events.Remembered():
             return f"  {event.place}: x {fixed(event.pose.x_m, 2)} m, y {fixed(event.pose.y_m, 2)} m"
-        case Limited():
+        case events.Limited():
             return f"  · {_twist(event.asked)} → {_twist(event.sent)}"
-        case Notice():
+        case events.Notice():
             return f"  ! {event.text or render_reason(event.reason, language)}"
-        case ProgramLog():
+        case events.ProgramLog():
             return f"  | {event.text}"
-        case TruePose():
+        case events.TruePose():
             x, y, yaw = fixed(event.x_m, 3), fixed(event.y_m, 3), fixed(math.degrees(event.yaw_rad), 1)
             return f"  {event.t_s:8.2f} s  x {x} m  y {y} m  {yaw}°"
     return ""
@@ -153,7 +140,7 @@ class _Way:
         self._driven_m = 0.0
 
     def start(self, pose: Pose) -> None:
-        """The robot begins to move there."""
+        """Begin to measure there, where the robot begins to move."""
         self._last, self._start_yaw_rad, self._driven_m = pose, pose.yaw_rad, 0.0
 
     def advance(self, pose: Pose) -> bool:
@@ -165,7 +152,7 @@ class _Way:
         return math.floor(self._driven_m) > math.floor(before_m)
 
     def text(self, fraction: float | None) -> str:
-        """How far, and which turn; of how much, and the share, where the whole is known."""
+        """Say how far, and which turn; of how much, and the share, where the whole is known."""
         turned_deg = math.degrees(self._last.yaw_rad - self._start_yaw_rad) if self._last is not None else 0.0
         rounded = fixed(turned_deg, 0)
         turned = f"{'+' if float(rounded) > 0 else ''}{rounded}°"

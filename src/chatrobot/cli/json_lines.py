@@ -25,18 +25,20 @@ class JsonPrinter:
 
     @property
     def is_broken(self) -> bool:
+        """Nobody reads what is written."""
         return self._output.is_broken
 
     def turn(self, text: str) -> None:
         """Nothing: every event carries the number of its turn."""
 
     def show(self, event: Event, language: LanguageCode) -> None:  # noqa: ARG002
+        """Print an event, unless it is for ourselves."""
         if event.name not in _NOT_SHOWN:
             self._output.write(json_line(event.to_json()))
 
 
 def json_line(data: dict[str, Any]) -> str:
-    """One line of strict JSON: a number that is none (a robot may report one) becomes null."""
+    """Write one line of strict JSON: NaN and infinity (a robot may report them) become null."""
     try:
         return json.dumps(data, ensure_ascii=False, allow_nan=False) + "\n"
     except ValueError:
@@ -63,6 +65,7 @@ class Output:
         self._poll.register(STDOUT, 0)
 
     def write(self, text: str) -> None:
+        """Write all of `text`, or note that nobody reads."""
         if self._broken:
             return
         data = memoryview(text.encode("utf-8", errors="replace"))
@@ -81,6 +84,7 @@ class Output:
 
     @property
     def is_terminal(self) -> bool:
+        """A person may look at it."""
         return os.isatty(STDOUT)
 
 
@@ -93,10 +97,12 @@ class Printer(Protocol):
         ...
 
     def turn(self, text: str) -> None:
-        """A turn of a dialogue begins with `text`."""
+        """Show that a turn of a dialogue begins with `text`."""
         ...
 
-    def show(self, event: Event, language: LanguageCode) -> None: ...
+    def show(self, event: Event, language: LanguageCode) -> None:
+        """Show an event, in the language of the question."""
+        ...
 
 
 def printer_for(args: argparse.Namespace) -> Printer:

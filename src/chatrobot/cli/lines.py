@@ -39,7 +39,7 @@ class Joiner:
         return bool(self._held)
 
     def take(self, line: str) -> list[str]:
-        """The texts that are complete with this line."""
+        """Return the texts that are complete with this line."""
         text = line.strip()
         if not text:
             return []
@@ -54,13 +54,13 @@ class Joiner:
         return complete
 
     def let_go(self) -> list[str]:
-        """What was held back for its list, with it."""
+        """Return what was held back for its list, with it."""
         held, self._held = self._held, []
         return ["\n".join(held)] if held else []
 
 
 def texts_in(lines: str) -> list[str]:
-    """The texts of several lines that came at once."""
+    """Return the texts of several lines that came at once."""
     joiner = Joiner()
     texts = [text for line in lines.splitlines() for text in joiner.take(line)]
     return texts + joiner.let_go()
@@ -83,7 +83,7 @@ class LineReader:
         return self._ended.is_set()
 
     def wait(self, timeout_s: float) -> None:
-        """Until the last line has been handed on, or for so long."""
+        """Wait until the last line has been handed on, or for so long."""
         self._ended.wait(timeout_s)
 
     def start(self) -> None:
@@ -117,7 +117,7 @@ class LineReader:
 
 
 def read_chunk() -> bytes:
-    """What is there; nothing at the end, or where a terminal has gone away."""
+    """Read what is there; nothing at the end, or where a terminal has gone away."""
     try:
         return os.read(STDIN, MAX_LINE_BYTES)
     except OSError:

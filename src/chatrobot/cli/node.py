@@ -12,7 +12,7 @@ from chatrobot.cli.entry import STOPPED
 from chatrobot.cli.folders import profile_folders
 from chatrobot.cli.parameters import parameters_in, read_parameters
 from chatrobot.cli.signals import SignalWatch
-from chatrobot.core.errors import UsageError, WireError
+from chatrobot.core.errors import UsageError
 from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.core.scheduling import wake_promptly
 from chatrobot.options import OF_NODES, OPTIONS, PARAMETERS
@@ -36,7 +36,9 @@ def run(args: argparse.Namespace) -> int:
         WireError: nobody answers on that wire.
     """
     if args.fast or args.trace or args.sim:
-        raise UsageError("a node drives a robot on a wire", allowed="leave out --fast, --trace and --sim")
+        raise UsageError(
+            "--fast, --trace and --sim are for the simulated robot, not for nodes", allowed="leave them out"
+        )
     wake_promptly()  # before there are threads, which take after this one
     args.on = wire_address("dds" if args.on == "auto" else args.on)
     args.approval = "all" if args.approve else "none" if args.yes else "profile"
@@ -111,21 +113,12 @@ def _run_control(args: argparse.Namespace, ros_interfaces: RosInterfaces | None,
         connect=connect,
     )
 
-    def stop(why: str) -> None:
-        with contextlib.suppress(WireError):
-            node.stop(why)
-
-    def is_leaving() -> bool:
-        if watch.is_leaving:
-            node.leave()
-        return watch.is_leaving
-
-    with contextlib.closing(log), SignalWatch(stop, repeats_s=REPEATS_S) as watch:
+    with contextlib.closing(log), SignalWatch(node.stop, repeats_s=REPEATS_S) as watch:
         if ros_interfaces is not None:
             node.introduce(ros_interfaces)
         way = f"{node.resolved(CHATGPT_NODE)} → {node.cmd_vel_topic}"
         log("info", f"control drives {args.robot} on {_place(args)}: {way}; Ctrl-C stops and ends")
-        node.run(is_leaving)
+        node.run(lambda: watch.is_leaving)
     return True
 
 

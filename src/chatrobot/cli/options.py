@@ -53,7 +53,7 @@ def add_options(parser: argparse.ArgumentParser, command: str) -> None:
 
 
 def _add(option: Option, group: argparse._ActionsContainer, command: str) -> None:
-    """Good before and after the command: hence no default here, the one would undo the other."""
+    """Add an option, good before and after the command: hence no default here, the one would undo the other."""
     how: dict[str, Any] = {"dest": option.name, "default": argparse.SUPPRESS, "help": argparse.SUPPRESS}
     if command in option.commands:
         how["help"] = option.helps.get(command, option.help)

@@ -13,7 +13,7 @@ _VALUES = {"true": True, "false": False}
 
 
 def read_parameters(given: Sequence[str]) -> dict[str, bool]:
-    """The values of `-p NAME:=VALUE`, by name.
+    """Return the values of `-p NAME:=VALUE`, by name.
 
     Raises:
         UsageError: there is no such parameter, or no such value.
@@ -23,7 +23,7 @@ def read_parameters(given: Sequence[str]) -> dict[str, bool]:
         name, _, value = parameter.partition(":=")
         if name not in values or value.lower() not in _VALUES:
             raise UsageError(
-                f"{parameter!r} is no parameter here without --on ros",
+                f"{parameter!r} is not a parameter here; others need --on ros",
                 where="-p",
                 allowed="generate_code:=True, revChatGPT:=True",
             )
@@ -32,7 +32,7 @@ def read_parameters(given: Sequence[str]) -> dict[str, bool]:
 
 
 def parameters_in(ros_args: Sequence[str]) -> list[str]:
-    """The `NAME:=VALUE` of what stands after `--ros-args`; what is something else comes as it is."""
+    """List the `NAME:=VALUE` of what stands after `--ros-args`; anything else comes as it is."""
     words = iter(ros_args)
     return [next(words, "") if word in ("-p", "--param") else word for word in words]
 
@@ -68,17 +68,17 @@ def _rules(name: str) -> Iterator[str]:
         with Path(name).expanduser().open("rb") as file:
             data = yaml.safe_load(file.read(_MOST_BYTES))
     except OSError as error:
-        raise UsageError(f"it cannot be read ({error.strerror})", where=f"{_OPTION} {name}") from error
+        raise UsageError(f"cannot be read ({error.strerror})", where=f"{_OPTION} {name}") from error
     except (yaml.YAMLError, UnicodeDecodeError, RecursionError) as error:
-        raise UsageError("it is no YAML", where=f"{_OPTION} {name}", allowed=_FORM) from error
+        raise UsageError("not YAML", where=f"{_OPTION} {name}", allowed=_FORM) from error
     if not isinstance(data, dict):
-        raise UsageError("it is no parameter file", where=f"{_OPTION} {name}", allowed=_FORM)
+        raise UsageError("not a ROS parameter file", where=f"{_OPTION} {name}", allowed=_FORM)
     for node, about in data.items():
         values = about.get("ros__parameters") if isinstance(about, dict) else None
         node_name = "" if node == "/**" else str(node).lstrip("/")
         if not isinstance(values, dict) or "/" in node_name or "*" in node_name:
             raise UsageError(
-                f"{node!r} is no node with ros__parameters", where=f"{_OPTION} {name}", allowed=_FORM
+                f"{node!r} is not a node with ros__parameters", where=f"{_OPTION} {name}", allowed=_FORM
             )
         prefix = f"{node_name}:" if node_name else ""
         for parameter, value in _flat(values):

@@ -19,14 +19,14 @@ from chatrobot.plan.text import parse_plan
 
 
 def run(args: argparse.Namespace) -> int:
-    """The exit code of the turn: 0 where the plan could be done.
+    """Return the exit code of the turn: 0 where the plan could be done.
 
     Raises:
         UsageError: `--png` names no PNG file.
     """
     png = Path(args.png) if args.png else None
     if png is not None and png.suffix.lower() != ".png":
-        raise UsageError(f"{args.png!r} is no PNG file", where="--png", allowed="a name that ends in .png")
+        raise UsageError(f"{args.png!r} is not a PNG file", where="--png", allowed="a name that ends in .png")
     printer = printer_for(args)
     rehearsed: list[Rehearsed] = []
 
@@ -63,7 +63,7 @@ MOST_BYTES = 65_536
 
 
 def read_plan_file(name: str) -> str:
-    """The text of the plan in that file.
+    """Return the text of the plan in that file.
 
     Raises:
         UsageError: there is no such file, or a line of it cannot be read; which, and what is allowed there.
@@ -76,11 +76,9 @@ def read_plan_file(name: str) -> str:
     except OSError as error:
         raise UsageError(error.strerror or "cannot be read", where=str(path)) from error
     except UnicodeDecodeError as error:
-        raise UsageError("this is no text", where=str(path), allowed="plan text, one step a line") from error
+        raise UsageError("not a text file", where=str(path), allowed="plan text, one step a line") from error
     if len(content) > MOST_BYTES:
-        raise UsageError(
-            "this is too long for a plan", where=str(path), allowed=f"at most {MOST_BYTES} bytes"
-        )
+        raise UsageError("too long for a plan", where=str(path), allowed=f"at most {MOST_BYTES} bytes")
     try:
         parse_plan(text)
     except PlanTextError as error:

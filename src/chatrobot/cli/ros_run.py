@@ -51,7 +51,7 @@ def simulated_robot() -> int:
 
 
 def _run(*command: str) -> int:
-    """Of two Ctrl-C, which `ros2 launch` sends, the first counts, also while this process starts or ends."""
+    """Run a command. Of two Ctrl-C, which `ros2 launch` sends, the first counts, also while this starts or ends."""
     ours = sys.argv[1 : sys.argv.index("--ros-args")] if "--ros-args" in sys.argv else sys.argv[1:]
     if command[0] == "node" and {"-h", "--help"}.intersection(ours):
         print(_help_of(command[1], Path(sys.argv[0])))

@@ -17,7 +17,7 @@ from chatrobot.core.reason import Reason
 
 
 def run(args: argparse.Namespace) -> int:
-    """The exit code of the last turn."""
+    """Return the exit code of the last turn."""
     setup = setup_from(args, programs=True)
     if sys.stdin.isatty() and not args.json:
         from chatrobot.cli.console.app import run_console

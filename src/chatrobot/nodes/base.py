@@ -12,17 +12,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Literal
 
 from chatrobot.compose import Prepared, Setup, explain_server_held
+from chatrobot.core import events
 from chatrobot.core.errors import LinkError, WireError
-from chatrobot.core.events import (
-    Event,
-    Finished,
-    Interpreted,
-    Notice,
-    ProgramWritten,
-    Rehearsed,
-    Result,
-    Said,
-)
+from chatrobot.core.events import Event
 from chatrobot.dialogue.llm.setup import warm_up
 from chatrobot.dialogue.programs.text import body, headline
 from chatrobot.dialogue.question import Question
@@ -106,7 +98,7 @@ class BaseNode:
         self._operators = Operators(lambda: self._session.is_idle, self._lose_operator)
 
     def run(self, is_leaving: Callable[[], bool], on_ready: Callable[[], None]) -> None:
-        """Until `is_leaving`; `on_ready` is called once it listens. Understands and pumps in the calling thread.
+        """Run until `is_leaving`; `on_ready` is called once it listens. Understands and pumps in the calling thread.
 
         Raises:
             LinkError: the wire is gone.
@@ -130,7 +122,7 @@ class BaseNode:
         self._wire.close()
 
     def resolved(self, topic: str) -> str:
-        """The name of that topic on the wire."""
+        """Return the name of that topic on the wire."""
         return self._wire.resolve(topic)
 
     def stop(self, why: str) -> None:
@@ -210,26 +202,26 @@ class BaseNode:
     def _hear_event(self, event: Event) -> None:
         self._question.hear(event)
         language = self._session.understanding.language
-        if isinstance(event, (Interpreted, ProgramWritten, Result)):
+        if isinstance(event, (events.Interpreted, events.ProgramWritten, events.Result)):
             self._publish(EVENTS, json.dumps(event.to_json(), separators=(",", ":"), ensure_ascii=False))
-        if isinstance(event, Interpreted) and event.plan_text:
+        if isinstance(event, events.Interpreted) and event.plan_text:
             self._say(event.reply)
-        elif isinstance(event, Result):
+        elif isinstance(event, events.Result):
             if not (self._session.is_moving and event.reply in _bare_stops(language)):
                 # Else the end of what was stopped tells it, once the robot stands.
                 self._say(event.reply, _SEVERITY_OF_RESULTS.get(event.outcome, "info"))
-        elif isinstance(event, Said):
+        elif isinstance(event, events.Said):
             self._say(event.text)
-        elif isinstance(event, Notice):
+        elif isinstance(event, events.Notice):
             self._say(event.text or render_reason(event.reason, language), severity_of(event.reason))
-        elif isinstance(event, ProgramWritten):
+        elif isinstance(event, events.ProgramWritten):
             self._say("\n".join([headline(event, language), *body(event, language)]))
-        elif isinstance(event, Rehearsed) and event.needs_approval:
+        elif isinstance(event, events.Rehearsed) and event.needs_approval:
             self._ask(event, language)
-        elif isinstance(event, Finished) and event.turn == 0 and event.reason is not None:
+        elif isinstance(event, events.Finished) and event.turn == 0 and event.reason is not None:
             self._say(render_reason(event.reason, language))
 
-    def _ask(self, event: Rehearsed, language: str) -> None:
+    def _ask(self, event: events.Rehearsed, language: str) -> None:
         """Programs read the question on the events' topic: `rehearsed`, with `needs_approval`."""
         about = {"length_m": event.length_m, "duration_s": event.duration_s, "limit_s": LAPSES_AFTER_S}
         found = [render_reason(finding.reason, language) for finding in event.findings]
@@ -246,5 +238,5 @@ class BaseNode:
 
 
 def _bare_stops(language: str) -> tuple[str, ...]:
-    """What is said of a stop that tells no more than that it came."""
+    """List what is said of a stop that tells no more than that it came."""
     return tuple(say(language, code) for code in ("stopped_now", "stopped_now_unmeasured"))

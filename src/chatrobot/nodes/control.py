@@ -81,13 +81,14 @@ class ControlNode:
         self._runner.wire.subscribe(CHATGPT_NODE, Text, self._hear)
 
     def run(self, is_leaving: Callable[[], bool]) -> None:
-        """Until `is_leaving`, and then until the robot stands or is gone; where time stands still not for ever."""
+        """Run until `is_leaving`, and then until the robot stands or is gone; where time stands still not for ever."""
         leaving_since_s: float | None = None
 
         def has_left() -> bool:
             nonlocal leaving_since_s
             if not is_leaving():
                 return False
+            self._is_leaving = True  # it takes no more plans
             now_s = time.monotonic()
             leaving_since_s = now_s if leaving_since_s is None else leaving_since_s
             if not self._runner.motion.is_busy or self._runner.robot_has_left:
@@ -97,7 +98,7 @@ class ControlNode:
         self._runner.run(has_left, self._each_tick)
 
     def resolved(self, topic: str) -> str:
-        """The name of that topic on the wire."""
+        """Return the name of that topic on the wire."""
         return self._runner.wire.resolve(topic)
 
     @property
@@ -106,8 +107,9 @@ class ControlNode:
         return self.resolved(self._runner.profile.wiring.cmd_vel_topic)
 
     def stop(self, why: str) -> None:
-        """Zero, now, from any thread."""
-        self._runner.halt("control", why)
+        """Stop the robot now, from any thread."""
+        with contextlib.suppress(WireError):
+            self._runner.halt("control", why)
 
     def introduce(self, ros_interfaces: RosInterfaces) -> None:
         """Offer to ROS what a node of it offers."""
@@ -116,10 +118,6 @@ class ControlNode:
         if self._may_release:
             ros_interfaces.serve("~/release", self._serve_release)
         ros_interfaces.diagnose(self._profile, self._diagnose)
-
-    def leave(self) -> None:
-        """Take no more plans. From any thread."""
-        self._is_leaving = True
 
     # --- the wire's thread ---
 

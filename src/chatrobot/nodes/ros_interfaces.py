@@ -64,7 +64,7 @@ class RosInterfaces:
                 default = defaults.get(known.name, known.default if instead is None else instead)
                 self.values[known.name] = self._declare(known, default)
             if self.node.has_own_time and not self.node.wait_for_time(SIMULATED_TIME_S):
-                raise WireError("use_sim_time is set, but nobody tells the time on /clock")
+                raise WireError("use_sim_time is set, but nothing is published on /clock")
         except (UsageError, WireError):
             self.node.close()
             raise

@@ -159,7 +159,7 @@ class Chat:
             self._prompt.app.exit(result="")
 
     def _leave_if_told(self) -> None:
-        """It may have been told before there was a prompt to leave."""
+        """Leave if it was told before there was a prompt to leave."""
         if self._has_left:
             self._soon(self._exit)
 
@@ -190,7 +190,7 @@ class Chat:
         event.current_buffer.insert_text(text if self._is_editing else text.rstrip("\n"))
 
     def _enter(self, event: KeyPressEvent) -> None:
-        """A terminal that does not tell a paste from typing sends its lines at once: they stay together."""
+        """Keep lines together that come at once: some terminals do not tell a paste from typing."""
         buffer = event.current_buffer
         if any(_is_text(key.key) for key in event.key_processor.input_queue):
             self._stop_for_paste(f"{buffer.document.current_line}\n")
@@ -216,7 +216,7 @@ class Chat:
         return False
 
     def _stop_for_paste(self, text: str) -> None:
-        """A whole line that says stop is acted on before it is sent, as if it had been typed."""
+        """Act on a whole line that says stop before it is sent, as if it had been typed."""
         if not self._is_editing:
             self._controller.stop_for_paste(text[: text.rfind("\n") + 1])
 
@@ -246,7 +246,7 @@ class Chat:
         self._controller.tell("suspended")
 
     def _on_leaving_signal(self) -> None:
-        """The terminal is gone, or somebody wants us gone: nothing is drawn any more."""
+        """End at once: the terminal is gone, or somebody wants us gone; nothing is drawn any more."""
         self._hang_up()
         os._exit(HANGUP_CODE)
 

@@ -58,7 +58,7 @@ def run(controller: ChatController, line: str) -> None:
 
 
 def nearest(word: str) -> str:
-    """The command that was most likely meant; empty where none is near."""
+    """Return the command that was most likely meant; empty where none is near."""
     near = difflib.get_close_matches(word.casefold(), BY_NAME, n=1, cutoff=0.5)
     return near[0] if near else ""
 
@@ -186,7 +186,7 @@ _AMOUNT = re.compile(rf"({NONE}|\d+(?:\.\d+)?|\.\d+)\s*(km|m|min|s|h)?(?![\w.])[
 
 
 def read_limits(text: str) -> dict[str, float | str] | None:
-    """The payload of a `limit` envelope; None where `text` is no amounts. `none` without a unit lifts both limits."""
+    """Return the payload of a `limit` envelope; None for no amounts. `none` without a unit lifts both limits."""
     found: dict[str, float | str] = {}
     rest = text.strip().casefold()
     while rest:

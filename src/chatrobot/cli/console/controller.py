@@ -86,7 +86,7 @@ class ChatController:
     # --- what a person does ---
 
     def enter(self, raw: str) -> None:
-        """A line was sent, or several that came at once. A stop in it has gone out before this returns."""
+        """Take a line that was sent, or several that came at once. A stop in it has gone out before this returns."""
         self._said_stopped = False
         cleaned = clean(raw)
         texts = texts_in(cleaned)
@@ -114,7 +114,7 @@ class ChatController:
             self._say(text)
 
     def _enter_all(self, texts: Sequence[str]) -> None:
-        """What stands before a stop is not done; what follows it, or all, is done one after the other."""
+        """Drop what stands before a stop; do what follows it, or all, one after the other."""
         undone, stop, texts = cut_at_stop(texts, self._is_stop)
         if stop:
             self._enter_one(stop)
@@ -129,7 +129,7 @@ class ChatController:
         self._say_next()
 
     def _say_next(self) -> None:
-        """The next of what was pasted. A command takes no turn: what is behind it follows at once."""
+        """Say the next of what was pasted. A command takes no turn: what is behind it follows at once."""
         with self._order:
             text = self._pasted.next()
             while text is not None and text.startswith("/") and text != "/undo":
@@ -143,7 +143,7 @@ class ChatController:
                 self._say_in_order(text if text != "/undo" else self.words.say("undo_words"), is_pasted=True)
 
     def take_edited(self, edited: str) -> None:
-        """The plan or the program that `Display.edit` was asked for."""
+        """Take the plan or the program that `Display.edit` was asked for."""
         is_program = self._edited.is_program
         text = f"{edited.rstrip()}\n" if is_program else clean(edited).strip()
         limit = MAX_SOURCE_CHARS if is_program else LONGEST_CHARS
@@ -178,7 +178,7 @@ class ChatController:
         self.tell("interrupted")
 
     def leave(self) -> None:
-        """An orderly goodbye: what the robot was told is still done. The second one does not wait to see it."""
+        """Say goodbye: what the robot was told is still done. The second one does not wait to see it."""
         if self._has_nothing_to_do or self._leaving:
             self.display.leave(0)
             return
@@ -209,7 +209,7 @@ class ChatController:
         self.attempt(self.session.release)
 
     def _say(self, text: str) -> None:
-        """What was typed takes the place of all that runs and waits."""
+        """Say what was typed: it takes the place of all that runs and waits."""
         self.words.follow(text)
         self._pauses_again = is_pause(text) and self.session.is_plan_paused
         if self._is_stop(text):  # waits for no lock: the other thread may hang in a terminal that was halted
@@ -244,7 +244,7 @@ class ChatController:
         return self.session.is_idle and not self._pasted.is_waiting
 
     def _answer(self, text: str) -> bool:
-        """True if `text` answers the question whether to do a plan."""
+        """Answer the question whether to do a plan; False where `text` is no answer to it."""
         turn, yes, edits = self._question.turn, read_consent(text), wants_to_edit(text)
         if turn is None or (yes is None and not edits):
             return False
@@ -294,7 +294,7 @@ class ChatController:
             self.display.refresh()
 
     def _is_muted(self, event: Event) -> bool:
-        """It only tells what is told otherwise; what a plan drove before it was edited is told."""
+        """Tell whether the event only says what is said otherwise; what a plan drove before it was edited is told."""
         return event.turn in self._muted and not (isinstance(event, Result) and event.has_moved)
 
     def _hear_release(self, by: str) -> None:
@@ -317,7 +317,7 @@ class ChatController:
         self.display.leave(1)
 
     def _end(self, error: Exception) -> None:
-        """The pumping thread has ended."""
+        """Leave, for the pumping thread has ended."""
         if isinstance(error, LinkError):
             self.lose(error)
         else:
@@ -327,7 +327,7 @@ class ChatController:
     # --- printing ---
 
     def tell(self, code: str, **values: object) -> None:
-        """One line of the console's own words."""
+        """Print one line of the console's own words."""
         self.display.print(indented(Text(self.words.say(code, **values), "dim")))
 
     def _echo(self, text: str, *, anew: bool = False) -> None:

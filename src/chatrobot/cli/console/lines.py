@@ -33,19 +33,19 @@ class _Hanging:
 
 
 def indented(text: Text) -> RenderableType:
-    """`text`, indented, however many lines it takes."""
+    """Indent `text`, however many lines it takes."""
     return _Hanging(Text(" " * INDENT), text)
 
 
 def marked(mark: str, style: str, text: str | Text) -> RenderableType:
-    """`text` behind a mark of one character."""
+    """Put `text` behind a mark of one character."""
     return _Hanging(
         Text.assemble(" " * INDENT, (mark.ljust(2), style)), Text(text) if isinstance(text, str) else text
     )
 
 
 def wrapped(text: Text, width: int) -> list[Text]:
-    """`text` in lines of at most `width` cells, broken at blanks and between Chinese characters, which have none."""
+    """Break `text` into lines of at most `width` cells, broken at blanks and between Chinese characters."""
     lines: list[Text] = []
     for line in text.split("\n", allow_blank=True):
         lines += line.divide(_breaks(line.plain, width))
@@ -55,7 +55,7 @@ def wrapped(text: Text, width: int) -> list[Text]:
 
 
 def _breaks(line: str, width: int) -> list[int]:
-    """Where a new line begins."""
+    """List where a new line begins."""
     breaks: list[int] = []
     cells, begin, may_break = 0, 0, 0
     for number, char in enumerate(line):

@@ -131,7 +131,7 @@ class Plain:
             self._hand_on()
 
     def _may_go_on(self) -> bool:
-        """What one types is done at once; a terminal hands pasted lines on one by one, and all are there by then."""
+        """Tell whether more may come. A terminal hands pasted lines on one by one, and all are there by then."""
         return self._pasted[0].rstrip().endswith((":", "：")) or bool(
             select.select([sys.stdin], [], [], 0.0)[0]
         )
@@ -175,4 +175,4 @@ class Plain:
 
 
 def _noted(*_: object) -> None:
-    """The wake-up descriptor has the signal's number."""
+    """Do nothing: the wake-up descriptor has the signal's number."""

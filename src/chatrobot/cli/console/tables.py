@@ -28,17 +28,17 @@ _UNITS = {
 
 
 def example_place(world: World) -> str:
-    """A place to go to in an example; empty where the world has none."""
+    """Return a place to go to in an example; empty where the world has none."""
     return "kitchen" if "kitchen" in world.places else next(iter(world.places), "")
 
 
 def place_in(language: str, world: World, name: str) -> str:
-    """A place's name in that language, if it has one."""
+    """Return a place's name in that language, if it has one."""
     return by_language(world.names_of(name), language)[0]
 
 
 def help_table(words: Words, world: World, commands: Sequence[tuple[str, str]]) -> RenderableType:
-    """What one can say, the commands (as they are typed, with the code of their help), the keys."""
+    """List what one can say, the commands (as they are typed, with the code of their help), the keys."""
     place = place_in(words.language, world, example_place(world)) or words.say("place_name")
     examples = [
         Text("    ").append(part.strip(), "cyan")
@@ -90,7 +90,7 @@ def robot_tables(words: Words, profile: RobotProfile) -> Iterator[RenderableType
 
 
 def places_table(words: Words, world: World, remembered: Mapping[str, Place]) -> RenderableType:
-    """The person's own places first, then the world's."""
+    """List places, the person's own first, then the world's."""
     if not world.places and not remembered:
         return indented(Text(words.say("no_places"), "dim"))
     table = _table(words.say("place_name"), words.say("place_pose"), words.say("place_also"))
@@ -123,13 +123,13 @@ WAY_COLUMNS, WAY_ROWS = 60, 14
 
 
 def big_map(motion_view: MotionView, world: World, width: int) -> Text:
-    """The whole world with its names, the last plan's way and what was driven of it."""
+    """Draw the whole world with its names, the last plan's way and what was driven of it."""
     extent = extent_of_world(world, (*motion_view.path, *motion_view.trail), margin_m=0.1, least_m=3.0)
     return _draw(motion_view, world, extent, min(width - 4, BIG_COLUMNS), BIG_ROWS)
 
 
 def way_map(motion_view: MotionView, world: World) -> Text:
-    """The predicted way of the last plan and what stands around it."""
+    """Draw the predicted way of the last plan and what stands around it."""
     extent = extent_around(Orientation(world).points(motion_view.path), margin_m=0.8, least_m=3.0)
     return _draw(motion_view, world, extent, WAY_COLUMNS, WAY_ROWS)
 

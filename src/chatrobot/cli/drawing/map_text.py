@@ -30,7 +30,7 @@ _LAYERS = ("wall", "path", "trail")
 
 
 def arrow(yaw_rad: float) -> str:
-    """The arrow that points nearest to `yaw_rad` on a map whose x runs to the right and y up."""
+    """Return the arrow that points nearest to `yaw_rad` on a map whose x runs to the right and y up."""
     return ARROWS[round(yaw_rad / (math.pi / 4.0)) % 8]
 
 
@@ -70,7 +70,7 @@ class MapText:
                 self._furniture_name(name, outline)
 
     def lines(self, *, trail: Sequence[XY] = (), pose: Pose | None = None) -> MapLines:
-        """The map now: `rows` lines of runs, each line `columns` cells wide."""
+        """Draw the map now: `rows` lines of runs, each line `columns` cells wide."""
         layers = {layer: dict(cells) for layer, cells in self._still.items()}
         self._line("trail", trail, layers)
         letters = dict(self._letters)
@@ -130,7 +130,7 @@ class MapText:
             self._write("place", name, (start, row))
 
     def _furniture_name(self, name: str, outline: Sequence[XY]) -> None:
-        """In the middle of the thing, else right of it, left of it, above or below; nowhere where there is no room."""
+        """Write a name in the middle of the thing, else right, left, above or below; nowhere where there is no room."""
         dots = [self._dot(*point) for point in outline]
         left, right = (int(end(x for x, _ in dots)) // 2 for end in (min, max))
         top, bottom = (int(end(y for _, y in dots)) // 4 for end in (min, max))
@@ -185,7 +185,7 @@ def furniture(world: World) -> Iterator[tuple[str, tuple[XY, ...]]]:
 
 
 def thickness_m(outline: Sequence[XY]) -> float:
-    """Of a rectangle its shorter side; of other shapes how wide one of the same area and longest side would be."""
+    """Return a rectangle's shorter side; of other shapes the width of one of the same area and longest side."""
     sides = [*pairwise(outline), (outline[-1], outline[0])]
     area = abs(sum(ax * by - bx * ay for (ax, ay), (bx, by) in sides)) / 2.0
     longest = max(math.dist(a, b) for a, b in sides)

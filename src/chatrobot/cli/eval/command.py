@@ -1,32 +1,27 @@
-"""`chatrobot eval FILE…`: run a corpus, each item in a fresh simulated session, and say what was understood."""
+"""`chatrobot eval FILE…`: run a corpus, and say what was understood: counts, misses, JSON lines."""
 
 from __future__ import annotations
 
 import argparse
 import sys
 import time
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import asdict
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from typing import Any
 
 from chatrobot.cli.choices import setup_from
-from chatrobot.cli.eval.corpus import Item, load_corpus
-from chatrobot.cli.eval.judge import Record, Verdict, judge
-from chatrobot.cli.eval.measure import Measured, Sample, has_moved, measure
-from chatrobot.cli.eval.report import item_json, misses, table, totals_json
+from chatrobot.cli.eval.corpus import CATEGORIES, Item, load_corpus
+from chatrobot.cli.eval.run import Judged, run_items
 from chatrobot.cli.json_lines import json_line
-from chatrobot.compose import Connection, Setup, connect, profile_dirs
-from chatrobot.core.events import Event, Interpreted, Result, TruePose
 from chatrobot.dialogue.options import Options
-from chatrobot.robots.load import load_profile
-from chatrobot.robots.profile import RobotProfile
 
 _REPORTED_EVERY_S = 0.2
 
 
 def run(args: argparse.Namespace) -> int:
-    """0 where the files are valid, whatever the verdicts.
+    """Return 0 where the files are valid, whatever the verdicts.
 
     Raises:
         CorpusError: a file is not.
@@ -89,106 +84,107 @@ class _Progress:
             print(f"\r{text}\033[K", end="", file=sys.stderr, flush=True)
 
 
-START = Sample(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+def item_json(judged: Judged) -> dict[str, Any]:
+    """Put one item as an object of one `--json` line."""
+    measured = judged.measured
+    return {
+        "event": "item",
+        "id": judged.item.id,
+        "category": judged.item.category,
+        "turns": [turn.say for turn in judged.item.turns],
+        "verdict": judged.verdict.kind,
+        "reasons": list(judged.verdict.reasons),
+        "outcomes": [record.outcome for record in judged.records],
+        "replies": [record.reply for record in judged.records],
+        "plan_texts": list(judged.plans),
+        "proposals": list(judged.proposals),
+        "after_yes": judged.after_yes.kind if judged.after_yes else None,
+        "must_stand": judged.item.must_stand,
+        "measured": {"yaw_deg": round(measured.yaw_deg, 3)}
+        | {
+            name: value if isinstance(value, bool) else round(value, 4)
+            for name, value in asdict(measured).items()
+        },
+    }
 
 
-@dataclass(frozen=True)
-class Judged:
-    """One item and what became of it. `plans` is the plan text of each turn.
-
-    `proposals` is the plan text that each turn asked about, if it did. `after_yes` is the verdict where each of these
-    had been agreed to; None where that was not tried, which it is only for what was abstained.
-    """
-
-    item: Item
-    verdict: Verdict
-    records: tuple[Record, ...]
-    plans: tuple[str, ...]
-    proposals: tuple[str, ...] = ()
-    after_yes: Verdict | None = None
-
-    @property
-    def measured(self) -> Measured:
-        """From the start to the end of the last turn."""
-        return measure([sample for record in self.records for sample in record.trace])
-
-    @property
-    def has_moved(self) -> bool:
-        """Whether the robot moved in any turn."""
-        return has_moved([sample for record in self.records for sample in record.trace])
-
-    @property
-    def was_proposed(self) -> bool:
-        """It was asked back, and a yes does the right thing."""
-        return self.after_yes is not None and self.after_yes.kind == "correct"
+def totals_json(all_judged: Sequence[Judged]) -> dict[str, Any]:
+    """Put counts per category and in total as the last `--json` line."""
+    return {
+        "event": "total",
+        **_counts_json(_count(all_judged)),
+        "still": _still_counts(all_judged),
+        "categories": {category: _counts_json(_count(group)) for category, group in _by_category(all_judged)},
+    }
 
 
-def run_items(items: list[Item], setup: Setup) -> Iterator[Judged]:
-    """Each item as it is done. `setup` says which robot and interpreter; its folder is not touched."""
-    profile = load_profile(setup.robot, profile_dirs(setup.folder))
-    for item in items:
-        judged = _run_item(item, setup, profile)
-        if judged.verdict.kind == "abstained" and any(judged.proposals):
-            agreed = _run_item(item, setup, profile, agrees=True)
-            judged = replace(judged, after_yes=agreed.verdict)
-        yield judged
+def table(all_judged: Sequence[Judged]) -> str:
+    """Counts per category and in total, for people; then how many moved that had to stand."""
+    rows = [(category, _count(group)) for category, group in _by_category(all_judged)]
+    lines = [
+        f"{'category':<12}{'items':>6}{'correct':>9}{'wrong':>7}{'abstained':>11}{'correct %':>11}{'proposed':>10}"
+    ]
+    for name, counts in [*rows, ("total", _count(all_judged))]:
+        share = 100.0 * counts["correct"] / max(_items(counts), 1)
+        lines.append(
+            f"{name:<12}{_items(counts):>6}{counts['correct']:>9}{counts['wrong']:>7}{counts['abstained']:>11}"
+            f"{share:>11.1f}{counts['proposed']:>10}"
+        )
+    still = _still_counts(all_judged)
+    if still["items"]:
+        lines.append(
+            f"\n{still['items']} items must stand still: {still['moved']} moved, {still['proposals']} got a proposal"
+        )
+    return "\n".join(lines) + "\n"
 
 
-class _Listener:
-    """Collects the true poses and the plans of one session."""
-
-    def __init__(self) -> None:
-        self.trace = [START]
-        self.plans: list[str] = []
-
-    def hear(self, event: Event) -> None:
-        if isinstance(event, TruePose):
-            self.trace.append(
-                Sample(
-                    event.t_s, event.x_m, event.y_m, event.yaw_rad, event.vx_mps, event.vy_mps, event.wz_radps
-                )
-            )
-        elif isinstance(event, Interpreted):
-            self.plans.append(event.plan_text)
-
-    def take(self) -> list[Sample]:
-        """The poses since the last call, beginning with the last one before."""
-        taken, self.trace = self.trace, self.trace[-1:]
-        return taken
+def misses(all_judged: Sequence[Judged]) -> str:
+    """Each item that went wrong, then each that was abstained: what was done, and what did not hold."""
+    return "\n".join([*_listing(all_judged, "wrong"), *_listing(all_judged, "abstained")]) + "\n"
 
 
-def _run_item(item: Item, setup: Setup, profile: RobotProfile, *, agrees: bool = False) -> Judged:
-    """`agrees`: a yes follows each turn that proposes something."""
-    with TemporaryDirectory(prefix="chatrobot-eval-") as folder:
-        listener = _Listener()
-        alone = replace(setup, fast=True, trace=True, folder=Path(folder))
-        connection = connect(alone, listener.hear)
-        records: list[Record] = []
-        proposals: list[str] = []
-        for number, turn in enumerate(item.turns, 1):
-            result = connection.session.do(turn.say)
-            proposals.append(proposed_plan(result))
-            if agrees and proposals[-1]:
-                result = _agreed(connection, proposals[-1])
-            if number == len(item.turns):
-                connection.close()  # a robot that still rolls has not arrived
-            records.append(Record(result.outcome, result.reply, listener.take()))
-    verdict = judge(item, records, profile)
-    return Judged(item, verdict, tuple(records), tuple(listener.plans), tuple(proposals))
+def _listing(all_judged: Sequence[Judged], kind: str) -> list[str]:
+    lines: list[str] = []
+    for judged in all_judged:
+        if judged.verdict.kind == kind:
+            said = " / ".join(turn.say for turn in judged.item.turns)
+            plan = " / ".join(text.replace("\n", "; ") or "–" for text in judged.plans)
+            lines += [f"  {judged.item.id} {said}", f"      did: {plan}"]
+            lines += [f"      {reason}" for reason in judged.verdict.reasons]
+            if judged.after_yes is not None:
+                proposed = " / ".join(text.replace("\n", "; ") or "–" for text in judged.proposals)
+                lines.append(f"      proposed, and a yes is {judged.after_yes.kind}: {proposed}")
+    return [f"\n{kind}:", *lines] if lines else []
 
 
-def proposed_plan(result: Result) -> str:
-    """The plan text that a result proposes; an empty string where it proposes none."""
-    proposal = getattr(result, "proposal", None)
-    if isinstance(proposal, dict):
-        return str(proposal.get("plan_text", ""))
-    return str(getattr(proposal, "plan_text", ""))
+def _by_category(all_judged: Sequence[Judged]) -> list[tuple[str, list[Judged]]]:
+    groups = [(name, [one for one in all_judged if one.item.category == name]) for name in CATEGORIES]
+    return [(name, group) for name, group in groups if group]
 
 
-def _agreed(connection: Connection, plan_text: str) -> Result:
-    """The result of driving what was proposed, as a yes does."""
-    session = connection.session
-    turn = session.say_plan(plan_text)
-    while turn not in session.results:
-        session.pump(0.1)
-    return session.results[turn]
+def _count(all_judged: Sequence[Judged]) -> Counter[str]:
+    counts: Counter[str] = Counter(judged.verdict.kind for judged in all_judged)
+    counts["proposed"] = sum(judged.was_proposed for judged in all_judged)
+    counts["misproposed"] = sum(
+        judged.after_yes is not None and not judged.was_proposed for judged in all_judged
+    )
+    return counts
+
+
+def _items(counts: Counter[str]) -> int:
+    return counts["correct"] + counts["wrong"] + counts["abstained"]
+
+
+def _still_counts(all_judged: Sequence[Judged]) -> dict[str, int]:
+    still = [judged for judged in all_judged if judged.item.must_stand]
+    return {
+        "items": len(still),
+        "moved": sum(judged.has_moved for judged in still),
+        "proposals": sum(any(judged.proposals) for judged in still),
+    }
+
+
+def _counts_json(counts: Counter[str]) -> dict[str, int]:
+    """`proposed` and `misproposed` are among the abstained: what a yes would have made of them."""
+    kinds = ("correct", "wrong", "abstained", "proposed", "misproposed")
+    return {"items": _items(counts), **{kind: counts[kind] for kind in kinds}}

@@ -52,7 +52,7 @@ class Verdict:
 
 
 def judge(item: Item, records: Sequence[Record], profile: RobotProfile | None = None) -> Verdict:
-    """The verdict on one item; `records` has one entry a turn. A plan is what it is on the robot of `profile`."""
+    """Judge one item; `records` has one entry a turn. A plan is what it is on the robot of `profile`."""
     verdict = _meant_verdict(item.meant, records, profile) if item.meant else _expected_verdict(item, records)
     # To ask back is as good only of one who has not done something else before.
     return Verdict("correct") if item.ask_ok and verdict.kind == "abstained" else verdict
@@ -94,7 +94,7 @@ def _expected_verdict(item: Item, records: Sequence[Record]) -> Verdict:
 
 
 def judge_turn(expect: Expect, record: Record, so_far: Measured) -> Verdict:
-    """The verdict on one turn. `so_far` is measured from the start of the dialogue to the end of this turn."""
+    """Judge one turn. `so_far` is measured from the start of the dialogue to the end of this turn."""
     moved = has_moved(record.trace)
     if not moved and record.outcome in _DECLINED and record.outcome != _OUTCOMES.get(expect.answer or ""):
         return Verdict("abstained", (f"{record.outcome}: {record.reply}",))
@@ -136,7 +136,7 @@ def _holds(key: str, wanted: float, actual: float) -> bool:
 
 
 def _tolerance(key: str, wanted: float) -> float:
-    """How far off a number may be. A share of nothing would be nothing: zero has a tolerance of its own."""
+    """Return how far off a number may be. A share of nothing would be nothing: zero has a tolerance of its own."""
     at_least = {
         "x": (POSITION_M, 0.05),
         "y": (POSITION_M, 0.05),
@@ -155,7 +155,7 @@ _MAX_STEPS_LEFT_OUT_OF = 60
 
 
 def misfit(meant: Meant, driven: Measured, profile: RobotProfile) -> tuple[str, ...]:
-    """What does not hold, for the plan that fits best; empty where one of the plans was driven."""
+    """List what does not hold, for the plan that fits best; nothing where one of the plans was driven."""
     found = [
         tuple(_problems(wanted, driven))
         for plan in meant.plans
@@ -165,7 +165,7 @@ def misfit(meant: Meant, driven: Measured, profile: RobotProfile) -> tuple[str, 
 
 
 def fits_in_part(meant: Meant, driven: Measured, gaps: int, profile: RobotProfile) -> bool:
-    """Whether what was driven is one of the plans with up to `gaps` stretches of its steps left out."""
+    """Tell whether what was driven is one of the plans with up to `gaps` stretches of its steps left out."""
     for plan in meant.plans:
         listed = list(expanded(plan.steps))
         if len(listed) > _MAX_STEPS_LEFT_OUT_OF:
@@ -198,7 +198,7 @@ def _wanted(steps: Sequence[Step], meant: Meant, profile: RobotProfile) -> Itera
 
 
 def _problems(wanted: Ideal, driven: Measured) -> Iterator[str]:
-    """What was driven otherwise than a plan says. A tolerance is at least so much, or a share of what is wanted."""
+    """List what was driven otherwise than a plan says. A tolerance is a least, or a share of what is wanted."""
     off_m = math.hypot(driven.x - wanted.x, driven.y - wanted.y)
     if off_m > max(0.06, 0.05 * math.hypot(wanted.x, wanted.y), 0.02 * wanted.path_m):
         yield f"it ended at ({driven.x:.2f}, {driven.y:.2f}), not ({wanted.x:.2f}, {wanted.y:.2f})"

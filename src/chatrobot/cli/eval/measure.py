@@ -40,10 +40,12 @@ class Sample(NamedTuple):
 
     @property
     def is_moving(self) -> bool:
+        """It does not stand."""
         return self.speed_mps > MOVING_MPS or abs(self.wz_radps) > MOVING_RADPS
 
     @property
     def speed_mps(self) -> float:
+        """Of the translation."""
         return math.hypot(self.vx_mps, self.vy_mps)
 
 
@@ -78,7 +80,7 @@ class Measured:
 
 
 def measure(trace: Sequence[Sample]) -> Measured:
-    """The numbers of a trace that begins at the origin."""
+    """Return the numbers of a trace that begins at the origin."""
     if not trace:
         return Measured()
     end = trace[-1]
@@ -100,7 +102,7 @@ def measure(trace: Sequence[Sample]) -> Measured:
 
 
 def has_moved(trace: Sequence[Sample]) -> bool:
-    """Whether the robot left the pose in which the trace begins, be it for a moment."""
+    """Tell whether the robot left the pose in which the trace begins, be it for a moment."""
     if not trace:
         return False
     start = trace[0]
@@ -150,7 +152,7 @@ class Ideal:
 
 
 def ideal(steps: Sequence[Step], profile: RobotProfile) -> Ideal | None:
-    """The numbers of `steps` from the origin; None where this robot cannot do them."""
+    """Return the numbers of `steps` from the origin; None where this robot cannot do them."""
     if not steps:
         return Ideal()
     items: list[PlannedMotion] = []
@@ -190,7 +192,7 @@ def _pauses_s(items: Sequence[PlannedMotion]) -> float:
 
 
 def without_last_turn(steps: Sequence[Step]) -> list[Step] | None:
-    """A shape without the turn that brings it back to its first heading; None where it ends on something else."""
+    """Return a shape without the turn back to its first heading; None where it ends on something else."""
     listed = list(expanded(steps))
     drawn = any(isinstance(step, (Drive, Arc)) for step in listed)
     return listed[:-1] if drawn and isinstance(listed[-1], Turn) else None
