@@ -11,17 +11,6 @@ from chatrobot.robots.profile import RobotProfile
 from chatrobot.testing.contracts import ProfileContract
 
 ENTRIES = list_profiles()
-BUILT_IN = {
-    "generic_diff",
-    "no_odometry",
-    "originbot",
-    "turtlebot3_burger",
-    "turtlebot4",
-    "turtlesim",
-    "wheeltec_mini_akm",
-    "wheeltec_mini_diff",
-    "wheeltec_mini_mec",
-}
 
 
 @pytest.mark.parametrize("entry", ENTRIES, ids=lambda entry: entry.name)
@@ -34,10 +23,6 @@ class TestEveryProfile(ProfileContract):
         assert profile.name == entry.name
         assert load_profile(entry.name) == profile
         assert load_profile(str(entry.file)) == profile
-
-
-def test_all_built_in_profiles_are_there() -> None:
-    assert {entry.name for entry in ENTRIES if entry.origin == "built-in"} == BUILT_IN
 
 
 def test_the_default_robot_is_the_simulated_mecanum_base() -> None:
