@@ -29,7 +29,7 @@ MEDIAN_S, P99_S = 0.020, 0.050
 _FLOOD = """
 import sys, time
 from chatrobot.core.wiring import Wiring
-from chatrobot.wire.dds.discovery import Discovery
+from chatrobot.wire.discovery import Discovery
 from chatrobot.wire.dds.wire import DdsWire
 from chatrobot.wire.messages import Text
 wire = DdsWire(Wiring(), "flood", discovery=Discovery(domain_id=int(sys.argv[1])))

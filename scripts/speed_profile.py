@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from chatrobot.governor.tick import TICK_S
+from chatrobot.core.clock import TICK_S
 from chatrobot.plan.text import parse_plan
 from chatrobot.testing.rig import Rig
 

@@ -26,8 +26,8 @@ pytest.importorskip(
 )
 
 from chatrobot.core.wiring import Wiring
-from chatrobot.wire.dds.discovery import Discovery
 from chatrobot.wire.dds.wire import DdsWire
+from chatrobot.wire.discovery import Discovery
 from chatrobot.wire.messages import Flag, Odometry, Text, TwistMessage
 from tests.processes import PATIENCE_S, Heard, TalkingProcess
 

@@ -14,8 +14,8 @@ from chatrobot.core.wiring import Wiring
 from chatrobot.link.envelope import Envelope
 from chatrobot.models.fake.server import FakeModel
 from chatrobot.robots.load import list_profiles
-from chatrobot.wire.dds.discovery import Discovery
 from chatrobot.wire.dds.wire import DdsWire
+from chatrobot.wire.discovery import Discovery
 from chatrobot.wire.messages import Picture, Text
 from tests.models.rig import KEY, serving
 from tests.nodes.node_rig import NodeRig, running

@@ -22,9 +22,9 @@ from about import About
 from chatrobot.core.wiring import Wiring
 from chatrobot.motion.topic_discovery import fit
 from chatrobot.testing.wire_contract import CAMERA, Inbox, WireContract
-from chatrobot.wire.connect import Endpoint
 from chatrobot.wire.messages import Message, Number, TwistMessage
-from chatrobot.wire.rosbridge import RosbridgeWire
+from chatrobot.wire.rosbridge.wire import RosbridgeWire
+from chatrobot.wire.wire import Endpoint
 
 pytestmark = pytest.mark.realtime
 PATIENCE_S = 60.0

@@ -59,7 +59,7 @@ def test_nothing_that_moves_or_stops_a_robot_reads_the_wall_clock() -> None:
     assert found == MAY_READ_THE_WALL_CLOCK
 
 
-class SteppingWire:
+class SteppingWire(Wire):
     """A wire to a robot whose stamps are of a wall clock that somebody sets: what Cyclone and rosbridge deliver."""
 
     def __init__(self, wire: Wire, now_s: Callable[[], float]) -> None:

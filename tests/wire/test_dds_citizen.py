@@ -32,10 +32,10 @@ from dds_rig import DOMAIN_ID, HERE, PATIENCE_S, Ends
 
 from chatrobot.core.wiring import Wiring
 from chatrobot.testing.wire_contract import Inbox
-from chatrobot.wire.dds.discovery import machine_addresses
 from chatrobot.wire.dds.fence import fence_in
 from chatrobot.wire.dds.ros_types import RosTypes
 from chatrobot.wire.dds.wire import DdsWire
+from chatrobot.wire.discovery import machine_addresses
 from chatrobot.wire.messages import Flag, Number, Odometry, Text, TwistMessage
 
 ZERO = TwistMessage(0.0, 0.0, 0.0)
