@@ -22,6 +22,8 @@ from chatrobot.plan.text import format_plan
 
 TALK, APART = 1.5, 3.0
 """A clause may be sure talk below these odds, and where the order's are higher by so much."""
+NO_MOTION = -4.0
+"""A clause without any word of motion is sure talk below these odds, whatever its words are."""
 NO_ORDER = 3.5
 """A clause without an amount may be left out of a proposal below these odds."""
 MOST_CLAUSES, MOST_PARTS = 12, 3
@@ -125,6 +127,8 @@ def _with_unit(plain: str, number: str, language: LanguageCode, read: Reader) ->
 
 def _is_sure_talk(read: Read, best: float) -> bool:
     clause = read.clause
+    if not (clause.moves or clause.depends or clause.denies) and read.log_odds < min(NO_MOTION, best - APART):
+        return True
     return clause.talks and not clause.binds and read.log_odds < min(TALK, best - APART)
 
 
