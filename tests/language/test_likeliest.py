@@ -36,6 +36,8 @@ def test_talk_beside_an_order_is_passed_over(text: str, plan: str) -> None:
         ("go forward 3 m at 0.5 m/s yippeekayay", "drive 3 m at 0.5 m/s"),
         ("back up 2 m zorblaxing", "drive 2 m back"),
         ("能不能往后退半米 我椅子出不来", "drive 0.5 m back"),
+        ("in that case turn left 90 degrees", "turn left 90 deg"),
+        ("go forward 1 m to clear the door", "drive 1 m"),
     ],
 )
 def test_a_strange_word_beside_a_whole_order_is_asked_about_with_the_plan(text: str, plan: str) -> None:
@@ -55,6 +57,8 @@ def test_a_side_that_is_told_of_is_no_turn_before_an_order() -> None:
         "go forward 2 m unless the zorblax rings",
         "the frobnicator went left 2 m",
         "grab the cup and go forward 2 m",
+        "go forward 1 m past the fern and turn to the fern",  # a second order around what is strange
+        "turn left 90 degrees around the fern",
     ],
 )
 def test_nothing_is_proposed_where_what_is_strange_may_be_the_order(text: str) -> None:
