@@ -141,6 +141,8 @@ def _motion_in_one_piece(clause: Clause, plain: str) -> tuple[list[Sign], str]:
     if not moving or not clause.measures or any(b - a > 2 for a, b in itertools.pairwise(moving)):
         return [], ""
     first, last = moving[0], moving[-1] + 1
+    if first and clause.signs[first].label != "VERB":
+        return [], ""  # what stands before it may be the verb
     stop = clause.signs[last].start if last < len(clause.signs) else clause.stop
     around = [*clause.signs[:first], *clause.signs[last:]]
     return around, plain[clause.signs[first].start : stop].strip(" ,.;:!")
