@@ -24,6 +24,7 @@ LEVELS = {
     "nodes": 9,
     "cli": 10, "api": 10,
     "__init__": 11, "__main__": 11,
+    "testing": 11,
 }  # fmt: skip
 BESIDE = {"guard": {"core", "wire"}}
 """Packages that stand beside the levels: what each may import. Of the levels, motion alone knows them."""
@@ -172,6 +173,12 @@ def test_only_the_governor_mints_velocities() -> None:
             )
 
 
+def test_only_the_test_kit_knows_pytest() -> None:
+    assert {package(found.importer) for found in imports() if found.module.startswith("pytest")} == {
+        "testing"
+    }
+
+
 @pytest.mark.parametrize("secret", ["TRUTH_TOPIC", "chatrobot/sim/truth"])
 def test_only_the_simulation_and_those_who_show_it_know_the_truth(secret: str) -> None:
     for file in sorted((SOURCE / "chatrobot").rglob("*.py")):
@@ -180,7 +187,7 @@ def test_only_the_simulation_and_those_who_show_it_know_the_truth(secret: str) -
             assert secret not in file.read_text(encoding="utf-8"), file.name
 
 
-EXTRAS = ("chatrobot.wire.dds.", "chatrobot.wire.ros.", "chatrobot.wire.rosbridge")
+EXTRAS = ("chatrobot.wire.dds.", "chatrobot.wire.ros.", "chatrobot.wire.rosbridge.")
 """Backends that are installed apart, and loaded only by who names them in a wire's address."""
 
 

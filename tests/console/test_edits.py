@@ -34,7 +34,7 @@ def test_an_edit_that_leaves_nothing_says_so(controller, log):
     ask(controller)
     controller.enter("e")
     controller.take_edited("\n")
-    assert "Nothing is left of it" in shown(log)
+    assert "Nothing is left after the edit" in shown(log)
 
 
 def test_what_was_driven_before_the_edit_is_told(controller, log):

@@ -90,8 +90,7 @@ def model_from(args: argparse.Namespace, *, named: bool = False) -> Model | None
 
 def _source_of_model(args: argparse.Namespace) -> str:
     """Say where the name of the model comes from."""
-    from chatrobot.models.choice import resolve
-    from chatrobot.models.config import ModelConfig
+    from chatrobot.models.config import ModelConfig, resolve
 
     choice = resolve(args.model, ModelConfig(config_folder(args)))
     return _SOURCES[choice.source] if choice is not None else "--model"

@@ -130,7 +130,8 @@ def _ros(args: argparse.Namespace) -> Check:
     """Look what is sourced here, and who is there in a moment's listening."""
     from importlib.util import find_spec
 
-    from chatrobot.wire.ros.environment import HOW_TO_GET_IT, reaches_this_machine_alone
+    from chatrobot.wire.discovery import ros_reaches_this_machine_alone
+    from chatrobot.wire.ros import HOW_TO_GET_IT
 
     distribution = os.environ.get("ROS_DISTRO", "")
     if find_spec("rclpy") is None:
@@ -144,7 +145,7 @@ def _ros(args: argparse.Namespace) -> Check:
         from rclpy.utilities import get_rmw_implementation_identifier
 
         works = f"{distribution} with {get_rmw_implementation_identifier()}"
-        found = _found("ros:", args, is_near=reaches_this_machine_alone(os.environ))
+        found = _found("ros:", args, is_near=ros_reaches_this_machine_alone(os.environ))
     except (ChatRobotError, ImportError, RuntimeError) as error:
         return Check("ROS 2", "later", f"{distribution} does not work with this Python: {error}")
     return Check("ROS 2", "ok", f"{works}; {found}")
@@ -165,7 +166,7 @@ def _found(address: str, args: argparse.Namespace, *, is_near: bool) -> str:
     from chatrobot.language.phrases import render_reason
     from chatrobot.motion.topic_discovery import why_unheard
     from chatrobot.robots.load import load_profile
-    from chatrobot.wire.connect import Surveying, connect_wire, publishers_of
+    from chatrobot.wire.connect import connect_wire
 
     wiring = load_profile(args.robot, profile_folders(args)).wiring
     wire = connect_wire(address, wiring, "chatrobot_doctor")
@@ -173,11 +174,9 @@ def _found(address: str, args: argparse.Namespace, *, is_near: bool) -> str:
     robots: list[str] = []
     while not robots and time.monotonic() < ends_s:
         time.sleep(0.05)
-        robots = publishers_of(wire, wiring.odom_topic) if wiring.odom_topic else []
-    drivers = publishers_of(wire, wiring.cmd_vel_topic)
-    told = None
-    if isinstance(wire, Surveying) and not robots:
-        told = why_unheard(wiring, wire.survey(), wire.resolve)
+        robots = wire.publishers_of(wiring.odom_topic) if wiring.odom_topic else []
+    drivers = wire.publishers_of(wiring.cmd_vel_topic)
+    told = None if robots else why_unheard(wiring, wire.survey(), wire.resolve)
     wire.close()
     reach = f"on domain {os.environ.get('ROS_DOMAIN_ID', '').strip() or '0'}, "
     reach += "this machine" if is_near else "the whole network"
@@ -189,9 +188,8 @@ def _found(address: str, args: argparse.Namespace, *, is_near: bool) -> str:
 def _model(args: argparse.Namespace) -> Check:
     """Name the model that would be asked; to ask it may cost: `chatrobot model test` does."""
     from chatrobot.language.phrases import render_reason
-    from chatrobot.models.choice import resolve
-    from chatrobot.models.config import ModelConfig
-    from chatrobot.models.state import problem_with
+    from chatrobot.models.config import ModelConfig, resolve
+    from chatrobot.models.make import problem_with
 
     config = ModelConfig(folder=config_folder(args))
     try:

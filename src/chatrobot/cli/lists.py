@@ -14,7 +14,7 @@ from chatrobot.robots.load import ProfileEntry, list_profiles
 from chatrobot.robots.profile import RobotProfile
 
 if TYPE_CHECKING:
-    from chatrobot.models.usage_log import Total
+    from chatrobot.models.usage import Total
     from chatrobot.sim.world import World
 
 _NAME_COLUMNS, _TITLE_COLUMNS = 21, 30
@@ -99,8 +99,7 @@ def _world_facts(world: World) -> dict[str, Any]:
 
 def usage(args: argparse.Namespace) -> int:
     """Add up tokens and cost of language models, by session, model or day. Always 0."""
-    from chatrobot.models.prices import check_prices, prices_date
-    from chatrobot.models.usage_log import Total, totals
+    from chatrobot.models.usage import Total, check_prices, totals
 
     folder = config_folder(args)
     check_prices(folder)
@@ -118,7 +117,7 @@ def usage(args: argparse.Namespace) -> int:
         print(_usage_row(name, total))
         whole.join(total)
     print(_usage_row("all", whole))
-    print(f"tokens; US dollars at the prices of {prices_date()} (“+?”: some calls have no known price)")
+    print("tokens; US dollars at the list prices known when each call was made (“?”: a price is unknown)")
     return 0
 
 

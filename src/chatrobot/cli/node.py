@@ -17,7 +17,9 @@ from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.core.scheduling import wake_promptly
 from chatrobot.options import OF_NODES, OPTIONS, PARAMETERS
 from chatrobot.robots.load import profile_argument
-from chatrobot.wire.connect import Connect, connect_wire, domain_and_namespace, require_ros, wire_address
+from chatrobot.wire.connect import Connect, connect_wire, wire_address
+from chatrobot.wire.discovery import domain_and_namespace
+from chatrobot.wire.ros import require_ros
 
 if TYPE_CHECKING:
     from chatrobot.nodes.ros_interfaces import RosInterfaces

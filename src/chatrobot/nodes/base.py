@@ -27,15 +27,7 @@ from chatrobot.nodes.log import Severity, Write
 from chatrobot.nodes.operator import Operators
 from chatrobot.nodes.told import severity_of
 from chatrobot.reflex import is_release
-from chatrobot.wire.connect import (
-    Connect,
-    advertise,
-    connect_wire,
-    is_on_this_machine,
-    publishers_of,
-    resolved,
-    wire_address,
-)
+from chatrobot.wire.connect import Connect, connect_wire, is_on_this_machine, wire_address
 from chatrobot.wire.messages import Flag, Text
 
 if TYPE_CHECKING:
@@ -97,7 +89,7 @@ class BaseNode:
             age_s=lambda: self._operators.age_s(),
         )
         if wiring.camera_topic:  # as this node finds it, remapped or in a namespace
-            topic = resolved(self._wire, wiring.camera_topic)
+            topic = self._wire.resolve(wiring.camera_topic)
             prepared.profile = replace(profile, wiring=replace(wiring, camera_topic=topic))
         self._next_look_s = 0.0
         self._has_twin = False
@@ -112,7 +104,7 @@ class BaseNode:
             LinkError: the wire is gone.
         """
         for topic in (REPLY, EVENTS):
-            advertise(self._wire, topic, Text)
+            self._wire.advertise(topic, Text)
         self._link.open()
         warm_up(self._setup.model)
         self._wire.subscribe(STOP, Flag, self._hear_stop)
@@ -131,7 +123,7 @@ class BaseNode:
 
     def resolved(self, topic: str) -> str:
         """Return the name of that topic on the wire."""
-        return resolved(self._wire, topic)
+        return self._wire.resolve(topic)
 
     def stop(self, why: str) -> None:
         """Stop the robot and drop what waits; from any thread."""
@@ -202,7 +194,7 @@ class BaseNode:
         if now_s < self._next_look_s:
             return
         self._next_look_s = now_s + LOOK_S
-        has_twin = any(name.endswith(f"/{NODE}") for name in publishers_of(self._wire, CHATGPT_NODE))
+        has_twin = any(name.endswith(f"/{NODE}") for name in self._wire.publishers_of(CHATGPT_NODE))
         if has_twin and not self._has_twin:
             self._say(say(self._session.understanding.language, "another_base"), "warn")
         self._has_twin = has_twin

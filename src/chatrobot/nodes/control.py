@@ -20,9 +20,8 @@ from chatrobot.governor.priority import RELEASERS
 from chatrobot.link.envelope import Envelope, Word
 from chatrobot.link.topics import CHATGPT_NODE, EVENTS, TELEMETRY
 from chatrobot.motion.runner import MotionRunner
-from chatrobot.motion.safety.stop_confirmation import Sight
+from chatrobot.motion.safety.stop import Sight
 from chatrobot.nodes.foreign import Foreign
-from chatrobot.wire.connect import advertise, resolved
 from chatrobot.wire.messages import Text
 
 if TYPE_CHECKING:
@@ -78,7 +77,7 @@ class ControlNode:
         self._profile = profile
         self._foreign = Foreign(self._runner, lambda: bool(self._ours))
         for topic in (EVENTS, TELEMETRY):
-            advertise(self._runner.wire, topic, Text)
+            self._runner.wire.advertise(topic, Text)
         self._runner.wire.subscribe(CHATGPT_NODE, Text, self._hear)
 
     def run(self, is_leaving: Callable[[], bool]) -> None:
@@ -100,7 +99,7 @@ class ControlNode:
 
     def resolved(self, topic: str) -> str:
         """Return the name of that topic on the wire."""
-        return resolved(self._runner.wire, topic)
+        return self._runner.wire.resolve(topic)
 
     @property
     def cmd_vel_topic(self) -> str:

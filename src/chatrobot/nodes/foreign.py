@@ -9,10 +9,10 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 
+from chatrobot.core.clock import LOCAL_TERM_S
 from chatrobot.core.errors import PlanTextError
 from chatrobot.core.process import own_identity
 from chatrobot.core.reason import Reason
-from chatrobot.governor.lease import LOCAL_TERM_S
 from chatrobot.link.envelope import Envelope
 from chatrobot.link.motion_link import Sender
 from chatrobot.link.topics import CHATGPT_NODE

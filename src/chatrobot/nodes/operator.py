@@ -13,12 +13,12 @@ import time
 import uuid
 from collections.abc import Callable
 
+from chatrobot.core.clock import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S
 from chatrobot.core.errors import WireError
 from chatrobot.core.process import own_identity, watch_process
 from chatrobot.core.scheduling import wake_promptly
-from chatrobot.governor.lease import BEAT_HZ, LATE_S, LOCAL_BEAT_HZ, LOCAL_TERM_S, LONGEST_S, TERM_S, Lease
+from chatrobot.governor.lease import LATE_S, LONGEST_S, Lease
 from chatrobot.link.topics import OPERATOR
-from chatrobot.wire.connect import advertise
 from chatrobot.wire.messages import Text
 from chatrobot.wire.wire import Wire
 
@@ -42,7 +42,7 @@ class OperatorBeat:
         self._term_s = LOCAL_TERM_S if is_on_this_machine else TERM_S
         self._said, self._count = "", 0
         self._closed = threading.Event()
-        advertise(wire, OPERATOR, Text)
+        wire.advertise(OPERATOR, Text)
 
     def start(self) -> None:
         """Begin to beat."""
