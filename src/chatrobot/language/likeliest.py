@@ -115,9 +115,7 @@ def proposed(
     return Interpretation("unclear", reply, language, unaccounted=named, code="did_you_mean", proposal=offer)
 
 
-def _core(
-    rest: _Rest, problem: Unclear, language: LanguageCode, read_anew: Reader
-) -> Interpretation | None:
+def _core(rest: _Rest, problem: Unclear, language: LanguageCode, read_anew: Reader) -> Interpretation | None:
     """The motion that one clause names in one piece, proposed where nothing around it can bear on it."""
     if problem.code != "unknown_part" or problem.refused or len(rest.kept) != 1:
         return None
