@@ -29,7 +29,10 @@ def try_model(name: str, config: ModelConfig, *, as_json: bool = False) -> int:
         print(f"> {SENTENCE}", flush=True)
     model = make_model(name, config)
     warm(model, wait_s=LOADING_S)  # a session does this while its person is still typing
-    messages = [Message("system", system_prompt(load_profile(DEFAULT_PROFILE), {})), Message("user", SENTENCE)]
+    messages = [
+        Message("system", system_prompt(load_profile(DEFAULT_PROFILE), {})),
+        Message("user", SENTENCE),
+    ]
     reader, began_s, first_s = ReplyReader(), time.monotonic(), 0.0
     reply = model.ask(messages, CallLimits(reply_tokens=300))
     steps = 0
