@@ -103,10 +103,10 @@ def place_lines(places: Mapping[str, Pose]) -> list[str]:
     return [f"data: places, X Y heading: {listed}"]
 
 
-def request(text: str, pose: Pose | None, news: list[str], remembered: Mapping[str, Pose]) -> str:
-    """Return what a person says, after what has become of the robot since the model last spoke."""
+def request(text: str, pose: Pose | None, remembered: Mapping[str, Pose]) -> str:
+    """Return what a person says, after where the robot and the places that it remembers are."""
     asked = text.strip()[:MAX_REQUEST_CHARS]
-    return "\n".join([*news, *place_lines(remembered), pose_line(pose), f"The person says: {asked}"])
+    return "\n".join([*place_lines(remembered), pose_line(pose), f"The person says: {asked}"])
 
 
 def pose_line(pose: Pose | None) -> str:
@@ -214,7 +214,7 @@ def is_form(text: str) -> bool:
 
 
 def is_short_form(steps: Sequence[Step]) -> bool:
-    """Tell whether a plan consists of the tutorial's twists alone, and of few: the person has connected the model to the
-    robot for just these."""
+    """Tell whether a plan consists of the tutorial's twists alone, and of few: the person has connected the model to
+    the robot for just these."""
     twists = [step for step in steps if isinstance(step, RawTwist)]
     return 0 < len(twists) == len(steps) and sum(step.duration_s for step in twists) <= LONGEST_S

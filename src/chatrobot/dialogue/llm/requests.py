@@ -201,7 +201,7 @@ class ModelRequests:
             system = prompt.tutorial_prompt(model_setup.profile)
         else:
             known, sees = self._understanding, self._surroundings.camera is not None
-            request = prompt.request(text, known.known_pose, [], known.usable_places)
+            request = prompt.request(text, known.known_pose, known.usable_places)
             system = prompt.system_prompt(model_setup.profile, known.main_places, sees=sees)
         now = "\n".join([*filter(None, news), request])
         return request, [Message("system", system), *earlier, Message("user", now)]
