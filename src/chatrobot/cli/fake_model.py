@@ -1,4 +1,4 @@
-"""`chatrobot fake-model SCRIPT.yaml`: a scripted stand-in for a language model, until Ctrl-C."""
+"""Runs `chatrobot fake-model SCRIPT.yaml`: a scripted stand-in for a language model."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from chatrobot.models.fake.server import Call, FakeModel
 
 
 def run(args: argparse.Namespace) -> int:
-    """Until Ctrl-C. Beyond loopback callers need a token, which is printed."""
+    """Serve until Ctrl-C. Beyond loopback callers need a token, which is printed."""
     script = load_script(Path(args.script))
     if args.host not in LOOPBACK and not script.keys:
         script = replace(script, keys=(secrets.token_urlsafe(24),))

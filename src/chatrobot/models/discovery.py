@@ -1,4 +1,4 @@
-"""Model servers on this machine, found by asking the usual ports of loopback, all at once; and what a server lists."""
+"""Finds model servers on this machine, asking the usual ports of loopback all at once; lists the models of a server."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _LOCAL = (*LOCAL, "openai-compatible")
 
 @dataclass(frozen=True)
 class LocalServer:
-    """A server that answered: the provider it is, its base URL and the models it lists."""
+    """One server that answered: the provider it is, its base URL and the models it lists."""
 
     provider: str
     address: str
@@ -30,7 +30,7 @@ class LocalServer:
 
 
 def find_local(config: ModelConfig, *, timeout_s: float = PROBE_S) -> list[LocalServer]:
-    """Every model server on loopback that answers in time, in the order of our table."""
+    """Return every model server on loopback that answers in time, in the order of our table."""
     places = [(name, providers()[name].address(config)) for name in _LOCAL if name in providers()]
     found: dict[int, LocalServer] = {}
 
@@ -57,7 +57,7 @@ def _served(address: SplitResult, timeout_s: float) -> tuple[str, ...]:
 
 
 def listed_models(provider: Provider, config: ModelConfig, secret: Secret | None) -> tuple[str, ...] | None:
-    """The models that a provider lists for this key, or None where it does not answer or refuses."""
+    """Return the models that a provider lists for this key, or None where it does not answer or refuses."""
     address = urlsplit(provider.address(config))
     key = secret.reveal() if secret else ""
     if provider.wire == "anthropic":
@@ -73,14 +73,14 @@ def _listed(address: SplitResult, path: str, headers: dict[str, str]) -> tuple[s
 
 
 def _names(body: Any) -> tuple[str, ...]:
-    """The names in a list of models, in anyone's form."""
+    """Return the names in a list of models, in anyone's form."""
     rows = (body.get("data") or body.get("models") or []) if isinstance(body, dict) else []
     names = [row.get("id") or row.get("name") for row in rows if isinstance(row, dict)]
     return tuple(str(name).removeprefix("models/") for name in names if name)
 
 
 def _get(address: SplitResult, path: str, headers: dict[str, str], timeout_s: float) -> Any | None:
-    """The JSON at that path, or None. Follows no redirect."""
+    """Return the JSON at that path, or None. Follows no redirect."""
     if not address.hostname:
         return None
     kind = http.client.HTTPSConnection if address.scheme == "https" else http.client.HTTPConnection

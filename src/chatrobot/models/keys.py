@@ -1,4 +1,4 @@
-"""Where keys come from: an environment variable, or the keyring of the user's desktop. Never a plain file.
+"""Finds keys: in an environment variable, or in the keyring of the user's desktop. Never in a plain file.
 
 Without a desktop (over ssh, in a container, on a robot) there is usually no keyring: then the environment is the place.
 """
@@ -17,11 +17,11 @@ SERVICE = "chatrobot"
 
 
 class KeyringError(ChatRobotError):
-    """There is no keyring here, or it does not open. `str` says so without any key."""
+    """Raised where there is no keyring, or it does not open. `str` says so without any key."""
 
 
 def find_key(provider: Provider, config: ModelConfig) -> Secret | None:
-    """The key for that provider: from its environment variable, else from the keyring, else None."""
+    """Return the key for that provider: from its environment variable, else from the keyring, else None."""
     if value := config.variable(*provider.key_variables):
         return Secret(value)
     if not config.keyring or not provider.key_variables:
@@ -33,14 +33,14 @@ def find_key(provider: Provider, config: ModelConfig) -> Secret | None:
 
 
 def where_key_is(provider: Provider, config: ModelConfig) -> str:
-    """`environment`, `keyring`, or "" for nowhere."""
+    """Return `environment`, `keyring`, or "" for nowhere."""
     if config.variable(*provider.key_variables):
         return "environment"
     return "keyring" if find_key(provider, config) is not None else ""
 
 
 def stored_key(provider: Provider) -> Secret | None:
-    """The key in the keyring, or None.
+    """Return the key in the keyring, or None.
 
     Raises:
         KeyringError: no keyring, or it does not open.
@@ -68,7 +68,7 @@ def delete_key(provider: Provider) -> None:
 
 
 def keyring_name() -> str:
-    """What the keyring here is called, or "" where there is none that keeps anything safely."""
+    """Return what the keyring here is called, or "" where there is none that keeps anything safely."""
     try:
         keyring = importlib.import_module("keyring")
     except ImportError:

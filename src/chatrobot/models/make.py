@@ -122,7 +122,7 @@ def _quiet_import() -> Iterator[None]:
 
 
 class LibraryModel:
-    """A `Model` (see `seam`) on the model library. What begins with `_` runs in the background thread."""
+    """`Model` (see `seam`) on the model library. What begins with `_` runs in the background thread."""
 
     def __init__(self, provider: Provider, model: str, config: ModelConfig) -> None:
         self._provider = provider

@@ -40,7 +40,7 @@ def _background() -> asyncio.AbstractEventLoop:
 
 
 class Sink(Protocol):
-    """Where a call puts what it gets. Used in the background thread."""
+    """Takes what a call gets. Used in the background thread."""
 
     def begin(self) -> None:
         """Begin the call's own time: the request goes out now."""
@@ -57,7 +57,7 @@ class Sink(Protocol):
 
 
 class StreamedReply:
-    """A `Reply` (see `seam`) that `produce` fills from the background thread.
+    """`Reply` (see `seam`) that `produce` fills from the background thread.
 
     `prompt_chars` serves the estimate of tokens where a provider counts none; `on_end` hears the usage once, in the
     background thread.

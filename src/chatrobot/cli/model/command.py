@@ -1,4 +1,4 @@
-"""`chatrobot model [setup|list|test|use|key] [PROVIDER[:NAME]]`."""
+"""Runs `chatrobot model [setup|list|test|use|key] [PROVIDER[:NAME]]`."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ NONE = "none"
 
 
 def run(args: argparse.Namespace) -> int:
-    """0 where it worked, 1 where the model did not answer."""
+    """Do the action; 0 where it worked, 1 where the model did not answer."""
     config = ModelConfig(folder=config_folder(args), session="model test")
     try:
         return _ACTIONS[args.action](args, config)
@@ -137,7 +137,7 @@ def _key(args: argparse.Namespace, config: ModelConfig) -> int:  # noqa: ARG001 
 
 
 def read_secret(provider: Provider) -> Secret:
-    """A key typed without being shown, or the first line of standard input where that is a pipe.
+    """Read a key typed without being shown, or the first line of standard input where that is a pipe.
 
     Raises:
         UsageError: what was given can be no key.
@@ -171,7 +171,7 @@ def _flawed(provider: Provider, flaw: Flaw) -> UsageError:
 
 
 def provider_named(name: str) -> Provider:
-    """The provider of that name.
+    """Return the provider of that name.
 
     Raises:
         UsageError: there is none.

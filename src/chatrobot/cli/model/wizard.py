@@ -1,4 +1,4 @@
-"""`chatrobot model` at a terminal: three questions, and a model is set up."""
+"""Sets a model up with three questions: `chatrobot model` at a terminal."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def set_up(config: ModelConfig) -> int:
 
 
 def _choose(config: ModelConfig) -> tuple[str, ModelConfig]:
-    """The model, and the settings with a key that was typed for this once."""
+    """Return the model, and the settings with a key that was typed for this once."""
     print("looking for model servers on this machine…", flush=True)
     servers = find_local(config)
     local = [f"{server.provider}:{name}" for server in servers for name in server.models]
@@ -71,7 +71,7 @@ def _with_key(provider: Provider, config: ModelConfig) -> ModelConfig:
         store_key(provider, secret)
         print(f"kept in the keyring ({keyring_name()})")
     except KeyringError as error:
-        print(f"{error}. For this once it is used; for later: export {variable}=…", file=sys.stderr)
+        print(f"{error}. It is used for this test alone; for later: export {variable}=…", file=sys.stderr)
         return _once(config, variable, secret)
     return config
 

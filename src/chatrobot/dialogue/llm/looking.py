@@ -20,7 +20,7 @@ LOOK_S = 3.0
 
 
 class Surroundings:
-    """What the turns of a conversation need of the half that understands. `camera` is None where there is none."""
+    """Gives a conversation what it needs of the half that understands. `camera` is None where there is none."""
 
     def __init__(self, understanding: Understanding, camera: Camera | None) -> None:
         self._understanding = understanding

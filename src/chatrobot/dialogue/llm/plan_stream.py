@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class PlanStream:
-    """The plans of one turn, one after the other. Belongs to the pumping thread, but for `cancel`.
+    """Plans of one turn, one after the other. Belongs to the pumping thread, but for `cancel`.
 
     Args:
         mode: what the first plan does to one that is under way; those after it go on where it ended.

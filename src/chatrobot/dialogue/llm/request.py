@@ -119,7 +119,7 @@ class ModelRequest:
 
     @property
     def silent_s(self) -> float | None:
-        """How long the model has been silent since it was asked, None where it has spoken or is not being asked."""
+        """Return how long the model has said nothing since it was asked, None where it has, or is not being asked."""
         call = self._round.call
         return time.monotonic() - call.began_s if not (call.has_ended or call.text) else None
 

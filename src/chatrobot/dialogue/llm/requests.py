@@ -49,7 +49,7 @@ class _Turn:
 
 
 class ModelRequests:
-    """The turns of a conversation that a model plans.
+    """Turns of a conversation that a model plans.
 
     Args:
         model_setup: None where no model is set up.
@@ -97,7 +97,7 @@ class ModelRequests:
 
     @property
     def asked_at_s(self) -> float | None:
-        """Since when a model is being asked (monotonic); None where none is."""
+        """Return since when a model is being asked (monotonic); None where none is."""
         asked = [turn.doing.asked_at_s for turn in tuple(self._turns.values())]
         return min((at_s for at_s in asked if at_s is not None), default=None)
 

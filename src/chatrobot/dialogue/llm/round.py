@@ -53,22 +53,22 @@ class ModelRound:
 
     @property
     def says(self) -> str:
-        """What it says to the person, a line each."""
+        """Return what it says to the person, a line each."""
         return "\n".join(step.text for step in self.steps if isinstance(step, Say))
 
     @property
     def plan_text(self) -> str:
-        """Its steps as plan text."""
+        """Return its steps as plan text."""
         return "\n".join(map(format_step, self.steps))
 
     @property
     def call_problem(self) -> Reason | None:
-        """What went wrong in the call."""
+        """Return what went wrong in the call."""
         return self.call.end.problem if self.call.end is not None else None
 
     @property
     def problem(self) -> Reason | None:
-        """What is wrong with the reply."""
+        """Return what is wrong with the reply."""
         if self.call_problem is not None:
             return self.call_problem
         if self.reader.error is not None:

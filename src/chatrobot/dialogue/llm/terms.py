@@ -13,7 +13,7 @@ from chatrobot.plan.base import Step
 
 @dataclass(frozen=True)
 class ModelOptions:
-    """How a model is used. `rounds` bounds the calls of one turn that are no corrections, `budget_tokens` what all of
+    """Use of a model. `rounds` bounds the calls of one turn that are no corrections, `budget_tokens` what all of
     its calls may use, `budget_s` how long it may take in all. `streams`: steps run as they come."""
 
     streams: bool = True
@@ -25,7 +25,7 @@ class ModelOptions:
 
 @dataclass(frozen=True)
 class Ended:
-    """What became of the turn. `finished` sums up its runs; None where nothing ran. `steps` are those that were done,
+    """End of a turn. `finished` sums up its runs; None where nothing ran. `steps` are those that were done,
     `answer` all that the model wrote, `said` what of it is for the person."""
 
     outcome: Outcome

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import threading
 import time
 from typing import Any
 
 from chatrobot.models.fake.script import Answer, ToolCall
-from chatrobot.models.fake.wires import Asked, Counted, Turns, Wire, new_id, read_asked, sse
+from chatrobot.models.fake.wires import Asked, Conversations, Counted, Wire, new_id, read_asked, sse
 
 
-class Chat(Wire):
+class _Chat(Wire):
     """OpenAI's Chat Completions, as all its imitators speak it, too: POST …/chat/completions."""
 
     prefix = "chatcmpl"
@@ -69,60 +68,17 @@ def _chat_usage(counted: Counted) -> dict[str, Any]:
     }
 
 
-class UnknownConversationError(Exception):
-    """A request goes on from something this server never said."""
-
-
-class Conversations:
-    """What the server holds: turns by response id and by conversation id."""
-
-    def __init__(self) -> None:
-        self._lock = threading.Lock()
-        self._turns: dict[str, Turns] = {}
-
-    def begin(self) -> str:
-        """Begin a conversation without a word in it, and return its id."""
-        self.keep(conversation := new_id("conv"), ())
-        return conversation
-
-    def drop(self) -> None:
-        """Forget everything, as servers do after some weeks."""
-        with self._lock:
-            self._turns.clear()
-
-    def known(self, name: str) -> Turns:
-        """Return the turns of that response or conversation.
-
-        Raises:
-            UnknownConversationError: there is none.
-        """
-        with self._lock:
-            if name not in self._turns:
-                raise UnknownConversationError(name)
-            return self._turns[name]
-
-    def keep(self, name: str, turns: Turns) -> None:
-        """Keep them under that id."""
-        with self._lock:
-            self._turns[name] = turns
-
-
-class Responses(Wire):
-    """OpenAI's Responses, with conversations that the server holds: POST …/responses.
-
-    Raises:
-        UnknownConversationError: it goes on from what `held` does not hold.
-    """
+class _Responses(Wire):
+    """OpenAI's Responses, with conversations that the server holds: POST …/responses."""
 
     prefix = "resp"
 
     def __init__(self, body: dict[str, Any], path: str, held: Conversations) -> None:
-        self._held = held
         self._item = new_id("msg")
         self._text = ""
         self._tools: list[dict[str, Any]] = []
         self._number = -1
-        super().__init__(body, path)
+        super().__init__(body, path, held)
 
     def _read(self, body: dict[str, Any], path: str) -> Asked:
         del path
@@ -210,3 +166,7 @@ def _response_function(call: ToolCall) -> dict[str, Any]:
         "type": "function_call", "id": new_id("fc"), "call_id": new_id("call"), "name": call.name,
         "arguments": call.arguments, "status": "completed",
     }  # fmt: skip
+
+
+WIRES: dict[str, type[Wire]] = {"/chat/completions": _Chat, "/responses": _Responses}
+"""By the end of their paths."""

@@ -23,7 +23,7 @@ _GENERATE_ERRORS = {
 }  # fmt: skip
 
 
-class Messages(Wire):
+class _Messages(Wire):
     """Anthropic's Messages: POST …/v1/messages."""
 
     prefix = "msg"
@@ -97,7 +97,7 @@ class Messages(Wire):
         }  # fmt: skip
 
 
-class Generate(Wire):
+class _Generate(Wire):
     """Google's generateContent: POST …/models/NAME:generateContent, or :streamGenerateContent?alt=sse."""
 
     prefix = "gen"
@@ -158,3 +158,9 @@ class Generate(Wire):
     @staticmethod
     def _function(call: ToolCall) -> dict[str, Any]:
         return {"functionCall": {"name": call.name, "args": json.loads(call.arguments)}}
+
+
+WIRES: dict[str, type[Wire]] = {
+    "/messages": _Messages, ":generateContent": _Generate, ":streamGenerateContent": _Generate,
+}  # fmt: skip
+"""By the end of their paths."""

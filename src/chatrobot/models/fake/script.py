@@ -17,12 +17,12 @@ _TOP = ("model", "models", "keys", "tokens_per_s", "first_piece_s", "replies", "
 
 
 class ScriptError(InputError):
-    """A script of a fake model cannot be used."""
+    """Raised for a script that cannot be used."""
 
 
 @dataclass(frozen=True)
 class HttpError:
-    """An answer that is an error. `body` replaces the provider's usual form."""
+    """Answer that is an error. `body` replaces the provider's usual form."""
 
     status: int = 500
     message: str = "the script says so"
@@ -33,7 +33,7 @@ class HttpError:
 
 @dataclass(frozen=True)
 class ToolCall:
-    """A call of a tool that nobody offered."""
+    """Call of a tool that nobody offered."""
 
     name: str
     arguments: str = "{}"
@@ -41,7 +41,7 @@ class ToolCall:
 
 @dataclass(frozen=True)
 class Answer:
-    """What one call gets. Counts are in tokens (about four characters), times in seconds."""
+    """Answer to one call. Counts are in tokens (about four characters), times in seconds."""
 
     text: str = ""
     match: re.Pattern[str] | None = None

@@ -18,17 +18,13 @@ from types import TracebackType
 from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
-from chatrobot.models.fake.openai import Chat, Conversations, Responses, UnknownConversationError
-from chatrobot.models.fake.others import Generate, Messages
+from chatrobot.models.fake import openai, others
 from chatrobot.models.fake.script import Answer, HttpError, Script
-from chatrobot.models.fake.wires import Asked, Counted, Wire
+from chatrobot.models.fake.wires import Asked, Conversations, Counted, UnknownConversationError, Wire
 
 BODY_BYTES = 32_000_000
 CHARS_PER_TOKEN = 4
-_WIRES: dict[str, type[Wire]] = {
-    "/chat/completions": Chat, "/responses": Responses, "/messages": Messages,
-    ":generateContent": Generate, ":streamGenerateContent": Generate,
-}  # fmt: skip
+_WIRES = {**openai.WIRES, **others.WIRES}
 _CONVERSATIONS = "/conversations"
 
 
@@ -48,7 +44,7 @@ class Call:
 
 
 class FakeModel:
-    """The server. It listens once it has been entered (or `start`ed) and ends with every connection on leaving."""
+    """Server that listens once it has been entered (or `start`ed), and ends with every connection on leaving."""
 
     def __init__(
         self,
@@ -144,7 +140,7 @@ class _Handler(BaseHTTPRequestHandler):
             self._json(404, {"error": {"message": f"nothing at {path}"}})
         elif not self._may():
             error = HttpError(401, f"Incorrect API key provided: {self._key()}", "invalid_api_key")
-            self._json(401, (wire or Chat).error(error))
+            self._json(401, (wire or Wire).error(error))
         elif wire is None:
             self._json(200, {"id": fake.conversations.begin(), "object": "conversation"})
         else:
@@ -156,8 +152,7 @@ class _Handler(BaseHTTPRequestHandler):
     def _answer(self, kind: type[Wire], call: Call) -> None:
         fake = self.server.fake
         try:
-            given = (call.body, self.path)
-            wire = Responses(*given, fake.conversations) if kind is Responses else kind(*given)
+            wire = kind(call.body, self.path, fake.conversations)
         except UnknownConversationError as error:
             message = f"Previous response with id '{error}' not found."
             self._json(400, kind.error(HttpError(400, message, "previous_response_not_found")))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import threading
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any
@@ -34,7 +35,7 @@ class Counted:
 
 @dataclass(frozen=True)
 class Asked:
-    """What a request asks for. `turns` are all turns as (role, text)."""
+    """Request as it was read. `turns` are all turns as (role, text)."""
 
     model: str
     stream: bool
@@ -43,16 +44,59 @@ class Asked:
 
     @property
     def said(self) -> str:
-        """What the user said last."""
+        """Return what the user said last."""
         return next((text for role, text in reversed(self.turns) if role == "user"), "")
 
 
+class UnknownConversationError(Exception):
+    """Raised for a request that goes on from something this server never said."""
+
+
+class Conversations:
+    """Holds what was said: turns by response id and by conversation id."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._turns: dict[str, Turns] = {}
+
+    def begin(self) -> str:
+        """Begin a conversation without a word in it, and return its id."""
+        self.keep(conversation := new_id("conv"), ())
+        return conversation
+
+    def drop(self) -> None:
+        """Forget everything, as servers do after some weeks."""
+        with self._lock:
+            self._turns.clear()
+
+    def known(self, name: str) -> Turns:
+        """Return the turns of that response or conversation.
+
+        Raises:
+            UnknownConversationError: there is none.
+        """
+        with self._lock:
+            if name not in self._turns:
+                raise UnknownConversationError(name)
+            return self._turns[name]
+
+    def keep(self, name: str, turns: Turns) -> None:
+        """Keep them under that id."""
+        with self._lock:
+            self._turns[name] = turns
+
+
 class Wire(ABC):
-    """One call in one provider's form."""
+    """One call in one provider's form.
+
+    Raises:
+        UnknownConversationError: it goes on from what `held` does not hold.
+    """
 
     prefix = ""
 
-    def __init__(self, body: dict[str, Any], path: str) -> None:
+    def __init__(self, body: dict[str, Any], path: str, held: Conversations) -> None:
+        self._held = held
         self._id = new_id(self.prefix)
         self.asked = self._read(body, path)
 
