@@ -27,9 +27,10 @@ def find_key(provider: Provider, config: ModelConfig) -> Secret | None:
     if not config.keyring or not provider.key_variables:
         return None
     try:
-        return stored_key(provider)
+        value = _call("get_password", provider)
     except KeyringError:
         return None
+    return Secret(value) if value else None
 
 
 def where_key_is(provider: Provider, config: ModelConfig) -> str:
@@ -39,23 +40,13 @@ def where_key_is(provider: Provider, config: ModelConfig) -> str:
     return "keyring" if find_key(provider, config) is not None else ""
 
 
-def stored_key(provider: Provider) -> Secret | None:
-    """Return the key in the keyring, or None.
-
-    Raises:
-        KeyringError: no keyring, or it does not open.
-    """
-    value = _call("get_password", provider.key_variables[0])
-    return Secret(value) if value else None
-
-
 def store_key(provider: Provider, secret: Secret) -> None:
     """Put the key into the keyring.
 
     Raises:
         KeyringError: no keyring, or it does not open.
     """
-    _call("set_password", provider.key_variables[0], secret.reveal())
+    _call("set_password", provider, secret.reveal())
 
 
 def delete_key(provider: Provider) -> None:
@@ -64,7 +55,7 @@ def delete_key(provider: Provider) -> None:
     Raises:
         KeyringError: no keyring, or nothing in it.
     """
-    _call("delete_password", provider.key_variables[0])
+    _call("delete_password", provider)
 
 
 def keyring_name() -> str:
@@ -87,19 +78,18 @@ def _is_unsafe(backend: Any) -> bool:
     )
 
 
-def _call(method: str, *arguments: str) -> Any:
+def _call(method: str, provider: Provider, *arguments: str) -> Any:
     try:
         keyring = importlib.import_module("keyring")
         errors = importlib.import_module("keyring.errors")
     except ImportError:
         raise KeyringError(
-            "no keyring: pip install 'chatrobot[models]', or use the environment variable"
+            "keyring is not installed. Install it (pip install 'chatrobot[models]'), or use the environment variable"
         ) from None
     if _is_unsafe(keyring.get_keyring()):
-        raise KeyringError("this system has no keyring that keeps a key safely; use the environment variable")
+        raise KeyringError("This system has no keyring that keeps a key safely. Use the environment variable")
     try:
-        return getattr(keyring, method)(SERVICE, *arguments)
+        return getattr(keyring, method)(SERVICE, provider.key_variables[0], *arguments)
     except errors.KeyringError as error:
-        raise KeyringError(
-            f"the keyring does not open ({type(error).__name__}); use the environment variable"
-        ) from None
+        kind = type(error).__name__
+        raise KeyringError(f"The keyring does not open ({kind}). Use the environment variable") from None

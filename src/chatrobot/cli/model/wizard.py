@@ -11,7 +11,6 @@ from chatrobot.models.config import ModelConfig, store_choice
 from chatrobot.models.discovery import find_local
 from chatrobot.models.keys import KeyringError, keyring_name, store_key, where_key_is
 from chatrobot.models.providers import LOCAL, Provider, providers
-from chatrobot.models.secret import Secret
 
 
 def set_up(config: ModelConfig) -> int:
@@ -72,9 +71,5 @@ def _with_key(provider: Provider, config: ModelConfig) -> ModelConfig:
         print(f"kept in the keyring ({keyring_name()})")
     except KeyringError as error:
         print(f"{error}. It is used for this test alone; for later: export {variable}=…", file=sys.stderr)
-        return _once(config, variable, secret)
+        return replace(config, environ={**config.environ, variable: secret.reveal()})
     return config
-
-
-def _once(config: ModelConfig, variable: str, secret: Secret) -> ModelConfig:
-    return replace(config, environ={**config.environ, variable: secret.reveal()})
