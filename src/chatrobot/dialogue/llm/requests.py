@@ -239,6 +239,7 @@ class ModelRequests:
             self._history.add(Exchange(text, plan_text, end))
 
     def _take_ended(self) -> None:
+        was_busy = self.is_busy
         for number, turn in tuple(self._turns.items()):
             ended = turn.doing.ended
             if ended is None:
@@ -247,7 +248,7 @@ class ModelRequests:
             request = turn.request if ended.answer else ""
             self._history.add(Exchange(turn.text, ended.answer, _end(ended), request), pin=turn.pins)
             self._conclude(number, turn.text, ended)
-        if not self._turns:
+        if was_busy and not self.is_busy:
             self._surroundings.end_looking()
 
 
