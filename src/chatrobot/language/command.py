@@ -9,7 +9,8 @@ from chatrobot import reflex
 from chatrobot.language import questions
 from chatrobot.language.acts import orders as is_ordered
 from chatrobot.language.corrections import MEANT
-from chatrobot.language.edits import Edit, edited, resized
+from chatrobot.language.edit_words import Edit
+from chatrobot.language.edits import edited, resized
 from chatrobot.language.frames import GO, STILL, TURN, Frame
 from chatrobot.language.heeded import check_heeded
 from chatrobot.language.interpretation import Interpretation, planned, stopped
