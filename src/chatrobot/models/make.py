@@ -183,7 +183,7 @@ class LibraryModel:
             sink.begin()
             try:
                 await self._stream(messages, limits, sink, place)
-            except Exception as error:
+            except Exception as error:  # of any provider: its conversation knows the one that is tried again
                 if self._conversation is None or not self._conversation.is_lost(error):
                     raise
                 await self._stream(messages, limits, sink, place)
