@@ -183,7 +183,7 @@ def test_with_a_model_what_the_offline_language_does_not_understand_is_written(h
 
 
 BROKEN = {
-    "a syntax error": (DANCE.replace("def run(self):", "def run(self)"), "is no Python"),
+    "a syntax error": (DANCE.replace("def run(self):", "def run(self)"), "is not valid Python"),
     "an exception": (
         DANCE.replace("self.drive(0.2, 0.0, 1.0)", "self.drvie(0.2, 0.0, 1.0)"),
         "AttributeError",

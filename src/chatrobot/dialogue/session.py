@@ -15,22 +15,20 @@ from chatrobot.core.events import Event, Finished, Notice, Paused, Remembered, R
 from chatrobot.core.motion_budget import OPEN_LOOP
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.dispatch import Dispatch
-from chatrobot.dialogue.goal_client import GoalClient
+from chatrobot.dialogue.goal_client import GoalClient, RequestLog
 from chatrobot.dialogue.llm.requests import ModelRequests
 from chatrobot.dialogue.llm.setup import ModelSetup
 from chatrobot.dialogue.llm.terms import Ended
-from chatrobot.dialogue.next_utterance import EarlyAnswers, NextUtterance
 from chatrobot.dialogue.observations import measured
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.dialogue.programs.requests import ProgramRequests
-from chatrobot.dialogue.proposals import Proposals
+from chatrobot.dialogue.question import Proposals
 from chatrobot.dialogue.replies import with_offer
-from chatrobot.dialogue.request_log import RequestLog
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
-from chatrobot.dialogue.utterances import Kind, Utterance, UtteranceQueue
+from chatrobot.dialogue.utterances import EarlyAnswers, Kind, NextUtterance, Utterance, UtteranceQueue
 from chatrobot.link.motion_link import MotionLink
 from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
@@ -241,7 +239,10 @@ class Session:
 
     def do(self, text: str) -> Result:
         """Say it and see it through: the result of its turn."""
-        turn = self.say(text)
+        return self.see_through(self.say(text))
+
+    def see_through(self, turn: int) -> Result:
+        """Let things happen until that turn has its result."""
         while turn not in self.results:
             self.pump(0.1)
         return self.results[turn]

@@ -12,14 +12,13 @@ from typing import TYPE_CHECKING, Literal
 from chatrobot.core.events import Event, Notice
 from chatrobot.core.reason import Reason
 from chatrobot.core.shown import one_line
-from chatrobot.dialogue.history import Exchange, History
 from chatrobot.dialogue.llm import prompt
 from chatrobot.dialogue.llm.looking import Surroundings
 from chatrobot.dialogue.llm.prompt import connects_to_the_robot, is_form
 from chatrobot.dialogue.llm.request import ModelRequest
 from chatrobot.dialogue.llm.setup import ModelSetup
 from chatrobot.dialogue.llm.terms import Ended
-from chatrobot.dialogue.observations import measured
+from chatrobot.dialogue.observations import Exchange, History, measured
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import say

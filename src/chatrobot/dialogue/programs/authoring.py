@@ -85,7 +85,7 @@ class Authoring:
     # --- which program ---
 
     def kept(self, text: str, language: str) -> Draft | None:
-        """The kept program that `text` asks to run, with the arguments behind a `--`; None where it asks for none.
+        """Return the kept program that `text` asks to run, with the arguments behind a `--`; None where it asks none.
 
         Raises:
             NotWrittenError: it cannot be given those arguments.
@@ -104,19 +104,19 @@ class Authoring:
             raise NotWrittenError("refused", render_reason(reason, language)) from error
 
     def draft_of(self, program: KeptProgram) -> Draft:
-        """A program that is there already."""
+        """Return the draft of a program that is there already."""
         checked = check(program.source, self._profile)
         program = replace(program, remap=dict(checked.remap))
         place = self.library.place(program.name)
         return Draft(program, checked, place=place, version=program.provenance.versions)
 
     def draft_of_file(self, path: Path, source: str) -> Draft:
-        """A program from a file, which is not kept."""
+        """Return the draft of a program from a file, which is not kept."""
         program = KeptProgram(path.stem, source, provenance=Provenance(f"from {path.name}"))
         return replace(self.draft_of(program), place=str(path))
 
     def edited(self, draft: Draft, source: str) -> Draft:
-        """What a person made of a program that was shown: its next version, or the same where nothing was changed.
+        """Return what a person made of a program that was shown: its next version, or the same where nothing changed.
 
         It is asked about before it runs. One that came from a file is kept from now on: the file stays as it is.
         """
@@ -130,7 +130,7 @@ class Authoring:
 
     @staticmethod
     def request(text: str, *, is_asked_for: bool = False) -> ProgramRequest | None:
-        """What program `text` asks for; None where it asks for none."""
+        """Read what program `text` asks for; None where it asks for none."""
         return read_request(text, is_asked_for=is_asked_for)
 
     # --- writing ---
@@ -245,7 +245,7 @@ class Authoring:
             self.library.keep(draft.program)
 
     def note_rehearsal(self, draft: Draft, rehearsal: Rehearsal) -> None:
-        """What the last rehearsal of a kept program showed."""
+        """Keep what the last rehearsal of a kept program showed."""
         program, path = rehearsal.program, rehearsal.path
         if program is None or path is None:
             return
@@ -264,7 +264,7 @@ class Authoring:
         )
 
     def note_run(self, draft: Draft, finished: Finished) -> None:
-        """How a run of a kept program ended."""
+        """Keep how a run of a kept program ended."""
         if finished.path_m or finished.duration_s or finished.outcome == "completed":
             self.library.note_run(
                 draft.program.name,

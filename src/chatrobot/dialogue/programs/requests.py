@@ -16,7 +16,7 @@ from chatrobot.core.events import (
     Started,
 )
 from chatrobot.core.reason import Reason
-from chatrobot.dialogue.goal_client import GoalClient
+from chatrobot.dialogue.goal_client import GoalClient, RequestLog
 from chatrobot.dialogue.llm.call import ModelCall
 from chatrobot.dialogue.programs.authoring import (
     LIMITS,
@@ -27,7 +27,6 @@ from chatrobot.dialogue.programs.authoring import (
     Writing,
 )
 from chatrobot.dialogue.programs.draft import Draft
-from chatrobot.dialogue.request_log import RequestLog
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.normalise import has_chinese
@@ -195,8 +194,10 @@ class ProgramRequests:
         yield from self._send(turn, about)
 
     def run_edited(self, turn: int, name: str, source: str) -> None:
-        """Have what a person made of the program of that name rehearsed, and asked about; what cannot be read leaves
-        it as it was."""
+        """Have a person's edit of the program of that name rehearsed and asked about.
+
+        One that cannot be read leaves the program as it was.
+        """
         before = self._shown[name]
         draft = self.authoring.edited(before, source)
         unreadable = draft.checked.refusal
@@ -207,7 +208,7 @@ class ProgramRequests:
         self.run(turn, name, draft)
 
     def has_run(self, turn: int) -> bool:
-        """A program was started in that turn."""
+        """Tell whether a program was started in that turn."""
         return turn in self._turns and self._turns[turn].has_started
 
     def run_again(self, turn: int, text: str, of_turn: int) -> None:
@@ -238,7 +239,7 @@ class ProgramRequests:
         return False
 
     def ending(self, turn: int, reply: str) -> str:
-        """The reply at the end of a program's turn: what was promised and cannot be is said again."""
+        """Return the reply at the end of a program's turn: what was promised and cannot be is said again."""
         about = self._turns.pop(turn, None)
         if about is None or not about.has_started:
             return reply
