@@ -26,6 +26,7 @@ from chatrobot.language.sight import asks_to_see
 from chatrobot.models.seam import Message
 
 if TYPE_CHECKING:
+    from chatrobot.dialogue.programs.requests import ProgramRequests
     from chatrobot.link.motion_link import MotionLink
 
 Interpreter = Literal["auto", "offline", "model"]
@@ -77,6 +78,8 @@ class ModelRequests:
         self._history = History()
         self._turns: dict[int, _Turn] = {}
         self._is_tutorial = False
+        self.writer: ProgramRequests | None = None
+        """Asks the model for programs; it is pumped, waited for and cancelled with the rest."""
         self._surroundings = Surroundings(
             understanding, model_setup.camera if model_setup is not None else None
         )
@@ -87,17 +90,24 @@ class ModelRequests:
         """End what models are being asked, for a stop. Returns at once."""
         for turn in tuple(self._turns.values()):
             turn.doing.cancel(why)
+        self._cancel_writing()
 
     def cancel_unmoved(self, why: Reason) -> None:
         """End what has no plan with Motion, for a pause: it would begin after it. Returns at once."""
         for turn in tuple(self._turns.values()):
             if not turn.doing.is_moving:
                 turn.doing.cancel(why)
+        self._cancel_writing()
+
+    def _cancel_writing(self) -> None:
+        if self.writer is not None:
+            self.writer.cancel()
 
     @property
     def asked_at_s(self) -> float | None:
         """Return since when a model is being asked (monotonic); None where none is."""
         asked = [turn.doing.asked_at_s for turn in tuple(self._turns.values())]
+        asked += [self.writer.asked_at_s] if self.writer is not None else []
         return min((at_s for at_s in asked if at_s is not None), default=None)
 
     @property
@@ -120,6 +130,11 @@ class ModelRequests:
     def is_busy(self) -> bool:
         """True while a model plans a turn, or its plan is driven."""
         return bool(self._turns)
+
+    @property
+    def is_writing(self) -> bool:
+        """True while a model writes a program: what is said then, but for a stop or a pause, waits."""
+        return self.writer is not None and self.writer.is_writing
 
     @property
     def is_calling(self) -> bool:
@@ -224,13 +239,15 @@ class ModelRequests:
         for turn in tuple(self._turns.values()):
             turn.doing.pump()
         self._take_ended()
+        if self.writer is not None:
+            self.writer.pump()
 
     def wait(self, timeout_s: float) -> None:
         """Wait until a model says something. For simulated time, which stands meanwhile."""
-        for turn in self._turns.values():
-            if turn.doing.asked_at_s is not None:
-                turn.doing.wait(timeout_s)
-                return
+        doing = (self.writer, *(turn.doing for turn in self._turns.values()))
+        calling = next((one for one in doing if one is not None and one.asked_at_s is not None), None)
+        if calling is not None:
+            calling.wait(timeout_s)
 
     def note(self, text: str, plan_text: str, end: str) -> None:
         """Note a turn that no model was asked about: the next one is told."""
