@@ -25,7 +25,7 @@ MORE_IS_BETTER = {"public docstrings, percent", "median lines of a file"}
 WALK = """
 import sys, threading
 from chatrobot.api import connect
-from chatrobot.transports.transport import WireTransport
+from chatrobot.motion.governed_robot import WireTransport
 
 entered, functions, moved = set(), set(), []
 

@@ -18,14 +18,13 @@ from chatrobot.governor.governor import Governor
 from chatrobot.motion.goal import Goal
 from chatrobot.motion.goal_execution import GoalExecution
 from chatrobot.motion.governed_motion import Stopwatch
-from chatrobot.motion.governed_robot import GovernedRobot
+from chatrobot.motion.governed_robot import GovernedRobot, WireTransport
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.execution import ProgramExecution
 from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.programs.events import ProgramEvent, TwistAsked
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
 from chatrobot.sim.load import load_world
-from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import Odometry
 

@@ -20,7 +20,7 @@ from chatrobot.cli.console.chat import _history
 from chatrobot.core import events, wiring
 from chatrobot.core.event import _TYPES
 from chatrobot.dialogue.places import Places
-from chatrobot.link import topics
+from chatrobot.link import topic_link as topics
 from chatrobot.models import providers
 from chatrobot.models.choice import resolve
 from chatrobot.models.config import ModelConfig

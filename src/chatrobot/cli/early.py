@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 from chatrobot.cli.lines import has_keyboard
 from chatrobot.cli.typed_ahead import TypedAhead
-from chatrobot.core.motion_budget import MotionBudget
 from chatrobot.link.processes import SIMULATED, Processes
+from chatrobot.robots.profile import MotionBudget
 
 if TYPE_CHECKING:
     from chatrobot.robots.profile import RobotProfile

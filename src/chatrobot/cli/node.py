@@ -11,8 +11,8 @@ from chatrobot.cli.entry import STOPPED
 from chatrobot.cli.parameters import parameters_in, read_parameters
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.core.errors import UsageError, WireError
-from chatrobot.core.motion_budget import MotionBudget
-from chatrobot.core.scheduling import wake_promptly
+from chatrobot.core.process import wake_promptly
+from chatrobot.robots.profile import MotionBudget
 from chatrobot.wire.connect import Connect, connect_wire
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ def run(args: argparse.Namespace) -> int:
 
 def _run_control(args: argparse.Namespace, ros_interfaces: RosInterfaces | None, connect: Connect) -> bool:
     from chatrobot.core.events import Event, Started
-    from chatrobot.link.topics import CHATGPT_NODE
+    from chatrobot.link.topic_link import CHATGPT_NODE
     from chatrobot.nodes.control import ControlNode, ControlOptions
     from chatrobot.nodes.log import Log, on_stderr
     from chatrobot.nodes.told import told
@@ -95,7 +95,7 @@ def _run_base(args: argparse.Namespace, ros_interfaces: RosInterfaces | None, co
     from chatrobot.cli.choices import model_from
     from chatrobot.cli.folders import config_folder
     from chatrobot.dialogue.llm.terms import ModelOptions
-    from chatrobot.link.topics import CHATGPT_NODE, USER_INPUT
+    from chatrobot.link.topic_link import CHATGPT_NODE, USER_INPUT
     from chatrobot.nodes.base import BaseNode, BaseOptions
     from chatrobot.nodes.log import Log
 
@@ -130,7 +130,7 @@ def _run_input(args: argparse.Namespace, _: RosInterfaces | None, connect: Conne
     """On standard output alone: it is a person's terminal, and what is said is on topics already."""
     from chatrobot.cli.lines import LineReader
     from chatrobot.language.phrases import say
-    from chatrobot.link.topics import USER_INPUT
+    from chatrobot.link.topic_link import USER_INPUT
     from chatrobot.nodes.input import InputNode
     from chatrobot.robots.load import load_profile
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import Any, NoReturn, TypeVar
 
 from chatrobot.core.errors import UsageError
-from chatrobot.core.motion_budget import NONE, read_limit
+from chatrobot.robots.profile import NONE, read_limit
 
 Number = TypeVar("Number", int, float)
 DEFAULT_ROBOT = "wheeltec_mini_mec"

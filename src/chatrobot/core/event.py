@@ -8,8 +8,23 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
-from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """`plan_text` runs if the very next text is a yes; `say` is the question, in the language of the person."""
+
+    plan_text: str
+    say: str
+
+    def to_json(self) -> dict[str, Any]:
+        return {"plan_text": self.plan_text, "say": self.say}
+
+    @classmethod
+    def from_json(cls, data: Mapping[str, Any]) -> Proposal:
+        return cls(str(data["plan_text"]), str(data["say"]))
+
 
 _TYPES: dict[str, type[Event]] = {}
 """The events by their names."""

@@ -13,9 +13,9 @@ from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
 from chatrobot.core.event import Event as Event
+from chatrobot.core.event import Proposal
 from chatrobot.core.event import event_from_json as event_from_json
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
-from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
 
 Outcome = Literal["completed", "stopped", "refused", "unclear", "answered", "failed"]

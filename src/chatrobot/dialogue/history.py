@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from chatrobot.core.shown import one_line
+from chatrobot.core.reason import one_line
 from chatrobot.models.seam import Message
 
 BUDGET_CHARS = 2400

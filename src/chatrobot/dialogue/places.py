@@ -9,7 +9,7 @@ from pathlib import Path
 
 from chatrobot.core.errors import InputError
 from chatrobot.core.geometry import Pose
-from chatrobot.core.shown import one_line
+from chatrobot.core.reason import one_line
 from chatrobot.language.context import Place
 from chatrobot.plan.primitives.go import MAX_PLACE_CHARS
 

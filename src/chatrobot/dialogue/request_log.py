@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from chatrobot.core.event import Proposal
 from chatrobot.core.events import Event, Finished, Notice, Outcome, Result
-from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.understanding import Instruction, Understanding
 from chatrobot.language.interpretation import Interpretation

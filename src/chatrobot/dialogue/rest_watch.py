@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from chatrobot.core.events import Finished, Telemetry
 from chatrobot.core.geometry import Pose
-from chatrobot.link.approval import LAPSES_AFTER_M, LAPSES_AFTER_RAD
+from chatrobot.link.motion_link import LAPSES_AFTER_M, LAPSES_AFTER_RAD
 
 MOVED = "cannot_undo_moved"
 ODOMETRY_ANEW = "cannot_undo_odometry_anew"

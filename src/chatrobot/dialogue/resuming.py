@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from chatrobot.core.event import Proposal
 from chatrobot.core.events import Event, Finished, Paused
-from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.replies import describe_left
 from chatrobot.dialogue.under_way import UnderWay

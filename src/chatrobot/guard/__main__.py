@@ -16,11 +16,9 @@ from collections.abc import Callable
 
 from chatrobot.core.clock import TICK_S, awake_or_not_s
 from chatrobot.core.errors import WireError
-from chatrobot.core.memory_pressure import GUARD, prefer
-from chatrobot.core.scheduling import wake_promptly
+from chatrobot.core.process import GUARD, prefer, wake_promptly
 from chatrobot.core.wiring import Wiring
-from chatrobot.guard.departure import Departure
-from chatrobot.guard.watch import GOODBYE, HANDSHAKE, TRIPPED, Watch
+from chatrobot.guard.watch import GOODBYE, HANDSHAKE, TRIPPED, Departure, Watch
 from chatrobot.wire.connect import connect_wire
 from chatrobot.wire.messages import Odometry, TwistMessage
 from chatrobot.wire.wire import Wire

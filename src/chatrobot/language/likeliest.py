@@ -11,7 +11,7 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
-from chatrobot.core.proposal import Proposal
+from chatrobot.core.event import Proposal
 from chatrobot.language.acts import ORDER, Read, order_log_odds, read_acts
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.lexicon import cut, lexicon

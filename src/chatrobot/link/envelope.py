@@ -8,9 +8,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any, Literal
 
-from chatrobot.core.motion_budget import read_limit
 from chatrobot.core.reason import Reason
 from chatrobot.programs.ros_args import MOST_ARGS, MOST_CHARS
+from chatrobot.robots.profile import read_limit
 
 PROTOCOL = 2
 """What both halves have to agree on, in the greeting of each. Another number where one half could misunderstand the

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 from chatrobot.core.clock import TICK_S, VirtualClock
 from chatrobot.core.events import Event, Notice
 from chatrobot.link.envelope import Word
+from chatrobot.motion.governed_robot import ZERO
 from chatrobot.motion.safety.watchdog import SimulatedGuard
-from chatrobot.transports.transport import ZERO
 from chatrobot.wire.wire import Wire
 
 if TYPE_CHECKING:

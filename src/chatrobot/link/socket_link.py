@@ -13,8 +13,7 @@ from typing import Any
 from chatrobot.core.clock import LOCAL_BEAT_HZ, LOCAL_TERM_S
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import event_from_json
-from chatrobot.core.process import own_identity
-from chatrobot.core.scheduling import wake_promptly
+from chatrobot.core.process import own_identity, wake_promptly
 from chatrobot.link.envelope import PROTOCOL, Word, read_ready
 from chatrobot.link.motion_link import EventQueue, Sender
 from chatrobot.link.processes import MotionProcess

@@ -8,7 +8,7 @@ import json
 import threading
 import time
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 from chatrobot.core.clock import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S
 from chatrobot.core.errors import LinkError, WireError
@@ -23,15 +23,70 @@ from chatrobot.core.events import (
     event_from_json,
 )
 from chatrobot.core.geometry import ORIGIN, Pose
-from chatrobot.core.motion_budget import OPEN_LOOP
-from chatrobot.core.process import own_identity
+from chatrobot.core.process import own_identity, wake_promptly
 from chatrobot.core.reason import Reason
-from chatrobot.core.scheduling import wake_promptly
-from chatrobot.link.envelope import PROTOCOL, Envelope, Word, other_protocol
+from chatrobot.link.envelope import PROTOCOL, Envelope, Word, other_protocol, protocol_of
 from chatrobot.link.motion_link import EventQueue, Sender
-from chatrobot.link.topics import CHATGPT_NODE, CONTROL, EVENTS, TELEMETRY, read_beat
+from chatrobot.robots.profile import OPEN_LOOP
 from chatrobot.wire.messages import Text
 from chatrobot.wire.wire import Wire
+
+USER_INPUT = "user_input"
+"""What a person says: text. Motion listens, too, for stop words."""
+
+CHATGPT_NODE = "chatgpt_node"
+"""Envelopes (JSON) from `base` to `control`; text of others as the tutorial has it."""
+
+EVENTS = "chatrobot/events"
+"""What happens, one JSON event a message; quiet while nothing happens."""
+
+TELEMETRY = "chatrobot/telemetry"
+"""Where the robot is and how it moves, ten times a second: the JSON event `telemetry`."""
+
+REPLY = "chatrobot/reply"
+"""Sentences for people."""
+
+STOP = "chatrobot/stop"
+"""std_msgs/Bool: true stops."""
+
+CONTROL = "chatrobot/control"
+"""Every Motion says ten times a second that it is there: {"id", "node", "host", "pid", "hears": [leases]}."""
+
+OPERATOR = "chatrobot/operator"
+"""`input` says many times a second that it is there, and what it said last (`nodes/operator.py`)."""
+
+
+class MotionBeat(NamedTuple):
+    """What a Motion says of itself. `hears`: the leases of the sources it has heard. `open_loop`: the limits it drives
+    within where it drives open loop, else None. `protocol`: of its link."""
+
+    id: str
+    name: str
+    hears: frozenset[str]
+    open_loop: dict[str, float] | None = None
+    protocol: int = PROTOCOL
+
+
+def read_beat(text: str) -> MotionBeat | None:
+    """None where it is something else."""
+    try:
+        data = json.loads(text)
+    except (ValueError, RecursionError):
+        return None
+    if not isinstance(data, dict) or not {"id", "node", "host", "pid"} <= data.keys():
+        return None
+    name = f"{data['node']} (process {data['pid']} on {data['host']})"
+    hears = data.get("hears")
+    leases = frozenset(map(str, hears)) if isinstance(hears, list) else frozenset[str]()
+    return MotionBeat(str(data["id"]), name[:120], leases, _numbers(data.get("open_loop")), protocol_of(data))
+
+
+def _numbers(values: object) -> dict[str, float] | None:
+    """The numbers by their names, where it is that."""
+    if not isinstance(values, dict):
+        return None
+    return {str(name): float(value) for name, value in values.items() if isinstance(value, (int, float))}
+
 
 FIRST_ANSWER_S = 3.0
 """A plan waits this long for a control node to appear."""

@@ -9,8 +9,8 @@ from chatrobot.core.events import Finished, Outcome
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.core.reason import Reason
 from chatrobot.core.summed import gone_on
-from chatrobot.link.approval import Approval
 from chatrobot.link.envelope import Envelope, seconds
+from chatrobot.link.motion_link import Approval
 from chatrobot.motion.budgets import Account, Extent
 from chatrobot.motion.plan_stream import Stream
 from chatrobot.motion.planner import Planned

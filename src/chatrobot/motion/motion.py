@@ -23,7 +23,7 @@ from chatrobot.motion.clients import Clients
 from chatrobot.motion.cmd_vel_input import CmdVelInput
 from chatrobot.motion.goal_queue import GoalQueue
 from chatrobot.motion.goal_server import GoalServer
-from chatrobot.motion.governed_robot import GovernedRobot
+from chatrobot.motion.governed_robot import GovernedRobot, WireTransport
 from chatrobot.motion.inbox import Inbox
 from chatrobot.motion.paused import Pausing
 from chatrobot.motion.plan_executor import OutcomeQueue, PlanExecutor
@@ -35,7 +35,6 @@ from chatrobot.motion.safety.stop_confirmation import StopConfirmation
 from chatrobot.motion.safety.watchdog import GuardLink, StallDetector
 from chatrobot.motion.telemetry import TelemetryPublisher, sectors_m
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.messages import TwistMessage
 from chatrobot.wire.wire import Wire
 

@@ -24,7 +24,6 @@ from chatrobot.core.events import (
     Result,
     Said,
 )
-from chatrobot.core.motion_budget import NOT_CHOSEN
 from chatrobot.dialogue.llm.camera import wire_camera
 from chatrobot.dialogue.llm.requests import Interpreter
 from chatrobot.dialogue.llm.setup import ModelSetup, warm_up
@@ -37,9 +36,8 @@ from chatrobot.dialogue.session import Session
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.consent import read_consent
 from chatrobot.language.phrases import render_reason, say
-from chatrobot.link.approval import LAPSES_AFTER_S
-from chatrobot.link.topic_link import TopicLink
-from chatrobot.link.topics import CHATGPT_NODE, EVENTS, OPERATOR, REPLY, STOP, USER_INPUT
+from chatrobot.link.motion_link import LAPSES_AFTER_S
+from chatrobot.link.topic_link import CHATGPT_NODE, EVENTS, OPERATOR, REPLY, STOP, USER_INPUT, TopicLink
 from chatrobot.models.seam import Model
 from chatrobot.nodes.log import Severity, Write
 from chatrobot.nodes.operator import Operators
@@ -50,7 +48,7 @@ from chatrobot.programs.library import Library
 from chatrobot.reflex import is_release
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.open_loop import as_chosen
-from chatrobot.robots.profile import RobotProfile
+from chatrobot.robots.profile import NOT_CHOSEN, RobotProfile
 from chatrobot.sim.load import load_world
 from chatrobot.sim.world import World
 from chatrobot.wire.connect import Connect, connect_wire, is_on_this_machine

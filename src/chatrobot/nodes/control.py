@@ -15,14 +15,14 @@ from typing import TYPE_CHECKING
 
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Finished, Telemetry
-from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.link.envelope import Envelope, Word
-from chatrobot.link.topics import CHATGPT_NODE, EVENTS, TELEMETRY
+from chatrobot.link.topic_link import CHATGPT_NODE, EVENTS, TELEMETRY
 from chatrobot.motion.runner import MotionRunner
 from chatrobot.motion.safety.stop_confirmation import Sight
 from chatrobot.nodes.foreign import Foreign
+from chatrobot.robots.profile import NOT_CHOSEN, MotionBudget
 from chatrobot.wire.connect import Connect, connect_wire
 from chatrobot.wire.messages import Text
 

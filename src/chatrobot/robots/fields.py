@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import NoReturn
 
 from chatrobot.core.errors import ProfileError
-from chatrobot.core.motion_budget import NONE
+from chatrobot.robots.profile import NONE
 
 # A ROS name, relative or absolute, without substitutions (design.ros2.org, topic and service names).
 _TOPIC = re.compile(r"/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*", re.ASCII)

@@ -9,19 +9,18 @@ import subprocess
 import sys
 import threading
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
 from types import TracebackType
+from typing import Literal
 
 from chatrobot.core.errors import SandboxError
 from chatrobot.core.reason import Reason
-from chatrobot.sandbox import bubblewrap, wire_format
-from chatrobot.sandbox.layers import Layers
 from chatrobot.sandbox.libc import pidfd_open
-from chatrobot.sandbox.limits import SandboxLimits
+from chatrobot.sandbox.limits import Layers, SandboxLimits, receive_message, send_message
 from chatrobot.sandbox.process import SandboxedProcess
-from chatrobot.sandbox.stdlib import PRELOADED
+from chatrobot.sandbox.walls import bubblewrap_command, find_bubblewrap
 
 _START = (
     "import sys; sys.path.append(sys.argv[1]); from chatrobot.sandbox.server import main; "
@@ -58,7 +57,7 @@ class WarmServer:
         self._preload = list(preload)
         self._limits = limits or SandboxLimits()
         self._layers = layers or Layers()
-        self._library = PRELOADED if has_library else ()
+        self._has_library = has_library
         self._lock = threading.Lock()
         self._line: socket.socket | None = None
         self.process: subprocess.Popen[bytes] | None = None
@@ -110,7 +109,7 @@ class WarmServer:
             with self._lock:
                 if self._line is not None:
                     given = (their_channel.fileno(), their_log, their_report.fileno())
-                    wire_format.send(self._line, said, payload, given)
+                    send_message(self._line, said, payload, given)
                     problem = ""
         except OSError as error:
             problem = str(error)
@@ -156,9 +155,9 @@ class WarmServer:
         flags = ["-B"] if sys.flags.dont_write_bytecode else []
         given = [theirs.fileno(), *alive]
         words = [sys.executable, "-I", "-S", *flags, "-c", _START, _ROOT, *map(str, given)]
-        wrap = bubblewrap.find() if self._layers.bubblewrap else None
+        wrap = find_bubblewrap() if self._layers.bubblewrap else None
         if is_wrapped and wrap is not None:
-            words = bubblewrap.command(wrap, [_ROOT, *self._path, *_site_folders()]) + words
+            words = bubblewrap_command(wrap, [_ROOT, *self._path, *_site_folders()]) + words
         with theirs:
             self.process = _spawn(words, given)
         for each in ours:
@@ -166,7 +165,7 @@ class WarmServer:
         setup = {
             "path": self._path,
             "behind": _site_folders(),
-            "library": self._library,
+            "has_library": self._has_library,
             "preload": self._preload,
             "layers": self._layers.to_json(),
             "tasks": _tasks_of_this_user(),
@@ -175,8 +174,8 @@ class WarmServer:
         }
         line.settimeout(timeout_s)
         try:
-            wire_format.send(line, setup)
-            said, _, _ = wire_format.receive(line)
+            send_message(line, setup)
+            said, _, _ = receive_message(line)
         except (EOFError, OSError) as error:
             said = {"event": "failed", "problem": str(error) or "it ended at once"}
         line.settimeout(LAUNCH_TIMEOUT_S)
@@ -262,3 +261,43 @@ def _tasks_of_this_user() -> int:
             except OSError:
                 continue
     return tasks
+
+
+Level = Literal["none", "minimum", "good", "full"]
+
+
+@dataclass(frozen=True)
+class SandboxReport:
+    """What stands here.
+
+    Args:
+        problems: for each layer that was tried why it does not stand, or "" where it does.
+        refusal: why no program runs here at all, or None.
+    """
+
+    problems: Mapping[str, str]
+    refusal: Reason | None
+
+    @property
+    def standing(self) -> tuple[str, ...]:
+        return tuple(layer for layer, problem in self.problems.items() if not problem)
+
+    @property
+    def level(self) -> Level:
+        """minimum: filter, limits and a clean environment; good: Landlock or namespaces too; full: both."""
+        if self.refusal is not None:
+            return "none"
+        levels: tuple[Level, ...] = ("minimum", "good", "full")
+        has_world = "namespaces" in self.standing or "bubblewrap" in self.standing
+        return levels[("landlock" in self.standing) + has_world]
+
+
+def probe(layers: Layers | None = None) -> SandboxReport:
+    """Start a warm server without any modules, see what stands, and end it again (0.1 s)."""
+    refusal = None
+    with WarmServer(layers=layers, has_library=False) as server:
+        try:
+            server.start()
+        except SandboxError as error:
+            refusal = error.reason
+        return SandboxReport(server.problems, refusal)

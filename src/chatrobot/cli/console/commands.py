@@ -15,7 +15,7 @@ from chatrobot.cli.console.controller import ChatController
 from chatrobot.cli.console.maps import big_map
 from chatrobot.cli.plan_file import read_plan_file
 from chatrobot.core.errors import UsageError
-from chatrobot.core.motion_budget import NONE
+from chatrobot.robots.profile import NONE
 
 
 @dataclass(frozen=True)

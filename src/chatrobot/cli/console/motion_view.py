@@ -20,7 +20,7 @@ from chatrobot.core.events import (
     Telemetry,
 )
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
-from chatrobot.core.motion_budget import OPEN_LOOP
+from chatrobot.robots.profile import OPEN_LOOP
 
 XY = tuple[float, float]
 TRAIL_SPACING_M = 0.03

@@ -29,7 +29,7 @@ from chatrobot.core.events import (
     Streamed,
 )
 from chatrobot.core.geometry import Twist
-from chatrobot.core.shown import fixed
+from chatrobot.core.reason import fixed
 from chatrobot.dialogue.programs.text import body, headline
 from chatrobot.dialogue.replies import describe_left
 from chatrobot.language.phrases import render_reason, say

@@ -21,9 +21,7 @@ from chatrobot.core.events import (
     Outcome,
     Rehearsed,
 )
-from chatrobot.core.motion_budget import EXCEEDED
-from chatrobot.core.reason import Reason
-from chatrobot.core.shown import one_line
+from chatrobot.core.reason import Reason, one_line
 from chatrobot.core.summed import summed
 from chatrobot.dialogue.llm.call import CallEnd
 from chatrobot.dialogue.llm.plan_stream import PlanStream
@@ -35,6 +33,7 @@ from chatrobot.models.seam import Message, Model
 from chatrobot.plan.base import Step
 from chatrobot.plan.primitives.say import Say
 from chatrobot.plan.text import format_step
+from chatrobot.robots.profile import EXCEEDED
 
 if TYPE_CHECKING:
     from chatrobot.link.motion_link import MotionLink

@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Literal
 
 from chatrobot.core.events import Event, Finished, Looked, Notice
 from chatrobot.core.geometry import Pose
-from chatrobot.core.reason import Reason
-from chatrobot.core.shown import one_line
+from chatrobot.core.reason import Reason, one_line
 from chatrobot.dialogue.history import Exchange, History
 from chatrobot.dialogue.llm import prompt
 from chatrobot.dialogue.llm.camera import Camera

@@ -15,12 +15,12 @@ from chatrobot.core.reason import Reason
 from chatrobot.governor.governor import Governor, Verdict
 from chatrobot.governor.rule import Sensed
 from chatrobot.motion.governed_motion import decelerated, is_cut_short
+from chatrobot.motion.governed_robot import WireTransport
 from chatrobot.motion.programs.execution import HeldTwist
 from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.sim.fault_injection import NO_FAULTS
 from chatrobot.sim.robot import SimRobot
 from chatrobot.sim.world import EMPTY_WORLD, World
-from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import Flag, Imu, LaserScan, Message, Number
 from chatrobot.wire.wire import subscribe_sensors

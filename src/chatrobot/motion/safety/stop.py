@@ -10,8 +10,8 @@ from collections.abc import Callable
 from chatrobot.core.clock import Clock
 from chatrobot.core.governed import StopEpoch
 from chatrobot.core.reason import Reason
+from chatrobot.motion.governed_robot import Transport
 from chatrobot.motion.safety.stop_confirmation import StopConfirmation
-from chatrobot.transports.transport import Transport
 from chatrobot.wire.runtime_dir import stop_socket_path
 
 PAUSED = "paused_by"
