@@ -1,12 +1,12 @@
-"""Which process of this machine speaks, and whether it is stopped just now (SIGSTOP, Ctrl-Z, a debugger) or gone.
+"""Processes of this machine: which one speaks and whether it runs, and how the kernel is to treat our own.
 
-Where there is no /proc, or the process is on another machine or in another container, nobody can tell.
+Where there is no /proc, or a process is on another machine or in another container, nobody can tell whether it is
+stopped (SIGSTOP, Ctrl-Z, a debugger) or gone.
 """
 
 from __future__ import annotations
 
 import contextlib
-import ctypes
 import os
 import platform
 import struct
@@ -111,6 +111,8 @@ def wake_as_others_do() -> None:
 
 def _take_turns_of(slice_ns: int) -> None:
     """For the calling thread. Where the machine has no such call it waits its turn like everybody."""
+    import ctypes  # not every process that asks who speaks wants it
+
     call = _CALL.get(platform.machine())
     if call is None:
         return

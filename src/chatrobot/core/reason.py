@@ -28,10 +28,12 @@ class Reason:
             )
 
     def to_json(self) -> dict[str, Any]:
+        """Make its JSON object, the code beside the values."""
         return {"code": self.code, **self.values}
 
     @classmethod
     def from_json(cls, data: Mapping[str, Any]) -> Reason:
+        """Read what `to_json` made."""
         values = {key: value for key, value in data.items() if key != "code"}
         return cls(str(data["code"]), values)
 

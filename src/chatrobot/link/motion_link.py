@@ -21,9 +21,11 @@ class MotionLink(Protocol):
     `beats` is true while the source keeps its lease; a source that is to be taken for frozen sets it to false.
     """
 
-    beats: bool
-    is_simulated: bool
+    beats: bool = True
+    is_simulated: bool = False
     """Time passes only while somebody waits for an event."""
+    is_lost: bool = False
+    """Motion is gone, and we did not ask it to go."""
 
     def send(self, word: Word, turn: int = 0, **payload: Any) -> None:
         """Say one word.
@@ -39,11 +41,6 @@ class MotionLink(Protocol):
 
     def wake(self) -> None:
         """Have a waiting `next_event` return None at once."""
-        ...
-
-    @property
-    def is_lost(self) -> bool:
-        """Motion is gone, and we did not ask it to go."""
         ...
 
     def abandon(self) -> None:

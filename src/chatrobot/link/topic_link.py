@@ -26,7 +26,7 @@ from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.core.process import own_identity, wake_promptly
 from chatrobot.core.reason import Reason
 from chatrobot.link.envelope import PROTOCOL, Envelope, Word, other_protocol, protocol_of
-from chatrobot.link.motion_link import EventQueue, Sender
+from chatrobot.link.motion_link import EventQueue, MotionLink, Sender
 from chatrobot.robots.profile import OPEN_LOOP
 from chatrobot.wire.messages import Text
 from chatrobot.wire.wire import Wire
@@ -98,7 +98,7 @@ FROZEN_S = 0.5
 """After a gap this long in our own beats it is we who were silent, and what control said is still to be read."""
 
 
-class TopicLink(EventQueue):
+class TopicLink(EventQueue, MotionLink):
     """Talks to whichever control node is there; it may come, go and come again.
 
     A thread beats the lease. If this process freezes or dies, the beats end and Motion stops the robot. `open`
@@ -132,8 +132,6 @@ class TopicLink(EventQueue):
         self._control_came = threading.Condition()
         self._in_flight: dict[int, str] = {}
         self._pose: Pose = ORIGIN
-        self.beats = True
-        self.is_simulated = False
 
     def open(self) -> None:
         """Listen, and begin to beat."""
@@ -143,11 +141,6 @@ class TopicLink(EventQueue):
         self._wire.subscribe(EVENTS, Text, self._hear_event)
         self.send("hello", term_s=self._term_s, process=self._process)
         threading.Thread(target=self._beat, name="beat", daemon=True).start()
-
-    @property
-    def is_lost(self) -> bool:
-        """Never for good: a control node may come again."""
-        return False
 
     @property
     def has_control(self) -> bool:

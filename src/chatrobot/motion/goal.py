@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from chatrobot.core.events import Finished, Outcome
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.core.reason import Reason
-from chatrobot.core.summed import gone_on
 from chatrobot.link.envelope import Envelope, seconds
 from chatrobot.link.motion_link import Approval
 from chatrobot.motion.budgets import Account, Extent
@@ -156,7 +155,7 @@ class Goal:
 
     def whole(self, finished: Finished) -> Finished:
         """Its end, together with what was done before it was paused."""
-        return gone_on(self.so_far, finished) if self.so_far is not None else finished
+        return self.so_far.resumed_by(finished) if self.so_far is not None else finished
 
     @property
     def unread(self) -> str:

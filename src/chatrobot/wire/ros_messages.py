@@ -24,6 +24,7 @@ from chatrobot.wire.messages import (
     Text,
     TwistMessage,
 )
+from chatrobot.wire.stamps import to_wall_s
 
 MOST_BYTES = 33_554_432
 """A larger picture is passed over (4K in colour has 25 MB)."""
@@ -137,6 +138,37 @@ def is_sensor(topic: str, kind: type[Any], wiring: Wiring) -> bool:
 def read_depth(kind: type[Any]) -> int:
     """How many messages a reader keeps: of a burst all, so that nothing is lost; of pictures the newest."""
     return 1 if kind is Picture else _READ_DEPTH
+
+
+class Listener:
+    """One topic as one kind of message, for all callbacks of an end."""
+
+    def __init__(self, form: RosForm) -> None:
+        self.form = form
+        self.callbacks: tuple[Callable[[Any], None], ...] = ()
+
+    def hear(self, ros_message: Any, local_s: Callable[[float], float]) -> None:
+        """Call back with the planar message; a wire never dies of a bad one.
+
+        Args:
+            local_s: translates a stamp of the sender's clock to ours.
+        """
+        try:
+            message = self.form.from_ros(ros_message)
+        except (AttributeError, TypeError, ValueError, OverflowError):
+            return
+        timed = None if message is None else stamped(message)
+        if timed is not None:
+            message = timed._replace(stamp_s=local_s(timed.stamp_s))
+        if message is not None:
+            for callback in self.callbacks:
+                callback(message)
+
+
+def with_wall_stamp(message: Message) -> Message:
+    """Return the message with its stamp as ROS headers carry it."""
+    timed = stamped(message)
+    return message if timed is None else timed._replace(stamp_s=to_wall_s(timed.stamp_s))
 
 
 def stamped(message: Message) -> Odometry | Imu | LaserScan | Picture | None:

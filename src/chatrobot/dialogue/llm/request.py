@@ -22,7 +22,6 @@ from chatrobot.core.events import (
     Rehearsed,
 )
 from chatrobot.core.reason import Reason, one_line
-from chatrobot.core.summed import summed
 from chatrobot.dialogue.llm.call import CallEnd
 from chatrobot.dialogue.llm.plan_stream import PlanStream
 from chatrobot.dialogue.llm.prompt import correction, is_short_form
@@ -235,7 +234,7 @@ class ModelRequest:
     def _end_run(self, finished: Finished) -> None:
         self._feed.end()
         self._round.end_run(finished)
-        self._total = finished if self._total is None else summed(self._total, finished)
+        self._total = finished if self._total is None else self._total.followed_by(finished)
         if not self._round.is_calling:
             self._end_round()
         elif finished.outcome != "completed":

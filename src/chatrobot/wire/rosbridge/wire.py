@@ -27,10 +27,10 @@ from chatrobot.core.errors import UsageError, WireError
 from chatrobot.core.wiring import Wiring
 from chatrobot.wire.codec import as_base64
 from chatrobot.wire.messages import LaserScan, Message
-from chatrobot.wire.ros_messages import RosForm, ros_form, stamped
+from chatrobot.wire.ros_messages import Listener, RosForm, ros_form, with_wall_stamp
 from chatrobot.wire.rosbridge.protocol import advertise_request, read, request_id, subscribe_request
 from chatrobot.wire.rosbridge.rosapi import RosApi
-from chatrobot.wire.stamps import StampTranslator, to_wall_s
+from chatrobot.wire.stamps import StampTranslator
 from chatrobot.wire.wire import Endpoint, M, Wire
 
 OPEN_TIMEOUT_S = 3.0
@@ -48,26 +48,15 @@ MESSAGE_BYTES = 8_388_608
 _SIOCOUTQ = 0x5411
 
 
-class _Subscription:
+class _Subscription(Listener):
     """One topic as one kind of message."""
 
     def __init__(self, form: RosForm) -> None:
-        self.form = form
-        self.callbacks: tuple[Callable[[Any], None], ...] = ()
+        super().__init__(form)
         self._clock = StampTranslator()
 
     def deliver(self, fields: Any) -> None:
-        try:
-            message = self.form.from_ros(fields)
-        except (AttributeError, TypeError, ValueError, OverflowError):
-            return  # a wire never dies of a bad message
-        if message is None:
-            return
-        timed = stamped(message)
-        if timed is not None:
-            message = timed._replace(stamp_s=self._clock.local_s(timed.stamp_s, time.monotonic()))
-        for callback in self.callbacks:
-            callback(message)
+        self.hear(fields, lambda stamp_s: self._clock.local_s(stamp_s, time.monotonic()))
 
 
 class RosbridgeWire(Wire):
@@ -118,10 +107,8 @@ class RosbridgeWire(Wire):
         refusal = self._refused.get(request_id("advertise", topic, form))
         if refusal is not None:
             raise WireError(f"rosbridge refuses {topic}: {refusal}")
-        timed = stamped(message)
-        if timed is not None:
-            message = timed._replace(stamp_s=to_wall_s(timed.stamp_s))
-        self._send({"op": "publish", "topic": self.resolve(topic), "msg": form.to_ros(message)})
+        fields = form.to_ros(with_wall_stamp(message))
+        self._send({"op": "publish", "topic": self.resolve(topic), "msg": fields})
 
     def subscribe(self, topic: str, kind: type[M], callback: Callable[[M], None]) -> None:
         with self._lock:
