@@ -39,12 +39,14 @@ class Standing:
         self._since_s: float | None = None
 
     def on_odometry(self, message: Odometry) -> None:
+        """Take in what the robot tells of its motion."""
         if abs(message.vx_mps) + abs(message.vy_mps) + abs(message.wz_radps) > 0.01:
             self._since_s = None
         elif self._since_s is None:
             self._since_s = awake_or_not_s()
 
     def for_s(self, now_s: float) -> float:
+        """Return how long it has stood."""
         return 0.0 if self._since_s is None else now_s - self._since_s
 
 
@@ -152,6 +154,7 @@ def _wiring(options: dict[str, str]) -> Wiring:
 
 
 def main(arguments: list[str]) -> int:
+    """Guard until there is nothing left to do; the exit code."""
     options = dict(zip(arguments[::2], arguments[1::2]))
     for name in ("SIGINT", "SIGTSTP", "SIGHUP", "SIGTTIN", "SIGTTOU", "SIGPIPE", "SIGTERM"):
         signal.signal(getattr(signal, name), signal.SIG_IGN)

@@ -42,10 +42,12 @@ class Measured:
 
     @property
     def ratio(self) -> float:
+        """What odometry has to be multiplied by."""
         return self.true / self.seen
 
     @property
     def is_plausible(self) -> bool:
+        """The ratio is one that wheels of the right robot may have."""
         return self.seen > 0.0 and PLAUSIBLE[0] <= self.ratio <= PLAUSIBLE[1]
 
 

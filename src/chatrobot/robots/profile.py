@@ -229,10 +229,12 @@ class RobotProfile:
 
     @property
     def can_turn_on_the_spot(self) -> bool:
+        """It turns without driving."""
         return self.kinematics != "ackermann"
 
     @property
     def can_go_sideways(self) -> bool:
+        """It drives to its left and right without turning."""
         return self.kinematics == "mecanum"
 
     @property

@@ -34,9 +34,6 @@ class Walls:
     problems: Mapping[str, str]
     doors: Doors | None
 
-    def to_json(self) -> dict[str, str]:
-        return dict(self.problems)
-
 
 def build_walls(wanted: Layers, tasks: int, *, is_wrapped: bool) -> Walls:
     """Called once in the warm server, with all imports done and one thread; it may return in a forked process.

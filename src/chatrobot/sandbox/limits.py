@@ -5,8 +5,7 @@ from __future__ import annotations
 import json
 import socket
 import struct
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 
@@ -32,13 +31,6 @@ class SandboxLimits:
     file_bytes: int = 0
     descriptors: int = 64
 
-    def to_json(self) -> dict[str, Any]:
-        return asdict(self)
-
-    @classmethod
-    def from_json(cls, data: Mapping[str, Any]) -> SandboxLimits:
-        return cls(**data)
-
 
 @dataclass(frozen=True)
 class Layers:
@@ -53,13 +45,6 @@ class Layers:
     landlock: bool = True
     namespaces: bool = True
     bubblewrap: bool = True
-
-    def to_json(self) -> dict[str, bool]:
-        return asdict(self)
-
-    @classmethod
-    def from_json(cls, data: Mapping[str, bool]) -> Layers:
-        return cls(**data)
 
 
 _LENGTHS = struct.Struct("=II")

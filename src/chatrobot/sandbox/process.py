@@ -47,6 +47,7 @@ class LogDrain:
         self._thread: threading.Thread | None = None
 
     def start(self) -> None:
+        """Begin to read."""
         self._thread = threading.Thread(target=self._drain, name="sandbox log", daemon=True)
         self._thread.start()
 

@@ -213,6 +213,7 @@ class Filter:
         ]
 
     def for_process(self, pid: int) -> bytes:
+        """Fill in a process's own number."""
         code = bytearray(self._code)
         for offset in self._own_pid_at:
             struct.pack_into("=I", code, offset, pid)

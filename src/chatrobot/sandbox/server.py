@@ -82,6 +82,7 @@ class Server:
         signal.set_wakeup_fd(wake, warn_on_full_buffer=False)
 
     def serve(self) -> None:
+        """Launch, reap and end children until the host is gone."""
         while True:
             ready = self._wait()
             if self._host_pidfd in ready:
@@ -116,7 +117,7 @@ class Server:
     def _launch(self, said: dict[str, Any], payload: bytes, descriptors: list[int]) -> None:
         channel, log, report_fd = descriptors
         report = socket.socket(fileno=report_fd)
-        limits = SandboxLimits.from_json(said["limits"])
+        limits = SandboxLimits(**said["limits"])
         order = child.Order(said["entry"], payload, limits, channel, log, attempts.new_page())
         try:
             pid = os.fork()
@@ -228,7 +229,7 @@ def main(descriptor: int, host_pidfd: int | None = None) -> None:
         if each is not None:
             os.set_inheritable(each, False)
     setup, _, _ = receive_message(host)
-    layers = Layers.from_json(setup["layers"])
+    layers = Layers(**setup["layers"])
     if setup["can_wrap"] and not setup["is_wrapped"] and not (layers.namespaces and can_make_namespaces()):
         send_message(host, {"event": "wrap"})
         return
@@ -242,11 +243,11 @@ def main(descriptor: int, host_pidfd: int | None = None) -> None:
     threading.stack_size(THREAD_STACK_BYTES)
     walls = build_walls(layers, setup["tasks"], is_wrapped=setup["is_wrapped"])
     if walls.doors is None:
-        send_message(host, {"event": "refused", "layers": walls.to_json()})
+        send_message(host, {"event": "refused", "layers": dict(walls.problems)})
         return
     gc.collect()
     gc.freeze()
     gc.disable()
     server = Server(host, walls.doors, host_pidfd)
-    send_message(host, {"event": "ready", "layers": walls.to_json()})
+    send_message(host, {"event": "ready", "layers": dict(walls.problems)})
     server.serve()

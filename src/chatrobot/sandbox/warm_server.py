@@ -9,7 +9,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
 from types import TracebackType
@@ -103,7 +103,7 @@ class WarmServer:
         report, their_report = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
         log, their_log = os.pipe()
         process = SandboxedProcess(channel, log, report, limits)
-        said = {"entry": entry, "limits": limits.to_json()}
+        said = {"entry": entry, "limits": asdict(limits)}
         problem = "the warm server is not running"
         try:
             with self._lock:
@@ -125,6 +125,7 @@ class WarmServer:
         return process
 
     def is_running(self) -> bool:
+        """Tell whether its process is there."""
         return self.process is not None and self.process.poll() is None
 
     def close(self) -> None:
@@ -167,7 +168,7 @@ class WarmServer:
             "behind": _site_folders(),
             "has_library": self._has_library,
             "preload": self._preload,
-            "layers": self._layers.to_json(),
+            "layers": asdict(self._layers),
             "tasks": _tasks_of_this_user(),
             "is_wrapped": is_wrapped,
             "can_wrap": wrap is not None,
@@ -280,6 +281,7 @@ class SandboxReport:
 
     @property
     def standing(self) -> tuple[str, ...]:
+        """The layers that stand."""
         return tuple(layer for layer, problem in self.problems.items() if not problem)
 
     @property

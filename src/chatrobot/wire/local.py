@@ -131,6 +131,7 @@ class LocalHub(Wire):
 
     @property
     def client_count(self) -> int:
+        """How many processes are connected."""
         return len(self._clients)
 
     def publish(self, topic: str, message: Message) -> None:

@@ -79,6 +79,7 @@ class RosNode:
 
     @property
     def is_closed(self) -> bool:
+        """It has left, or somebody has closed its context."""
         return self._closed
 
     @property
