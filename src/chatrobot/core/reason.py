@@ -1,7 +1,8 @@
 """Why something was refused, limited or ended: a code with numbers, put into words only at the very end.
 
 Motion and the governor know no language. They say `Reason("obstacle_ahead", {"distance_m": 0.4})`; the phrase
-tables of `language` turn that into a sentence in the language of the question.
+tables of `language` turn that into a sentence in the language of the question. How numbers and names from outside are
+written there is below.
 """
 
 from __future__ import annotations

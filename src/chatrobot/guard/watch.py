@@ -1,7 +1,7 @@
-"""What the guard decides: pure, on any clock, so that real time and simulated time run the same rule.
+"""What the guard decides, on any clock, so that real time and simulated time run the same rule.
 
 States: `idle` until Motion shakes hands, `watching` while beats come, `tripped` from a missed beat until Motion
-shakes hands again. Only a trip sends anything.
+shakes hands again. Only a trip sends anything. Once Motion is gone, it looks whether the robot is gone, too.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The link between the two halves: envelopes one way, events the other. Three carriers, one contract suite."""
+"""What a session holds of Motion: envelopes one way, events the other. Three carriers, one contract suite."""
 
 from __future__ import annotations
 

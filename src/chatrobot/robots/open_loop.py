@@ -1,8 +1,11 @@
-"""Open loop: how a robot is driven that measures nothing of its motion, where a person has asked for it.
+"""How a robot is driven that nobody may be able to stop, or to see: slowly.
 
-Nobody sees whether such a robot goes where it is told, or stops when it is told. So it goes slowly and for a short
-time, and nothing is told of it as measured. It is never a way round odometry that is lost: a robot whose profile has
-odometry is not driven like this.
+A base that holds its last command drives on when a network parts it from us. Nothing on the far machine can prevent
+that; the last command can be a slow one.
+
+Open loop, where a person asks for it, drives a robot that measures nothing of its motion. Nobody sees whether it goes
+or stops as it is told, so it goes slowly and for a short time, and nothing is told as measured. It is no way round
+odometry that is lost: a robot whose profile has odometry is not driven like this.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What a robot is: its limits (apart from its wiring), shape and sensors. One TOML file a robot fills it."""
+"""What a robot is: limits (apart from its wiring), shape, sensors and motion budget. One TOML file a robot fills it."""
 
 from __future__ import annotations
 

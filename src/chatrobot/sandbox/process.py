@@ -1,4 +1,4 @@
-"""A program that runs in the sandbox, as the host sees it."""
+"""A program that runs in the sandbox, as the host sees it, and its output, which is never in anybody's way."""
 
 from __future__ import annotations
 

@@ -1,4 +1,11 @@
-"""The filter that stands between a program in the sandbox and the kernel."""
+"""The filter between a program in the sandbox and the kernel: what may be asked, assembled for this machine.
+
+Three answers: what a program needs to compute, wait and talk over descriptors it has is allowed; what an ordinary
+program may try (open a file, a socket, a process) is a PermissionError; what only an attack tries kills.
+
+The language is classic BPF (`linux/filter.h`): a 32-bit accumulator, loads from `struct seccomp_data`, and jumps
+that go forward only. Jumps reach 255 instructions; every rule is far shorter.
+"""
 
 from __future__ import annotations
 

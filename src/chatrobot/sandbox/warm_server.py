@@ -1,4 +1,4 @@
-"""The host's end of the warm server: start it once, launch programs in milliseconds."""
+"""The host's end of the warm server: start it once, launch programs in milliseconds, see which walls stand."""
 
 from __future__ import annotations
 
