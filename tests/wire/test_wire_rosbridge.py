@@ -206,7 +206,7 @@ def test_a_secret_in_the_address_reaches_the_server_and_no_message(
 @pytest.mark.parametrize("url", ["http://robot:9090", "robot:9090", "ws://", ""])
 def test_what_is_no_websocket_is_refused(url: str) -> None:
     with pytest.raises(UsageError):
-        RosbridgeWire(url, Wiring())
+        connect_wire(f"rosbridge:{url}", Wiring(), "test")
 
 
 def test_two_robots_in_two_namespaces_are_driven_apart(robot: FakeRosbridge, connect: Connect) -> None:

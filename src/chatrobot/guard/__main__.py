@@ -20,7 +20,7 @@ from chatrobot.core.process import GUARD, prefer, wake_promptly
 from chatrobot.core.wiring import Wiring
 from chatrobot.guard.watch import GOODBYE, HANDSHAKE, TRIPPED, Departure, Watch
 from chatrobot.wire.connect import connect_wire
-from chatrobot.wire.messages import Odometry, TwistMessage
+from chatrobot.wire.messages import ZERO, Odometry, TwistMessage
 from chatrobot.wire.wire import Wire
 
 STANDING_S = 1.0
@@ -28,8 +28,6 @@ STANDING_S = 1.0
 
 GIVE_UP_S = 30.0
 """Without odometry nobody can see it standing; after this long of zeros nobody is left to serve."""
-
-ZERO = TwistMessage(0.0, 0.0, 0.0)
 
 
 class Standing:

@@ -10,8 +10,8 @@ from chatrobot.core.clock import TICK_S, VirtualClock
 from chatrobot.core.events import Event, Notice
 from chatrobot.link.envelope import Word
 from chatrobot.link.motion_link import MotionLink, Sender
-from chatrobot.motion.governed_robot import ZERO
 from chatrobot.motion.safety.watchdog import SimulatedGuard
+from chatrobot.wire.messages import ZERO
 from chatrobot.wire.wire import Wire
 
 if TYPE_CHECKING:

@@ -1,7 +1,7 @@
 """The link to a Motion that is a node of its own, and the topics of the nodes.
 
-Envelopes go on `chatgpt_node`, events come on `chatrobot/events`, telemetry on `chatrobot/telemetry`: std_msgs/String and
-std_msgs/Bool alone, so that nothing has to be built to listen.
+Envelopes go on `chatgpt_node`, events come on `chatrobot/events`, telemetry on `chatrobot/telemetry`: std_msgs/String
+and std_msgs/Bool alone, so that nothing has to be built to listen.
 """
 
 from __future__ import annotations

@@ -16,10 +16,8 @@ from chatrobot.governor.rule import Sensed
 from chatrobot.governor.sensors_due import silent_after_s
 from chatrobot.motion.remembered_obstacles import RememberedObstacles, Sight
 from chatrobot.robots.profile import RobotProfile, Wiring
-from chatrobot.wire.messages import LaserScan, TwistMessage
+from chatrobot.wire.messages import ZERO, LaserScan, TwistMessage
 from chatrobot.wire.wire import Wire
-
-ZERO = TwistMessage(0.0, 0.0, 0.0)
 
 
 class Transport(Protocol):

@@ -1,7 +1,7 @@
 """Is this a stop? Whole words and phrases, never substrings; Chinese is cut by the longest phrase.
 
-A text is cut into units: Latin words and single Chinese characters. Where it is no stop as it stands, it may be one with
-a mistake in it: one edit in letters, the same pinyin in Chinese. A word of the dictionary is no mistake.
+A text is cut into units: Latin words and single Chinese characters. Where it is no stop as it stands, it may be one
+with a mistake in it: one edit in letters, the same pinyin in Chinese. A word of the dictionary is no mistake.
 """
 
 from __future__ import annotations

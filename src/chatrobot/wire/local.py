@@ -212,10 +212,13 @@ class LocalHub(Wire):
 
 
 def _connect(address: str, _: Wiring, __: str) -> Wire:
-    path = address.removeprefix("local:")
-    if not path:
-        raise UsageError("a local wire needs the path of its socket", where=address, allowed="local:PATH")
-    return LocalWire(path)
+    _check(address)
+    return LocalWire(address.removeprefix("local:"))
 
 
-BACKEND = Backend(_connect, "local:PATH")
+def _check(address: str) -> None:
+    if address == "local:":
+        raise UsageError("a local wire needs the path of its socket", allowed="local:PATH")
+
+
+BACKEND = Backend(_connect, "local:PATH", check=_check)

@@ -23,7 +23,7 @@ from urllib.parse import urlsplit
 from websockets.exceptions import WebSocketException
 from websockets.sync.client import ClientConnection, connect
 
-from chatrobot.core.errors import UsageError, WireError
+from chatrobot.core.errors import WireError
 from chatrobot.core.wiring import Wiring
 from chatrobot.wire.codec import as_base64
 from chatrobot.wire.messages import LaserScan, Message
@@ -69,7 +69,6 @@ class RosbridgeWire(Wire):
 
     Raises:
         WireError: no rosbridge answers there.
-        UsageError: that is no websocket's address.
     """
 
     comes_back = True
@@ -78,10 +77,6 @@ class RosbridgeWire(Wire):
     def __init__(self, url: str, wiring: Wiring, *, namespace: str = "") -> None:
         self._url, self._wiring, self.namespace = url, wiring, namespace.strip("/")
         parts = urlsplit(url)
-        if parts.scheme not in ("ws", "wss") or not parts.hostname:
-            raise UsageError(
-                f"{url!r} is not the address of a rosbridge", allowed="ws://HOST:9090 or wss://HOST"
-            )
         self._place = (
             f"{parts.scheme}://{parts.hostname}:{parts.port or (443 if parts.scheme == 'wss' else 80)}"
         )
