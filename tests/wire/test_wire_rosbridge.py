@@ -17,6 +17,7 @@ from wire_contract import CAMERA, PATIENCE_S, Inbox, WireContract
 
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.robots.profile import Wiring
+from chatrobot.wire.connect import connect_wire
 from chatrobot.wire.messages import (
     Flag,
     Imu,
@@ -374,7 +375,6 @@ def test_where_rosapi_runs_the_others_are_known(robot: FakeRosbridge, connect: C
 
 def test_the_guard_is_told_the_topics_with_their_namespace(robot: FakeRosbridge) -> None:
     from chatrobot.motion.safety import connection_monitor as link
-    from chatrobot.wire.connect import connect_wire
 
     reached = link.reach(connect_wire, f"rosbridge:{robot.url}", Wiring(namespace="robot1"), "test")
     assert reached.wire.resolve("cmd_vel") == "/robot1/cmd_vel"
@@ -390,7 +390,6 @@ def test_velocities_of_the_type_that_the_robot_takes_are_sent(
     robot: FakeRosbridge, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from chatrobot.motion.safety import connection_monitor as link
-    from chatrobot.wire.connect import connect_wire
 
     monkeypatch.setattr(link, "SURVEY_S", 0.1)
     _rosapi(robot)
