@@ -14,7 +14,7 @@ from chatrobot.core.governed import StopEpoch
 from chatrobot.governor.governor import VOID_EPOCH, Governor
 from chatrobot.governor.priority import PRIORITIES, RELEASERS, Priority, priority_of
 from chatrobot.governor.rule import Sensed
-from chatrobot.motion.governed_robot import WireTransport
+from chatrobot.motion.safety.stop import WireTransport
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import Safety, Wiring
 from chatrobot.wire.memory import MemoryHub

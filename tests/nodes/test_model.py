@@ -20,7 +20,7 @@ from chatrobot.wire.messages import Picture, Text
 from tests.models.rig import KEY, serving
 from tests.nodes.node_rig import NodeRig, running
 from tests.nodes.test_tutorial_demo import FIRST_PROMPT
-from tests.talking import PATIENCE_S
+from tests.processes import PATIENCE_S
 
 pytestmark = pytest.mark.realtime
 

@@ -203,7 +203,7 @@ def test_the_consoles_commands_that_input_is_told_to_use_are_understood(typed: s
     hub = MemoryHub()
     texts: list[str] = []
     hub.connect().subscribe(USER_INPUT, Text, lambda message: texts.append(message.data))
-    node = InputNode("memory", Wiring(), print, lambda *_: hub.connect())
+    node = InputNode("local:unused", Wiring(), print, lambda *_: hub.connect())
     node.say(typed)
     node.close()
     assert texts == [heard]

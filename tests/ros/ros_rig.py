@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.talking import Heard, TalkingProcess
+from tests.processes import Heard, TalkingProcess
 
 PACKAGES = Path(__file__).parents[2] / "ros"
 SOURCE = Path(__file__).parents[2] / "src"

@@ -13,7 +13,7 @@ from chatrobot.core.geometry import ORIGIN, Twist
 from chatrobot.core.governed import StopEpoch
 from chatrobot.governor.governor import Governor
 from chatrobot.governor.rule import Sensed
-from chatrobot.motion.governed_robot import WireTransport
+from chatrobot.motion.safety.stop import WireTransport
 from chatrobot.robots.open_loop import driven_open_loop
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.memory import MemoryHub

@@ -24,7 +24,7 @@ from chatrobot.link.in_process import InProcessLink
 from chatrobot.link.topic_link import TopicLink
 from chatrobot.motion.safety.competing_controllers import CompetingControllers
 from chatrobot.motion.safety.connection_monitor import ConnectionMonitor
-from chatrobot.motion.safety.stop_confirmation import PATIENCE_S
+from chatrobot.motion.safety.stop import PATIENCE_S
 from chatrobot.robots.load import list_profiles, load_profile
 from chatrobot.robots.open_loop import (
     OPEN_LOOP_MPS,

@@ -17,12 +17,12 @@ from chatrobot.link.in_process import InProcessLink
 from chatrobot.plan.steps import Drive, Plan
 from chatrobot.robots.load import load_profile
 from chatrobot.sim.shapes import rectangle
+from chatrobot.testing.rig import Rig
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import Imu, LaserScan, Message, Odometry
 from chatrobot.wire.stamps import StampTranslator
 from chatrobot.wire.wire import M, Wire
 from tests.link.link_rigs import SimulatedRig, finished, moving, send_plan
-from tests.rig import Rig
 
 SOURCE = Path(chatrobot.__file__).parent
 WALL_CLOCKS = {"time", "time_ns", "now", "today", "utcnow", "localtime", "ctime"}

@@ -22,9 +22,8 @@ from chatrobot.core.event import _TYPES
 from chatrobot.dialogue.places import Places
 from chatrobot.link import topic_link as topics
 from chatrobot.models import providers
-from chatrobot.models.choice import resolve
-from chatrobot.models.config import ModelConfig
-from chatrobot.nodes.parameters import PARAMETERS
+from chatrobot.models.config import ModelConfig, resolve
+from chatrobot.options import PARAMETERS
 from chatrobot.plan import registry
 from chatrobot.programs.library import Library
 from chatrobot.robots import load

@@ -13,10 +13,10 @@ from typing import Any
 import fake_rclpy
 import pytest
 from about import About
-from wire_contract import CAMERA, Inbox, WireContract
 
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.core.wiring import Wiring
+from chatrobot.testing.wire_contract import CAMERA, Inbox, WireContract
 from chatrobot.wire.connect import connect_wire, is_on_this_machine
 from chatrobot.wire.discovery import ros_reaches_this_machine_alone
 from chatrobot.wire.messages import Message, Number, Odometry, Text, TwistMessage

@@ -13,10 +13,10 @@ from collections.abc import Callable, Iterator
 
 import pytest
 from about import About
-from wire_contract import CAMERA, PATIENCE_S, Inbox, WireContract
 
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.robots.profile import Wiring
+from chatrobot.testing.wire_contract import CAMERA, PATIENCE_S, Inbox, WireContract
 from chatrobot.wire.connect import connect_wire
 from chatrobot.wire.messages import (
     Flag,

@@ -10,12 +10,12 @@ from chatrobot.core.clock import TICK_S, VirtualClock
 from chatrobot.core.events import Event, Notice
 from chatrobot.link.envelope import Word
 from chatrobot.link.motion_link import MotionLink, Sender
-from chatrobot.motion.safety.watchdog import SimulatedGuard
 from chatrobot.wire.messages import ZERO
 from chatrobot.wire.wire import Wire
 
 if TYPE_CHECKING:
     from chatrobot.motion.motion import Motion
+    from chatrobot.motion.safety.watchdog import SimulatedGuard
 
 
 class InProcessLink(MotionLink):

@@ -66,7 +66,7 @@ class InputNode:
         return heard
 
     def resolved(self, topic: str) -> str:
-        """The name of that topic on the wire."""
+        """Return the name of that topic on the wire."""
         return self._wire.resolve(topic)
 
     def stop(self) -> None:
@@ -74,6 +74,6 @@ class InputNode:
         self._wire.publish(STOP, Flag(True))
 
     def close(self) -> None:
-        """An orderly end: what was said is still done."""
+        """End in order: what was said is still done."""
         self._operator.close()
         self._wire.close()

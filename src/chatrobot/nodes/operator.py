@@ -44,6 +44,7 @@ class OperatorBeat:
         wire.advertise(OPERATOR, Text)
 
     def start(self) -> None:
+        """Begin to beat."""
         threading.Thread(target=self._beat, name="operator", daemon=True).start()
 
     def claim(self, text: str) -> None:
@@ -52,7 +53,7 @@ class OperatorBeat:
         self._publish(leaves=False)
 
     def close(self) -> None:
-        """An orderly end: what was said is still done."""
+        """End in order: what was said is still done."""
         self._closed.set()
         self._publish(leaves=True)
 
@@ -95,6 +96,7 @@ class Operators:
         self._looked_s = now_s()
 
     def start(self) -> None:
+        """Begin to watch."""
         threading.Thread(target=self._watch, name="operators", daemon=True).start()
 
     def hear_text(self, text: str) -> None:
@@ -112,7 +114,7 @@ class Operators:
                 self._bind(operator, said, at_s, now_s)
 
     def hear_beat(self, message: Text) -> None:
-        """A beat, or something else that somebody put on that topic."""
+        """Take in a beat; anything else that somebody put on that topic is ignored."""
         try:
             about = json.loads(message.data)
             operator, said, count = str(about["id"]), str(about["said"]), int(about["count"])
@@ -158,7 +160,7 @@ class Operators:
             self._stop()
 
     def age_s(self) -> float:
-        """How old the last beat is of those whose words are being done; 0 where it is not late. From any thread."""
+        """Return the age of the oldest last beat of those whose words are done; 0 where none is late. Any thread."""
         now_s = self._now_s()
         bound = filter(None, (self._beats.get(operator) for operator in tuple(self._bound)))
         return max((_late_age_s(beats, now_s) for beats in bound), default=0.0)

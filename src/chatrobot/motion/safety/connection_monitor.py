@@ -94,9 +94,8 @@ class ConnectionMonitor:
         if not self._profile.has_odometry or self._motion.sensors.estimate is not None:
             return
         if self._wire.knows_others:
-            self._motion.why_unheard = why_unheard(
-                self._profile.wiring, self._wire.survey(), self._wire.resolve
-            )
+            found = self._wire.survey()
+            self._motion.goals.why_unheard = why_unheard(self._profile.wiring, found, self._wire.resolve)
 
     def _mind_wire(self) -> None:
         """Wi-Fi is gone, or back: say so, and see the robot stand, which may have held its last command meanwhile."""
