@@ -70,7 +70,7 @@ class Pose(NamedTuple):
         return Pose(cos * dx + sin * dy, -sin * dx + cos * dy, self.yaw_rad - origin.yaw_rad)
 
     def moved(self, twist: Twist, duration_s: float) -> Pose:
-        """Where a constant `twist` leads in `duration_s`: the exact screw motion, not an Euler step."""
+        """Return where a constant `twist` leads in `duration_s`: the exact screw motion, not an Euler step."""
         return self.compose(displacement(twist, duration_s))
 
     def distance_to(self, other: Pose) -> float:

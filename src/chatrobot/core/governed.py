@@ -11,7 +11,7 @@ from chatrobot.core.geometry import Twist
 
 
 class Mint:
-    """What it takes to make a `GovernedTwist`. For the governor alone."""
+    """The right to make a `GovernedTwist`. For the governor alone."""
 
     def twist(self, twist: Twist, epoch: int) -> GovernedTwist:
         """Mint a velocity that the governor has passed in that stop epoch."""

@@ -51,7 +51,7 @@ class Watch:
         return self.state == "tripped"
 
     def seconds_left(self, now_s: float) -> float:
-        """How long until something may have to be done."""
+        """Return how long until something may have to be done."""
         if self.state == "idle":
             return MISSED_S
         if self.state == "tripped":

@@ -186,7 +186,7 @@ def protocol_of(greeting: Mapping[str, Any]) -> int:
 
 
 def _each_key_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Who names a key twice means one of two things, and we would have to guess which. A stop is one in any case."""
+    """Refuse a key that stands twice: which is meant would be a guess. A stop is one in any case."""
     fields = dict(pairs)
     if len(fields) < len(pairs) and fields.get("word") not in ("stop", "emergency_stop"):
         raise ValueError("a key stands twice")

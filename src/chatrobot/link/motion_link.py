@@ -16,7 +16,7 @@ from chatrobot.link.envelope import PROTOCOL, Envelope, Word
 
 
 class MotionLink(Protocol):
-    """What a session holds of Motion. `send` may be called from any thread.
+    """A session's end of the way to Motion. `send` may be called from any thread.
 
     `beats` is true while the source keeps its lease; a source that is to be taken for frozen sets it to false.
     """
@@ -94,13 +94,13 @@ LAPSES_AFTER_RAD = math.radians(5.0)
 
 @dataclass(frozen=True)
 class Approval:
-    """What a yes would be good for."""
+    """A question that a yes would answer: when it was asked, and from where."""
 
     asked_s: float
     start: Pose
 
     def lapsed(self, now_s: float, pose: Pose) -> Reason | None:
-        """Why a yes is worth nothing any more, or None."""
+        """Return why a yes is worth nothing any more, or None."""
         if now_s - self.asked_s > LAPSES_AFTER_S:
             return Reason("approval_too_late", {"limit_s": LAPSES_AFTER_S})
         if pose.distance_to(self.start) > LAPSES_AFTER_M:

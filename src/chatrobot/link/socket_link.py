@@ -50,7 +50,7 @@ class SocketLink(EventQueue, MotionLink):
         if protocol != PROTOCOL:
             self.process.kill()  # nothing has been asked of it, so nothing moves; its guard sees to that
             raise LinkError(
-                "Motion did not start"
+                "Motion did not start; its own message is above"
                 if protocol is None
                 else f"Motion runs link protocol {protocol}, this process {PROTOCOL}:"
                 " install the same version of chatrobot on both sides"

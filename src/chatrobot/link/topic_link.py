@@ -60,8 +60,10 @@ OPERATOR = "chatrobot/operator"
 
 
 class MotionBeat(NamedTuple):
-    """What a Motion says of itself. `hears`: the leases of the sources it has heard. `open_loop`: the limits it drives
-    within where it drives open loop, else None. `protocol`: of its link."""
+    """A beat of a Motion about itself. `hears`: the leases of the sources it has heard.
+
+    `open_loop`: the limits it drives within where it drives open loop, else None. `protocol`: of its link.
+    """
 
     id: str
     name: str
@@ -147,7 +149,7 @@ class TopicLink(EventQueue, MotionLink):
 
     @property
     def has_control(self) -> bool:
-        """Whether a control node is there that hears us."""
+        """Tell whether a control node is there that hears us."""
         return self._present() is not None
 
     def send(self, word: Word, turn: int = 0, **payload: Any) -> None:

@@ -53,7 +53,7 @@ def matches(units: Phrase, i: int, table: Table) -> list[Phrase]:
 
 
 def consists(units: Phrase, table: Table, fillers: Table) -> bool:
-    """Whether phrases of `table` (at least one) and fillers cover all of `units`."""
+    """Tell whether phrases of `table` (at least one) and fillers cover all of `units`."""
     reached = {0: False}
     for i in range(len(units)):
         if i not in reached:
@@ -101,7 +101,7 @@ class Mistyped:
             self._sounds.add(_sound(phrase))
 
     def covers(self, units: Phrase) -> bool:
-        """Whether stops (at least one) and what may stand beside them make up all of `units`."""
+        """Tell whether stops (at least one) and what may stand beside them make up all of `units`."""
         if len(units) > MOST_UNITS:
             return False
         reached = {0: False}
@@ -112,7 +112,7 @@ class Mistyped:
         return reached.get(len(units), False)
 
     def _found(self, units: Phrase, begin: int) -> Iterator[tuple[int, bool]]:
-        """Where the phrases end that begin there, and whether each is a stop."""
+        """Return where the phrases end that begin there, and whether each is a stop."""
         for phrase in matches(units, begin, self._stops):
             yield begin + len(phrase), True
         for phrase in matches(units, begin, self._fillers):
@@ -142,7 +142,7 @@ def _sound(units: Phrase) -> Phrase:
 
 
 def is_one_edit(a: str, b: str) -> bool:
-    """Whether a letter too many, too few or another, or two letters swapped, make one of the other."""
+    """Tell whether a letter too many, too few or another, or two letters swapped, make one of the other."""
     if a == b:
         return False
     i = 0
@@ -188,7 +188,7 @@ def _forbids_stopping(units: Phrase) -> bool:
 
 
 def is_stop(text: str) -> bool:
-    """Whether the whole utterance is a stop: stop phrases and fillers, nothing else. For a standing robot."""
+    """Tell whether the whole utterance is a stop: stop phrases and fillers, nothing else. For a standing robot."""
     if len(text) > MAX_CHARACTERS:
         return False
     units = units_of(text)
@@ -212,7 +212,7 @@ def _takes_back(text: str) -> bool:
 
 
 def leads_with_stop(text: str) -> bool:
-    """Whether a stop leads, or ends, the utterance. For a moving robot: the rest does not matter."""
+    """Tell whether a stop leads, or ends, the utterance. For a moving robot: the rest does not matter."""
     if is_stop(text):
         return True
     units = units_of(text[:MAX_CHARACTERS])
@@ -234,14 +234,14 @@ def leads_with_stop(text: str) -> bool:
 
 
 def _leads_mistyped(text: str) -> bool:
-    """Whether the text, or its first clauses, is a stop with a mistake in it and what is said beside one."""
+    """Tell whether the text, or its first clauses, is a stop with a mistake in it and what is said beside one."""
     clauses = [units for part in _BREAK.split(text[:MAX_CHARACTERS]) if (units := units_of(part))]
     beginnings = [sum(clauses[: count + 1], ()) for count in range(len(clauses))]
     return any(_mistyped_stop().covers(units) and not consists(units, _STOP, _FILLER) for units in beginnings)
 
 
 def is_pause(text: str) -> bool:
-    """Whether a stop asks to keep what was under way: pause words and politeness, nothing else.
+    """Tell whether a stop asks to keep what was under way: pause words and politeness, nothing else.
 
     Where it is not sure, it is a stop like any other.
     """
@@ -282,7 +282,7 @@ def _is_no_stop(following: Phrase) -> bool:
 
 
 def is_emergency_stop(text: str) -> bool:
-    """Whether the whole utterance is an emergency stop (which is a stop, too)."""
+    """Tell whether the whole utterance is an emergency stop (which is a stop, too)."""
     if len(text) > MAX_CHARACTERS:
         return False
     units = units_of(text)
@@ -293,6 +293,6 @@ def is_emergency_stop(text: str) -> bool:
 
 
 def is_release(text: str) -> bool:
-    """Whether the whole utterance asks to release the emergency stop. Here it is better to miss one."""
+    """Tell whether the whole utterance asks to release the emergency stop. Here it is better to miss one."""
     units = units_of(text) if len(text) <= MAX_CHARACTERS else ()
     return bool(units) and consists(units, _RELEASE, _RELEASE_FILLER)

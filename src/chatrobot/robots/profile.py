@@ -29,7 +29,7 @@ EXCEEDED = frozenset({"over_max_distance", "over_max_time", "over_open_loop_time
 
 @dataclass(frozen=True)
 class MotionBudget:
-    """What somebody chose. None: not chosen, so that the defaults above hold; infinite: no limit.
+    """A choice of limits. None: not chosen, so that the defaults above hold; infinite: no limit.
 
     `ceiling_s` bounds the time whatever is chosen: it is no choice, and `changed` keeps it.
     """
@@ -40,12 +40,12 @@ class MotionBudget:
 
     @property
     def distance_m(self) -> float:
-        """How far one text or program may drive."""
+        """Return how far one text or program may drive."""
         return self.max_distance_m if self.max_distance_m is not None else MAX_DISTANCE_M
 
     @property
     def time_s(self) -> float:
-        """How long one text or program may drive; while it waits it does not."""
+        """Return how long one text or program may drive; while it waits it does not."""
         return min(self.max_time_s if self.max_time_s is not None else MAX_TIME_S, self.ceiling_s)
 
     @property
@@ -55,7 +55,7 @@ class MotionBudget:
 
     @property
     def endless_program_s(self) -> float:
-        """How long a program may run whose rehearsal did not end."""
+        """Return how long a program may run whose rehearsal did not end."""
         return min(self.max_time_s if self.max_time_s is not None else ENDLESS_PROGRAM_S, self.ceiling_s)
 
     def changed(self, choice: MotionBudget) -> MotionBudget:
@@ -105,7 +105,7 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True)
 class Limits:
-    """What the governor holds the robot to. All positive; planar, in the robot's frame.
+    """The bounds that the governor holds the robot to. All positive; planar, in the robot's frame.
 
     `max_speed_mps` bounds the combined linear speed hypot(vx, vy) too. `deceleration_mps2` and `latency_s`
     are what braking distance is computed from: v * latency + v^2 / (2 * deceleration).
@@ -136,7 +136,7 @@ class Limits:
 
 @dataclass(frozen=True)
 class Defaults:
-    """What a person means who names no number."""
+    """The numbers that are meant by a person who names none."""
 
     speed_mps: float
     rate_radps: float
@@ -168,7 +168,7 @@ class Circle:
 
 @dataclass(frozen=True)
 class Safety:
-    """What the governor minds besides the limits.
+    """Rules of the governor besides the limits.
 
     `fence` is a circle, or the corners of a polygon, in `odom`: the footprint stays inside. Without the sensors in
     `requires` nothing moves. `blind_speed_mps` is for ways that the lidar does not see; 0 refuses them. Below
@@ -184,7 +184,7 @@ class Safety:
 
 @dataclass(frozen=True)
 class Calibration:
-    """What a person measured on this very robot: what odometry tells times these is the truth.
+    """Factors that a person measured on this very robot: odometry times these is the truth.
 
     `turn_scale` is for the gyro where there is one, otherwise for the wheels.
     """

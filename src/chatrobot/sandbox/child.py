@@ -34,7 +34,7 @@ CRASHED = 70
 
 @dataclass(frozen=True)
 class Doors:
-    """What the warm server found out and prepared once for all its children."""
+    """Facts and filters that the warm server prepared once for all its children."""
 
     machine: Machine
     filter: Filter

@@ -29,7 +29,7 @@ SPARE_TASKS = 256
 
 @dataclass(frozen=True)
 class Walls:
-    """What came of it: for each layer why it does not stand, or "" where it does. No doors, no programs."""
+    """The result: for each layer why it does not stand, or "" where it does. No doors, no programs."""
 
     problems: Mapping[str, str]
     doors: Doors | None
@@ -74,7 +74,7 @@ def build_walls(wanted: Layers, tasks: int, *, is_wrapped: bool) -> Walls:
 
 
 def can_make_namespaces() -> bool:
-    """Whether this machine lets us; found out in a process that ends with the trial."""
+    """Tell whether this machine lets us; found out in a process that ends with the trial."""
     machine = this_machine()
     return machine is not None and not _trial(lambda: _drop_and_try_namespaces(machine))
 

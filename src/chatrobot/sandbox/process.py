@@ -52,7 +52,7 @@ class LogDrain:
         self._thread.start()
 
     def take(self) -> str:
-        """What is new. Bytes that are no UTF-8 are replaced; a character that came in half waits for its rest.
+        """Return what is new. Bytes that are no UTF-8 are replaced; a character that came in half waits for its rest.
 
         Control characters are left out: this is shown on terminals, which obey them.
         """
@@ -86,7 +86,7 @@ class LogDrain:
 
 
 def _whole_characters(data: bytearray) -> int:
-    """How many bytes there are before a character that is not whole yet."""
+    """Return how many bytes there are before a character that is not whole yet."""
     for back in range(1, min(4, len(data)) + 1):
         byte = data[-back]
         if byte >= 0xC0:
@@ -103,7 +103,7 @@ LAST_WORDS_S = 0.2
 
 @dataclass(frozen=True)
 class ExitReport:
-    """How a program ended.
+    """The end of a program.
 
     Args:
         exit_code: what it exited with (1 after an exception); None if a signal ended it.
@@ -161,7 +161,7 @@ class SandboxedProcess:
         return ""
 
     def read_logs(self) -> str:
-        """What it printed since the last call. Of a flood, what was kept and how much was not."""
+        """Return what it printed since the last call. Of a flood, what was kept and how much was not."""
         return self._logs.take()
 
     def kill(self) -> None:

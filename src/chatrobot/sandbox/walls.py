@@ -78,7 +78,7 @@ def drop_root() -> bool:
 
 
 def has_own_user() -> bool:
-    """Whether this process is one of those users that nobody else is."""
+    """Tell whether this process is one of those users that nobody else is."""
     return os.geteuid() >= FIRST_OWN_USER
 
 
@@ -126,12 +126,12 @@ _FILES = ("/etc/ld.so.cache", "/etc/localtime")
 
 
 def find_bubblewrap() -> str | None:
-    """Where it is installed, if it is."""
+    """Return where it is installed, if it is."""
     return shutil.which("bwrap")
 
 
 def bubblewrap_command(program: str, folders: Iterable[str]) -> list[str]:
-    """What to put before a command, so that it runs without network, and sees Python and `folders` only.
+    """Return what to put before a command, so that it runs without network, and sees Python and `folders` only.
 
     Whoever starts it keeps the thread alive in which it does: the wrap dies with that.
     """

@@ -243,7 +243,7 @@ def _clean_environment() -> dict[str, str]:
 
 
 def _site_folders() -> list[str]:
-    """Where installed packages are: `-S` leaves them out, and a program may want numpy."""
+    """Return where installed packages are: `-S` leaves them out, and a program may want numpy."""
     folders = [each for each in sys.path if each.rstrip("/").endswith(("site-packages", "dist-packages"))]
     numpy = find_spec("numpy")
     if numpy is not None and numpy.origin is not None:
@@ -252,7 +252,7 @@ def _site_folders() -> list[str]:
 
 
 def _tasks_of_this_user() -> int:
-    """How many tasks this user has now, all processes and threads."""
+    """Return how many tasks this user has now, all processes and threads."""
     user, tasks = os.geteuid(), 0
     for folder in Path("/proc").iterdir():
         if folder.name.isdigit():
@@ -269,7 +269,7 @@ Level = Literal["none", "minimum", "good", "full"]
 
 @dataclass(frozen=True)
 class SandboxReport:
-    """What stands here.
+    """The walls that stand here.
 
     Args:
         problems: for each layer that was tried why it does not stand, or "" where it does.

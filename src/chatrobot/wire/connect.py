@@ -79,7 +79,7 @@ def wire_address(on: str) -> str:
 
 
 def is_on_this_machine(address: str) -> bool:
-    """Whether all who meet on that wire are on this machine: beats are cheap there, and hardly ever late."""
+    """Tell whether all who meet on that wire are on this machine: beats are cheap there, and hardly ever late."""
     return _backend(_scheme(address), address).is_on_this_machine(address)
 
 

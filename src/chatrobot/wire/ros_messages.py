@@ -101,7 +101,7 @@ _READ_DEPTH = 200
 
 
 class RosForm(NamedTuple):
-    """How one planar message travels in ROS.
+    """A planar message's form in ROS.
 
     `type_name` is `package/msg/Name`. `to_ros` gives nested dictionaries; `from_ros` reads an object's attributes
     and gives None where nothing was measured; it raises AttributeError, TypeError or ValueError for an object of
@@ -114,7 +114,7 @@ class RosForm(NamedTuple):
 
 
 def ros_form(topic: str, kind: type[Any], wiring: Wiring) -> RosForm:
-    """What `kind` is on `topic` of a robot wired like this."""
+    """Return what `kind` is on `topic` of a robot wired like this."""
     if kind is TwistMessage and wiring.cmd_vel_type == "TwistStamped":
         return (
             _TWIST_STAMPED
@@ -131,12 +131,12 @@ def ros_form(topic: str, kind: type[Any], wiring: Wiring) -> RosForm:
 
 
 def is_sensor(topic: str, kind: type[Any], wiring: Wiring) -> bool:
-    """Whether robots may publish this with ROS's sensor QoS (best effort)."""
+    """Tell whether robots may publish this with ROS's sensor QoS (best effort)."""
     return kind in _STAMPED or topic in (*wiring.sensor_topics.values(), wiring.camera_topic)
 
 
 def read_depth(kind: type[Any]) -> int:
-    """How many messages a reader keeps: of a burst all, so that nothing is lost; of pictures the newest."""
+    """Return how many messages a reader keeps: of a burst all, so that nothing is lost; of pictures the newest."""
     return 1 if kind is Picture else _READ_DEPTH
 
 

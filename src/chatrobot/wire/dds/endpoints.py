@@ -86,7 +86,7 @@ class Writer:
                 raise WireError(f"publishing failed: {error}") from error
 
     def listener_count(self) -> int:
-        """How many listeners are known."""
+        """Return how many listeners are known."""
         status: Any = self._writer.get_publication_matched_status()  # type: ignore[no-untyped-call]
         return int(status.current_count)
 

@@ -43,7 +43,7 @@ MALFORMED = (SerdeError, ValueError, TypeError, IndexError, struct.error, Overfl
 
 
 class CdrSample:
-    """What Cyclone reads and writes here: a message's bytes, header included."""
+    """A message's bytes, header included: Cyclone reads and writes them here."""
 
     cdr: bytes
     sample_info: Any

@@ -84,7 +84,7 @@ class RosNode:
 
     @property
     def has_own_time(self) -> bool:
-        """Whether `use_sim_time` is set: time is what `/clock` says."""
+        """Tell whether `use_sim_time` is set: time is what `/clock` says."""
         return bool(self.handle.get_parameter("use_sim_time").value)
 
     def now_s(self) -> float:

@@ -93,7 +93,9 @@ class RosbridgeWire(Wire):
         try:
             connection = self._connect()
         except (OSError, WebSocketException) as error:
-            raise WireError(f"no rosbridge answers at {self._place}: {error}") from error
+            raise WireError(
+                f"no rosbridge answers at {self._place}; start rosbridge_server on the robot, or check host and port ({error})"
+            ) from error
         self._thread = threading.Thread(target=self._run, args=(connection,), name="rosbridge", daemon=True)
         self._thread.start()
 
@@ -151,7 +153,7 @@ class RosbridgeWire(Wire):
         return f"/{self.namespace}/{topic}" if self.namespace else f"/{topic}"
 
     def _call(self, service: str, arguments: dict[str, Any]) -> dict[str, Any] | None:
-        """What a service of the robot answers; None where there is none, or no answer."""
+        """Return what a service of the robot answers; None where there is none, or no answer."""
         number = f"call:{next(self._calls)}"
         answer = self._answers[number] = queue.Queue()
         try:
@@ -253,7 +255,7 @@ class RosbridgeWire(Wire):
 
 
 def _queued_bytes(raw: socket.socket) -> int:
-    """How much the other end has not acknowledged yet (tcp(7))."""
+    """Return how much the other end has not acknowledged yet (tcp(7))."""
     try:
         return int(struct.unpack("i", fcntl.ioctl(raw.fileno(), _SIOCOUTQ, b"\0\0\0\0"))[0])
     except (OSError, ValueError):  # ValueError: a socket that another thread has just closed has no number
