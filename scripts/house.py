@@ -18,6 +18,7 @@ import statistics
 import subprocess
 import sys
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
@@ -43,7 +44,7 @@ OF_ANY_UNIT = "value low high least most"
 WALK = """
 import sys, threading
 from chatrobot.api import connect
-from chatrobot.transports.transport import WireTransport
+from chatrobot.motion.safety.stop import WireTransport
 
 entered, functions, moved = set(), set(), []
 
@@ -251,7 +252,7 @@ def _public(file: Path, tree: ast.Module) -> Iterator[str | None]:
     """The docstrings of what others may use: the module, its public classes and functions, their public methods.
 
     A module that bears the names of ROS's own is documented there; a test's name says what it asks. A method that does
-    what its base class or protocol says needs no second docstring; such a one cannot be told apart here, and counts.
+    what a base class says has the docstring of that one, as `help` shows it.
     """
     if _is_of_ros(file):
         return
@@ -262,7 +263,27 @@ def _public(file: Path, tree: ast.Module) -> Iterator[str | None]:
             yield ast.get_docstring(node)
             for inner in node.body if isinstance(node, ast.ClassDef) else ():
                 if isinstance(inner, ast.FunctionDef) and not inner.name.startswith(("_", "test_")):
-                    yield ast.get_docstring(inner)
+                    yield ast.get_docstring(inner) or _inherited(inner.name, node)
+
+
+@cache
+def _classes() -> dict[str, ast.ClassDef]:
+    """The classes by their names; of two with one name, either."""
+    trees = (ast.parse(file.read_text(encoding="utf-8")) for file in sorted(SOURCE.rglob("*.py")))
+    return {node.name: node for tree in trees for node in tree.body if isinstance(node, ast.ClassDef)}
+
+
+def _inherited(method: str, owner: ast.ClassDef) -> str | None:
+    """The docstring that a method has from a base class."""
+    for base in owner.bases:
+        above = _classes().get(ast.unparse(base).partition("[")[0])
+        if above is None or above is owner:
+            continue
+        own = next((n for n in above.body if isinstance(n, ast.FunctionDef) and n.name == method), None)
+        found = (ast.get_docstring(own) if own is not None else None) or _inherited(method, above)
+        if found:
+            return found
+    return None
 
 
 def worse(now: dict[str, float], held: dict[str, float]) -> list[str]:

@@ -112,13 +112,12 @@ def events_page() -> str:
 
 def _event(kind: type[Event], meanings: Mapping[str, Any]) -> str:
     hints = get_type_hints(kind)
-    unknown = kind.unknown.fget(types.SimpleNamespace(measured=False))  # type: ignore[attr-defined]
     own = meanings.get(kind.name, {})
     rows = []
     for key in keys_of(kind):
         if key == "turn":
             continue
-        null = " (null: unmeasured)" if key in unknown else ""
+        null = " (null: unmeasured)" if key in kind.unmeasured else ""
         rows.append(
             (f"`{key}`", _kind(hints[key]), unit(key), f"{own.get(key, meanings['every'].get(key))}{null}")
         )

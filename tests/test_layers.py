@@ -16,7 +16,7 @@ LEVELS = {
     "robots": 1, "wire": 1,
     "sim": 2,
     "plan": 3, "sandbox": 3,
-    "language": 4, "models": 4, "execution": 4, "governor": 4, "transports": 4, "programs": 4,
+    "language": 4, "models": 4, "execution": 4, "governor": 4, "programs": 4,
     "link": 5,
     "motion": 6, "dialogue": 6,
     "link.in_process": 7,

@@ -14,7 +14,6 @@ from pathlib import Path
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.errors import LinkError, UsageError
 from chatrobot.core.events import Event, TruePose
-from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.dialogue.llm.camera import Camera, PassedCamera, wire_camera
 from chatrobot.dialogue.llm.setup import ModelSetup, warm_up
 from chatrobot.dialogue.llm.terms import ModelOptions
@@ -29,10 +28,9 @@ from chatrobot.link.motion_link import MotionLink
 from chatrobot.link.processes import SIMULATED, MotionProcess, Processes
 from chatrobot.models.seam import Model
 from chatrobot.programs.library import Library
-from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile, profile_argument
-from chatrobot.robots.open_loop import as_chosen
-from chatrobot.robots.profile import RobotProfile
+from chatrobot.robots.open_loop import as_chosen, drives_on_alone, slowed
+from chatrobot.robots.profile import NOT_CHOSEN, MotionBudget, RobotProfile
 from chatrobot.sim.fault_injection import FaultInjection
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import TRUTH_TOPIC, SimRobot

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from chatrobot.cli.do import may_follow
+from chatrobot.core.event import Proposal
 from chatrobot.core.events import Outcome, Result
-from chatrobot.core.proposal import Proposal
 from tests.cli.running import Command, Done
 
 FAST = ("--fast", "--world", "empty")

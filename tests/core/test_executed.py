@@ -9,7 +9,6 @@ import pytest
 from tests.link.link_rigs import SimulatedRig, events_until, finished, moving, send_plan
 
 from chatrobot.core.events import Finished, Progress, Rehearsed, event_from_json
-from chatrobot.core.summed import summed
 from chatrobot.plan.steps import Drive
 from chatrobot.plan.text import parse_plan
 
@@ -95,6 +94,6 @@ def test_two_runs_of_a_turn_are_one_plan(rig: SimulatedRig) -> None:
     first = finished(rig, 1)
     send_plan(rig, 2, THREE)
     events_until(rig, lambda event: isinstance(event, Progress) and event.turn == 2 and event.pose.x_m > 0.25)
-    both = summed(first, stopped_while_moving(rig, 2))
+    both = first.followed_by(stopped_while_moving(rig, 2))
     assert both.executed.startswith("drive 0.2 m\ndrive ")
     assert len(both.remaining.splitlines()) == 3

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from chatrobot.core.scheduling import wake_as_others_do, wake_promptly
+from chatrobot.core.process import wake_as_others_do, wake_promptly
 
 
 def turn_ns() -> int:

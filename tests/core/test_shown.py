@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from chatrobot.core.shown import fixed, number
+from chatrobot.core.reason import fixed, number
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ from tests.dialogue.scripted_model import ModelTalk, Options
 from tests.dialogue.test_session import Talk
 
 from chatrobot.core.events import Result
-from chatrobot.core.motion_budget import MotionBudget
+from chatrobot.robots.profile import MotionBudget
 
 
 def test_what_is_offered_is_within_the_limit_and_says_so() -> None:

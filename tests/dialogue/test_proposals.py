@@ -11,8 +11,8 @@ from tests.dialogue.test_session import Talk
 
 from chatrobot.cli.console.narrator import Narrator
 from chatrobot.cli.console.words import Words
+from chatrobot.core.event import Proposal
 from chatrobot.core.events import Interpreted, Rehearsed, Result, event_from_json
-from chatrobot.core.proposal import Proposal
 from chatrobot.dialogue import question
 from chatrobot.dialogue.options import Options
 

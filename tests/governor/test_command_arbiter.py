@@ -14,9 +14,9 @@ from chatrobot.core.governed import StopEpoch
 from chatrobot.governor.governor import VOID_EPOCH, Governor
 from chatrobot.governor.priority import PRIORITIES, RELEASERS, Priority, priority_of
 from chatrobot.governor.rule import Sensed
+from chatrobot.motion.safety.stop import WireTransport
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import Safety, Wiring
-from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import TwistMessage
 

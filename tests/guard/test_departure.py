@@ -10,8 +10,7 @@ from contextlib import contextmanager
 import pytest
 
 from chatrobot.guard.__main__ import Guard
-from chatrobot.guard.departure import Departure
-from chatrobot.guard.watch import HANDSHAKE
+from chatrobot.guard.watch import HANDSHAKE, Departure
 from chatrobot.wire.messages import Message
 from chatrobot.wire.wire import Endpoint, M, Wire
 

@@ -9,7 +9,6 @@ from typing import Any, Protocol
 
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.events import Event, Finished, Telemetry
-from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.link.in_process import InProcessLink
 from chatrobot.link.motion_link import MotionLink
@@ -19,7 +18,7 @@ from chatrobot.motion.motion import Motion
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.safety.watchdog import SimulatedGuard
 from chatrobot.robots.load import load_profile
-from chatrobot.robots.profile import RobotProfile
+from chatrobot.robots.profile import NOT_CHOSEN, MotionBudget, RobotProfile
 from chatrobot.sim.fault_injection import FaultInjection
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import SimRobot

@@ -22,8 +22,7 @@ from chatrobot.link.envelope import PROTOCOL
 from chatrobot.link.motion_link import Sender
 from chatrobot.link.processes import MotionProcess, spawn
 from chatrobot.link.socket_link import SocketLink
-from chatrobot.link.topic_link import TopicLink
-from chatrobot.link.topics import CHATGPT_NODE, CONTROL, EVENTS
+from chatrobot.link.topic_link import CHATGPT_NODE, CONTROL, EVENTS, TopicLink
 from chatrobot.wire.local import PACKET_BYTES, LocalHub, LocalWire
 from chatrobot.wire.messages import Text, TwistMessage
 

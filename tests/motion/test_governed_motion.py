@@ -21,10 +21,10 @@ from chatrobot.motion.plan_executor import GoalExecution
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.execution import ProgramExecution
 from chatrobot.motion.programs.goal import ProgramGoal
+from chatrobot.motion.safety.stop import WireTransport
 from chatrobot.programs.events import ProgramEvent, TwistAsked
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
 from chatrobot.sim.load import load_world
-from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import Odometry
 

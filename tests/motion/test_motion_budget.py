@@ -25,12 +25,11 @@ from tests.safety.test_joystick import hold
 from tests.safety.test_who_drives import Crowd
 
 from chatrobot.core.events import Finished, Notice, Rehearsed, Result
-from chatrobot.core.motion_budget import MotionBudget, limit_text, read_limit, read_limit_text
 from chatrobot.core.reason import Reason
 from chatrobot.motion.budgets import Account, Extent
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.open_loop import driven_open_loop
-from chatrobot.robots.profile import RobotProfile
+from chatrobot.robots.profile import MotionBudget, RobotProfile, limit_text, read_limit, read_limit_text
 from chatrobot.wire.messages import TwistMessage
 
 NEAR_M = 0.05

@@ -11,8 +11,8 @@ from tests.programs.scripted_model import program
 
 from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.events import Event, Notice, Progress, Rehearsed, Result, TruePose
-from chatrobot.core.motion_budget import MotionBudget
 from chatrobot.programs.library import KeptProgram
+from chatrobot.robots.profile import MotionBudget
 
 CIRCLES = program("while True:\n    self.drive(0.4, 0.5, 0.1)")
 TWO_METRES = program("self.drive(0.4, 0.0, 5.0)")

@@ -16,7 +16,7 @@ from chatrobot.core import process
 from chatrobot.core.clock import LOCAL_TERM_S, TERM_S
 from chatrobot.core.wiring import Wiring
 from chatrobot.governor.lease import LONGEST_S
-from chatrobot.link.topics import OPERATOR, USER_INPUT
+from chatrobot.link.topic_link import OPERATOR, USER_INPUT
 from chatrobot.nodes.input import InputNode
 from chatrobot.nodes.operator import CLAIMED_WITHIN_S, OperatorBeat, Operators
 from chatrobot.wire.memory import MemoryHub

@@ -21,9 +21,9 @@ from chatrobot.cli import ros_run, sim
 from chatrobot.cli.arguments import parse, split_ros_args
 from chatrobot.cli.node import open_ros_interfaces
 from chatrobot.core.errors import UsageError
-from chatrobot.core.motion_budget import MotionBudget
 from chatrobot.nodes import control
 from chatrobot.options import PARAMETERS
+from chatrobot.robots.profile import MotionBudget
 from tests.nodes.ros_graph import PATIENCE_S, Guard, fake_rclpy, running
 
 ROOT = Path(__file__).parents[2]

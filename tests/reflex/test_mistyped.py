@@ -11,8 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from chatrobot.reflex import is_stop, leads_with_stop
-from chatrobot.reflex.mistyped import MOST_UNITS, Mistyped, is_one_edit
-from chatrobot.reflex.phrases import phrases, units_of
+from chatrobot.reflex.stop import MOST_UNITS, Mistyped, is_one_edit, phrases, units_of
 from chatrobot.reflex.words import ALL, BY_LANGUAGE
 
 MISTYPED = [

@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 from chatrobot.reflex import is_emergency_stop, is_pause, is_release, is_stop, leads_with_stop, stop
-from chatrobot.reflex.phrases import phrases
+from chatrobot.reflex.stop import phrases
 
 STOPS = [
     "stop", "STOP!!", "stpo", "sotp", "stoooop", "halt!!", "please stop now", "freeze", "whoa",

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from chatrobot.robots.cautious import SLOW_MPS, SLOW_RADPS, drives_on_alone, slowed
 from chatrobot.robots.load import list_profiles, load_profile
+from chatrobot.robots.open_loop import SLOW_MPS, SLOW_RADPS, drives_on_alone, slowed
 from chatrobot.robots.parse import parse_profile
 from chatrobot.robots.rules import check
 

@@ -12,10 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from chatrobot.core.errors import ProfileError
-from chatrobot.core.motion_budget import MotionBudget
 from chatrobot.robots.load import list_profiles
 from chatrobot.robots.parse import parse_profile
-from chatrobot.robots.profile import RobotProfile
+from chatrobot.robots.profile import MotionBudget, RobotProfile
 
 if sys.version_info >= (3, 11):
     import tomllib

@@ -13,9 +13,9 @@ from chatrobot.core.geometry import ORIGIN, Twist
 from chatrobot.core.governed import StopEpoch
 from chatrobot.governor.governor import Governor
 from chatrobot.governor.rule import Sensed
+from chatrobot.motion.safety.stop import WireTransport
 from chatrobot.robots.open_loop import driven_open_loop
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import LaserScan, TwistMessage
 from chatrobot.wire.wire import Wire

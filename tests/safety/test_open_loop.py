@@ -17,7 +17,6 @@ from chatrobot.core.event import event_from_json
 from chatrobot.core.events import Finished, Notice
 from chatrobot.core.geometry import Twist
 from chatrobot.core.governed import StopEpoch
-from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.core.reason import Reason
 from chatrobot.execution.executor import UNSEEN_S
 from chatrobot.governor.governor import Governor
@@ -34,7 +33,7 @@ from chatrobot.robots.open_loop import (
     as_chosen,
     driven_open_loop,
 )
-from chatrobot.robots.profile import RobotProfile
+from chatrobot.robots.profile import NOT_CHOSEN, MotionBudget, RobotProfile
 from chatrobot.sim.load import load_world
 from chatrobot.sim.start import check_known
 from chatrobot.wire.memory import MemoryHub

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from chatrobot.core.memory_pressure import GUARD, MOTION, prefer
+from chatrobot.core.process import GUARD, MOTION, prefer
 from tests.cli.running import PATIENCE_S, environment
 from tests.processes import RunningRobot
 
@@ -86,7 +86,7 @@ def test_when_memory_runs_out_the_guard_goes_last(robot: RunningRobot) -> None:
 
 def in_a_child(code: str) -> str:
     """What it prints; a score is a process's own."""
-    source = f"from chatrobot.core.memory_pressure import GUARD, MOTION, prefer\n{code}"
+    source = f"from chatrobot.core.process import GUARD, MOTION, prefer\n{code}"
     return subprocess.run(
         [sys.executable, "-c", source], capture_output=True, text=True, check=True, timeout=PATIENCE_S
     ).stdout
@@ -100,5 +100,5 @@ def test_the_guard_of_a_motion_that_offered_itself_goes_after_it() -> None:
 
 
 def test_a_system_without_scores_is_no_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("chatrobot.core.memory_pressure._FILE", "/nowhere/at/all")
+    monkeypatch.setattr("chatrobot.core.process._SCORE_FILE", "/nowhere/at/all")
     assert prefer(*GUARD) is None

@@ -21,7 +21,7 @@ sys.path.insert(0, str(Path(__file__).parent / "inside"))
 
 import sandbox_entries
 
-from chatrobot.sandbox import landlock, namespaces
+from chatrobot.sandbox import walls
 from chatrobot.sandbox.seccomp import Filter
 from chatrobot.sandbox.syscalls import this_machine
 
@@ -34,18 +34,18 @@ def build(wall: str) -> None:
     if wall == "filter":
         Filter(machine).install(os.getpid())
     elif wall == "Landlock":
-        landlock.restrict(machine)
+        walls.restrict_with_landlock(machine)
     elif wall == "limits":
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
         resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
         resource.setrlimit(resource.RLIMIT_NOFILE, (64, 64))
     elif wall == "namespaces":
-        namespaces.drop_root()
-        namespaces.leave(machine)
+        walls.drop_root()
+        walls.enter_namespaces(machine)
         pid = os.fork()
         if pid:
             os._exit(os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) & 0xFF)
-        namespaces.empty_the_root(machine)
+        walls.empty_the_root(machine)
 
 
 def run(wall: str, attack: dict[str, object]) -> tuple[int, str]:

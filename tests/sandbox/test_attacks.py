@@ -12,11 +12,10 @@ import pytest
 from attacks import ATTACKS, Attack
 from witness import Witness
 
-from chatrobot.sandbox import bubblewrap
-from chatrobot.sandbox.layers import Layers
-from chatrobot.sandbox.probe import probe
+from chatrobot.sandbox.limits import Layers
 from chatrobot.sandbox.process import ExitReport
-from chatrobot.sandbox.warm_server import WarmServer
+from chatrobot.sandbox.walls import find_bubblewrap
+from chatrobot.sandbox.warm_server import WarmServer, probe
 
 INSIDE = Path(__file__).parent / "inside"
 LEVELS = {
@@ -26,7 +25,7 @@ LEVELS = {
     "bubblewrap": Layers(landlock=False, namespaces=False, bubblewrap=True),
     "full": Layers(),
 }
-if bubblewrap.find() is None:
+if find_bubblewrap() is None:
     del LEVELS["bubblewrap"]
 
 

@@ -10,16 +10,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from chatrobot.sandbox.bpf import (
+from chatrobot.sandbox.seccomp import (
     ALLOW,
     INSTRUCTION,
     KILL_PROCESS,
     NOT_THERE,
     REFUSE,
+    RULES,
+    Filter,
     assemble,
 )
-from chatrobot.sandbox.policy import RULES
-from chatrobot.sandbox.seccomp import Filter
 from chatrobot.sandbox.syscalls import AARCH64, NEWEST, X86_64, Machine
 
 MACHINES = [X86_64, AARCH64]

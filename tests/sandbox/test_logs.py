@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 
-from chatrobot.sandbox.logs import LogDrain
+from chatrobot.sandbox.process import LogDrain
 
 
 def drained(written: list[bytes], limit_bytes: int = 1000) -> LogDrain:

@@ -9,13 +9,13 @@ from pathlib import Path
 
 import pytest
 
-from chatrobot.sandbox.probe import probe
 from chatrobot.sandbox.syscalls import this_machine
+from chatrobot.sandbox.warm_server import probe
 
 INSIDE = Path(__file__).parent / "inside"
 ON_A_POORER_MACHINE = """
 import json, sys
-from chatrobot.sandbox.bpf import ALLOW, ERRNO, Is, Rule, assemble
+from chatrobot.sandbox.seccomp import ALLOW, ERRNO, Is, Rule, assemble
 from chatrobot.sandbox.seccomp import install
 from chatrobot.sandbox.syscalls import this_machine
 missing, has_filters = json.loads(sys.argv[2]), sys.argv[3] == "yes"
@@ -27,7 +27,7 @@ if not has_filters:
 install(assemble(machine, rules, default=ALLOW))
 
 from pathlib import Path
-from chatrobot.sandbox.probe import probe
+from chatrobot.sandbox.warm_server import probe
 from chatrobot.sandbox.warm_server import WarmServer
 report = probe()
 said = {"level": report.level, "standing": report.standing, "refusal": report.refusal and report.refusal.code}

@@ -14,9 +14,9 @@ import pytest
 from attacks import ATTACKS
 from witness import Witness
 
-from chatrobot.sandbox import landlock
 from chatrobot.sandbox.layers import can_make_namespaces
 from chatrobot.sandbox.syscalls import this_machine
+from chatrobot.sandbox.walls import landlock_version
 
 DOCUMENT = Path(__file__).parents[2] / "docs" / "sandbox.md"
 WALLS = ("filter", "Landlock", "namespaces", "limits")
@@ -64,7 +64,7 @@ def is_here(wall: str) -> bool:
     if wall != "Landlock":
         return wall != "namespaces" or can_make_namespaces()
     try:
-        return landlock.version(machine) >= LANDLOCK_OF_THE_TABLE
+        return landlock_version(machine) >= LANDLOCK_OF_THE_TABLE
     except OSError:
         return False
 

@@ -16,8 +16,7 @@ import pytest
 
 from chatrobot.core.errors import SandboxError
 from chatrobot.core.reason import Reason
-from chatrobot.sandbox.layers import Layers
-from chatrobot.sandbox.limits import SandboxLimits
+from chatrobot.sandbox.limits import Layers, SandboxLimits
 from chatrobot.sandbox.process import SandboxedProcess
 from chatrobot.sandbox.warm_server import WarmServer
 

@@ -14,8 +14,15 @@ from hypothesis import strategies as st
 
 from chatrobot.core.wiring import Wiring
 from chatrobot.wire.messages import Picture
-from chatrobot.wire.ros_messages import is_sensor, read_depth, ros_form
-from chatrobot.wire.ros_pictures import MOST_BYTES, compressed_from, file_format, image_from
+from chatrobot.wire.ros_messages import (
+    MOST_BYTES,
+    compressed_from,
+    file_format,
+    image_from,
+    is_sensor,
+    read_depth,
+    ros_form,
+)
 
 ROWS = bytes(range(12))
 

@@ -17,12 +17,12 @@ from about import About
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.robots.profile import Wiring
 from chatrobot.testing.wire_contract import CAMERA, PATIENCE_S, Inbox, WireContract
+from chatrobot.wire.connect import connect_wire
 from chatrobot.wire.messages import (
     Flag,
     Imu,
     LaserScan,
     Message,
-    Number,
     Odometry,
     Picture,
     Text,
@@ -43,18 +43,14 @@ ZERO = TwistMessage(0.0, 0.0, 0.0)
 
 
 @pytest.fixture
-def robot() -> Iterator[FakeRosbridge]:
-    server = FakeRosbridge()
+def robot(request: pytest.FixtureRequest) -> Iterator[FakeRosbridge]:
+    """A robot's rosbridge; with the parameter False one that knows no CBOR."""
+    server = FakeRosbridge(offers_cbor=getattr(request, "param", True))
     yield server
     server.stop()
 
 
-@pytest.fixture
-def old_robot() -> Iterator[FakeRosbridge]:
-    """Its rosbridge knows no CBOR."""
-    server = FakeRosbridge(offers_cbor=False)
-    yield server
-    server.stop()
+without_cbor = pytest.mark.parametrize("robot", [False], indirect=True, ids=["without CBOR"])
 
 
 @pytest.fixture
@@ -79,36 +75,17 @@ class TestRosbridgeWire(WireContract):
         return About(message)
 
 
-class TestRosbridgeWireOverJsonAlone(WireContract):
+@without_cbor
+class TestRosbridgeWireOverJsonAlone(TestRosbridgeWire):
     """Infinity and NaN are both null on the wire, and come back as NaN: what was there cannot be known."""
 
     sees_open_space = False
-
-    @pytest.fixture
-    def connect(self, old_robot: FakeRosbridge) -> Iterator[Callable[[], RosbridgeWire]]:  # type: ignore[override]
-        wires: list[RosbridgeWire] = []
-
-        def connect_one() -> RosbridgeWire:
-            wires.append(RosbridgeWire(old_robot.url, CAMERA))
-            return wires[-1]
-
-        yield connect_one
-        for wire in wires:
-            wire.close()
 
     def as_it_arrives(self, message: Message) -> About:
         if isinstance(message, LaserScan):
             ranges_m = [range_m if math.isfinite(range_m) else math.nan for range_m in message.ranges_m]
             message = message._replace(ranges_m=ranges_m)
         return About(message)
-
-
-def test_without_a_connection_publishing_fails_at_once(robot: FakeRosbridge, connect: Connect) -> None:
-    wire = connect()
-    wire.publish("cmd_vel", ZERO)
-    gone = _when_gone(wire, robot.stop)
-    assert "is gone" in str(gone)
-    robot.start()
 
 
 def _when_gone(wire: RosbridgeWire, lose: Callable[[], None]) -> WireError:
@@ -134,11 +111,13 @@ def test_after_a_cut_it_comes_back_and_still_listens(robot: FakeRosbridge, conne
     assert robot.of("publish")[-1]["topic"] == "/cmd_vel"
 
 
-def test_what_could_not_be_sent_is_not_sent_later(robot: FakeRosbridge, connect: Connect) -> None:
+def test_without_a_connection_publishing_fails_at_once_and_nothing_is_sent_later(
+    robot: FakeRosbridge, connect: Connect
+) -> None:
     wire = connect()
     wire.publish("cmd_vel", TwistMessage(0.1, 0.0, 0.0))
     assert robot.wait_for("publish", 1, PATIENCE_S)
-    _when_gone(wire, robot.stop)
+    assert "is gone" in str(_when_gone(wire, robot.stop))
     for _ in range(20):
         with pytest.raises(WireError):
             wire.publish("cmd_vel", TwistMessage(0.9, 0.0, 0.0))
@@ -206,24 +185,17 @@ def test_a_secret_in_the_address_reaches_the_server_and_no_message(
 @pytest.mark.parametrize("url", ["http://robot:9090", "robot:9090", "ws://", ""])
 def test_what_is_no_websocket_is_refused(url: str) -> None:
     with pytest.raises(UsageError):
-        RosbridgeWire(url, Wiring())
+        connect_wire(f"rosbridge:{url}", Wiring(), "test")
 
 
 def test_two_robots_in_two_namespaces_are_driven_apart(robot: FakeRosbridge, connect: Connect) -> None:
     left, right = connect(namespace="left"), connect(namespace="/right/")
+    assert right.resolve("cmd_vel") == "/right/cmd_vel"
     inbox = Inbox(right, "cmd_vel", TwistMessage)
     left.publish("cmd_vel", TwistMessage(1.0, 0.0, 0.0))
     connect(namespace="right").publish("cmd_vel", TwistMessage(2.0, 0.0, 0.0))
     assert inbox.next() == TwistMessage(2.0, 0.0, 0.0)
     assert {request["topic"] for request in robot.of("publish")} >= {"/left/cmd_vel", "/right/cmd_vel"}
-
-
-def test_the_profile_says_twist_or_twist_stamped(robot: FakeRosbridge, connect: Connect) -> None:
-    wire = connect(Wiring(cmd_vel_type="TwistStamped"))
-    wire.publish("cmd_vel", TwistMessage(0.3, 0.0, 0.1))
-    assert robot.wait_for("publish", 1, PATIENCE_S)
-    assert robot.of("advertise")[0]["type"] == "geometry_msgs/msg/TwistStamped"
-    assert robot.of("publish")[0]["msg"]["twist"]["linear"]["x"] == 0.3
 
 
 def test_a_type_the_robot_refuses_is_said_when_publishing(connect: Connect) -> None:
@@ -290,32 +262,27 @@ def test_infinity_and_nan_are_told_apart_where_the_server_offers_cbor(
     assert not wire.has_null_ranges
 
 
-def test_over_json_alone_both_are_unknown_and_the_wire_knows_it(old_robot: FakeRosbridge) -> None:
-    wire = RosbridgeWire(old_robot.url, Wiring())
+@without_cbor
+def test_over_json_alone_both_are_unknown_and_the_wire_knows_it(
+    robot: FakeRosbridge, connect: Connect
+) -> None:
+    wire = connect()
     scans = Inbox(wire, "scan", LaserScan)
-    old_robot.say("/scan", scan_of(1.0, 2.5))
+    robot.say("/scan", scan_of(1.0, 2.5))
     assert scans.next().ranges_m == [1.0, 2.5]
     assert not wire.has_null_ranges
-    old_robot.say("/scan", scan_of(1.0, math.inf, math.nan, 2.5))
+    robot.say("/scan", scan_of(1.0, math.inf, math.nan, 2.5))
     told = scans.next().ranges_m
     assert (told[0], told[3]) == (1.0, 2.5)
-    assert math.isnan(told[1])
-    assert math.isnan(told[2])
+    assert all(map(math.isnan, told[1:3]))
     wire.close()
     assert wire.has_null_ranges
 
 
-def test_messages_that_the_server_fails_to_write_as_cbor_are_asked_for_as_json(
+def test_a_gyro_is_asked_for_as_json_and_what_comes_late_keeps_its_age(
     robot: FakeRosbridge, connect: Connect
 ) -> None:
-    heard: queue.Queue[Imu] = queue.Queue()
-    connect().subscribe("imu", Imu, heard.put)
-    assert robot.wait_for("subscribe", 1, PATIENCE_S)
-    robot.say("/imu", {"header": {"stamp": {"sec": 1, "nanosec": 0}}, "angular_velocity": {"z": 0.5}})
-    assert heard.get(timeout=PATIENCE_S).wz_radps == 0.5
-
-
-def test_late_odometry_keeps_its_age(robot: FakeRosbridge, connect: Connect) -> None:
+    """rosbridge_server fails to write its covariances as CBOR."""
     heard: queue.Queue[Imu] = queue.Queue()
     connect().subscribe("imu", Imu, heard.put)
     assert robot.wait_for("subscribe", 1, PATIENCE_S)
@@ -323,31 +290,20 @@ def test_late_odometry_keeps_its_age(robot: FakeRosbridge, connect: Connect) -> 
         stamp = {"sec": sec, "nanosec": 0}
         robot.say("/imu", {"header": {"stamp": stamp}, "angular_velocity": {"z": 0.5}})
     prompt, late = heard.get(timeout=PATIENCE_S), heard.get(timeout=PATIENCE_S)
+    assert prompt.wz_radps == 0.5
     assert prompt.stamp_s - late.stamp_s == pytest.approx(2.0, abs=1e-3)
 
 
-def test_a_battery_is_told_in_per_cent(robot: FakeRosbridge, connect: Connect) -> None:
-    heard = Inbox(connect(Wiring(battery_topic="battery")), "battery", Number)
-    robot.say("/battery", {"percentage": None})
-    robot.say("/battery", {"percentage": 0.5})
-    assert heard.next() == Number(50.0)
-
-
-@pytest.mark.parametrize("offers_cbor", [True, False], ids=["as bytes", "as base64"])
-def test_a_camera_s_pictures_are_asked_for_now_and_then(offers_cbor: bool) -> None:
-    robot = FakeRosbridge(offers_cbor=offers_cbor)
-    wire = RosbridgeWire(robot.url, Wiring())
-    pictures = Inbox(wire, "camera", Picture)
+@pytest.mark.parametrize("robot", [True, False], indirect=True, ids=["as bytes", "as base64"])
+def test_a_camera_s_pictures_are_asked_for_now_and_then(robot: FakeRosbridge, connect: Connect) -> None:
+    pictures = Inbox(connect(), "camera", Picture)
     asked = next(request for request in robot.of("subscribe") if request["topic"] == "/camera")
     assert (asked["throttle_rate"], asked["queue_length"]) == (200, 1)
     size = {"height": 480, "width": 640, "step": 1920}
     data = base64.b64encode(bytes(640 * 480 * 3)).decode()
-    robot.say(
-        "/camera", {"header": {"stamp": {"sec": 0, "nanosec": 0}}, "encoding": "rgb8", **size, "data": data}
-    )
+    header = {"stamp": {"sec": 0, "nanosec": 0}}
+    robot.say("/camera", {"header": header, "encoding": "rgb8", **size, "data": data})
     assert len(pictures.next().data) == 640 * 480 * 3
-    wire.close()
-    robot.stop()
 
 
 def _rosapi(robot: FakeRosbridge) -> None:
@@ -372,15 +328,6 @@ def test_where_rosapi_runs_the_others_are_known(robot: FakeRosbridge, connect: C
     ]
 
 
-def test_the_guard_is_told_the_topics_with_their_namespace(robot: FakeRosbridge) -> None:
-    from chatrobot.motion.safety import connection_monitor as link
-    from chatrobot.wire.connect import connect_wire
-
-    reached = link.reach(connect_wire, f"rosbridge:{robot.url}", Wiring(namespace="robot1"), "test")
-    assert reached.wire.resolve("cmd_vel") == "/robot1/cmd_vel"
-    reached.wire.close()
-
-
 def test_where_no_rosapi_runs_nobody_is_known(connect: Connect) -> None:
     wire = connect()
     assert (wire.survey(), wire.publishers_of("cmd_vel")) == ([], [])
@@ -390,11 +337,11 @@ def test_velocities_of_the_type_that_the_robot_takes_are_sent(
     robot: FakeRosbridge, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from chatrobot.motion.safety import connection_monitor as link
-    from chatrobot.wire.connect import connect_wire
 
     monkeypatch.setattr(link, "SURVEY_S", 0.1)
     _rosapi(robot)
     reached = link.reach(connect_wire, f"rosbridge:{robot.url}", Wiring(), "test")
+    assert reached.wire.resolve("cmd_vel") == "/cmd_vel", "as the guard is told it"
     assert (reached.wiring.cmd_vel_type, reached.wiring.odom_topic) == ("TwistStamped", "/odom_combined")
     assert [reason.code for reason in reached.said] == ["cmd_vel_type_found", "sensor_found"]
     reached.wire.publish("cmd_vel", ZERO)

@@ -11,12 +11,12 @@ from chatrobot.cli.folders import config_folder
 from chatrobot.cli.parameters import parameters_in, read_parameters
 from chatrobot.compose import Setup, explain_server_held
 from chatrobot.core.errors import UsageError
-from chatrobot.core.motion_budget import MotionBudget
 from chatrobot.dialogue.llm.setup import chosen_model
 from chatrobot.dialogue.llm.terms import ModelOptions
 from chatrobot.dialogue.options import Options
 from chatrobot.language.phrases import render_reason
 from chatrobot.models.seam import Model, ModelError
+from chatrobot.robots.profile import MotionBudget
 
 _SOURCES = {"option": "--model", "environment": "CHATROBOT_MODEL", "stored": "the model you chose"}
 

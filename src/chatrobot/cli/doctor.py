@@ -218,7 +218,7 @@ _MORE = {
 
 def _box() -> Check:
     """Build the sandbox around nothing, and see which walls stand."""
-    from chatrobot.sandbox.probe import probe
+    from chatrobot.sandbox.warm_server import probe
 
     report = probe()
     if report.refusal is not None:

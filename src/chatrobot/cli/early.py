@@ -9,8 +9,8 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from chatrobot.cli.lines import TypedAhead, has_keyboard
-from chatrobot.core.motion_budget import MotionBudget
 from chatrobot.link.processes import SIMULATED, Processes
+from chatrobot.robots.profile import MotionBudget
 
 if TYPE_CHECKING:
     from chatrobot.robots.profile import RobotProfile

@@ -8,7 +8,7 @@ from chatrobot.cli.json_lines import Output
 from chatrobot.core import events
 from chatrobot.core.events import Event
 from chatrobot.core.geometry import Pose, Twist
-from chatrobot.core.shown import fixed
+from chatrobot.core.reason import fixed
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.plan.folded import folded_plan

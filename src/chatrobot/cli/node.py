@@ -13,10 +13,10 @@ from chatrobot.cli.folders import profile_folders
 from chatrobot.cli.parameters import parameters_in, read_parameters
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.core.errors import UsageError
-from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
-from chatrobot.core.scheduling import wake_promptly
+from chatrobot.core.process import wake_promptly
 from chatrobot.options import OF_NODES, OPTIONS, PARAMETERS
 from chatrobot.robots.load import profile_argument
+from chatrobot.robots.profile import NOT_CHOSEN, MotionBudget
 from chatrobot.wire.connect import Connect, connect_wire, wire_address
 from chatrobot.wire.discovery import domain_and_namespace
 from chatrobot.wire.ros import require_ros
@@ -88,7 +88,7 @@ def open_ros_interfaces(args: argparse.Namespace, ros_args: list[str]) -> RosInt
 
 def _run_control(args: argparse.Namespace, ros_interfaces: RosInterfaces | None, connect: Connect) -> bool:
     from chatrobot.core.events import Event, Started
-    from chatrobot.link.topics import CHATGPT_NODE
+    from chatrobot.link.topic_link import CHATGPT_NODE
     from chatrobot.nodes.control import ControlNode
     from chatrobot.nodes.log import Log, on_stderr
     from chatrobot.nodes.told import told
@@ -125,7 +125,7 @@ def _run_control(args: argparse.Namespace, ros_interfaces: RosInterfaces | None,
 def _run_base(args: argparse.Namespace, ros_interfaces: RosInterfaces | None, connect: Connect) -> bool:
     from chatrobot.cli.choices import setup_from
     from chatrobot.dialogue.options import Options
-    from chatrobot.link.topics import CHATGPT_NODE, USER_INPUT
+    from chatrobot.link.topic_link import CHATGPT_NODE, USER_INPUT
     from chatrobot.nodes.base import BaseNode
     from chatrobot.nodes.log import Log
 
@@ -146,7 +146,7 @@ def _run_input(args: argparse.Namespace, _: RosInterfaces | None, connect: Conne
     """On standard output alone: it is a person's terminal, and what is said is on topics already."""
     from chatrobot.cli.lines import LineReader
     from chatrobot.language.phrases import say
-    from chatrobot.link.topics import USER_INPUT
+    from chatrobot.link.topic_link import USER_INPUT
     from chatrobot.nodes.input import InputNode
     from chatrobot.robots.load import load_profile
 

@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterable
 from typing import Any, NoReturn, TypeVar
 
 from chatrobot.core.errors import UsageError
-from chatrobot.core.motion_budget import NONE, read_limit
 from chatrobot.options import COMMON, LIMITS, MODEL, OF_NODES, OPTIONS, SIMULATION, Option
+from chatrobot.robots.profile import NONE, read_limit
 
 Number = TypeVar("Number", int, float)
 _KINDS: dict[Any, str] = {int: "a whole number", float: "a number"}

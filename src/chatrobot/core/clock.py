@@ -25,14 +25,16 @@ _BOOT_CLOCK: int = getattr(time, "CLOCK_BOOTTIME", time.CLOCK_MONOTONIC)
 class Clock(Protocol):
     """Seconds since an arbitrary start. Never goes backwards, is never the wall clock."""
 
-    def now_s(self) -> float: ...
+    def now_s(self) -> float:
+        """Return the time that passes for the robot."""
+        ...
 
     def suspended_s(self) -> float:
         """Seconds the machine has slept so far. `now_s` does not count them; a robot may have gone on for them."""
         ...
 
 
-class RealClock:
+class RealClock(Clock):
     """The machine's monotonic clock (shared by all processes of one machine since its boot)."""
 
     def now_s(self) -> float:
@@ -47,7 +49,7 @@ def awake_or_not_s() -> float:
     return time.clock_gettime(_BOOT_CLOCK)
 
 
-class VirtualClock:
+class VirtualClock(Clock):
     """A clock that stands until someone moves it on."""
 
     def __init__(self, start_s: float = 0.0) -> None:

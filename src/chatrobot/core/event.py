@@ -1,4 +1,4 @@
-"""What every event is, and how it is written as JSON and read again. `chatrobot.core.events` has the events."""
+"""The base of all events, written as JSON and read again. `chatrobot.core.events` has the events."""
 
 from __future__ import annotations
 
@@ -8,8 +8,16 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
-from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """`plan_text` runs if the very next text is a yes; `say` is the question, in the language of the person."""
+
+    plan_text: str
+    say: str
+
 
 _TYPES: dict[str, type[Event]] = {}
 """The events by their names."""
@@ -21,23 +29,21 @@ class Event:
 
     turn: int
     name: ClassVar[str] = ""
+    unmeasured: ClassVar[tuple[str, ...]] = ()
+    """The fields that nobody knows where `measured` is false: null in JSON."""
 
-    def __init_subclass__(cls) -> None:
-        _TYPES[cls.name] = cls
-
-    @property
-    def unknown(self) -> frozenset[str]:
-        """The fields whose values nobody knows: null in JSON."""
-        return frozenset()
+    def __init_subclass__(cls, *, name: str, unmeasured: tuple[str, ...] = ()) -> None:
+        cls.name, cls.unmeasured = name, unmeasured
+        _TYPES[name] = cls
 
     def to_json(self) -> dict[str, Any]:
-        unknown = self.unknown
+        """Make the object of one `--json` line; `event_from_json` reads it."""
+        unknown = () if getattr(self, "measured", True) else self.unmeasured
+        known = (f.name for f in dataclasses.fields(self) if f.name not in unknown)
         return {
             "event": self.name,
-            **{
-                f.name: None if f.name in unknown else _plain(getattr(self, f.name))
-                for f in dataclasses.fields(self)
-            },
+            **dict.fromkeys(f.name for f in dataclasses.fields(self)),
+            **{name: _plain(getattr(self, name)) for name in known},
         }
 
 
@@ -47,7 +53,9 @@ def _plain(value: Any) -> Any:
         return {key: round(number, 6) for key, number in zip(value._fields, value)}
     if isinstance(value, float):
         return round(value, 6)
-    if isinstance(value, (Reason, Event, Proposal)):
+    if isinstance(value, Proposal):
+        return dataclasses.asdict(value)
+    if isinstance(value, (Reason, Event)):
         return value.to_json()
     if isinstance(value, (tuple, list)):
         return [_plain(item) for item in value]
@@ -85,7 +93,7 @@ _READERS: Mapping[str, Any] = {
     "Twist": lambda value: Twist(**value),
     "Reason": Reason.from_json,
     "Reason | None": _optional(Reason.from_json),
-    "Proposal | None": _optional(Proposal.from_json),
+    "Proposal | None": _optional(lambda value: Proposal(str(value["plan_text"]), str(value["say"]))),
     "tuple[int, ...]": tuple,
     "tuple[float | None, ...]": tuple,
     "tuple[str, ...]": tuple,

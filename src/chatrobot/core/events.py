@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import ClassVar, Literal
+from dataclasses import dataclass, field, replace
+from typing import Literal
 
 from chatrobot.core.event import Event as Event
+from chatrobot.core.event import Proposal
 from chatrobot.core.event import event_from_json as event_from_json
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
-from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
 
 Outcome = Literal["completed", "stopped", "refused", "unclear", "answered", "failed"]
@@ -27,20 +27,18 @@ LEAST_M, LEAST_RAD = 0.005, math.radians(0.5)
 
 
 @dataclass(frozen=True)
-class Interpreted(Event):
+class Interpreted(Event, name="interpreted"):
     """What was understood, and by whom."""
 
-    name: ClassVar[str] = "interpreted"
     by: Literal["offline", "model", "reflex"]
     plan_text: str
     reply: str
 
 
 @dataclass(frozen=True)
-class FindingSeen(Event):
+class FindingSeen(Event, name="finding"):
     """One thing rehearsal found. `step` is the index path of the step, from 1."""
 
-    name: ClassVar[str] = "finding"
     severity: Literal["refuse", "warn", "note"]
     reason: Reason
     step: tuple[int, ...] = ()
@@ -48,14 +46,13 @@ class FindingSeen(Event):
 
 
 @dataclass(frozen=True)
-class Rehearsed(Event):
+class Rehearsed(Event, name="rehearsed"):
     """What the plan would do: `path` is (x_m, y_m, yaw_rad) along the predicted way, thinned for drawing.
 
     `open_ended`: nobody knows before how far it drives (a program without an end, a way up to an obstacle that is not
     known); `length_m` and `duration_s` are what was rehearsed.
     """
 
-    name: ClassVar[str] = "rehearsed"
     ok: bool
     duration_s: float
     length_m: float
@@ -67,14 +64,13 @@ class Rehearsed(Event):
 
 
 @dataclass(frozen=True)
-class ProgramWritten(Event):
+class ProgramWritten(Event, name="program_written"):
     """A program was written, or found under its name. `marks` have the line they are about in `step`.
 
     `by` is who wrote this version, `version` counts from 1, `diff` is what changed since the one before; `is_new`
     where it was written in this turn. `place` is the file that holds its source, "" where none does.
     """
 
-    name: ClassVar[str] = "program_written"
     program: str
     by: Literal["offline", "model", "person"]
     source: str
@@ -87,14 +83,13 @@ class ProgramWritten(Event):
 
 
 @dataclass(frozen=True)
-class ProgramRehearsed(Event):
+class ProgramRehearsed(Event, name="program_rehearsed"):
     """What the program did in its sandbox on virtual time, besides what `rehearsed` tells, which follows.
 
     `ended` says how: it `returned`, called `exit`, `raised`, `died`, was `stuck` waiting for nothing, or still ran at
     the `horizon`. `problem` is its traceback or the like, `line` where in the program that was, 0 for nowhere.
     """
 
-    name: ClassVar[str] = "program_rehearsed"
     program: str
     ended: str
     top_speed_mps: float
@@ -106,37 +101,30 @@ class ProgramRehearsed(Event):
 
 
 @dataclass(frozen=True)
-class ProgramLog(Event):
+class ProgramLog(Event, name="program_log"):
     """What a running program logged or printed, `t_s` after its start."""
 
-    name: ClassVar[str] = "program_log"
     t_s: float
     level: str
     text: str
 
 
 @dataclass(frozen=True)
-class Started(Event):
+class Started(Event, name="started", unmeasured=("pose",)):
     """The robot begins to act on this turn. `measured`: see `Finished`."""
 
-    name: ClassVar[str] = "started"
     pose: Pose = ORIGIN
     measured: bool = True
 
-    @property
-    def unknown(self) -> frozenset[str]:
-        return _unknown("pose", measured=self.measured)
-
 
 @dataclass(frozen=True)
-class Paused(Event):
+class Paused(Event, name="paused"):
     """The plan of this turn was stopped by a word that keeps it: the turn stays open, and `plan_text` is what is left.
 
     It is gone on with, from where the robot stands then, when its own source asks for that: `rehearsed` and `started`
     follow. Else `finished` ends it. `waiting` are the texts of its session that are done after it.
     """
 
-    name: ClassVar[str] = "paused"
     pose: Pose
     plan_text: str
     reason: Reason | None = None
@@ -144,13 +132,12 @@ class Paused(Event):
 
 
 @dataclass(frozen=True)
-class Progress(Event):
+class Progress(Event, name="progress"):
     """How far a running turn is: step `step` of `of`, `fraction` of the whole predicted duration (0..1).
 
     `fraction` is None where the whole is not known: a program without an end, a plan that is still coming in.
     """
 
-    name: ClassVar[str] = "progress"
     step: int
     of: int
     fraction: float | None
@@ -159,13 +146,12 @@ class Progress(Event):
 
 
 @dataclass(frozen=True)
-class Telemetry(Event):
+class Telemetry(Event, name="telemetry"):
     """Where the robot is and how it moves, as it measures itself; `path_m` since odometry began.
 
     `odometry_epoch` counts the times odometry began anew: a pose of an older epoch means nothing any more.
     """
 
-    name: ClassVar[str] = "telemetry"
     pose: Pose
     twist: Twist
     path_m: float
@@ -176,10 +162,9 @@ class Telemetry(Event):
 
 
 @dataclass(frozen=True)
-class TruePose(Event):
+class TruePose(Event, name="pose"):
     """The simulator's truth, for `--trace`. Nothing else may read it."""
 
-    name: ClassVar[str] = "pose"
     t_s: float
     x_m: float
     y_m: float
@@ -190,10 +175,9 @@ class TruePose(Event):
 
 
 @dataclass(frozen=True)
-class Limited(Event):
+class Limited(Event, name="limited"):
     """The governor allows less than was asked for: `sent` is the most it will send of it."""
 
-    name: ClassVar[str] = "limited"
     rule: str
     asked: Twist
     sent: Twist
@@ -201,49 +185,44 @@ class Limited(Event):
 
 
 @dataclass(frozen=True)
-class Said(Event):
+class Said(Event, name="said"):
     """A `say` step."""
 
-    name: ClassVar[str] = "said"
     text: str
 
 
 @dataclass(frozen=True)
-class Remembered(Event):
+class Remembered(Event, name="remembered"):
     """A `remember` step: the place and where it is, in `odom`."""
 
-    name: ClassVar[str] = "remembered"
     place: str
     pose: Pose
 
 
 @dataclass(frozen=True)
-class Streamed(Event):
+class Streamed(Event, name="streamed"):
     """A step of a plan that still comes in, as it goes to Motion; `interpreted` has the whole plan at its end."""
 
-    name: ClassVar[str] = "streamed"
     plan_text: str
 
 
 @dataclass(frozen=True)
-class Looked(Event):
+class Looked(Event, name="looked"):
     """What the lidar sees, by eight sectors of 45 degrees, from straight ahead counter-clockwise.
 
     Metres from the robot's edge to the nearest thing; None where nothing is seen; empty without a lidar.
     """
 
-    name: ClassVar[str] = "looked"
     sectors_m: tuple[float | None, ...] = ()
 
 
 @dataclass(frozen=True)
-class ModelCalled(Event):
+class ModelCalled(Event, name="model_called"):
     """One call of a language model has ended: what it cost. `round` counts the calls of a turn from 1.
 
     Tokens are the provider's count, an estimate where `counted` is False. `cost_usd` is None where no price is known.
     """
 
-    name: ClassVar[str] = "model_called"
     model: str
     round: int
     prompt_tokens: int
@@ -255,16 +234,15 @@ class ModelCalled(Event):
 
 
 @dataclass(frozen=True)
-class Notice(Event):
+class Notice(Event, name="notice"):
     """Something a person should know that ends nothing."""
 
-    name: ClassVar[str] = "notice"
     reason: Reason
     text: str = ""
 
 
 @dataclass(frozen=True)
-class Finished(Event):
+class Finished(Event, name="finished", unmeasured=("start", "pose", "turned_rad", "path_m")):
     """Motion's end of a turn: what odometry measured, never what was asked for.
 
     Odometry counts wheels, and a gyro sees only turns: wheels that spin straight on are counted as way
@@ -284,7 +262,6 @@ class Finished(Event):
     was too busy.
     """
 
-    name: ClassVar[str] = "finished"
     outcome: Outcome
     reason: Reason | None
     start: Pose
@@ -304,19 +281,46 @@ class Finished(Event):
     open_ended: bool = False
     late_s: float = 0.0
 
-    @property
-    def unknown(self) -> frozenset[str]:
-        return _unknown("start", "pose", "turned_rad", "path_m", measured=self.measured)
+    def followed_by(self, run: Finished) -> Finished:
+        """Tell two runs of one turn as one."""
+        add = [
+            "turned_rad",
+            "path_m",
+            "duration_s",
+            "paused_s",
+            "planned_m",
+            "planned_turn_rad",
+            "steps_done",
+            "steps",
+        ]
+        return replace(
+            run,
+            start=self.start,
+            **{name: getattr(self, name) + getattr(run, name) for name in add},
+            measured=self.measured and run.measured,
+            open_ended=self.open_ended or run.open_ended,
+            late_s=max(self.late_s, run.late_s),
+            executed="\n".join(filter(None, (self.executed, run.executed))),
+        )
+
+    def resumed_by(self, rest: Finished) -> Finished:
+        """Tell a plan that was paused and its rest as one: what was planned in vain at the pause counts once."""
+        return replace(
+            self.followed_by(rest),
+            planned_m=self.path_m + rest.planned_m,
+            planned_turn_rad=self.turned_rad + rest.planned_turn_rad,
+            steps=self.steps,
+            open_ended=rest.open_ended,
+        )
 
 
 @dataclass(frozen=True)
-class Result(Event):
+class Result(Event, name="result", unmeasured=("pose", "turned_rad", "path_m")):
     """The last event of every turn; pose and distances are what odometry measured, as in `Finished`; `measured`, too.
 
     `proposal` is a plan that the reply asks about.
     """
 
-    name: ClassVar[str] = "result"
     outcome: Outcome
     reply: str
     pose: Pose = ORIGIN
@@ -329,10 +333,6 @@ class Result(Event):
     measured: bool = True
 
     @property
-    def unknown(self) -> frozenset[str]:
-        return _unknown("pose", "turned_rad", "path_m", measured=self.measured)
-
-    @property
     def has_moved(self) -> bool:
         """It was measured that the robot moved."""
         return self.path_m > LEAST_M or abs(self.turned_rad) > LEAST_RAD
@@ -341,7 +341,3 @@ class Result(Event):
     def is_question(self) -> bool:
         """The next text may answer it."""
         return self.outcome == "unclear" or self.proposal is not None
-
-
-def _unknown(*names: str, measured: bool) -> frozenset[str]:
-    return frozenset() if measured else frozenset(names)

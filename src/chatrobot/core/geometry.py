@@ -31,13 +31,16 @@ class Twist(NamedTuple):
 
     @property
     def is_zero(self) -> bool:
+        """Exactly zero, in all three."""
         return self.vx_mps == 0.0 and self.vy_mps == 0.0 and self.wz_radps == 0.0
 
     @property
     def is_finite(self) -> bool:
+        """No part of it is NaN or infinite."""
         return math.isfinite(self.vx_mps) and math.isfinite(self.vy_mps) and math.isfinite(self.wz_radps)
 
     def scaled(self, factor: float) -> Twist:
+        """Scale all three by one dimensionless factor: the path stays."""
         return Twist(self.vx_mps * factor, self.vy_mps * factor, self.wz_radps * factor)
 
 
@@ -67,7 +70,7 @@ class Pose(NamedTuple):
         return Pose(cos * dx + sin * dy, -sin * dx + cos * dy, self.yaw_rad - origin.yaw_rad)
 
     def moved(self, twist: Twist, duration_s: float) -> Pose:
-        """Where a constant `twist` leads in `duration_s`: the exact screw motion, not an Euler step."""
+        """Return where a constant `twist` leads in `duration_s`: the exact screw motion, not an Euler step."""
         return self.compose(displacement(twist, duration_s))
 
     def distance_to(self, other: Pose) -> float:

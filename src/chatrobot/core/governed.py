@@ -11,9 +11,10 @@ from chatrobot.core.geometry import Twist
 
 
 class Mint:
-    """What it takes to make a `GovernedTwist`. For the governor alone."""
+    """The right to make a `GovernedTwist`. For the governor alone."""
 
     def twist(self, twist: Twist, epoch: int) -> GovernedTwist:
+        """Mint a velocity that the governor has passed in that stop epoch."""
         return GovernedTwist(twist, epoch, self)
 
 
@@ -41,4 +42,5 @@ class StopEpoch:
         self.value = 0
 
     def stop(self) -> None:
+        """Void what was minted before."""
         self.value += 1

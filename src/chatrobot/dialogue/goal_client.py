@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, Literal
 
+from chatrobot.core.event import Proposal
 from chatrobot.core.events import Event, Finished, Notice, Outcome, Result
-from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.understanding import Instruction, Understanding

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 from chatrobot.core.events import Finished, Looked
 from chatrobot.core.geometry import Pose
-from chatrobot.core.shown import one_line
+from chatrobot.core.reason import one_line
 from chatrobot.dialogue.llm.prompt import place_lines, pose_line
 from chatrobot.models.seam import Message
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from chatrobot.core.errors import InputError
 from chatrobot.core.geometry import Pose
-from chatrobot.core.shown import one_line
+from chatrobot.core.reason import one_line
 from chatrobot.language.context import Place
 from chatrobot.plan.context import Route
 from chatrobot.plan.primitives.go import MAX_PLACE_CHARS

@@ -10,14 +10,14 @@ import time
 from collections.abc import Callable
 from typing import NamedTuple, Protocol
 
+from chatrobot.core.event import Proposal
 from chatrobot.core.events import Event, Finished, Paused, Rehearsed, Result, Started
-from chatrobot.core.proposal import Proposal
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.dialogue.utterances import Utterance
 from chatrobot.language.consent import after_consent, read_consent
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import render_reason, say
-from chatrobot.link.approval import Approval
+from chatrobot.link.motion_link import Approval
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import parse_plan
 

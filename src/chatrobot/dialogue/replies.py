@@ -7,11 +7,10 @@ import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from chatrobot.core.event import Proposal
 from chatrobot.core.events import LEAST_M, LEAST_RAD, Event, Finished, Paused, Result
 from chatrobot.core.geometry import wrap_angle
-from chatrobot.core.proposal import Proposal
-from chatrobot.core.reason import Reason
-from chatrobot.core.shown import fixed, one_line
+from chatrobot.core.reason import Reason, fixed, one_line
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import describe_plan, describe_steps, describe_text, render_reason, say
 from chatrobot.plan.steps import Face, Go, RawTwist, Step

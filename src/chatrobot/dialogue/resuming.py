@@ -10,9 +10,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
+from chatrobot.core.event import Proposal
 from chatrobot.core.events import Event, Finished, Paused, Progress, Started
 from chatrobot.core.geometry import ORIGIN, Pose
-from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.replies import describe_left
 from chatrobot.dialogue.understanding import Understanding

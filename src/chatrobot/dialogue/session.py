@@ -12,7 +12,6 @@ from typing import Any
 
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import Event, Finished, Notice, Paused, Remembered, Result, Telemetry
-from chatrobot.core.motion_budget import OPEN_LOOP
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.dispatch import Dispatch
 from chatrobot.dialogue.goal_client import GoalClient, RequestLog
@@ -32,6 +31,7 @@ from chatrobot.dialogue.utterances import EarlyAnswers, Kind, NextUtterance, Utt
 from chatrobot.link.motion_link import MotionLink
 from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
+from chatrobot.robots.profile import OPEN_LOOP
 
 FIRST_NEWS_LOOKS, FIRST_NEWS_LOOK_S = 10, 0.1
 """How often and how long an answer waits for the first word of odometry."""

@@ -21,7 +21,7 @@ from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.language.ledger import Entry, TurnRecord
 from chatrobot.language.normalise import has_chinese
 from chatrobot.language.phrases import describe_steps, render_reason, say
-from chatrobot.link.approval import LAPSES_AFTER_M, LAPSES_AFTER_RAD
+from chatrobot.link.motion_link import LAPSES_AFTER_M, LAPSES_AFTER_RAD
 from chatrobot.plan.steps import Plan, Step
 from chatrobot.plan.text import parse_plan
 from chatrobot.robots.profile import RobotProfile

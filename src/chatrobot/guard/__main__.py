@@ -16,13 +16,11 @@ from collections.abc import Callable
 
 from chatrobot.core.clock import TICK_S, awake_or_not_s
 from chatrobot.core.errors import WireError
-from chatrobot.core.memory_pressure import GUARD, prefer
-from chatrobot.core.scheduling import wake_promptly
+from chatrobot.core.process import GUARD, prefer, wake_promptly
 from chatrobot.core.wiring import Wiring
-from chatrobot.guard.departure import Departure
-from chatrobot.guard.watch import GOODBYE, HANDSHAKE, TRIPPED, Watch
+from chatrobot.guard.watch import GOODBYE, HANDSHAKE, TRIPPED, Departure, Watch
 from chatrobot.wire.connect import connect_wire
-from chatrobot.wire.messages import Odometry, TwistMessage
+from chatrobot.wire.messages import ZERO, Odometry, TwistMessage
 from chatrobot.wire.wire import Wire
 
 STANDING_S = 1.0
@@ -30,8 +28,6 @@ STANDING_S = 1.0
 
 GIVE_UP_S = 30.0
 """Without odometry nobody can see it standing; after this long of zeros nobody is left to serve."""
-
-ZERO = TwistMessage(0.0, 0.0, 0.0)
 
 
 class Standing:
@@ -41,12 +37,14 @@ class Standing:
         self._since_s: float | None = None
 
     def on_odometry(self, message: Odometry) -> None:
+        """Take in what the robot tells of its motion."""
         if abs(message.vx_mps) + abs(message.vy_mps) + abs(message.wz_radps) > 0.01:
             self._since_s = None
         elif self._since_s is None:
             self._since_s = awake_or_not_s()
 
     def for_s(self, now_s: float) -> float:
+        """Return how long it has stood."""
         return 0.0 if self._since_s is None else now_s - self._since_s
 
 
@@ -154,6 +152,7 @@ def _wiring(options: dict[str, str]) -> Wiring:
 
 
 def main(arguments: list[str]) -> int:
+    """Guard until there is nothing left to do; the exit code."""
     options = dict(zip(arguments[::2], arguments[1::2]))
     for name in ("SIGINT", "SIGTSTP", "SIGHUP", "SIGTTIN", "SIGTTOU", "SIGPIPE", "SIGTERM"):
         signal.signal(getattr(signal, name), signal.SIG_IGN)

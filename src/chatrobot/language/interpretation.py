@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from chatrobot.core.proposal import Proposal
+from chatrobot.core.event import Proposal
 from chatrobot.language.ledger import Walk
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.unclear import Unclear

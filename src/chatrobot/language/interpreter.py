@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import lru_cache
 
 from chatrobot import reflex
-from chatrobot.core.proposal import Proposal
+from chatrobot.core.event import Proposal
 from chatrobot.language import forms, questions
 from chatrobot.language.acts import (
     MAYBE_ORDER,

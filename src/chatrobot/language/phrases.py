@@ -7,8 +7,7 @@ import re
 from collections.abc import Iterable
 from functools import cache
 
-from chatrobot.core.reason import Reason, Value
-from chatrobot.core.shown import ANGLE_PLACES, LENGTH_PLACES, number
+from chatrobot.core.reason import ANGLE_PLACES, LENGTH_PLACES, Reason, Value, number
 from chatrobot.language.data_files import load_table
 from chatrobot.language.typed import codes, typed
 from chatrobot.plan.folded import repeated, runs

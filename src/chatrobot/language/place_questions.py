@@ -8,7 +8,7 @@ from functools import cache
 from typing import NamedTuple
 
 from chatrobot.core.geometry import Pose
-from chatrobot.core.shown import fixed
+from chatrobot.core.reason import fixed
 from chatrobot.language.context import Context
 from chatrobot.language.data_files import load_table
 from chatrobot.language.interpretation import Interpretation, LanguageCode

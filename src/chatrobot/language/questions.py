@@ -7,7 +7,7 @@ import re
 from functools import cache
 
 from chatrobot.core.geometry import Pose
-from chatrobot.core.shown import fixed
+from chatrobot.core.reason import fixed
 from chatrobot.language.context import Context
 from chatrobot.language.data_files import load_table
 from chatrobot.language.names import by_language

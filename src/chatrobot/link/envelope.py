@@ -8,9 +8,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any, Literal
 
-from chatrobot.core.motion_budget import read_limit
 from chatrobot.core.reason import Reason
 from chatrobot.programs.ros_args import MOST_ARGS, MOST_CHARS
+from chatrobot.robots.profile import read_limit
 
 PROTOCOL = 2
 """What both halves have to agree on, in the greeting of each. Another number where one half could misunderstand the
@@ -42,12 +42,25 @@ part without `more` is the last and may be empty. What is to be approved, or onl
 how many pauses its source had said before it; where Motion has heard more of them, one has overtaken it."""
 
 
-def _is_text(value: object) -> bool:
-    return isinstance(value, str)
+QUEUE_LIMIT = 10
+"""What may wait while the robot moves, on either side; one more is refused rather than done in an hour."""
+
+MAX_CODE_CHARS = 60_000
+"""Of a program in an envelope: a thousand lines and more, and it still fits into one packet."""
+_MAX_REMAPS = 8
+_Check = Callable[[object], bool]
 
 
-def _is_flag(value: object) -> bool:
-    return isinstance(value, bool)
+def _text(most_chars: float = math.inf) -> _Check:
+    return lambda value: isinstance(value, str) and len(value) <= most_chars
+
+
+def _seconds(*, with_zero: bool) -> _Check:
+    def is_seconds(value: object) -> bool:
+        is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+        return is_number and (value >= 0.0 if with_zero else value > 0.0) and value < math.inf  # type: ignore[operator]
+
+    return is_seconds
 
 
 def _is_limit(value: object) -> bool:
@@ -61,43 +74,12 @@ def _is_count(value: object) -> bool:
     return type(value) is int and value >= 0
 
 
-def _is_term(value: object) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and 0.0 < value < math.inf
-
-
-def _is_age(value: object) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and 0.0 <= value < math.inf
-
-
-def _is_process(value: object) -> bool:
-    return isinstance(value, str) and len(value) <= _MAX_PROCESS_CHARS
-
-
-QUEUE_LIMIT = 10
-"""What may wait while the robot moves, on either side; one more is refused rather than done in an hour."""
-
-MAX_CODE_CHARS = 60_000
-"""Of a program in an envelope: a thousand lines and more, and it still fits into one packet."""
-_MAX_NAME_CHARS = 60
-_MAX_PROCESS_CHARS = 200
-_MAX_REMAPS, _MAX_TOPIC_CHARS = 8, 200
-
-
-def _is_code(value: object) -> bool:
-    return isinstance(value, str) and len(value) <= MAX_CODE_CHARS
-
-
-def _is_name(value: object) -> bool:
-    return isinstance(value, str) and len(value) <= _MAX_NAME_CHARS
-
-
 def _is_remap(value: object) -> bool:
+    is_name = _text(200)
     return (
         isinstance(value, dict)
         and len(value) <= _MAX_REMAPS
-        and all(
-            isinstance(name, str) and len(name) <= _MAX_TOPIC_CHARS for pair in value.items() for name in pair
-        )
+        and all(is_name(name) for pair in value.items() for name in pair)
     )
 
 
@@ -111,39 +93,42 @@ def _is_args(value: object) -> bool:
     )
 
 
-PAYLOADS: Mapping[str, Mapping[str, Callable[[object], bool]]] = {
-    "hello": {"term_s": _is_term, "process": _is_process, "protocol": _is_count},
-    "beat": {"term_s": _is_term, "process": _is_process, "protocol": _is_count, "age_s": _is_age},
-    "plan": {
-        "plan_text": _is_text,
-        "mode": lambda value: value in MODES,
-        "approve": _is_flag,
-        "rehearse_only": _is_flag,
-        "more": _is_flag,
-        "term_s": _is_term,
-        "protocol": _is_count,
-        "longest_s": _is_term,
-        "pauses": _is_count,
-    },
+def _is_flag(value: object) -> bool:
+    return isinstance(value, bool)
+
+
+_GREETING: Mapping[str, _Check] = {
+    "term_s": _seconds(with_zero=False),
+    "process": _text(200),
+    "protocol": _is_count,
+}
+_GOAL: Mapping[str, _Check] = {
+    "mode": lambda value: value in MODES,
+    "approve": _is_flag,
+    "rehearse_only": _is_flag,
+    "pauses": _is_count,
+    "term_s": _GREETING["term_s"],
+    "protocol": _is_count,
+}
+PAYLOADS: Mapping[str, Mapping[str, _Check]] = {
+    "hello": _GREETING,
+    "beat": {**_GREETING, "age_s": _seconds(with_zero=True)},
+    "plan": {**_GOAL, "plan_text": _text(), "more": _is_flag, "longest_s": _seconds(with_zero=False)},
     "look": {},
     "program": {
-        "code": _is_code,
-        "name": _is_name,
+        **_GOAL,
+        "code": _text(MAX_CODE_CHARS),
+        "name": _text(60),
         "remap": _is_remap,
         "args": _is_args,
         "mode": lambda value: value in MODES and value != "extend",
-        "approve": _is_flag,
         "ask_findings": _is_flag,
         "strict": _is_flag,
-        "rehearse_only": _is_flag,
-        "pauses": _is_count,
-        "term_s": _is_term,
-        "protocol": _is_count,
     },
     "approve": {"yes": _is_flag},
-    "stop": {"why": _is_text, "keep": _is_flag},
+    "stop": {"why": _text(), "keep": _is_flag},
     "resume": {},
-    "emergency_stop": {"why": _is_text},
+    "emergency_stop": {"why": _text()},
     "release": {},
     "limit": {"max_distance_m": _is_limit, "max_time_s": _is_limit},
     "goodbye": {},
@@ -165,6 +150,7 @@ class Envelope:
     payload: dict[str, Any] = field(default_factory=dict)
 
     def to_bytes(self) -> bytes:
+        """Write it as one packet, or one text on a topic."""
         return json.dumps(asdict(self), separators=(",", ":")).encode()
 
     @classmethod
@@ -200,7 +186,7 @@ def protocol_of(greeting: Mapping[str, Any]) -> int:
 
 
 def _each_key_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Who names a key twice means one of two things, and we would have to guess which. A stop is one in any case."""
+    """Refuse a key that stands twice: which is meant would be a guess. A stop is one in any case."""
     fields = dict(pairs)
     if len(fields) < len(pairs) and fields.get("word") not in ("stop", "emergency_stop"):
         raise ValueError("a key stands twice")

@@ -9,17 +9,16 @@ from typing import TYPE_CHECKING, Any
 from chatrobot.core.clock import TICK_S, VirtualClock
 from chatrobot.core.events import Event, Notice
 from chatrobot.link.envelope import Word
-from chatrobot.motion.safety.watchdog import SimulatedGuard
-from chatrobot.transports.transport import ZERO
+from chatrobot.link.motion_link import MotionLink, Sender
+from chatrobot.wire.messages import ZERO
 from chatrobot.wire.wire import Wire
 
 if TYPE_CHECKING:
     from chatrobot.motion.motion import Motion
+    from chatrobot.motion.safety.watchdog import SimulatedGuard
 
-from chatrobot.link.motion_link import Sender
 
-
-class InProcessLink:
+class InProcessLink(MotionLink):
     """Motion in the caller's thread, on a virtual clock that runs only while someone waits for an event.
 
     Args:
@@ -28,6 +27,8 @@ class InProcessLink:
         guard_wire: the guard's own end of the wire.
         cmd_vel_topic: where the guard sends its zeros.
     """
+
+    is_simulated = True
 
     def __init__(
         self,
@@ -49,8 +50,6 @@ class InProcessLink:
         self._cmd_vel_topic = cmd_vel_topic
         self._sender = Sender(source)
         self._closed = False
-        self.beats = True
-        self.is_simulated = True
         self._motion.start(wire)
         self.send("hello")
 
@@ -65,10 +64,6 @@ class InProcessLink:
 
     def wake(self) -> None:
         """Nothing waits here: simulated time passes in the caller's thread."""
-
-    @property
-    def is_lost(self) -> bool:
-        return False
 
     def step(self) -> None:
         """One period: the source beats, Motion ticks, the robot moves."""

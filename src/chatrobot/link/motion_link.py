@@ -1,25 +1,31 @@
-"""The link between the two halves: envelopes one way, events the other. Three carriers, one contract suite."""
+"""What a session holds of Motion: envelopes one way, events the other. Three carriers, one contract suite."""
 
 from __future__ import annotations
 
 import itertools
+import math
 import queue
 import uuid
+from dataclasses import dataclass
 from typing import Any, Protocol
 
 from chatrobot.core.events import Event
+from chatrobot.core.geometry import Pose
+from chatrobot.core.reason import Reason
 from chatrobot.link.envelope import PROTOCOL, Envelope, Word
 
 
 class MotionLink(Protocol):
-    """What a session holds of Motion. `send` may be called from any thread.
+    """A session's end of the way to Motion. `send` may be called from any thread.
 
     `beats` is true while the source keeps its lease; a source that is to be taken for frozen sets it to false.
     """
 
-    beats: bool
-    is_simulated: bool
+    beats: bool = True
+    is_simulated: bool = False
     """Time passes only while somebody waits for an event."""
+    is_lost: bool = False
+    """Motion is gone, and we did not ask it to go."""
 
     def send(self, word: Word, turn: int = 0, **payload: Any) -> None:
         """Say one word.
@@ -35,11 +41,6 @@ class MotionLink(Protocol):
 
     def wake(self) -> None:
         """Have a waiting `next_event` return None at once."""
-        ...
-
-    @property
-    def is_lost(self) -> bool:
-        """Motion is gone, and we did not ask it to go."""
         ...
 
     def abandon(self) -> None:
@@ -83,3 +84,27 @@ class EventQueue:
     def wake(self) -> None:
         """End a wait for an event now; from any thread."""
         self._events.put(None)
+
+
+LAPSES_AFTER_S = 30.0
+LAPSES_AFTER_M = 0.05
+LAPSES_AFTER_RAD = math.radians(5.0)
+"""Over a metre it is the same as 9 cm aside; a gyro at rest drifts far less."""
+
+
+@dataclass(frozen=True)
+class Approval:
+    """A question that a yes would answer: when it was asked, and from where."""
+
+    asked_s: float
+    start: Pose
+
+    def lapsed(self, now_s: float, pose: Pose) -> Reason | None:
+        """Return why a yes is worth nothing any more, or None."""
+        if now_s - self.asked_s > LAPSES_AFTER_S:
+            return Reason("approval_too_late", {"limit_s": LAPSES_AFTER_S})
+        if pose.distance_to(self.start) > LAPSES_AFTER_M:
+            return Reason("approval_robot_moved", {"limit_m": LAPSES_AFTER_M})
+        if abs(pose.yaw_rad - self.start.yaw_rad) > LAPSES_AFTER_RAD:
+            return Reason("approval_robot_moved", {"limit_deg": round(math.degrees(LAPSES_AFTER_RAD))})
+        return None

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget, limit_text
+from chatrobot.robots.profile import NOT_CHOSEN, MotionBudget, limit_text
 from chatrobot.wire.runtime_dir import runtime_dir
 
 SIMULATED = ("auto", "sim")

@@ -13,10 +13,9 @@ from typing import Any
 from chatrobot.core.clock import LOCAL_BEAT_HZ, LOCAL_TERM_S
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import event_from_json
-from chatrobot.core.process import own_identity
-from chatrobot.core.scheduling import wake_promptly
+from chatrobot.core.process import own_identity, wake_promptly
 from chatrobot.link.envelope import PROTOCOL, Word, read_ready
-from chatrobot.link.motion_link import EventQueue, Sender
+from chatrobot.link.motion_link import EventQueue, MotionLink, Sender
 from chatrobot.link.processes import MotionProcess
 from chatrobot.wire.local import PACKET_BYTES
 
@@ -24,7 +23,7 @@ START_TIMEOUT_S = 20.0
 END_TIMEOUT_S = 5.0
 
 
-class SocketLink(EventQueue):
+class SocketLink(EventQueue, MotionLink):
     """Talks to a Motion that has been started.
 
     A thread beats the lease; a thread reads events. If this process freezes or dies, the beats end and Motion
@@ -38,9 +37,6 @@ class SocketLink(EventQueue):
         super().__init__()
         self._sender = Sender(source)
         self._closed = threading.Event()
-        self.is_lost = False
-        self.is_simulated = False
-        self.beats = True
         self.process, self._line = motion.process, motion.line
 
     def wait_until_ready(self) -> None:
@@ -54,7 +50,7 @@ class SocketLink(EventQueue):
         if protocol != PROTOCOL:
             self.process.kill()  # nothing has been asked of it, so nothing moves; its guard sees to that
             raise LinkError(
-                "Motion did not start"
+                "Motion did not start; its own message is above"
                 if protocol is None
                 else f"Motion runs link protocol {protocol}, this process {PROTOCOL}:"
                 " install the same version of chatrobot on both sides"

@@ -1,5 +1,8 @@
-"""The link to a Motion that is a node of its own: envelopes on `chatgpt_node`, events on `chatrobot/events`, and
-telemetry on `chatrobot/telemetry`."""
+"""The link to a Motion that is a node of its own, and the topics of the nodes.
+
+Envelopes go on `chatgpt_node`, events come on `chatrobot/events`, telemetry on `chatrobot/telemetry`: std_msgs/String
+and std_msgs/Bool alone, so that nothing has to be built to listen.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,7 @@ import json
 import threading
 import time
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 from chatrobot.core.clock import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S
 from chatrobot.core.errors import LinkError, WireError
@@ -23,15 +26,72 @@ from chatrobot.core.events import (
     event_from_json,
 )
 from chatrobot.core.geometry import ORIGIN, Pose
-from chatrobot.core.motion_budget import OPEN_LOOP
-from chatrobot.core.process import own_identity
+from chatrobot.core.process import own_identity, wake_promptly
 from chatrobot.core.reason import Reason
-from chatrobot.core.scheduling import wake_promptly
-from chatrobot.link.envelope import PROTOCOL, Envelope, Word, other_protocol
-from chatrobot.link.motion_link import EventQueue, Sender
-from chatrobot.link.topics import CHATGPT_NODE, CONTROL, EVENTS, TELEMETRY, read_beat
+from chatrobot.link.envelope import PROTOCOL, Envelope, Word, other_protocol, protocol_of
+from chatrobot.link.motion_link import EventQueue, MotionLink, Sender
+from chatrobot.robots.profile import OPEN_LOOP
 from chatrobot.wire.messages import Text
 from chatrobot.wire.wire import Wire
+
+USER_INPUT = "user_input"
+"""What a person says: text. Motion listens, too, for stop words."""
+
+CHATGPT_NODE = "chatgpt_node"
+"""Envelopes (JSON) from `base` to `control`; text of others as the tutorial has it."""
+
+EVENTS = "chatrobot/events"
+"""What happens, one JSON event a message; quiet while nothing happens."""
+
+TELEMETRY = "chatrobot/telemetry"
+"""Where the robot is and how it moves, ten times a second: the JSON event `telemetry`."""
+
+REPLY = "chatrobot/reply"
+"""Sentences for people."""
+
+STOP = "chatrobot/stop"
+"""std_msgs/Bool: true stops."""
+
+CONTROL = "chatrobot/control"
+"""Every Motion says ten times a second that it is there: {"id", "node", "host", "pid", "hears": [leases]}."""
+
+OPERATOR = "chatrobot/operator"
+"""`input` says many times a second that it is there, and what it said last (`nodes/operator.py`)."""
+
+
+class MotionBeat(NamedTuple):
+    """A beat of a Motion about itself. `hears`: the leases of the sources it has heard.
+
+    `open_loop`: the limits it drives within where it drives open loop, else None. `protocol`: of its link.
+    """
+
+    id: str
+    name: str
+    hears: frozenset[str]
+    open_loop: dict[str, float] | None = None
+    protocol: int = PROTOCOL
+
+
+def read_beat(text: str) -> MotionBeat | None:
+    """None where it is something else."""
+    try:
+        data = json.loads(text)
+    except (ValueError, RecursionError):
+        return None
+    if not isinstance(data, dict) or not {"id", "node", "host", "pid"} <= data.keys():
+        return None
+    name = f"{data['node']} (process {data['pid']} on {data['host']})"
+    hears = data.get("hears")
+    leases = frozenset(map(str, hears)) if isinstance(hears, list) else frozenset[str]()
+    return MotionBeat(str(data["id"]), name[:120], leases, _numbers(data.get("open_loop")), protocol_of(data))
+
+
+def _numbers(values: object) -> dict[str, float] | None:
+    """The numbers by their names, where it is that."""
+    if not isinstance(values, dict):
+        return None
+    return {str(name): float(value) for name, value in values.items() if isinstance(value, (int, float))}
+
 
 FIRST_ANSWER_S = 3.0
 """A plan waits this long for a control node to appear."""
@@ -43,7 +103,7 @@ FROZEN_S = 0.5
 """After a gap this long in our own beats it is we who were silent, and what control said is still to be read."""
 
 
-class TopicLink(EventQueue):
+class TopicLink(EventQueue, MotionLink):
     """Talks to whichever control node is there; it may come, go and come again.
 
     A thread beats the lease. If this process freezes or dies, the beats end and Motion stops the robot. `open`
@@ -77,8 +137,6 @@ class TopicLink(EventQueue):
         self._control_came = threading.Condition()
         self._in_flight: dict[int, str] = {}
         self._pose: Pose = ORIGIN
-        self.beats = True
-        self.is_simulated = False
 
     def open(self) -> None:
         """Listen, and begin to beat."""
@@ -90,13 +148,8 @@ class TopicLink(EventQueue):
         threading.Thread(target=self._beat, name="beat", daemon=True).start()
 
     @property
-    def is_lost(self) -> bool:
-        """Never for good: a control node may come again."""
-        return False
-
-    @property
     def has_control(self) -> bool:
-        """Whether a control node is there that hears us."""
+        """Tell whether a control node is there that hears us."""
         return self._present() is not None
 
     def send(self, word: Word, turn: int = 0, **payload: Any) -> None:

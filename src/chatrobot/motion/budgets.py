@@ -14,12 +14,11 @@ from typing import Any
 
 from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import ZERO_TWIST, Twist
-from chatrobot.core.motion_budget import OPEN_LOOP, MotionBudget, read_limit
 from chatrobot.core.reason import Reason
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.priority import RELEASERS, Priority, priority_of
 from chatrobot.plan.free_part import Most
-from chatrobot.robots.profile import Limits, RobotProfile
+from chatrobot.robots.profile import OPEN_LOOP, Limits, MotionBudget, RobotProfile, read_limit
 
 REACHED = frozenset(
     {"max_distance_reached", "max_time_reached", "open_loop_time_reached", "endless_program_stopped"}

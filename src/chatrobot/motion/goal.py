@@ -13,9 +13,8 @@ from dataclasses import dataclass, field, replace
 from chatrobot.core.events import Finished, Outcome
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.core.reason import Reason
-from chatrobot.core.summed import gone_on
-from chatrobot.link.approval import Approval
 from chatrobot.link.envelope import Envelope, seconds
+from chatrobot.link.motion_link import Approval
 from chatrobot.motion.budgets import Account, Extent
 from chatrobot.motion.planner import Planned
 from chatrobot.plan.base import Step
@@ -275,7 +274,7 @@ class Goal:
 
     def whole(self, finished: Finished) -> Finished:
         """Return its end together with what was done before it was paused."""
-        return gone_on(self.so_far, finished) if self.so_far is not None else finished
+        return self.so_far.resumed_by(finished) if self.so_far is not None else finished
 
     @property
     def _unread(self) -> str:

@@ -13,8 +13,8 @@ from chatrobot.core.events import Event, Finished, Notice, Paused
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import Priority
-from chatrobot.link.approval import LAPSES_AFTER_M, LAPSES_AFTER_RAD
 from chatrobot.link.envelope import QUEUE_LIMIT, Envelope
+from chatrobot.link.motion_link import LAPSES_AFTER_M, LAPSES_AFTER_RAD
 from chatrobot.motion.goal import Goal
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.programs.goal import ProgramGoal

@@ -10,8 +10,8 @@ from chatrobot.core.events import Event, Finished, Notice, Outcome
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import Priority
-from chatrobot.link.approval import Approval
 from chatrobot.link.envelope import Envelope
+from chatrobot.link.motion_link import Approval
 from chatrobot.motion.budgets import Budgets
 from chatrobot.motion.goal import Goal
 from chatrobot.motion.goal_queue import (

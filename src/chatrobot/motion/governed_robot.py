@@ -20,8 +20,8 @@ from chatrobot.governor.sensors_due import silent_after_s
 from chatrobot.motion.budgets import Meter
 from chatrobot.motion.goal import Goal
 from chatrobot.motion.remembered_obstacles import RememberedObstacles, Sight
+from chatrobot.motion.safety.stop import Transport
 from chatrobot.robots.profile import Limits, RobotProfile
-from chatrobot.transports.transport import Transport
 from chatrobot.wire.messages import LaserScan
 
 LATE_ODOMETRY = "odometry"

@@ -26,10 +26,9 @@ from chatrobot.motion.governed_robot import GovernedRobot, TelemetryPublisher, s
 from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.execution import NoSandbox, ProgramSandbox
-from chatrobot.motion.safety.stop import PAUSED, StopConfirmation, Stops
+from chatrobot.motion.safety.stop import PAUSED, StopConfirmation, Stops, WireTransport
 from chatrobot.motion.safety.watchdog import GuardLink, Interlock, StallDetector
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.messages import TwistMessage
 from chatrobot.wire.wire import Wire
 

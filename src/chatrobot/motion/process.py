@@ -15,9 +15,9 @@ from collections import deque
 
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Telemetry
-from chatrobot.core.motion_budget import MotionBudget, read_limit_text
 from chatrobot.link.envelope import Envelope, ready
 from chatrobot.motion.runner import MotionRunner
+from chatrobot.robots.profile import MotionBudget, read_limit_text
 from chatrobot.wire.local import PACKET_BYTES
 
 OUTBOX_LIMIT = 200

@@ -20,15 +20,13 @@ from dataclasses import replace
 from chatrobot.core.clock import PRESENCE_S, TICK_S, RealClock
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Notice
-from chatrobot.core.memory_pressure import MOTION, prefer
-from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
+from chatrobot.core.process import MOTION, prefer, wake_promptly
 from chatrobot.core.reason import Reason
-from chatrobot.core.scheduling import wake_promptly
 from chatrobot.core.wiring import Wiring
 from chatrobot.governor.priority import RELEASERS
-from chatrobot.guard.departure import Departure
+from chatrobot.guard.watch import Departure
 from chatrobot.link.envelope import Envelope
-from chatrobot.link.topics import STOP, USER_INPUT
+from chatrobot.link.topic_link import STOP, USER_INPUT
 from chatrobot.motion.budgets import open_loop_notice
 from chatrobot.motion.motion import Motion
 from chatrobot.motion.planner import Planner
@@ -38,10 +36,9 @@ from chatrobot.motion.safety.connection_monitor import ConnectionMonitor, Reconn
 from chatrobot.motion.safety.stop import PAUSED, remove_stop_socket, serve_stop
 from chatrobot.motion.safety.watchdog import GuardProcess
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
-from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import load_profile
-from chatrobot.robots.open_loop import as_chosen
-from chatrobot.robots.profile import RobotProfile
+from chatrobot.robots.open_loop import as_chosen, drives_on_alone, slowed
+from chatrobot.robots.profile import NOT_CHOSEN, MotionBudget, RobotProfile
 from chatrobot.sim.load import load_world
 from chatrobot.sim.start import check_known
 from chatrobot.wire.connect import (

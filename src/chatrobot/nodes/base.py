@@ -20,9 +20,8 @@ from chatrobot.dialogue.programs.text import body, headline
 from chatrobot.dialogue.question import Question
 from chatrobot.language.consent import read_consent
 from chatrobot.language.phrases import render_reason, say
-from chatrobot.link.approval import LAPSES_AFTER_S
-from chatrobot.link.topic_link import TopicLink
-from chatrobot.link.topics import CHATGPT_NODE, EVENTS, OPERATOR, REPLY, STOP, USER_INPUT
+from chatrobot.link.motion_link import LAPSES_AFTER_S
+from chatrobot.link.topic_link import CHATGPT_NODE, EVENTS, OPERATOR, REPLY, STOP, USER_INPUT, TopicLink
 from chatrobot.nodes.log import Severity, Write
 from chatrobot.nodes.operator import Operators
 from chatrobot.nodes.told import severity_of

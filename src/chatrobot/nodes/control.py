@@ -18,7 +18,7 @@ from chatrobot.core.events import Event, Finished, Telemetry
 from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import RELEASERS
 from chatrobot.link.envelope import Envelope, Word
-from chatrobot.link.topics import CHATGPT_NODE, EVENTS, TELEMETRY
+from chatrobot.link.topic_link import CHATGPT_NODE, EVENTS, TELEMETRY
 from chatrobot.motion.runner import MotionRunner
 from chatrobot.motion.safety.stop import Sight
 from chatrobot.nodes.foreign import Foreign

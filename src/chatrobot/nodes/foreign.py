@@ -15,7 +15,7 @@ from chatrobot.core.process import own_identity
 from chatrobot.core.reason import Reason
 from chatrobot.link.envelope import Envelope
 from chatrobot.link.motion_link import Sender
-from chatrobot.link.topics import CHATGPT_NODE
+from chatrobot.link.topic_link import CHATGPT_NODE
 from chatrobot.motion.runner import MotionRunner
 from chatrobot.plan.steps import Plan, RawTwist
 from chatrobot.plan.text import format_plan, parse_plan

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 
 from chatrobot.core.wiring import Wiring
-from chatrobot.link.topics import REPLY, STOP, USER_INPUT
+from chatrobot.link.topic_link import REPLY, STOP, USER_INPUT
 from chatrobot.nodes.operator import OperatorBeat
 from chatrobot.reflex import is_stop
 from chatrobot.wire.connect import Connect, connect_wire, is_on_this_machine

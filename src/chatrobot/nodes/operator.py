@@ -15,10 +15,9 @@ from collections.abc import Callable
 
 from chatrobot.core.clock import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S
 from chatrobot.core.errors import WireError
-from chatrobot.core.process import own_identity, watch_process
-from chatrobot.core.scheduling import wake_promptly
+from chatrobot.core.process import own_identity, wake_promptly, watch_process
 from chatrobot.governor.lease import LATE_S, LONGEST_S, Lease
-from chatrobot.link.topics import OPERATOR
+from chatrobot.link.topic_link import OPERATOR
 from chatrobot.wire.messages import Text
 from chatrobot.wire.wire import Wire
 

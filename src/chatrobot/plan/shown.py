@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from chatrobot.core.shown import ANGLE_PLACES, LENGTH_PLACES, number
+from chatrobot.core.reason import ANGLE_PLACES, LENGTH_PLACES, number
 
 TYPED_PLACES = {"deg": 2}
 """Decimals that a person may well have typed are shown; one more, and it has been computed."""

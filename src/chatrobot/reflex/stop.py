@@ -1,13 +1,160 @@
-"""Is this a stop? Whole words and phrases, never substrings; Chinese is cut by the longest phrase."""
+"""Is this a stop? Whole words and phrases, never substrings; Chinese is cut by the longest phrase.
+
+A text is cut into units: Latin words and single Chinese characters. Where it is no stop as it stands, it may be one
+with a mistake in it: one edit in letters, the same pinyin in Chinese. A word of the dictionary is no mistake.
+"""
 
 from __future__ import annotations
 
 import re
-from functools import cache
+from collections.abc import Iterator
+from functools import cache, lru_cache
 
-from chatrobot.reflex.mistyped import Mistyped
-from chatrobot.reflex.phrases import Phrase, consists, matches, phrases, units_of
+from chatrobot.reflex import words
 from chatrobot.reflex.words import ALL
+
+_WORD = re.compile(r"[a-zß-öø-ÿ0-9]+(?:['’][a-zß-öø-ÿ]+)*|[\u3400-\u9fff]")
+_STRETCHED = re.compile(r"(.)\1{2,}")
+_WIDE = {code: code - 0xFEE0 for code in range(0xFF01, 0xFF5F)}
+_FOLD = str.maketrans(words.ALL.fold)
+
+Phrase = tuple[str, ...]
+Table = dict[str, set[Phrase]]
+"""Phrases by their first unit."""
+
+
+@lru_cache(maxsize=32)
+def units_of(text: str) -> Phrase:
+    """Several questions are asked about one text: it is cut once."""
+    lowered = text.translate(_WIDE).lower().replace("’", "'").replace("-", " ").translate(_FOLD)
+    return tuple(_unstretched(word) for word in _WORD.findall(lowered))
+
+
+def _unstretched(word: str) -> str:
+    """`stoooop` → `stop`, `haaalt` → `halt`; other words stay, and so does `stoop`, which is one."""
+    short = _STRETCHED.sub(r"\1", word)
+    single = re.sub(r"(.)\1+", r"\1", short)
+    return single if single in words.ALL.stretched and word not in words.ALL.not_stretched else short
+
+
+def phrases(*groups: tuple[str, ...]) -> Table:
+    """By their first unit."""
+    found: Table = {}
+    for group in groups:
+        for phrase in group:
+            units = units_of(phrase)
+            found.setdefault(units[0], set()).add(units)
+    return found
+
+
+def matches(units: Phrase, i: int, table: Table) -> list[Phrase]:
+    """The phrases that begin there."""
+    return [p for p in table.get(units[i], ()) if units[i : i + len(p)] == p]
+
+
+def consists(units: Phrase, table: Table, fillers: Table) -> bool:
+    """Tell whether phrases of `table` (at least one) and fillers cover all of `units`."""
+    reached = {0: False}
+    for i in range(len(units)):
+        if i not in reached:
+            continue
+        for phrase in matches(units, i, table):
+            reached[i + len(phrase)] = True
+        for phrase in matches(units, i, fillers):
+            reached[i + len(phrase)] = reached.get(i + len(phrase), False) or reached[i]
+    return reached.get(len(units), False)
+
+
+LEAST_LETTERS = 4
+"""A shorter phrase is too near to too many others."""
+
+MOST_UNITS = 24
+"""A longer text is no stop with a mistake in it."""
+
+
+class Mistyped:
+    """Stop phrases, and what may stand beside them, as they may be mistyped.
+
+    Args:
+        known: whose words are no mistakes either.
+    """
+
+    def __init__(self, stops: Table, fillers: Table, known: Table) -> None:
+        self._stops = stops
+        self._fillers = fillers
+        self._known = {*ALL.real_words, *(word for found in known.values() for p in found for word in p)}
+        self._by_length: dict[int, list[tuple[str, bool]]] = {}
+        self._sounds: set[Phrase] = set()
+        self._most_units = 2
+        for table, is_stop in ((stops, True), (fillers, False)):
+            for phrase in (phrase for found in table.values() for phrase in found):
+                self._learn(phrase, is_stop=is_stop)
+
+    def _learn(self, phrase: Phrase, *, is_stop: bool) -> None:
+        self._known.update(phrase)
+        written = " ".join(phrase)
+        if written.isascii():
+            if sum(letter.isalpha() for letter in written) >= LEAST_LETTERS:
+                self._by_length.setdefault(len(written), []).append((written, is_stop))
+                self._most_units = max(self._most_units, len(phrase) + 1)
+        elif is_stop and len(phrase) > 1:
+            self._sounds.add(_sound(phrase))
+
+    def covers(self, units: Phrase) -> bool:
+        """Tell whether stops (at least one) and what may stand beside them make up all of `units`."""
+        if len(units) > MOST_UNITS:
+            return False
+        reached = {0: False}
+        for begin in range(len(units)):
+            if begin in reached:
+                for end, is_stop in self._found(units, begin):
+                    reached[end] = reached.get(end, False) or reached[begin] or is_stop
+        return reached.get(len(units), False)
+
+    def _found(self, units: Phrase, begin: int) -> Iterator[tuple[int, bool]]:
+        """Return where the phrases end that begin there, and whether each is a stop."""
+        for phrase in matches(units, begin, self._stops):
+            yield begin + len(phrase), True
+        for phrase in matches(units, begin, self._fillers):
+            yield begin + len(phrase), False
+        for end in range(begin + 1, min(begin + self._most_units, len(units)) + 1):
+            window = units[begin:end]
+            if not all(unit.isascii() for unit in window):
+                if self._sounds_like_a_stop(window):
+                    yield end, True
+            elif not self._known.issuperset(window):  # one of its words is none: a mistake
+                yield from ((end, is_stop) for is_stop in self._one_edit_from(window))
+
+    def _one_edit_from(self, window: Phrase) -> Iterator[bool]:
+        """For each phrase that this may have been meant as: whether it is a stop."""
+        typed = " ".join(window)
+        for length in (len(typed) - 1, len(typed), len(typed) + 1):
+            for written, is_stop in self._by_length.get(length, ()):
+                if is_one_edit(typed, written):
+                    yield is_stop
+
+    def _sounds_like_a_stop(self, window: Phrase) -> bool:
+        return _sound(window) in self._sounds and "".join(window) not in self._known
+
+
+def _sound(units: Phrase) -> Phrase:
+    return tuple(ALL.sounds.get(unit, unit) for unit in units)
+
+
+def is_one_edit(a: str, b: str) -> bool:
+    """Tell whether a letter too many, too few or another, or two letters swapped, make one of the other."""
+    if a == b:
+        return False
+    i = 0
+    while i < len(a) and i < len(b) and a[i] == b[i]:
+        i += 1
+    if len(a) > len(b):
+        return a[i + 1 :] == b[i:]
+    if len(a) < len(b):
+        return a[i:] == b[i + 1 :]
+    is_swapped = a[i : i + 2] == b[i : i + 2][::-1] and a[i + 2 :] == b[i + 2 :]
+    return is_swapped or a[i + 1 :] == b[i + 1 :]
+
 
 MAX_CHARACTERS = 300
 """A longer utterance is no stop as a whole; its beginning is still looked at."""
@@ -41,7 +188,7 @@ def _forbids_stopping(units: Phrase) -> bool:
 
 
 def is_stop(text: str) -> bool:
-    """Whether the whole utterance is a stop: stop phrases and fillers, nothing else. For a standing robot."""
+    """Tell whether the whole utterance is a stop: stop phrases and fillers, nothing else. For a standing robot."""
     if len(text) > MAX_CHARACTERS:
         return False
     units = units_of(text)
@@ -65,7 +212,7 @@ def _takes_back(text: str) -> bool:
 
 
 def leads_with_stop(text: str) -> bool:
-    """Whether a stop leads, or ends, the utterance. For a moving robot: the rest does not matter."""
+    """Tell whether a stop leads, or ends, the utterance. For a moving robot: the rest does not matter."""
     if is_stop(text):
         return True
     units = units_of(text[:MAX_CHARACTERS])
@@ -87,14 +234,14 @@ def leads_with_stop(text: str) -> bool:
 
 
 def _leads_mistyped(text: str) -> bool:
-    """Whether the text, or its first clauses, is a stop with a mistake in it and what is said beside one."""
+    """Tell whether the text, or its first clauses, is a stop with a mistake in it and what is said beside one."""
     clauses = [units for part in _BREAK.split(text[:MAX_CHARACTERS]) if (units := units_of(part))]
     beginnings = [sum(clauses[: count + 1], ()) for count in range(len(clauses))]
     return any(_mistyped_stop().covers(units) and not consists(units, _STOP, _FILLER) for units in beginnings)
 
 
 def is_pause(text: str) -> bool:
-    """Whether a stop asks to keep what was under way: pause words and politeness, nothing else.
+    """Tell whether a stop asks to keep what was under way: pause words and politeness, nothing else.
 
     Where it is not sure, it is a stop like any other.
     """
@@ -135,7 +282,7 @@ def _is_no_stop(following: Phrase) -> bool:
 
 
 def is_emergency_stop(text: str) -> bool:
-    """Whether the whole utterance is an emergency stop (which is a stop, too)."""
+    """Tell whether the whole utterance is an emergency stop (which is a stop, too)."""
     if len(text) > MAX_CHARACTERS:
         return False
     units = units_of(text)
@@ -146,6 +293,6 @@ def is_emergency_stop(text: str) -> bool:
 
 
 def is_release(text: str) -> bool:
-    """Whether the whole utterance asks to release the emergency stop. Here it is better to miss one."""
+    """Tell whether the whole utterance asks to release the emergency stop. Here it is better to miss one."""
     units = units_of(text) if len(text) <= MAX_CHARACTERS else ()
     return bool(units) and consists(units, _RELEASE, _RELEASE_FILLER)

@@ -42,15 +42,17 @@ class Measured:
 
     @property
     def ratio(self) -> float:
+        """Return what odometry has to be multiplied by."""
         return self.true / self.seen
 
     @property
     def is_plausible(self) -> bool:
+        """The ratio is one that wheels of the right robot may have."""
         return self.seen > 0.0 and PLAUSIBLE[0] <= self.ratio <= PLAUSIBLE[1]
 
 
 def corrected(before: Calibration, metre: Measured | None, turn: Measured | None, source: str) -> Calibration:
-    """What makes odometry tell the truth, where it told `seen` under `before`."""
+    """Return what makes odometry tell the truth, where it told `seen` under `before`."""
     return Calibration(
         distance_scale=round(before.distance_scale * (metre.ratio if metre else 1.0), 5),
         turn_scale=round(before.turn_scale * (turn.ratio if turn else 1.0), 5),
@@ -71,7 +73,9 @@ def save_calibration(profile: str, calibration: Calibration, folder: Path) -> Pa
     """
     file = Path(profile) if _is_file(profile) else _file_of(profile, (folder,))
     if file is None:
-        raise ProfileError("there is no such profile", where=profile)
+        raise ProfileError(
+            "there is no such profile", where=profile, allowed="a name that chatrobot robots lists"
+        )
     text = _without_table(file) + (
         "\n[calibration]\n"
         f"distance_scale = {calibration.distance_scale!r}\n"

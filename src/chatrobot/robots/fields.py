@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import NoReturn
 
 from chatrobot.core.errors import ProfileError
-from chatrobot.core.motion_budget import NONE
+from chatrobot.robots.profile import NONE
 
 # A ROS name, relative or absolute, without substitutions (design.ros2.org, topic and service names).
 _TOPIC = re.compile(r"/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*", re.ASCII)
@@ -29,7 +29,7 @@ class Range:
     with_low: bool = False
 
     def holds(self, value: float) -> bool:
-        """Whether `value` is in range; NaN never is."""
+        """Tell whether `value` is in range; NaN never is."""
         return (self.low <= value if self.with_low else self.low < value) and value <= self.high
 
     def __str__(self) -> str:
@@ -132,7 +132,7 @@ class Table:
         """The text under `key`, which may not be blank; `meaning` says in an error what it is for."""
         value = self._get(key, meaning)
         if not isinstance(value, str) or not value.strip():
-            self.source.fail(self.field(key), f"{_shown(value)} is no text", meaning)
+            self.source.fail(self.field(key), f"{_shown(value)} is not text", meaning)
         return value
 
     def choice(self, key: str, choices: Sequence[str]) -> str:
@@ -144,7 +144,7 @@ class Table:
         return value
 
     def is_none(self, key: str) -> bool:
-        """Whether `key` says that there is no such thing."""
+        """Tell whether `key` says that there is no such thing."""
         return self.is_text(key, NONE)
 
     def topic(self, key: str) -> str:
@@ -152,11 +152,11 @@ class Table:
         allowed = "a ROS topic such as cmd_vel or turtle1/pose; leave the line out where there is none"
         value = self._get(key, allowed)
         if not isinstance(value, str) or not _TOPIC.fullmatch(value):
-            self.source.fail(self.field(key), f"{_shown(value)} is no topic name", allowed)
+            self.source.fail(self.field(key), f"{_shown(value)} is not a topic name", allowed)
         return value
 
     def is_table(self, key: str) -> bool:
-        """Whether a table is under `key`."""
+        """Tell whether a table is under `key`."""
         return isinstance(self._data.get(key), dict)
 
     def choices(self, key: str, choices: Sequence[str]) -> tuple[str, ...]:
@@ -168,7 +168,7 @@ class Table:
         return tuple(value)
 
     def is_text(self, key: str, text: str) -> bool:
-        """Whether `key` holds exactly this word."""
+        """Tell whether `key` holds exactly this word."""
         return self._data.get(key) == text
 
     def points(self, key: str, coordinate: Range) -> tuple[tuple[float, float], ...]:
@@ -176,11 +176,11 @@ class Table:
         allowed = f"a list of [x, y] pairs, each {coordinate}"
         value = self._get(key, allowed)
         if not isinstance(value, list):
-            self.source.fail(self.field(key), f"{_shown(value)} is no list", allowed)
+            self.source.fail(self.field(key), f"{_shown(value)} is not a list", allowed)
         points = []
         for index, pair in enumerate(value, start=1):
             if not isinstance(pair, list) or len(pair) != 2:
-                self.source.fail(self.field(key), f"point {index}, {_shown(pair)}, is no pair", allowed)
+                self.source.fail(self.field(key), f"point {index}, {_shown(pair)}, is not a pair", allowed)
             x, y = (self._number(self.field(key), number, coordinate) for number in pair)
             points.append((x, y))
         return tuple(points)

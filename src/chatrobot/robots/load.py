@@ -68,7 +68,7 @@ def list_profiles(extra_dirs: Iterable[Path | str] = ()) -> list[ProfileEntry]:
 
 
 def profile_argument(name: str, directories: Sequence[Path] = ()) -> str:
-    """What other processes find the profile by: a user's own by its file, for they know no config folder."""
+    """Return what other processes find the profile by: a user's own by its file, for they know no config folder."""
     for entry in list_profiles(directories):
         if entry.name == name and entry.origin == "user":
             return str(entry.file)
@@ -101,7 +101,7 @@ def _package_folders() -> Iterator[Path]:
             spec = None
         if spec is None or not spec.submodule_search_locations:
             raise ProfileError(
-                f"{entry_point.value!r} is no package with profiles",
+                f"{entry_point.value!r} is not a package with profiles",
                 where=f"entry point {entry_point.name!r} of {ENTRY_POINT_GROUP}",
                 allowed="a package folder that holds .toml files; or uninstall what brought it",
             )

@@ -11,7 +11,6 @@ import re
 import sys
 from typing import Any
 
-from chatrobot.core.motion_budget import MotionBudget
 from chatrobot.robots.fields import Range, Source, Table
 from chatrobot.robots.profile import (
     Calibration,
@@ -19,6 +18,7 @@ from chatrobot.robots.profile import (
     Defaults,
     Lidar,
     Limits,
+    MotionBudget,
     Point,
     RobotProfile,
     Safety,

@@ -5,5 +5,5 @@
     process = server.launch("runner:main", payload)            chatrobot.sandbox.process
     process.channel.recv(4096)
 
-`chatrobot.sandbox.probe` says which walls stand on this machine.
+`probe` in chatrobot.sandbox.warm_server says which walls stand on this machine.
 """

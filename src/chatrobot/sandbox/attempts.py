@@ -30,10 +30,12 @@ def new_page() -> mmap.mmap:
 
 
 def note(page: mmap.mmap, kind: str) -> None:
+    """Note one attempt on the page."""
     page[KINDS.index(kind)] = 1
 
 
 def noted(page: mmap.mmap) -> tuple[str, ...]:
+    """Read the kinds that have been noted."""
     return tuple(kind for place, kind in enumerate(KINDS) if page[place])
 
 

@@ -17,11 +17,12 @@ import traceback
 from dataclasses import dataclass
 from typing import Any, NoReturn
 
-from chatrobot.sandbox import attempts, landlock
+from chatrobot.sandbox import attempts
 from chatrobot.sandbox.libc import PR_SET_DUMPABLE, PR_SET_PDEATHSIG, prctl
 from chatrobot.sandbox.limits import SandboxLimits
 from chatrobot.sandbox.seccomp import Filter
 from chatrobot.sandbox.syscalls import Machine
+from chatrobot.sandbox.walls import restrict_with_landlock
 
 CHANNEL = 3
 """The one descriptor that leads out; 0 is empty, 1 and 2 are the log."""
@@ -33,7 +34,7 @@ CRASHED = 70
 
 @dataclass(frozen=True)
 class Doors:
-    """What the warm server found out and prepared once for all its children."""
+    """Facts and filters that the warm server prepared once for all its children."""
 
     machine: Machine
     filter: Filter
@@ -127,7 +128,7 @@ def _shut(order: Order, doors: Doors) -> None:
     """The doors, one after the other; behind the last one nothing can be opened any more."""
     prctl(PR_SET_DUMPABLE, 0)
     if doors.has_landlock:
-        landlock.restrict(doors.machine)
+        restrict_with_landlock(doors.machine)
         os.closerange(CHANNEL + 1, 16)
     attempts.watch(order.page)
     gc.enable()

@@ -5,14 +5,21 @@ from __future__ import annotations
 import os
 import signal
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 
-from chatrobot.sandbox import landlock, namespaces
 from chatrobot.sandbox.child import Doors
 from chatrobot.sandbox.libc import PR_SET_PDEATHSIG, prctl, system_call
+from chatrobot.sandbox.limits import Layers
 from chatrobot.sandbox.seccomp import Filter
 from chatrobot.sandbox.syscalls import Machine, this_machine
+from chatrobot.sandbox.walls import (
+    drop_root,
+    empty_the_root,
+    enter_namespaces,
+    has_own_user,
+    restrict_with_landlock,
+)
 
 NOT_WANTED = "not wanted"
 OWN_TASKS = 4
@@ -21,36 +28,11 @@ SPARE_TASKS = 256
 
 
 @dataclass(frozen=True)
-class Layers:
-    """Walls wanted beside the filter, the limits and the clean environment, which are always there.
-
-    Args:
-        landlock: the kernel's wall around files, TCP and abstract sockets.
-        namespaces: an empty world without files, network and other processes.
-        bubblewrap: may make it, where we may not (its own program, which some machines trust more).
-    """
-
-    landlock: bool = True
-    namespaces: bool = True
-    bubblewrap: bool = True
-
-    def to_json(self) -> dict[str, bool]:
-        return asdict(self)
-
-    @classmethod
-    def from_json(cls, data: Mapping[str, bool]) -> Layers:
-        return cls(**data)
-
-
-@dataclass(frozen=True)
 class Walls:
-    """What came of it: for each layer why it does not stand, or "" where it does. No doors, no programs."""
+    """The result: for each layer why it does not stand, or "" where it does. No doors, no programs."""
 
     problems: Mapping[str, str]
     doors: Doors | None
-
-    def to_json(self) -> dict[str, str]:
-        return dict(self.problems)
 
 
 def build_walls(wanted: Layers, tasks: int, *, is_wrapped: bool) -> Walls:
@@ -72,7 +54,7 @@ def build_walls(wanted: Layers, tasks: int, *, is_wrapped: bool) -> Walls:
         return Walls(problems, None)
     base_bytes, empty = _own_bytes(), os.open("/dev/null", os.O_RDWR | os.O_CLOEXEC)
     problems["landlock"] = _trial(lambda: _try_landlock(machine)) if wanted.landlock else NOT_WANTED
-    is_unprivileged = is_wrapped or namespaces.drop_root()
+    is_unprivileged = is_wrapped or drop_root()
     problems["own user"] = "" if is_unprivileged else "root here has no other user to become"
     prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     problems["namespaces"] = "bubblewrap makes them" if is_wrapped else NOT_WANTED
@@ -82,23 +64,23 @@ def build_walls(wanted: Layers, tasks: int, *, is_wrapped: bool) -> Walls:
         if problems["namespaces"]:
             problems["bubblewrap"] = "not installed, or it does not work here"
     # The kernel counts all tasks of a user together.
-    other_tasks = OWN_TASKS if namespaces.has_own_user() else tasks + SPARE_TASKS
+    other_tasks = OWN_TASKS if has_own_user() else tasks + SPARE_TASKS
     if not problems["namespaces"]:
-        namespaces.leave(machine)
+        enter_namespaces(machine)
         _go_on_as_first_process()
-        namespaces.empty_the_root(machine)
+        empty_the_root(machine)
     doors = Doors(machine, program, not problems["landlock"], empty, base_bytes, other_tasks, os.getpid())
     return Walls(problems, doors)
 
 
 def can_make_namespaces() -> bool:
-    """Whether this machine lets us; found out in a process that ends with the trial."""
+    """Tell whether this machine lets us; found out in a process that ends with the trial."""
     machine = this_machine()
     return machine is not None and not _trial(lambda: _drop_and_try_namespaces(machine))
 
 
 def _drop_and_try_namespaces(machine: Machine) -> None:
-    namespaces.drop_root()
+    drop_root()
     _try_namespaces(machine)
 
 
@@ -148,7 +130,7 @@ def _expect_refusal() -> None:
 
 
 def _try_landlock(machine: Machine) -> None:
-    landlock.restrict(machine)
+    restrict_with_landlock(machine)
     try:
         os.listdir("/")
     except PermissionError:
@@ -157,12 +139,12 @@ def _try_landlock(machine: Machine) -> None:
 
 
 def _try_namespaces(machine: Machine) -> None:
-    namespaces.leave(machine)
+    enter_namespaces(machine)
     pid = os.fork()
     if pid == 0:
         code = 1
         try:
-            namespaces.empty_the_root(machine)
+            empty_the_root(machine)
             code = 0 if os.listdir("/") == [] else 2
         except OSError as error:
             code = 10 + (error.errno or 0)

@@ -1,9 +1,11 @@
-"""How much of the machine a program in the sandbox may use."""
+"""What the host asks of the warm server: the limits of a program, the walls it wants, and the messages between them."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+import json
+import socket
+import struct
+from dataclasses import dataclass
 from typing import Any
 
 
@@ -29,9 +31,63 @@ class SandboxLimits:
     file_bytes: int = 0
     descriptors: int = 64
 
-    def to_json(self) -> dict[str, Any]:
-        return asdict(self)
 
-    @classmethod
-    def from_json(cls, data: Mapping[str, Any]) -> SandboxLimits:
-        return cls(**data)
+@dataclass(frozen=True)
+class Layers:
+    """Walls wanted beside the filter, the limits and the clean environment, which are always there.
+
+    Args:
+        landlock: the kernel's wall around files, TCP and abstract sockets.
+        namespaces: an empty world without files, network and other processes.
+        bubblewrap: may make it, where we may not (its own program, which some machines trust more).
+    """
+
+    landlock: bool = True
+    namespaces: bool = True
+    bubblewrap: bool = True
+
+
+_LENGTHS = struct.Struct("=II")
+_MOST_DESCRIPTORS = 4
+
+
+def send_message(
+    line: socket.socket, said: dict[str, Any], raw: bytes = b"", descriptors: tuple[int, ...] = ()
+) -> None:
+    """Send JSON, raw bytes behind it, and descriptors.
+
+    Raises:
+        OSError: the other end is gone.
+    """
+    text = json.dumps(said).encode()
+    head = _LENGTHS.pack(len(text), len(raw))
+    if descriptors:
+        socket.send_fds(line, [head], list(descriptors))
+    else:
+        line.sendall(head)
+    line.sendall(text + raw)
+
+
+def receive_message(line: socket.socket) -> tuple[dict[str, Any], bytes, list[int]]:
+    """Receive what `send_message` sent.
+
+    Raises:
+        EOFError: the other end is gone.
+    """
+    head, descriptors, _, _ = socket.recv_fds(line, _LENGTHS.size, _MOST_DESCRIPTORS)
+    head += _exactly(line, _LENGTHS.size - len(head)) if head else b""
+    if not head:
+        raise EOFError
+    text_bytes, raw_bytes = _LENGTHS.unpack(head)
+    return json.loads(_exactly(line, text_bytes)), _exactly(line, raw_bytes), descriptors
+
+
+def _exactly(line: socket.socket, wanted: int) -> bytes:
+    parts: list[bytes] = []
+    while wanted > 0:
+        part = line.recv(min(wanted, 1 << 20))
+        if not part:
+            raise EOFError
+        parts.append(part)
+        wanted -= len(part)
+    return b"".join(parts)

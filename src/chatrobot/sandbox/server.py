@@ -23,11 +23,33 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from chatrobot.core.scheduling import wake_as_others_do
-from chatrobot.sandbox import attempts, child, wire_format
-from chatrobot.sandbox.layers import Layers, build_walls, can_make_namespaces
+from chatrobot.core.process import wake_as_others_do
+from chatrobot.sandbox import attempts, child
+from chatrobot.sandbox.layers import build_walls, can_make_namespaces
 from chatrobot.sandbox.libc import PR_SET_PDEATHSIG, pidfd_open, prctl
-from chatrobot.sandbox.limits import SandboxLimits
+from chatrobot.sandbox.limits import Layers, SandboxLimits, receive_message, send_message
+
+_NAMES = """
+abc argparse array ast asyncio asyncio.taskgroups atexit base64 binascii bisect builtins calendar cmath codecs
+collections collections.abc colorsys concurrent.futures concurrent.futures.process concurrent.futures.thread
+configparser contextlib contextvars copy copyreg csv ctypes ctypes.util dataclasses datetime decimal difflib dis enum
+errno faulthandler fcntl fnmatch fractions functools gc getopt getpass gettext glob gzip hashlib heapq hmac html
+http.client importlib importlib.util inspect io ipaddress itertools json keyword linecache locale logging
+logging.config logging.handlers marshal math mmap multiprocessing multiprocessing.pool multiprocessing.queues
+multiprocessing.shared_memory multiprocessing.synchronize numbers opcode operator os pathlib pickle pickletools pkgutil
+platform pprint queue random re reprlib resource sched secrets select selectors shlex shutil signal socket
+socketserver stat statistics string struct subprocess sys sysconfig tempfile textwrap threading time timeit token
+tokenize traceback tracemalloc types typing unicodedata urllib.error urllib.parse urllib.request uuid warnings weakref
+zlib zoneinfo _strptime
+encodings.ascii encodings.cp1252 encodings.gbk encodings.hex_codec encodings.idna encodings.latin_1
+encodings.raw_unicode_escape encodings.unicode_escape encodings.utf_16 encodings.utf_32 encodings.utf_8_sig
+numpy numpy.fft numpy.linalg numpy.random
+"""
+
+PRELOADED = tuple(_NAMES.split())
+"""Imported before a program runs, as far as this Python has them: in the sandbox no file can be opened, so nothing is
+loaded later. Those that reach out (`socket`, `subprocess`) are here, too: using them is what fails."""
+
 
 THREAD_STACK_BYTES = 1 << 20
 MOST_DESCRIPTORS = 256
@@ -61,6 +83,7 @@ class Server:
         signal.set_wakeup_fd(wake, warn_on_full_buffer=False)
 
     def serve(self) -> None:
+        """Launch, reap and end children until the host is gone."""
         while True:
             ready = self._wait()
             if self._host_pidfd in ready:
@@ -75,7 +98,7 @@ class Server:
             self._end_those_that_last_too_long()
             if self._host.fileno() in ready:
                 try:
-                    said, payload, descriptors = wire_format.receive(self._host)
+                    said, payload, descriptors = receive_message(self._host)
                 except (EOFError, OSError):
                     return
                 self._launch(said, payload, descriptors)
@@ -95,7 +118,7 @@ class Server:
     def _launch(self, said: dict[str, Any], payload: bytes, descriptors: list[int]) -> None:
         channel, log, report_fd = descriptors
         report = socket.socket(fileno=report_fd)
-        limits = SandboxLimits.from_json(said["limits"])
+        limits = SandboxLimits(**said["limits"])
         order = child.Order(said["entry"], payload, limits, channel, log, attempts.new_page())
         try:
             pid = os.fork()
@@ -173,7 +196,7 @@ def _ended(running: _Running, status: int, usage: resource.struct_rusage) -> dic
 
 def _tell(report: socket.socket, said: dict[str, Any], descriptors: tuple[int, ...] = ()) -> None:
     with contextlib.suppress(OSError):
-        wire_format.send(report, said, b"", descriptors)
+        send_message(report, said, b"", descriptors)
 
 
 def preload(names: Iterable[str], required: Iterable[str]) -> None:
@@ -206,26 +229,26 @@ def main(descriptor: int, host_pidfd: int | None = None) -> None:
     for each in (descriptor, host_pidfd):
         if each is not None:
             os.set_inheritable(each, False)
-    setup, _, _ = wire_format.receive(host)
-    layers = Layers.from_json(setup["layers"])
+    setup, _, _ = receive_message(host)
+    layers = Layers(**setup["layers"])
     if setup["can_wrap"] and not setup["is_wrapped"] and not (layers.namespaces and can_make_namespaces()):
-        wire_format.send(host, {"event": "wrap"})
+        send_message(host, {"event": "wrap"})
         return
     sys.path[:0] = setup["path"]
     sys.path.extend(setup["behind"])
     try:
-        preload(setup["library"], setup["preload"])
+        preload(PRELOADED if setup["has_library"] else (), setup["preload"])
     except Exception as error:  # noqa: BLE001 - whatever a module raises is told to the host
-        wire_format.send(host, {"event": "failed", "problem": f"{type(error).__name__}: {error}"})
+        send_message(host, {"event": "failed", "problem": f"{type(error).__name__}: {error}"})
         return
     threading.stack_size(THREAD_STACK_BYTES)
     walls = build_walls(layers, setup["tasks"], is_wrapped=setup["is_wrapped"])
     if walls.doors is None:
-        wire_format.send(host, {"event": "refused", "layers": walls.to_json()})
+        send_message(host, {"event": "refused", "layers": dict(walls.problems)})
         return
     gc.collect()
     gc.freeze()
     gc.disable()
     server = Server(host, walls.doors, host_pidfd)
-    wire_format.send(host, {"event": "ready", "layers": walls.to_json()})
+    send_message(host, {"event": "ready", "layers": dict(walls.problems)})
     server.serve()

@@ -1,4 +1,4 @@
-"""The host's end of the warm server: start it once, launch programs in milliseconds."""
+"""The host's end of the warm server: start it once, launch programs in milliseconds, see which walls stand."""
 
 from __future__ import annotations
 
@@ -9,19 +9,18 @@ import subprocess
 import sys
 import threading
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import asdict, dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
 from types import TracebackType
+from typing import Literal
 
 from chatrobot.core.errors import SandboxError
 from chatrobot.core.reason import Reason
-from chatrobot.sandbox import bubblewrap, wire_format
-from chatrobot.sandbox.layers import Layers
 from chatrobot.sandbox.libc import pidfd_open
-from chatrobot.sandbox.limits import SandboxLimits
+from chatrobot.sandbox.limits import Layers, SandboxLimits, receive_message, send_message
 from chatrobot.sandbox.process import SandboxedProcess
-from chatrobot.sandbox.stdlib import PRELOADED
+from chatrobot.sandbox.walls import bubblewrap_command, find_bubblewrap
 
 _START = (
     "import sys; sys.path.append(sys.argv[1]); from chatrobot.sandbox.server import main; "
@@ -58,7 +57,7 @@ class WarmServer:
         self._preload = list(preload)
         self._limits = limits or SandboxLimits()
         self._layers = layers or Layers()
-        self._library = PRELOADED if has_library else ()
+        self._has_library = has_library
         self._lock = threading.Lock()
         self._line: socket.socket | None = None
         self.process: subprocess.Popen[bytes] | None = None
@@ -104,13 +103,13 @@ class WarmServer:
         report, their_report = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
         log, their_log = os.pipe()
         process = SandboxedProcess(channel, log, report, limits)
-        said = {"entry": entry, "limits": limits.to_json()}
+        said = {"entry": entry, "limits": asdict(limits)}
         problem = "the warm server is not running"
         try:
             with self._lock:
                 if self._line is not None:
                     given = (their_channel.fileno(), their_log, their_report.fileno())
-                    wire_format.send(self._line, said, payload, given)
+                    send_message(self._line, said, payload, given)
                     problem = ""
         except OSError as error:
             problem = str(error)
@@ -126,6 +125,7 @@ class WarmServer:
         return process
 
     def is_running(self) -> bool:
+        """Tell whether its process is there."""
         return self.process is not None and self.process.poll() is None
 
     def close(self) -> None:
@@ -156,9 +156,9 @@ class WarmServer:
         flags = ["-B"] if sys.flags.dont_write_bytecode else []
         given = [theirs.fileno(), *alive]
         words = [sys.executable, "-I", "-S", *flags, "-c", _START, _ROOT, *map(str, given)]
-        wrap = bubblewrap.find() if self._layers.bubblewrap else None
+        wrap = find_bubblewrap() if self._layers.bubblewrap else None
         if is_wrapped and wrap is not None:
-            words = bubblewrap.command(wrap, [_ROOT, *self._path, *_site_folders()]) + words
+            words = bubblewrap_command(wrap, [_ROOT, *self._path, *_site_folders()]) + words
         with theirs:
             self.process = _spawn(words, given)
         for each in ours:
@@ -166,17 +166,17 @@ class WarmServer:
         setup = {
             "path": self._path,
             "behind": _site_folders(),
-            "library": self._library,
+            "has_library": self._has_library,
             "preload": self._preload,
-            "layers": self._layers.to_json(),
+            "layers": asdict(self._layers),
             "tasks": _tasks_of_this_user(),
             "is_wrapped": is_wrapped,
             "can_wrap": wrap is not None,
         }
         line.settimeout(timeout_s)
         try:
-            wire_format.send(line, setup)
-            said, _, _ = wire_format.receive(line)
+            send_message(line, setup)
+            said, _, _ = receive_message(line)
         except (EOFError, OSError) as error:
             said = {"event": "failed", "problem": str(error) or "it ended at once"}
         line.settimeout(LAUNCH_TIMEOUT_S)
@@ -243,7 +243,7 @@ def _clean_environment() -> dict[str, str]:
 
 
 def _site_folders() -> list[str]:
-    """Where installed packages are: `-S` leaves them out, and a program may want numpy."""
+    """Return where installed packages are: `-S` leaves them out, and a program may want numpy."""
     folders = [each for each in sys.path if each.rstrip("/").endswith(("site-packages", "dist-packages"))]
     numpy = find_spec("numpy")
     if numpy is not None and numpy.origin is not None:
@@ -252,7 +252,7 @@ def _site_folders() -> list[str]:
 
 
 def _tasks_of_this_user() -> int:
-    """How many tasks this user has now, all processes and threads."""
+    """Return how many tasks this user has now, all processes and threads."""
     user, tasks = os.geteuid(), 0
     for folder in Path("/proc").iterdir():
         if folder.name.isdigit():
@@ -262,3 +262,44 @@ def _tasks_of_this_user() -> int:
             except OSError:
                 continue
     return tasks
+
+
+Level = Literal["none", "minimum", "good", "full"]
+
+
+@dataclass(frozen=True)
+class SandboxReport:
+    """The walls that stand here.
+
+    Args:
+        problems: for each layer that was tried why it does not stand, or "" where it does.
+        refusal: why no program runs here at all, or None.
+    """
+
+    problems: Mapping[str, str]
+    refusal: Reason | None
+
+    @property
+    def standing(self) -> tuple[str, ...]:
+        """The layers that stand."""
+        return tuple(layer for layer, problem in self.problems.items() if not problem)
+
+    @property
+    def level(self) -> Level:
+        """minimum: filter, limits and a clean environment; good: Landlock or namespaces too; full: both."""
+        if self.refusal is not None:
+            return "none"
+        levels: tuple[Level, ...] = ("minimum", "good", "full")
+        has_world = "namespaces" in self.standing or "bubblewrap" in self.standing
+        return levels[("landlock" in self.standing) + has_world]
+
+
+def probe(layers: Layers | None = None) -> SandboxReport:
+    """Start a warm server without any modules, see what stands, and end it again (0.1 s)."""
+    refusal = None
+    with WarmServer(layers=layers, has_library=False) as server:
+        try:
+            server.start()
+        except SandboxError as error:
+            refusal = error.reason
+        return SandboxReport(server.problems, refusal)

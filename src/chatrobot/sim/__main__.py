@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import ChatRobotError, InputError, UsageError
-from chatrobot.core.scheduling import wake_promptly
+from chatrobot.core.process import wake_promptly
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.control import SimControl
 from chatrobot.sim.fault_injection import FaultInjection

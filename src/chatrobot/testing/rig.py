@@ -13,6 +13,7 @@ from chatrobot.execution.executor import Executor
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
 from chatrobot.governor.rule import Sensed
+from chatrobot.motion.safety.stop import WireTransport
 from chatrobot.plan.context import LoweringContext
 from chatrobot.plan.lowering import iterate_core
 from chatrobot.plan.steps import Plan
@@ -21,7 +22,6 @@ from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.sim.fault_injection import FaultInjection
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import SimRobot
-from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import Message
 from chatrobot.wire.wire import M, Wire

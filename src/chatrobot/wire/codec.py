@@ -21,7 +21,7 @@ def encode(topic: str, message: Message) -> bytes:
 
 
 def as_base64(value: object) -> str:
-    """What `json` does not know: bytes."""
+    """Return what `json` does not know: bytes."""
     if isinstance(value, bytes):
         return base64.b64encode(value).decode()
     raise TypeError(f"no message holds a {type(value).__name__}")

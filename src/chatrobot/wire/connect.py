@@ -40,14 +40,14 @@ class Backend(NamedTuple):
         form: an address, for messages: `rosbridge:ws://HOST:9090`.
         is_on_this_machine: whether all who meet at an address are on this machine.
         alone: the address that the scheme alone stands for (`--on dds`).
-        require: raises UsageError where it is not installed, without loading it.
+        check: raises UsageError for an address that it cannot open, before anything is loaded or started for it.
     """
 
     connect: Connect
     form: str
     is_on_this_machine: Callable[[str], bool] = lambda _: True
     alone: str = ""
-    require: Callable[[], None] = lambda: None
+    check: Callable[[str], object] = lambda _: None
 
 
 def connect_wire(address: str, wiring: Wiring, node_name: str) -> Wire:
@@ -73,12 +73,13 @@ def wire_address(on: str) -> str:
     """
     scheme, colon, _ = on.partition(":")
     backend = _backend(scheme, on, "--on")
-    backend.require()
-    return on if colon else backend.alone or f"{on}:"
+    address = on if colon else backend.alone or f"{on}:"
+    backend.check(address)
+    return address
 
 
 def is_on_this_machine(address: str) -> bool:
-    """Whether all who meet on that wire are on this machine: beats are cheap there, and hardly ever late."""
+    """Tell whether all who meet on that wire are on this machine: beats are cheap there, and hardly ever late."""
     return _backend(_scheme(address), address).is_on_this_machine(address)
 
 

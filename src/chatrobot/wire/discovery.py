@@ -50,7 +50,7 @@ def domain_and_namespace(address: str) -> tuple[int | None, str]:
 
 
 def ros_reaches_this_machine_alone(environ: Mapping[str, str]) -> bool:
-    """Whether nobody on another machine can meet ROS nodes started with these variables.
+    """Tell whether nobody on another machine can meet ROS nodes started with these variables.
 
     Unlike on DDS we choose no range of our own: in Jazzy a node in LOCALHOST range and one in SUBNET range, ROS's
     default, may not meet even on one machine, and then the robot's own driver would not hear us (decision 8).
@@ -65,7 +65,7 @@ def ros_reaches_this_machine_alone(environ: Mapping[str, str]) -> bool:
 
 @dataclass(frozen=True)
 class Discovery:
-    """Where to look.
+    """Settings of discovery: whom to meet.
 
     Attributes:
         domain_id: 0 to 232; who is on another does not exist for us.
@@ -81,12 +81,12 @@ class Discovery:
 
     @property
     def this_machine_only(self) -> bool:
-        """Whether other machines are not to be heard at all."""
+        """Tell whether other machines are not to be heard at all."""
         return self.range == "LOCALHOST" and not self.peers and not self.uri
 
 
 def discovery_from(environ: Mapping[str, str], domain_id: int | None = None) -> Discovery:
-    """What the environment asks for; `domain_id` where the address names one.
+    """Return what the environment asks for; `domain_id` where the address names one.
 
     Raises:
         UsageError: a variable's value cannot be used.

@@ -30,7 +30,7 @@ SUBSCRIBE = b"\0subscribe\0"
 
 
 class _Subscriptions:
-    """Who in this process wants which topic."""
+    """The callbacks of this process, by topic."""
 
     def __init__(self) -> None:
         self._callbacks: dict[str, list[tuple[type, Callable[[Any], None]]]] = {}
@@ -62,7 +62,9 @@ class LocalWire(Wire):
             self._socket.connect(str(path))
         except OSError as error:
             self._socket.close()
-            raise WireError(f"no robot answers at {path}") from error
+            raise WireError(
+                f"no robot answers at {path}; chatrobot sim --on local:{path} starts a simulated one"
+            ) from error
         self._reader: threading.Thread | None = None
 
     def publish(self, topic: str, message: Message) -> None:
@@ -131,6 +133,7 @@ class LocalHub(Wire):
 
     @property
     def client_count(self) -> int:
+        """Return how many processes are connected."""
         return len(self._clients)
 
     def publish(self, topic: str, message: Message) -> None:
@@ -211,10 +214,13 @@ class LocalHub(Wire):
 
 
 def _connect(address: str, _: Wiring, __: str) -> Wire:
-    path = address.removeprefix("local:")
-    if not path:
-        raise UsageError("a local wire needs the path of its socket", where=address, allowed="local:PATH")
-    return LocalWire(path)
+    _check(address)
+    return LocalWire(address.removeprefix("local:"))
 
 
-BACKEND = Backend(_connect, "local:PATH")
+def _check(address: str) -> None:
+    if address == "local:":
+        raise UsageError("a local wire needs the path of its socket", allowed="local:PATH")
+
+
+BACKEND = Backend(_connect, "local:PATH", check=_check)

@@ -11,7 +11,7 @@ from chatrobot.wire.wire import M, Wire
 
 
 class MemoryHub:
-    """What the ends of one in-process wire share."""
+    """The part that the ends of one in-process wire share."""
 
     def __init__(self) -> None:
         self.subscribers: dict[str, list[tuple[MemoryWire, type, Callable[[Any], None]]]] = {}

@@ -17,6 +17,9 @@ class TwistMessage(NamedTuple):
     wz_radps: float
 
 
+ZERO = TwistMessage(0.0, 0.0, 0.0)
+
+
 class Odometry(NamedTuple):
     """nav_msgs/Odometry, planar: pose in `odom`, velocity in `base_link`."""
 

@@ -7,6 +7,7 @@ for the lidar. Stamps pass through as they are: the backend knows the clocks.
 
 from __future__ import annotations
 
+import base64
 import math
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeVar
@@ -23,7 +24,74 @@ from chatrobot.wire.messages import (
     Text,
     TwistMessage,
 )
-from chatrobot.wire.ros_pictures import compressed_from, compressed_to, image_from, image_to
+from chatrobot.wire.stamps import to_wall_s
+
+MOST_BYTES = 33_554_432
+"""A larger picture is passed over (4K in colour has 25 MB)."""
+CHANNELS = {"rgb8": 3, "bgr8": 3, "mono8": 1}
+_SAME_AS = {"8UC3": "bgr8", "8UC1": "mono8"}
+"""OpenCV's names, in its order of colours (sensor_msgs/image_encodings.hpp)."""
+_MAGIC = {"jpeg": b"\xff\xd8\xff", "png": b"\x89PNG\r\n\x1a\n"}
+
+
+def file_format(data: bytes) -> str:
+    """`jpeg`, `png` or nothing, as the first bytes of the file say: drivers fill in `format` as they like."""
+    return next((name for name, magic in _MAGIC.items() if data.startswith(magic)), "")
+
+
+def image_from(message: Any, stamp_s: float) -> Picture | None:
+    """Of sensor_msgs/Image; None for an encoding that is no picture in 8 bits (a depth image, say).
+
+    Raises:
+        ValueError: the numbers and the bytes contradict each other, or there are too many.
+    """
+    encoding = _SAME_AS.get(message.encoding, message.encoding)
+    channels = CHANNELS.get(encoding)
+    if channels is None:
+        return None
+    width_px, height_px, row_bytes = int(message.width), int(message.height), int(message.step)
+    data = _bytes(message.data)
+    if width_px < 1 or height_px < 1 or row_bytes < width_px * channels or len(data) < row_bytes * height_px:
+        raise ValueError("a picture without all of its rows")
+    return Picture(stamp_s, encoding, width_px, height_px, row_bytes, data)
+
+
+def compressed_from(message: Any, stamp_s: float) -> Picture | None:
+    """Of sensor_msgs/CompressedImage; None for what is neither JPEG nor PNG (a compressed depth image, say).
+
+    Raises:
+        ValueError: there are too many bytes.
+    """
+    data = _bytes(message.data)
+    encoding = file_format(data)
+    return Picture(stamp_s, encoding, 0, 0, 0, data) if encoding else None
+
+
+def image_to(picture: Picture) -> dict[str, Any]:
+    """The fields of sensor_msgs/Image without its header."""
+    return {
+        "height": picture.height_px,
+        "width": picture.width_px,
+        "encoding": picture.encoding,
+        "step": picture.row_bytes,
+        "data": picture.data,
+    }
+
+
+def compressed_to(picture: Picture) -> dict[str, Any]:
+    """The fields of sensor_msgs/CompressedImage without its header."""
+    return {"format": picture.encoding, "data": picture.data}
+
+
+def _bytes(data: Any) -> bytes:
+    """uint8[] as every library has it: numpy (rosbags), array (rclpy), base64 or a list (rosbridge)."""
+    if len(data) > 2 * MOST_BYTES:
+        raise ValueError("too large a picture")
+    found = base64.b64decode(data, validate=True) if isinstance(data, str) else bytes(data)
+    if len(found) > MOST_BYTES:
+        raise ValueError("too large a picture")
+    return found
+
 
 ODOM_FRAME, BASE_FRAME, LASER_FRAME, CAMERA_FRAME = "odom", "base_link", "laser", "camera_optical_frame"
 
@@ -33,7 +101,7 @@ _READ_DEPTH = 200
 
 
 class RosForm(NamedTuple):
-    """How one planar message travels in ROS.
+    """A planar message's form in ROS.
 
     `type_name` is `package/msg/Name`. `to_ros` gives nested dictionaries; `from_ros` reads an object's attributes
     and gives None where nothing was measured; it raises AttributeError, TypeError or ValueError for an object of
@@ -46,7 +114,7 @@ class RosForm(NamedTuple):
 
 
 def ros_form(topic: str, kind: type[Any], wiring: Wiring) -> RosForm:
-    """What `kind` is on `topic` of a robot wired like this."""
+    """Return what `kind` is on `topic` of a robot wired like this."""
     if kind is TwistMessage and wiring.cmd_vel_type == "TwistStamped":
         return (
             _TWIST_STAMPED
@@ -63,13 +131,44 @@ def ros_form(topic: str, kind: type[Any], wiring: Wiring) -> RosForm:
 
 
 def is_sensor(topic: str, kind: type[Any], wiring: Wiring) -> bool:
-    """Whether robots may publish this with ROS's sensor QoS (best effort)."""
+    """Tell whether robots may publish this with ROS's sensor QoS (best effort)."""
     return kind in _STAMPED or topic in (*wiring.sensor_topics.values(), wiring.camera_topic)
 
 
 def read_depth(kind: type[Any]) -> int:
-    """How many messages a reader keeps: of a burst all, so that nothing is lost; of pictures the newest."""
+    """Return how many messages a reader keeps: of a burst all, so that nothing is lost; of pictures the newest."""
     return 1 if kind is Picture else _READ_DEPTH
+
+
+class Listener:
+    """One topic as one kind of message, for all callbacks of an end."""
+
+    def __init__(self, form: RosForm) -> None:
+        self.form = form
+        self.callbacks: tuple[Callable[[Any], None], ...] = ()
+
+    def hear(self, ros_message: Any, local_s: Callable[[float], float]) -> None:
+        """Call back with the planar message; a wire never dies of a bad one.
+
+        Args:
+            local_s: translates a stamp of the sender's clock to ours.
+        """
+        try:
+            message = self.form.from_ros(ros_message)
+        except (AttributeError, TypeError, ValueError, OverflowError):
+            return
+        timed = None if message is None else stamped(message)
+        if timed is not None:
+            message = timed._replace(stamp_s=local_s(timed.stamp_s))
+        if message is not None:
+            for callback in self.callbacks:
+                callback(message)
+
+
+def with_wall_stamp(message: Message) -> Message:
+    """Return the message with its stamp as ROS headers carry it."""
+    timed = stamped(message)
+    return message if timed is None else timed._replace(stamp_s=to_wall_s(timed.stamp_s))
 
 
 def stamped(message: Message) -> Odometry | Imu | LaserScan | Picture | None:

@@ -31,7 +31,7 @@ def runtime_dir() -> Path:
 
 
 def stop_socket_path(pid: int) -> Path:
-    """Where the Motion of that process id listens for `chatrobot stop`."""
+    """Return where the Motion of that process id listens for `chatrobot stop`."""
     return runtime_dir() / f"motion-{pid}.stop"
 
 

@@ -27,7 +27,7 @@ class StampTranslator:
         self._window_ends_s = -math.inf
 
     def local_s(self, stamp_s: float, received_s: float) -> float:
-        """When a message was stamped, in seconds of the receiver's clock; never later than `received_s`.
+        """Return when a message was stamped, in seconds of the receiver's clock; never later than `received_s`.
 
         Args:
             stamp_s: the stamp, seconds of the sender's clock; zero or not finite where it sets none.

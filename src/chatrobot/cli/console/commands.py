@@ -15,7 +15,7 @@ from chatrobot.cli.console import tables
 from chatrobot.cli.console.controller import ChatController
 from chatrobot.cli.plan import read_plan_file
 from chatrobot.core.errors import UsageError
-from chatrobot.core.motion_budget import NONE
+from chatrobot.robots.profile import NONE
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from chatrobot.core import events
 from chatrobot.core.events import Event
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
-from chatrobot.core.motion_budget import OPEN_LOOP
+from chatrobot.robots.profile import OPEN_LOOP
 
 XY = tuple[float, float]
 TRAIL_SPACING_M = 0.03

@@ -7,7 +7,7 @@ import os
 from collections.abc import Mapping
 
 from chatrobot.core.geometry import Pose, wrap_angle
-from chatrobot.core.shown import fixed
+from chatrobot.core.reason import fixed
 from chatrobot.language.data_files import load_table
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.normalise import has_chinese

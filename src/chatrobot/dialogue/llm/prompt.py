@@ -12,8 +12,7 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 
 from chatrobot.core.geometry import Pose
-from chatrobot.core.reason import Reason
-from chatrobot.core.shown import one_line, quoted
+from chatrobot.core.reason import Reason, one_line, quoted
 from chatrobot.dialogue.llm.reply_reader import LOOKS, REST
 from chatrobot.plan.base import Step
 from chatrobot.plan.registry import primitives

@@ -12,10 +12,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Literal
 
 from chatrobot.core.events import Event, Finished, Interpreted, Looked, Notice, Outcome, Rehearsed
-from chatrobot.core.motion_budget import EXCEEDED
-from chatrobot.core.reason import Reason
-from chatrobot.core.shown import one_line
-from chatrobot.core.summed import summed
+from chatrobot.core.reason import Reason, one_line
 from chatrobot.dialogue.llm.looking import ObservationWait, Surroundings
 from chatrobot.dialogue.llm.plan_stream import PlanStream
 from chatrobot.dialogue.llm.prompt import correction, is_short_form
@@ -25,6 +22,7 @@ from chatrobot.dialogue.observations import without_pictures
 from chatrobot.models.seam import Message, Model
 from chatrobot.plan.base import Step
 from chatrobot.plan.text import format_step
+from chatrobot.robots.profile import EXCEEDED
 
 if TYPE_CHECKING:
     from chatrobot.link.motion_link import MotionLink
@@ -221,7 +219,7 @@ class ModelRequest:
     def _end_run(self, finished: Finished) -> None:
         self._feed.end()
         self._round.end_run(finished)
-        self._total = finished if self._total is None else summed(self._total, finished)
+        self._total = finished if self._total is None else self._total.followed_by(finished)
         if self._round.call.has_ended:
             self._end_round()
         elif finished.outcome != "completed":

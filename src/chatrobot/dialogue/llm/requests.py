@@ -10,8 +10,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 from chatrobot.core.events import Event, Notice
-from chatrobot.core.reason import Reason
-from chatrobot.core.shown import one_line
+from chatrobot.core.reason import Reason, one_line
 from chatrobot.dialogue.llm import prompt
 from chatrobot.dialogue.llm.looking import Surroundings
 from chatrobot.dialogue.llm.prompt import connects_to_the_robot, is_form

@@ -12,11 +12,11 @@ from chatrobot.governor.governor import Governor, Verdict
 from chatrobot.governor.rule import Sensed
 from chatrobot.motion.governed_robot import decelerated, is_cut_short
 from chatrobot.motion.programs.clocks import HeldTwist, SensorMailbox
+from chatrobot.motion.safety.stop import WireTransport
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.fault_injection import NO_FAULTS
 from chatrobot.sim.robot import SimRobot
 from chatrobot.sim.world import EMPTY_WORLD, World
-from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.memory import MemoryHub
 
 LEASE = "rehearsal"

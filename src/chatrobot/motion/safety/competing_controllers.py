@@ -11,7 +11,7 @@ from typing import Any
 
 from chatrobot.core.reason import Reason
 from chatrobot.link.envelope import PROTOCOL
-from chatrobot.link.topics import CONTROL, read_beat
+from chatrobot.link.topic_link import CONTROL, read_beat
 from chatrobot.wire.messages import Text
 from chatrobot.wire.wire import Wire
 

@@ -6,15 +6,17 @@ import contextlib
 import os
 import socket
 from collections.abc import Callable
-from typing import Literal
+from typing import Literal, Protocol
 
 from chatrobot.core.clock import Clock
-from chatrobot.core.governed import StopEpoch
+from chatrobot.core.governed import GovernedTwist, StopEpoch
 from chatrobot.core.reason import Reason
 from chatrobot.execution.health import FRESH_S, STANDS_LATE_S, is_seen_moving, is_seen_standing
 from chatrobot.execution.sensors import Sensors
-from chatrobot.transports.transport import Transport
+from chatrobot.robots.profile import Wiring
+from chatrobot.wire.messages import ZERO, TwistMessage
 from chatrobot.wire.runtime_dir import stop_socket_path
+from chatrobot.wire.wire import Wire
 
 PATIENCE_S = STANDS_LATE_S
 """So long zeros are sent where nobody can see whether they help; a robot that moves on meanwhile does not obey."""
@@ -125,6 +127,42 @@ class StopConfirmation:
 
 PAUSED = "paused_by"
 """The code of a stop that keeps what was under way."""
+
+
+class Transport(Protocol):
+    """Knows two things: to send what the governor minted, and to halt."""
+
+    def send(self, twist: GovernedTwist) -> bool:
+        """Send, unless a stop came after it was minted. True if it went out and stands."""
+
+    def halt(self) -> None:
+        """Zero, now, from any thread, past everything else; what was minted before is void."""
+
+
+class WireTransport:
+    """Sends to a robot on any wire.
+
+    `halt` takes no lock. A `send` that a stop overtakes looks at the epoch again after it has sent and takes its
+    own velocity back, so whatever the order of the two threads, the last thing on the wire is a zero.
+    """
+
+    def __init__(self, wire: Wire, wiring: Wiring, epoch: StopEpoch) -> None:
+        self._wire = wire
+        self._topic = wiring.cmd_vel_topic
+        self._epoch = epoch
+
+    def send(self, twist: GovernedTwist) -> bool:
+        if twist.epoch != self._epoch.value:
+            return False
+        self._wire.publish(self._topic, TwistMessage(*twist.twist))
+        if twist.epoch != self._epoch.value:
+            self._wire.publish(self._topic, ZERO)
+            return False
+        return True
+
+    def halt(self) -> None:
+        self._epoch.stop()
+        self._wire.publish(self._topic, ZERO)
 
 
 class Stops:

@@ -34,4 +34,6 @@ def _is_on_this_machine(_: str) -> bool:
     return discovery.range in ("LOCALHOST", "OFF") and not discovery.peers and not discovery.uri
 
 
-BACKEND = Backend(_connect, "dds[://DOMAIN[/NAMESPACE]]", _is_on_this_machine, alone="dds:")
+BACKEND = Backend(
+    _connect, "dds[://DOMAIN[/NAMESPACE]]", _is_on_this_machine, alone="dds:", check=domain_and_namespace
+)

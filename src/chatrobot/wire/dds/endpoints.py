@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from cyclonedds.core import (
@@ -27,8 +27,8 @@ from cyclonedds.util import duration
 from chatrobot.core.errors import WireError
 from chatrobot.wire.dds.ros_types import MALFORMED, CdrSample, RosTypes
 from chatrobot.wire.messages import Message
-from chatrobot.wire.ros_messages import RosForm, stamped
-from chatrobot.wire.stamps import StampTranslator, to_wall_s
+from chatrobot.wire.ros_messages import Listener, RosForm, with_wall_stamp
+from chatrobot.wire.stamps import StampTranslator
 
 _WRITE_DEPTH = 10
 """ROS's; how much a reader keeps nobody asks."""
@@ -75,10 +75,7 @@ class Writer:
         Raises:
             WireError: the wire is closed.
         """
-        timed = stamped(message)
-        if timed is not None:
-            message = timed._replace(stamp_s=to_wall_s(timed.stamp_s))
-        self.write_fields(self._form.to_ros(message))
+        self.write_fields(self._form.to_ros(with_wall_stamp(message)))
 
     def write_fields(self, fields: Mapping[str, Any]) -> None:
         """Send a ROS message as nested dictionaries; as `write` otherwise."""
@@ -89,7 +86,7 @@ class Writer:
                 raise WireError(f"publishing failed: {error}") from error
 
     def listener_count(self) -> int:
-        """How many listeners are known."""
+        """Return how many listeners are known."""
         status: Any = self._writer.get_publication_matched_status()  # type: ignore[no-untyped-call]
         return int(status.current_count)
 
@@ -107,7 +104,7 @@ class Writer:
         return True
 
 
-class Reader:
+class Reader(Listener):
     """Listens on one topic for all callbacks of this end."""
 
     def __init__(
@@ -116,7 +113,8 @@ class Reader:
         types: RosTypes,
         port: Port,
     ) -> None:
-        self._types, self._form = types, port.form
+        super().__init__(port.form)
+        self._types = types
         name = port.form.type_name
         topic: Any = Topic(participant, port.dds_topic, types.topic_type(name))
         reliability = Policy.Reliability.BestEffort if port.best_effort else Policy.Reliability.Reliable(0)
@@ -131,7 +129,6 @@ class Reader:
         self._reader: DataReader[Any] = DataReader(participant, topic, qos)
         self.condition = ReadCondition(self._reader, _ANY)
         self.guid = self._reader.get_guid()
-        self.callbacks: tuple[Callable[[Any], None], ...] = ()
         self._clocks: dict[int, StampTranslator] = {}
 
     def deliver(self) -> None:
@@ -139,19 +136,13 @@ class Reader:
         for sample in self._reader.take(_TAKE_AT_ONCE):
             if isinstance(sample, InvalidSample):
                 continue  # a publisher has left
-            message = self._message(sample)
-            if message is not None:
-                for callback in self.callbacks:
-                    callback(message)
+            self._deliver_one(sample)
 
-    def _message(self, sample: CdrSample) -> Message | None:
+    def _deliver_one(self, sample: CdrSample) -> None:
         received_s = time.monotonic()
         try:
-            message = self._form.from_ros(self._types.read(self._form.type_name, sample.cdr))
+            ros_message = self._types.read(self.form.type_name, sample.cdr)
         except MALFORMED:
-            return None  # a wire never dies of a bad packet
-        timed = None if message is None else stamped(message)
-        if timed is None:
-            return message
+            return  # a wire never dies of a bad packet
         clock = self._clocks.setdefault(sample.sample_info.publication_handle, StampTranslator())
-        return timed._replace(stamp_s=clock.local_s(timed.stamp_s, received_s))
+        self.hear(ros_message, lambda stamp_s: clock.local_s(stamp_s, received_s))

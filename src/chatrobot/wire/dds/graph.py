@@ -56,12 +56,12 @@ def ros_type_name(dds_type: str) -> str:
 
 
 def own_id() -> str:
-    """What marks the processes of one session as ours: made once, inherited by the processes we start."""
+    """Return what marks the processes of one session as ours: made once, inherited by the processes we start."""
     return os.environ.setdefault(_OWN_ID, uuid.uuid4().hex)
 
 
 def participant_qos() -> Qos:
-    """How a participant of ours introduces itself."""
+    """Return how a participant of ours introduces itself."""
     return Qos(Policy.Userdata(f"enclave=/;chatrobot={own_id()};".encode()))
 
 
@@ -98,7 +98,7 @@ class Graph:
         self._writer.write(self._types.sample(_INFO_TYPE, fields))
 
     def publishers_of(self, dds_topic: str) -> list[str]:
-        """Who else publishes there, sorted: node names where they tell them, otherwise process and host.
+        """Return who else publishes there, sorted: node names where they tell them, otherwise process and host.
 
         Processes of the same session as this one (`own_id`) are left out.
         """
@@ -170,7 +170,7 @@ def _userdata(qos: Qos) -> dict[str, str]:
 
 
 def _process(qos: Qos) -> str:
-    """What a participant tells of its process; Cyclone and Fast DDS have keys of their own."""
+    """Return what a participant tells of its process; Cyclone and Fast DDS have keys of their own."""
     told = {policy.key: policy.value for policy in qos if isinstance(policy, Policy.Property)}
     name = told.get("__ProcessName") or told.get("fastdds.physical_data.process") or "a process"
     host = told.get("__Hostname") or told.get("fastdds.physical_data.host", "")

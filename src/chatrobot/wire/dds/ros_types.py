@@ -43,16 +43,18 @@ MALFORMED = (SerdeError, ValueError, TypeError, IndexError, struct.error, Overfl
 
 
 class CdrSample:
-    """What Cyclone reads and writes here: a message's bytes, header included."""
+    """A message's bytes, header included: Cyclone reads and writes them here."""
 
     cdr: bytes
     sample_info: Any
 
     def serialize(self, buffer: Any = None, endianness: Any = None, use_version_2: Any = None) -> bytes:  # noqa: ARG002
+        """Hand the bytes to Cyclone as they are."""
         return self.cdr
 
     @classmethod
     def deserialize(cls, data: bytes, has_header: bool = True, use_version_2: Any = None) -> CdrSample:  # noqa: ARG003
+        """Take the bytes from Cyclone as they are."""
         sample = object.__new__(cls)
         sample.cdr = data
         return sample

@@ -55,10 +55,15 @@ def _no_ros(why: str) -> UsageError:
     return UsageError(f"ROS 2 is not here ({why})", allowed=HOW_TO_GET_IT)
 
 
+def _check(address: str) -> None:
+    require_ros()
+    domain_and_namespace(address)
+
+
 BACKEND = Backend(
     connect_ros,
     "ros[://DOMAIN[/NAMESPACE]]",
     lambda _: ros_reaches_this_machine_alone(os.environ),
     alone="ros:",
-    require=require_ros,
+    check=_check,
 )

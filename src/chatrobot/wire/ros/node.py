@@ -79,11 +79,12 @@ class RosNode:
 
     @property
     def is_closed(self) -> bool:
+        """It has left, or somebody has closed its context."""
         return self._closed
 
     @property
     def has_own_time(self) -> bool:
-        """Whether `use_sim_time` is set: time is what `/clock` says."""
+        """Tell whether `use_sim_time` is set: time is what `/clock` says."""
         return bool(self.handle.get_parameter("use_sim_time").value)
 
     def now_s(self) -> float:

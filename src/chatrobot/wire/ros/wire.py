@@ -16,8 +16,8 @@ from chatrobot.core.wiring import Wiring
 from chatrobot.wire.messages import Message
 from chatrobot.wire.ros.convert import message_class, to_message
 from chatrobot.wire.ros.node import RosNode
-from chatrobot.wire.ros_messages import RosForm, is_sensor, read_depth, ros_form, stamped
-from chatrobot.wire.stamps import StampTranslator, to_wall_s
+from chatrobot.wire.ros_messages import Listener, RosForm, is_sensor, read_depth, ros_form, with_wall_stamp
+from chatrobot.wire.stamps import StampTranslator
 from chatrobot.wire.wire import Endpoint, M, Wire
 
 _WRITE_DEPTH = 10
@@ -52,13 +52,12 @@ class _Publisher:
             raise WireError(f"this end of the wire is closed: {error}") from error
 
 
-class _Subscription:
+class _Subscription(Listener):
     """One topic as one kind of message, for all callbacks of this end."""
 
     def __init__(self, form: RosForm, local_s: Callable[[float], float]) -> None:
-        self._form = form
+        super().__init__(form)
         self._local_s = local_s
-        self.callbacks: tuple[Callable[[Any], None], ...] = ()
         self.subscription: Any = None
         """ROS's own; set once it is there."""
 
@@ -69,7 +68,7 @@ class _Subscription:
         and hear ever older odometry.
         """
         for _ in range(_READ_AT_ONCE):
-            self._deliver_one(ros_message)
+            self.hear(ros_message, self._local_s)
             ros_message = self._take_next()
             if ros_message is None:
                 return
@@ -84,19 +83,6 @@ class _Subscription:
         except RuntimeError:  # rclpy's InvalidHandle: the node is closing
             return None
         return taken[0] if taken is not None else None
-
-    def _deliver_one(self, ros_message: Any) -> None:
-        try:
-            message = self._form.from_ros(ros_message)
-        except (AttributeError, TypeError, ValueError, OverflowError):
-            return  # a wire never dies of a bad message
-        if message is None:
-            return
-        timed = stamped(message)
-        if timed is not None:
-            message = timed._replace(stamp_s=self._local_s(timed.stamp_s))
-        for callback in self.callbacks:
-            callback(message)
 
 
 class RosWire(Wire):
@@ -127,8 +113,7 @@ class RosWire(Wire):
             publisher = self._open_publisher(topic, type(message), self._form(topic, type(message)))
         elif self.node.is_closed:
             raise WireError("this end of the wire is closed")
-        timed = None if self.has_own_time else stamped(message)
-        publisher.send(message if timed is None else timed._replace(stamp_s=to_wall_s(timed.stamp_s)))
+        publisher.send(message if self.has_own_time else with_wall_stamp(message))
 
     def subscribe(self, topic: str, kind: type[M], callback: Callable[[M], None]) -> None:
         with self._lock:

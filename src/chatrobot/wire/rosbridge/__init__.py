@@ -15,6 +15,7 @@ from chatrobot.wire.wire import Wire
 
 
 def _connect(address: str, wiring: Wiring, _: str) -> Wire:
+    _check(address)
     try:
         from chatrobot.wire.rosbridge.wire import RosbridgeWire
     except ImportError as error:
@@ -30,9 +31,17 @@ def _is_on_this_machine(address: str) -> bool:
     return urlsplit(address.partition(":")[2]).hostname in ("localhost", "127.0.0.1", "::1")
 
 
+def _check(address: str) -> None:
+    url = address.partition(":")[2]
+    parts = urlsplit(url)
+    if parts.scheme not in ("ws", "wss") or not parts.hostname:
+        raise UsageError(f"{url!r} is not the address of a rosbridge", allowed="ws://HOST:9090 or wss://HOST")
+
+
 BACKEND = Backend(
     _connect,
     "rosbridge:ws://HOST:9090[#NAMESPACE]",
     _is_on_this_machine,
     alone="rosbridge:ws://localhost:9090",
+    check=_check,
 )

@@ -23,14 +23,14 @@ from urllib.parse import urlsplit
 from websockets.exceptions import WebSocketException
 from websockets.sync.client import ClientConnection, connect
 
-from chatrobot.core.errors import UsageError, WireError
+from chatrobot.core.errors import WireError
 from chatrobot.core.wiring import Wiring
 from chatrobot.wire.codec import as_base64
 from chatrobot.wire.messages import LaserScan, Message
-from chatrobot.wire.ros_messages import RosForm, ros_form, stamped
+from chatrobot.wire.ros_messages import Listener, RosForm, ros_form, with_wall_stamp
 from chatrobot.wire.rosbridge.protocol import advertise_request, read, request_id, subscribe_request
 from chatrobot.wire.rosbridge.rosapi import RosApi
-from chatrobot.wire.stamps import StampTranslator, to_wall_s
+from chatrobot.wire.stamps import StampTranslator
 from chatrobot.wire.wire import Endpoint, M, Wire
 
 OPEN_TIMEOUT_S = 3.0
@@ -48,26 +48,15 @@ MESSAGE_BYTES = 8_388_608
 _SIOCOUTQ = 0x5411
 
 
-class _Subscription:
+class _Subscription(Listener):
     """One topic as one kind of message."""
 
     def __init__(self, form: RosForm) -> None:
-        self.form = form
-        self.callbacks: tuple[Callable[[Any], None], ...] = ()
+        super().__init__(form)
         self._clock = StampTranslator()
 
     def deliver(self, fields: Any) -> None:
-        try:
-            message = self.form.from_ros(fields)
-        except (AttributeError, TypeError, ValueError, OverflowError):
-            return  # a wire never dies of a bad message
-        if message is None:
-            return
-        timed = stamped(message)
-        if timed is not None:
-            message = timed._replace(stamp_s=self._clock.local_s(timed.stamp_s, time.monotonic()))
-        for callback in self.callbacks:
-            callback(message)
+        self.hear(fields, lambda stamp_s: self._clock.local_s(stamp_s, time.monotonic()))
 
 
 class RosbridgeWire(Wire):
@@ -80,7 +69,6 @@ class RosbridgeWire(Wire):
 
     Raises:
         WireError: no rosbridge answers there.
-        UsageError: that is no websocket's address.
     """
 
     comes_back = True
@@ -89,10 +77,6 @@ class RosbridgeWire(Wire):
     def __init__(self, url: str, wiring: Wiring, *, namespace: str = "") -> None:
         self._url, self._wiring, self.namespace = url, wiring, namespace.strip("/")
         parts = urlsplit(url)
-        if parts.scheme not in ("ws", "wss") or not parts.hostname:
-            raise UsageError(
-                f"{url!r} is not the address of a rosbridge", allowed="ws://HOST:9090 or wss://HOST"
-            )
         self._place = (
             f"{parts.scheme}://{parts.hostname}:{parts.port or (443 if parts.scheme == 'wss' else 80)}"
         )
@@ -109,7 +93,9 @@ class RosbridgeWire(Wire):
         try:
             connection = self._connect()
         except (OSError, WebSocketException) as error:
-            raise WireError(f"no rosbridge answers at {self._place}: {error}") from error
+            raise WireError(
+                f"no rosbridge answers at {self._place}; start rosbridge_server on the robot, or check host and port ({error})"
+            ) from error
         self._thread = threading.Thread(target=self._run, args=(connection,), name="rosbridge", daemon=True)
         self._thread.start()
 
@@ -118,10 +104,8 @@ class RosbridgeWire(Wire):
         refusal = self._refused.get(request_id("advertise", topic, form))
         if refusal is not None:
             raise WireError(f"rosbridge refuses {topic}: {refusal}")
-        timed = stamped(message)
-        if timed is not None:
-            message = timed._replace(stamp_s=to_wall_s(timed.stamp_s))
-        self._send({"op": "publish", "topic": self.resolve(topic), "msg": form.to_ros(message)})
+        fields = form.to_ros(with_wall_stamp(message))
+        self._send({"op": "publish", "topic": self.resolve(topic), "msg": fields})
 
     def subscribe(self, topic: str, kind: type[M], callback: Callable[[M], None]) -> None:
         with self._lock:
@@ -169,7 +153,7 @@ class RosbridgeWire(Wire):
         return f"/{self.namespace}/{topic}" if self.namespace else f"/{topic}"
 
     def _call(self, service: str, arguments: dict[str, Any]) -> dict[str, Any] | None:
-        """What a service of the robot answers; None where there is none, or no answer."""
+        """Return what a service of the robot answers; None where there is none, or no answer."""
         number = f"call:{next(self._calls)}"
         answer = self._answers[number] = queue.Queue()
         try:
@@ -271,7 +255,7 @@ class RosbridgeWire(Wire):
 
 
 def _queued_bytes(raw: socket.socket) -> int:
-    """How much the other end has not acknowledged yet (tcp(7))."""
+    """Return how much the other end has not acknowledged yet (tcp(7))."""
     try:
         return int(struct.unpack("i", fcntl.ioctl(raw.fileno(), _SIOCOUTQ, b"\0\0\0\0"))[0])
     except (OSError, ValueError):  # ValueError: a socket that another thread has just closed has no number

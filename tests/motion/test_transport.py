@@ -7,8 +7,8 @@ import pytest
 from chatrobot.core.errors import SafetyError
 from chatrobot.core.geometry import Twist
 from chatrobot.core.governed import GovernedTwist, Mint, StopEpoch
+from chatrobot.motion.safety.stop import WireTransport
 from chatrobot.robots.profile import Wiring
-from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import TwistMessage
 
