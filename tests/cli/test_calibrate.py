@@ -119,7 +119,7 @@ def test_a_robot_that_does_not_fit_its_profile_is_noticed(terminal: Terminal, tm
     child.expect("Drive one metre.*leave")
     child.sendline("y")
     child.expect("other way")
-    child.expect("does not do what the profile wheeltec_mini_mec says")
+    child.expect("does not do what its profile wheeltec_mini_mec says")
     assert code(child) == 1
     assert not (tmp_path / PROFILE).exists()
 
