@@ -1,4 +1,4 @@
-"""What is done with one text once its turn has come: it is answered, given to Motion, or given to a model."""
+"""Does with one text what is due once its turn has come: answers it, gives it to Motion, or to a model."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from chatrobot.plan.text import format_plan, parse_plan
 
 
 class Dispatch:
-    """Belongs to the pumping thread.
+    """Acts on utterances. Belongs to the pumping thread.
 
     Args:
         programs: None where programs are neither written nor run.
@@ -66,6 +66,7 @@ class Dispatch:
         """The turn that is read again once what is under way has ended."""
 
     def take(self, utterance: Utterance) -> None:
+        """Act on `utterance`, whose turn has come."""
         if self._utterances.is_void(utterance):
             self._drop(utterance)
             return
@@ -90,7 +91,7 @@ class Dispatch:
             self._requests.conclude(utterance.turn, "stopped", reply)
 
     def texts_behind(self, turn: int) -> tuple[str, ...]:
-        """What is done after that turn, which is paused: what Motion has already, and what waits here."""
+        """Return what is done after that turn, which is paused: what Motion has already, and what waits here."""
         return (*self._requests.texts_but(turn), *(utterance.text for utterance in self._utterances.held))
 
     def _drop(self, utterance: Utterance) -> None:

@@ -15,7 +15,7 @@ from chatrobot.link.motion_link import MotionLink
 
 
 class GoalClient:
-    """Sends them. `options` may be replaced: those hold for what is sent from then on."""
+    """Sends goals to Motion. `options` may be replaced: those hold for what is sent from then on."""
 
     def __init__(self, link: MotionLink, options: Options) -> None:
         self._link = link
@@ -26,7 +26,7 @@ class GoalClient:
 
     @property
     def mode(self) -> Literal["queue", "replace"]:
-        """What a new instruction does to one that is under way; what is paused, it replaces."""
+        """Return what a new instruction does to one that is under way; what is paused, it replaces."""
         return "replace" if self.is_paused else self.options.while_moving
 
     def resume(self, turn: int) -> None:
@@ -83,7 +83,7 @@ class GoalClient:
 
 
 class RequestLog:
-    """Used by the session's pumping thread; `is_any_with_motion` may be read from any thread."""
+    """Logs which turns Motion has, and their results. Any thread may read `is_any_with_motion`."""
 
     def __init__(self, understanding: Understanding, emit: Callable[[Event], None]) -> None:
         self._understanding = understanding
@@ -93,32 +93,33 @@ class RequestLog:
 
     @property
     def is_any_with_motion(self) -> bool:
+        """True while Motion has a turn of ours."""
         return bool(self._with_motion)
 
     @property
     def under_way(self) -> tuple[Instruction, ...]:
-        """What Motion has, in the order it was said."""
+        """Return what Motion has, in the order it was said."""
         return tuple(self._with_motion.values())
 
     def texts_but(self, turn: int) -> tuple[str, ...]:
-        """What Motion has besides that turn, in the order it was said."""
+        """Return the texts that Motion has besides that turn, in the order they were said."""
         return tuple(one.text for number, one in self._with_motion.items() if number != turn)
 
     @property
     def first_with_motion(self) -> tuple[int, Instruction] | None:
-        """The turn that Motion is at, and what it is about."""
+        """Return the turn that Motion is at, and what it is about."""
         return next(iter(self._with_motion.items()), None)
 
     def has(self, turn: int) -> bool:
-        """That turn is with Motion."""
+        """Return whether that turn is with Motion."""
         return turn in self._with_motion
 
     def track(self, turn: int, text: str, meant: Interpretation) -> None:
-        """That turn is now Motion's; its `finished` ends it."""
+        """Note that Motion has that turn; its `finished` ends it."""
         self._with_motion[turn] = Instruction(text, meant, self._understanding.pose)
 
     def take(self, turn: int) -> Instruction | None:
-        """Motion is done with that turn: what it was about, None where Motion never had it."""
+        """Return what a turn was about that Motion is done with, None where Motion never had it."""
         return self._with_motion.pop(turn, None)
 
     def conclude(

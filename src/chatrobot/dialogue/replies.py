@@ -1,4 +1,4 @@
-"""The sentence at the end of a turn: what was measured, and why it ended, in the language of the question."""
+"""Makes the sentence at the end of a turn: what was measured, and why it ended, in the language of the question."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _STOPPED_TWICE = re.compile(r"([.?!。？！])[.。]")
 
 
 def describe_end(finished: Finished, language: str, steps: Sequence[Step] = ()) -> str:
-    """What a plan of those steps came to: outcome, measured motion, and the reason if it did not complete."""
+    """Return what a plan of those steps came to: outcome, measured motion, and the reason if it did not complete."""
     if not finished.measured and finished.outcome != "refused":
         return _ended_once(_commanded(finished, language, steps))
     moved = _measured(finished, language)
@@ -89,7 +89,7 @@ def _done_standing(steps: Sequence[Step], language: str) -> str:
 
 
 def describe_left(paused: Paused, language: str) -> str:
-    """What is left of a paused plan in a few words, and the texts that wait behind it."""
+    """Return what is left of a paused plan in a few words, and the texts that wait behind it."""
     plan = describe_text(paused.plan_text, language)
     if not paused.waiting:
         return plan
@@ -97,13 +97,13 @@ def describe_left(paused: Paused, language: str) -> str:
 
 
 def describe_waiting(texts: Sequence[str], language: str) -> str:
-    """Texts that wait, in quotation marks."""
+    """Return texts that wait, in quotation marks."""
     shown = (say(language, "quoted", text=one_line(text, SHOWN_CHARS)) for text in texts)
     return say(language, "list_comma").join(shown)
 
 
 def with_offer(reply: str, finished: Finished | None, language: str) -> tuple[str, Proposal | None]:
-    """The reply with the question whether to do what is possible of a plan that was refused, and what it offers."""
+    """Return the reply with the question whether to do what is possible of a refused plan, and what it offers."""
     proposal = offered(finished, language) if finished is not None else None
     return (f"{reply} {proposal.say}", proposal) if proposal is not None else (reply, None)
 
@@ -119,7 +119,7 @@ def _heading_there(finished: Finished, steps: Sequence[Step], language: str) -> 
 
 
 def offered(finished: Finished, language: str) -> Proposal | None:
-    """The question whether to do what is possible of a plan that was refused."""
+    """Return the question whether to do what is possible of a plan that was refused."""
     if not finished.possible:
         return None
     text = describe_plan(parse_plan(finished.possible), language)
@@ -141,7 +141,7 @@ def _ended_once(sentences: str) -> str:
 
 
 def describe_model_end(ended: Ended, language: str) -> str:
-    """What a turn that a model planned came to."""
+    """Return what a turn that a model planned came to."""
     finished, reason = ended.finished, ended.reason
     if ended.outcome == "answered":
         return ended.said or say(language, "done_standing")
@@ -189,10 +189,10 @@ PARTING = "parting"
 
 
 def parting(meant: Interpretation) -> Reason | None:
-    """The reason of a result that ends the conversation; None for any other."""
+    """Return the reason of a result that ends the conversation; None for any other."""
     return Reason(PARTING) if meant.code == PARTING else None
 
 
 def is_parting(event: Event) -> bool:
-    """The person has said goodbye, and has been answered."""
+    """Return whether the person has said goodbye, and has been answered."""
     return isinstance(event, Result) and event.reason is not None and event.reason.code == PARTING

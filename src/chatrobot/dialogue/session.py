@@ -94,7 +94,7 @@ class Session:
 
     @property
     def options(self) -> Options:
-        """They may be replaced between two turns, but for who interprets."""
+        """Return the options. They may be replaced between two turns, but for who interprets."""
         return self._goals.options
 
     @options.setter
@@ -103,7 +103,7 @@ class Session:
 
     @property
     def results(self) -> dict[int, Result]:
-        """How each turn ended, by its number."""
+        """Return how each turn ended, by its number."""
         return self._requests.results
 
     # --- from any thread ---
@@ -128,7 +128,7 @@ class Session:
         return self._take_in(plan_text, "plan")
 
     def say_edited_plan(self, plan_text: str, instead_of: str = "") -> int:
-        """What a person made of a plan that waited for a yes: it, or `instead_of` if it is none, is asked about."""
+        """Take in an edit of a plan that waited for a yes: it, or `instead_of` if it is none, is asked about."""
         return self._take_in(plan_text, "edited_plan", instead_of)
 
     def say_program(self, text: str, name: str = "") -> int:
@@ -198,33 +198,34 @@ class Session:
 
     @property
     def model_wait_s(self) -> float | None:
-        """For how long a model has been asked by now, for a plan or a program; None where none is."""
+        """Return how long a model has been asked by now, for a plan or a program; None where none is."""
         writing_at_s = self.authoring.asked_at_s if self.authoring is not None else None
         asked_at_s = writing_at_s if writing_at_s is not None else self._llm.asked_at_s
         return time.monotonic() - asked_at_s if asked_at_s is not None else None
 
     @property
     def is_paused(self) -> bool:
-        """A plan of ours is paused, or what was said and had not begun."""
+        """True while a plan of ours is paused, or what was said and had not begun."""
         return self.is_plan_paused or self._utterances.is_unbegun_held
 
     @property
     def is_plan_paused(self) -> bool:
-        """A plan of ours that had begun is paused."""
+        """True while a plan of ours that had begun is paused."""
         return self._resuming.paused is not None
 
     @property
     def is_being_paused(self) -> bool:
-        """A pause was said, and Motion has not told yet what came of it."""
+        """True from a pause until Motion has told what came of it."""
         return self._next.is_being_paused
 
     @property
     def waits_for_a_word(self) -> bool:
-        """A plan is paused, and nothing happens before somebody says something."""
+        """True while a plan is paused, and nothing happens before somebody says something."""
         return self.is_paused and not self._llm.is_calling and self._find_next() is None
 
     @property
     def is_idle(self) -> bool:
+        """True while nothing is done, waits or is thought about."""
         return (
             not self._requests.is_any_with_motion and not self._utterances.waiting and not self._llm.is_busy
         )
@@ -232,7 +233,7 @@ class Session:
     # --- the pumping thread ---
 
     def do(self, text: str) -> Result:
-        """Say it and see it through: the result of its turn."""
+        """Say it and see it through; return the result of its turn."""
         turn = self.say(text)
         while turn not in self.results:
             self.pump(0.1)
@@ -260,7 +261,7 @@ class Session:
         self._take_texts()
 
     def close(self) -> None:
-        """Goodbye: what runs is still done."""
+        """Say goodbye: what runs is still done."""
         self._link.close()
 
     def _emit(self, event: Event) -> None:

@@ -35,7 +35,7 @@ ODOMETRY_WAIT_S = 2.0
 
 
 class GoalServer:
-    """At most one goal is prepared or driven; the others wait in the goal queue. Belongs to the control thread."""
+    """Prepares or drives at most one goal; the others wait in the goal queue. Belongs to the control thread."""
 
     def __init__(
         self,
@@ -70,21 +70,21 @@ class GoalServer:
 
     @property
     def current(self) -> Goal | None:
-        """What is being prepared or driven."""
+        """Return what is being prepared or driven."""
         return self._preparing or self._executor.goal
 
     @property
     def are_done(self) -> bool:
-        """Nothing is prepared, driven, paused or queued."""
+        """True while nothing is prepared, driven, paused or queued."""
         return self._pausing.goal is None and self.current is None and not self._goal_queue.goals
 
     @property
     def let_others_drive(self) -> bool:
-        """Nothing is done before others; what is paused is dropped for them."""
+        """True while nothing is done before others; what is paused is dropped for them."""
         return self.are_done or self._pausing.goal is not None
 
     def is_engaged(self, lease: str) -> bool:
-        """Something is prepared, driven, paused or queued in that lease's name."""
+        """Return whether something is prepared, driven, paused or queued in that lease's name."""
         return any(goal.lease == lease for goal in self._all())
 
     def _all(self) -> list[Goal]:
@@ -114,13 +114,13 @@ class GoalServer:
             self._finish(goal, "refused", declined)
 
     def void(self, envelope: Envelope, epoch: int) -> None:
-        """A later word came before it, a stop or another: its turn ends here."""
+        """End the turn of an envelope that a later one, a stop or another, has overtaken."""
         goal = Goal.of(envelope, epoch, self._clock.now_s())
         is_stopped = self._goal_queue.is_void(goal, self._stops.count)
         self._finish(goal, "stopped", self._stops.last_reason if is_stopped else Reason("overtaken"))
 
     def refuse(self, envelope: Envelope, epoch: int, why: Reason) -> None:
-        """Its source may not ask for anything."""
+        """Refuse what a source asks for that may not ask for anything."""
         self._finish(Goal.of(envelope, epoch, self._clock.now_s()), "refused", why)
 
     def _give_way(self, goal: Goal) -> Reason | None:
@@ -248,7 +248,7 @@ class GoalServer:
     # --- paused ---
 
     def pause(self, why: Reason, now_s: float) -> None:
-        """The robot has been stopped by a word that keeps what was under way; what cannot be kept has ended."""
+        """Keep what was under way when a pause stopped the robot; end what cannot be kept."""
         goal = self.current
         if goal is None and self._pausing.goal is not None:
             return  # it waits already
@@ -280,7 +280,7 @@ class GoalServer:
     # --- approved ---
 
     def approve(self, envelope: Envelope) -> None:
-        """A person's answer to what was rehearsed in that turn."""
+        """Take a person's answer to what was rehearsed in that turn."""
         goal = self._preparing
         if goal is None or goal.approval is None or goal.turn != envelope.turn:
             return
@@ -307,7 +307,7 @@ class GoalServer:
     # --- ended, before anything moved ---
 
     def end_stopped(self, why: Reason) -> None:
-        """The robot has been stopped: end what was driven, prepared, paused, or queued before the stop."""
+        """End what was driven, prepared, paused, or queued before a stop."""
         self._executor.end_stopped(why)
         self._pausing.end(why)
         self._drop_prepared("stopped", why)
@@ -315,7 +315,7 @@ class GoalServer:
             self._finish(goal, "stopped", why)
 
     def hand_over(self, to: str) -> None:
-        """Somebody of higher priority takes command: what was driven, prepared or queued ends, and it is told."""
+        """End all goals, and tell it: somebody of higher priority takes command."""
         goals = self._all()
         if not goals:
             return
@@ -330,7 +330,7 @@ class GoalServer:
             self._finish(goal, "stopped", why)
 
     def fail_all(self, why: Reason) -> None:
-        """The way to the robot is gone for good: all that was asked for has failed."""
+        """End all goals as failed: the way to the robot is gone for good."""
         self._executor.fail(why)
         self._pausing.end(why)
         self._drop_prepared("failed", why)

@@ -29,7 +29,7 @@ LATE_ODOMETRY = "odometry"
 
 
 class GovernedRobot:
-    """Belongs to the control thread. Whoever moves the robot begins, asks and sends through this."""
+    """Holds the robot's sensors and governor: whoever moves it begins, asks and sends through this."""
 
     def __init__(
         self, profile: RobotProfile, sensors: Sensors, governor: Governor, transport: Transport
@@ -44,12 +44,12 @@ class GovernedRobot:
 
     @property
     def pose(self) -> Pose:
-        """Where it is in `odom`, as far as it is known: the origin before it has said so."""
+        """Return where it is in `odom`, as far as it is known: the origin before it has said so."""
         estimate = self.sensors.estimate
         return estimate.pose if estimate is not None else ORIGIN
 
     def seen(self) -> RememberedObstacles | None:
-        """What the lidar sees at this moment, for a rehearsal; None where it says nothing of any plan."""
+        """Return what the lidar sees now, for a rehearsal; None where it says nothing of any plan."""
         points, sight = self.governor.seen_points, self._sight()
         return RememberedObstacles(self.profile, points, sight) if sight is not None or len(points) else None
 
@@ -65,11 +65,11 @@ class GovernedRobot:
         return Sight(self.profile, lidar, None if is_silent else look)
 
     def begin(self, lease: str, now_s: float) -> Reason | None:
-        """Have that lease take command for a new motion; why it may not."""
+        """Have that lease take command for a new motion; return why it may not."""
         return self.governor.begin(lease, now_s, self._sensed()).refusal
 
     def govern(self, asked: Twist, lease: str, now_s: float) -> Verdict:
-        """What may be sent of `asked`, to a robot that is by now where odometry saw it going.
+        """Return what may be sent of `asked`, to a robot that is by now where odometry saw it going.
 
         With news that grows old it goes slower, and stands where nobody sees any more where it goes.
         """
@@ -83,7 +83,7 @@ class GovernedRobot:
         )
 
     def fault(self) -> Reason | None:
-        """Why nobody sees any more where it goes."""
+        """Return why nobody sees any more where it goes."""
         return sensor_fault(self.sensors)
 
     def send(self, verdict: Verdict) -> None:
@@ -91,7 +91,7 @@ class GovernedRobot:
         self._send(verdict.sent)
 
     def send_zero(self, now_s: float) -> None:
-        """Zero in nobody's name: it is exempt from every rule."""
+        """Send a zero in nobody's name: it is exempt from every rule."""
         self._send(self.governor.govern(ZERO_TWIST, "", now_s).sent)
 
     def _send(self, governed: GovernedTwist) -> None:
@@ -125,7 +125,7 @@ WORTH_TELLING_RADPS = 0.05
 
 @dataclass
 class Stopwatch:
-    """Time in motion, and time standing between two motions: the last pause counts once motion follows."""
+    """Counts time in motion, and time standing between two motions: the last pause counts once motion follows."""
 
     counted_to_s: float
     moving_s: float = 0.0
@@ -134,6 +134,7 @@ class Stopwatch:
     _has_moved: bool = False
 
     def count(self, standing: bool, now_s: float) -> None:
+        """Count the time up to now as standing or moving."""
         elapsed_s = max(0.0, now_s - self.counted_to_s)
         self.counted_to_s += elapsed_s  # a tick that began before what it counts counts nothing twice
         if not standing:
@@ -146,19 +147,19 @@ class Stopwatch:
 
 
 def is_cut_short(verdict: Verdict) -> bool:
-    """More than a trifle of what was asked is not allowed."""
+    """Return whether more than a trifle of what was asked is not allowed."""
     lost = abs(verdict.asked.speed_mps - verdict.allowed.speed_mps)
     lost_turn = abs(verdict.asked.wz_radps - verdict.allowed.wz_radps)
     return lost >= WORTH_TELLING_MPS or lost_turn >= WORTH_TELLING_RADPS
 
 
 def is_worth_telling(verdict: Verdict) -> bool:
-    """Cut short by a limit: ramps are no news."""
+    """Return whether it was cut short by a limit: ramps are no news."""
     return verdict.action == "limited" and verdict.rule != "acceleration" and is_cut_short(verdict)
 
 
 class GovernedMotion:
-    """The motion of `goal`: what it asks for goes through the governor; how far and how long it went is kept."""
+    """Sends what `goal` asks for through the governor, and keeps how far and how long it went."""
 
     def __init__(self, goal: Goal, robot: GovernedRobot, now_s: float) -> None:
         self._goal = goal
@@ -184,25 +185,25 @@ class GovernedMotion:
         return verdict
 
     def over_budget(self) -> Reason | None:
-        """Why it has to brake now, so that its text stays within the motion budget; told once."""
+        """Return, once, why it has to brake now so that its text stays within the motion budget."""
         return self._meter.over()
 
     def close(self) -> None:
-        """It is over: book what it has driven."""
+        """Book what it has driven: it is over."""
         self._meter.close()
 
     def limited(self, verdict: Verdict) -> Limited:
-        """What a person is told of a limit."""
+        """Return what a person is told of a limit."""
         return Limited(self._goal.turn, verdict.rule, verdict.asked, verdict.allowed, verdict.reason)
 
     @property
     def path_m(self) -> float:
-        """How far it has driven, as measured."""
+        """Return how far it has driven, as measured."""
         estimate = self._sensors.estimate
         return (estimate.path_m - self._start_path_m) if estimate is not None else 0.0
 
     def turned_rad(self) -> float:
-        """How far it has turned since its start, as measured; radians, counter-clockwise positive."""
+        """Return how far it has turned since its start, as measured; radians, counter-clockwise positive."""
         estimate = self._sensors.estimate
         return estimate.pose.yaw_rad - self._goal.start.yaw_rad if estimate is not None else 0.0
 
@@ -219,7 +220,7 @@ class GovernedMotion:
         remaining: str = "",
         open_ended: bool = False,
     ) -> Finished:
-        """The end, as odometry measured it; where there is none, what was planned is what was sent."""
+        """Return the end, as odometry measured it; where there is none, what was planned is what was sent."""
         measured = self._sensors.has_odometry
         start, estimate = self._goal.start, self._sensors.estimate
         return Finished(
@@ -251,7 +252,7 @@ class GovernedMotion:
 
 
 def decelerated(asked: Twist, sent: Twist, limits: Limits, dt_s: float) -> Twist:
-    """What to ask for where the program asks `asked` and `sent` was sent `dt_s` before."""
+    """Return what to ask for where the program asks `asked` and `sent` was sent `dt_s` before."""
     if not asked.is_zero or sent.is_zero:
         return asked
     share = 1.0

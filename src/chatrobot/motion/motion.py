@@ -38,7 +38,7 @@ JOYSTICK = "joystick"
 
 
 class Motion:
-    """See the module. It takes in envelopes, and does with each tick what is due; others do the work.
+    """Takes in envelopes, and does with each tick what is due; others do the work. See the module.
 
     Args:
         planner: makes `Planned` from plan text: parsed, lowered, rehearsed.
@@ -112,7 +112,7 @@ class Motion:
         self._stops.halt(why)
 
     def thaw(self) -> None:
-        """This process was stopped by a signal (SIGSTOP) and goes on: what drove does not. For a signal handler."""
+        """Void what drove before this process was stopped by a signal (SIGSTOP). For a signal handler."""
         why = self._stall_detector.thaw(self._clock.now_s())
         if why is not None:
             self._stops.void(why)
@@ -148,7 +148,7 @@ class Motion:
         self.halt(Reason(PAUSED if keeps else "stopped_by", about))
 
     def lose(self, lease: str) -> None:
-        """The source behind `lease` is gone without a goodbye: a loss, and it stops."""
+        """Stop: the source behind `lease` is gone without a goodbye."""
         self.halt(Reason("source_lost", {"source": self._governor.leases.source_of(lease)}))
         self._clients.lose(lease)
 
@@ -173,40 +173,39 @@ class Motion:
 
     @property
     def has_work(self) -> bool:
-        """Something is driven, prepared or queued. From any thread."""
+        """True while something is driven, prepared or queued. From any thread."""
         return not self.goals.are_done
 
     @property
     def stops(self) -> int:
-        """Changes with every stop: what was asked before it does not count any more."""
+        """Return a number that changes with every stop: what was asked before it does not count any more."""
         return self._stops.count
 
     @property
     def latched(self) -> Reason | None:
-        """The emergency stop that has not been released."""
+        """Return the emergency stop that has not been released."""
         return self._governor.latched
 
     @property
     def has_left(self) -> bool:
-        """A source has gone, and all is done."""
+        """True once a source has gone, and all is done."""
         return self._clients.some_have_left and not self.is_busy
 
     def see_it_stand(self) -> None:
-        """Send zeros until it does: nobody knows what it has heard last."""
+        """Send zeros until the robot stands: nobody knows what it has heard last."""
         self.stop_confirmation.begin(self._clock.now_s())
 
     def give_up(self, why: Reason) -> None:
-        """The wire is closed for good, and with it the way to the robot: all that was asked for ends as failed."""
+        """End as failed all that was asked for: the wire is closed for good."""
         self.goals.fail_all(why)
 
     def leave(self) -> None:
-        """Goodbye to the guard; where the robot is out of sight, and may move, no word is said, so that it goes on
-        sending zeros."""
+        """Say goodbye to the guard, so that it sends no zeros; not where the robot is out of sight and may move."""
         if not (self.stop_confirmation.has_lost_sight and self._robot.may_move):
             self._guard.goodbye()
 
     def tick(self) -> None:
-        """One period of the control loop."""
+        """Do one period of the control loop."""
         now_s = self._clock.now_s()
         late_s = self._stall_detector.tick(
             now_s,

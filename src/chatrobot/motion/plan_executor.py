@@ -42,7 +42,7 @@ class GoalExecution:
         self._executor.start(goal.turn, goal.stream.walk, goal.stream.duration_s, now_s)
 
     def tick(self, now_s: float) -> None:
-        """One period: what the executor asks, as far as the governor allows it."""
+        """Send what the executor asks for this period, as far as the governor allows it."""
         asked = self._executor.tick(now_s)
         if self._executor.is_done:
             return
@@ -55,34 +55,38 @@ class GoalExecution:
 
     @property
     def is_done(self) -> bool:
+        """True once the plan has ended."""
         return self._executor.is_done
 
     @property
     def outcome(self) -> Outcome:
+        """Return how it ended."""
         return self._executor.outcome
 
     @property
     def reason(self) -> Reason | None:
+        """Return why it ended so."""
         return self._executor.reason
 
     def expect(self, duration_s: float) -> None:
-        """The plan has become longer: so long in all."""
+        """Expect so long a duration in all: the plan has become longer."""
         self._executor.expect(duration_s)
 
     def ramp_down(self, why: Reason) -> None:
-        """A controlled stop."""
+        """Stop at the deceleration of the profile."""
         self._executor.ramp_down(why)
 
     def close(self) -> None:
-        """Nothing is left behind."""
+        """Book what it has driven."""
         self._motion.close()
 
     def progress(self, now_s: float) -> Progress:
+        """Return how far it is."""
         progress = self._executor.progress(self.goal.turn, now_s)
         return replace(progress, fraction=None) if self.goal.is_open_ended else progress
 
     def finished(self, outcome: Outcome, reason: Reason | None) -> Finished:
-        """The end, as odometry measured it."""
+        """Return its end, as odometry measured it."""
         executed, remaining = self._parts()
         is_whole = outcome == "completed"  # conditions that came true may have made it shorter than rehearsed
         planned_m = self._executor.planned_m
@@ -126,7 +130,7 @@ FAILURES = frozenset(
 
 
 class PlanExecutor:
-    """Has the `goal` it was given from `launch` until its end is told. Belongs to the control thread."""
+    """Drives the `goal` it was given, from `launch` until its end is told. Belongs to the control thread."""
 
     def __init__(
         self,
@@ -153,10 +157,11 @@ class PlanExecutor:
 
     @property
     def is_driving(self) -> bool:
+        """True while a goal is under way."""
         return self._run is not None
 
     def drives(self, goal: Goal) -> bool:
-        """Whether that goal is under way."""
+        """Return whether that goal is under way."""
         return self._run is not None and self._run.goal is goal
 
     # --- begin ---
@@ -198,7 +203,7 @@ class PlanExecutor:
     # --- under way ---
 
     def tick(self, now_s: float) -> None:
-        """One period of what is under way. Where it may not go on the robot is halted; that stop is to be booked."""
+        """Do one period of what is under way. Where it may not go on, halt the robot; that stop is to be booked."""
         run = self._run
         if run is None:
             return
@@ -221,32 +226,32 @@ class PlanExecutor:
                 self._outcomes.tell_all()
 
     def expect(self, duration_s: float) -> None:
-        """The plan under way has become longer: so long in all."""
+        """Expect so long a duration in all: the plan under way has become longer."""
         if isinstance(self._run, GoalExecution):
             self._run.expect(duration_s)
 
     def progress(self, now_s: float) -> Progress | None:
-        """How far it is; None where nothing is under way."""
+        """Return how far it is; None where nothing is under way."""
         return self._run.progress(now_s) if self._run is not None else None
 
     # --- end ---
 
     def ramp_down(self, why: Reason) -> None:
-        """A controlled stop; what is only being launched ends at once."""
+        """Stop at the deceleration of the profile; end at once what is only being launched."""
         if self._run is not None:
             self._run.ramp_down(why)
         elif self.goal is not None:
             self._give_up("stopped", why)
 
     def end_stopped(self, why: Reason) -> None:
-        """The robot has been stopped: end what was under way."""
+        """End what was under way: the robot has been stopped."""
         if self._run is not None:
             self._end(self._run, "failed" if why.code in FAILURES else "stopped", why)
         elif self.goal is not None:
             self._give_up("stopped", why)
 
     def break_off(self, why: Reason) -> Callable[[], Finished] | None:
-        """The robot has been paused: what tells how much was done of the plan under way, and is left of it.
+        """Let go of the plan under way for a pause; return what tells how much of it was done, and is left.
 
         None, and nothing is done, where it cannot be gone on with.
         """
@@ -257,7 +262,7 @@ class PlanExecutor:
         return lambda: run.goal.whole(run.finished("stopped", why))
 
     def fail(self, why: Reason) -> None:
-        """The way to the robot is gone for good: what was under way has failed."""
+        """End what was under way as failed: the way to the robot is gone for good."""
         if self._run is not None:
             self._end(self._run, "failed", why)
         elif self.goal is not None:

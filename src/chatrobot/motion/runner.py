@@ -1,4 +1,4 @@
-"""Motion with its robot, its guard and its threads, whatever carries the link.
+"""Runs Motion with its robot, its guard and its threads, whatever carries the link.
 
 Threads: the control loop at 50 Hz (the caller's); the planner, so that a rehearsal never delays a tick; a listener
 for `chatrobot stop`; and a watch for others who drive the same robot. The carrier's reader hands envelopes to
@@ -157,7 +157,7 @@ class MotionRunner:
             self._lookout.look_around()
 
     def run(self, has_left: Callable[[], bool], each_tick: Callable[[], None]) -> None:
-        """The control loop, until `has_left`; then the guard is told goodbye.
+        """Run the control loop until `has_left`; then say goodbye to the guard.
 
         Raises:
             WireError: the wire is closed for good. What was under way has been told to have failed.
@@ -189,7 +189,7 @@ class MotionRunner:
 
     @property
     def robot_has_left(self) -> bool:
-        """The robot's process is seen to be gone; for who waits for the robot to stand. On the control thread."""
+        """True once the robot's process is seen to be gone; for who waits for it to stand. On the control thread."""
         return self._departure.is_over(time.monotonic())
 
     # --- from any thread ---
@@ -202,7 +202,7 @@ class MotionRunner:
             self._wake.set()
 
     def lose(self, lease: str) -> None:
-        """The source behind that lease is gone without a goodbye."""
+        """Stop: the source behind that lease is gone without a goodbye."""
         self.motion.lose(lease)
         self._wake.set()
 

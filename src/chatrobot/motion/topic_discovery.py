@@ -1,5 +1,4 @@
-"""Where the robot's topics are not as its profile says: what the wire shows is taken where it is plain, or a
-remapping is proposed that a person can type."""
+"""Finds the robot's topics where they are not as its profile says, or proposes a remapping that a person can type."""
 
 from __future__ import annotations
 
@@ -16,7 +15,7 @@ TWIST, TWIST_STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStampe
 
 
 def is_complete(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullName) -> bool:
-    """The robot is there as its profile says: it listens for velocities, and tells odometry, gyro and scan."""
+    """Return whether the robot is there as its profile says: velocities, odometry, gyro and scan."""
     wanted = [
         Endpoint(full_name(wiring.cmd_vel_topic), _cmd_vel_type(wiring), "listens"),
     ]
@@ -28,7 +27,7 @@ def is_complete(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullNa
 
 
 def fit(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullName) -> tuple[Wiring, list[Reason]]:
-    """The wiring as the wire shows it, and what a person should know of the differences.
+    """Return the wiring as the wire shows it, and what a person should know of the differences.
 
     Args:
         endpoints: of others.
@@ -119,7 +118,7 @@ FullName = Callable[[str], str]
 
 
 def hints(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullName) -> list[Reason]:
-    """What to know of a robot whose velocities nobody takes, or whose odometry nobody tells; nothing where it is there.
+    """Return what to know of a robot whose velocities nobody takes, or whose odometry nobody publishes.
 
     Args:
         endpoints: of others.
@@ -139,7 +138,7 @@ def hints(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullName) ->
 
 
 def why_unheard(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullName) -> Reason | None:
-    """Why no odometry comes, as far as the wire shows it."""
+    """Return why no odometry comes, as far as the wire shows it."""
     seen = list(endpoints)
     found = hints(wiring, seen, full_name)
     if found or not wiring.odom_topic:
@@ -156,7 +155,7 @@ def why_unheard(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullNa
 
 
 def unclear(topic: str, told: list[str]) -> Reason:
-    """A sensor is told, but not where the profile says, and which one is this robot's nobody can tell."""
+    """Return the reason of a sensor that is published elsewhere, where nobody can tell which is this robot's."""
     return Reason(
         "sensor_unclear", {"topic": topic, "found": ", ".join(told), "ros_args": _remap(topic, told[0])}
     )
