@@ -97,19 +97,15 @@ class Dispatch:
     def _drop(self, utterance: Utterance) -> None:
         """End a turn that waited for what was stopped, or paused and not gone on with."""
         why = self._utterances.why_void(utterance.turn)
-        code = (
-            "dropped_behind_pause"
-            if self._utterances.waited_behind_pause(utterance.turn)
-            else "dropped_by_stop"
-        )
+        was_held = self._utterances.waited_behind_pause(utterance.turn)
+        code = "dropped_behind_pause" if was_held else "dropped_by_stop"
         reply = self._understanding.say_because(code, utterance.text, why)
         self._requests.conclude(utterance.turn, "stopped", reply, reason=why)
 
     def _goes_on(self, text: str) -> bool:
         """Whether it asks to go on with what was paused or stopped, be there anything or not."""
-        return wants_to_resume(
-            text, may_mean_more=self._resuming.is_about_this or bool(self._utterances.held)
-        )
+        may_mean_more = self._resuming.is_about_this or bool(self._utterances.held)
+        return wants_to_resume(text, may_mean_more=may_mean_more)
 
     def _told(self, code: str, paused: Paused | None) -> str:
         """What is left of a paused plan, or else of what was said and had not begun, in the phrase of that code."""
@@ -146,9 +142,8 @@ class Dispatch:
 
     def _begin_program(self, utterance: Utterance) -> None:
         if self._programs is None:
-            self._requests.conclude(
-                utterance.turn, "refused", self._understanding.say("no_programs_here", utterance.text)
-            )
+            reply = self._understanding.say("no_programs_here", utterance.text)
+            self._requests.conclude(utterance.turn, "refused", reply)
         elif isinstance(utterance.about, Draft):
             self._programs.run(utterance.turn, utterance.text, utterance.about)
         elif utterance.kind == "source":
@@ -215,9 +210,8 @@ class Dispatch:
         else:
             self._understanding.note_unmoved(utterance.text, meant)
             self._llm.note(utterance.text, "", f"{meant.outcome}: {meant.reply}")
-            self._requests.conclude(
-                utterance.turn, meant.outcome, meant.reply, None, parting(meant), meant.proposal
-            )
+            reason, proposal = parting(meant), meant.proposal
+            self._requests.conclude(utterance.turn, meant.outcome, meant.reply, None, reason, proposal)
 
     def _told_under_way(self, meant: Interpretation) -> str:
         """The motion that runs and what is left of it; an empty string where no plan of ours runs."""
@@ -248,12 +242,9 @@ class Dispatch:
         try:
             plan = self._plan_in(utterance)
         except PlanTextError as error:
+            reply = self._understanding.say("plan_text", utterance.text, problem=str(error))
             self._emit(Interpreted(utterance.turn, "offline", "", ""))
-            self._requests.conclude(
-                utterance.turn,
-                "unclear",
-                self._understanding.say("plan_text", utterance.text, problem=str(error)),
-            )
+            self._requests.conclude(utterance.turn, "unclear", reply)
             return
         meant = self._understanding.accept(plan)
         plan_text = format_plan(plan)

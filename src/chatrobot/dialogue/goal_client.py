@@ -134,26 +134,23 @@ class RequestLog:
         """End that turn: `finished` is what was measured, None where nothing moved; the reply asks about `proposal`."""
         self.take(turn)
         understanding = self._understanding
-        pose = understanding.pose
         unkept = understanding.places.take_unkept()
         if unkept:
             self._emit(Notice(turn, Reason("places_not_kept", {"why": unkept})))
-        result = Result(
-            turn, outcome, reply, pose, reason=reason, proposal=proposal, measured=understanding.is_measured
-        )
-        if finished is not None:
+        if finished is None:
+            measured = understanding.is_measured
             result = Result(
-                turn,
-                outcome,
-                reply,
+                turn, outcome, reply, understanding.pose, 0.0, 0.0, 0.0, 0.0, reason, proposal, measured
+            )
+        else:
+            moved = (
                 finished.pose,
                 finished.turned_rad,
                 finished.path_m,
                 finished.duration_s,
                 finished.paused_s,
-                reason or finished.reason,
-                proposal,
-                finished.measured,
             )
+            why = reason or finished.reason
+            result = Result(turn, outcome, reply, *moved, why, proposal, finished.measured)
         self.results[turn] = result
         self._emit(result)

@@ -63,11 +63,8 @@ class History:
     def messages(self) -> tuple[list[Message], list[str]]:
         """Return earlier messages, and the news since the model last spoke, a line each, for the next one."""
         messages: list[Message] = []
-        news = (
-            [f"data: {self._count} earlier turns, the last: {'; '.join(self._forgotten)}"]
-            if self._count
-            else []
-        )
+        before = f"data: {self._count} earlier turns, the last: {'; '.join(self._forgotten)}"
+        news = [before] if self._count else []
         for exchange in (*self._pinned, *self._kept):
             if exchange.request:
                 messages.append(Message("user", "\n".join([*news, exchange.request])))

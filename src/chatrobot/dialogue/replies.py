@@ -37,14 +37,11 @@ def describe_end(finished: Finished, language: str, steps: Sequence[Step] = ()) 
         done = say(language, "done", moved=moved) if moved else _done_standing(steps, language)
         heading, slowed = _heading_there(finished, steps, language), _slowed(finished, language)
         return " ".join(filter(None, (done, heading, slowed)))
-    reason = render_reason(finished.reason, language) if finished.reason is not None else ""
+    reason = _why(finished.reason, language)
     if finished.outcome == "refused":
         refused = " ".join(filter(None, (reason, _free(finished.reason, language))))
-        return (
-            say(language, "model_so_far", reason=refused, moved=moved)
-            if moved and finished.path_m
-            else refused
-        )
+        has_moved = moved and finished.path_m
+        return say(language, "model_so_far", reason=refused, moved=moved) if has_moved else refused
     code = "stopped_after" if finished.outcome == "stopped" else "failed_after"
     return _ended_once(say(language, code, moved=moved or say(language, "nothing_moved"), reason=reason))
 
@@ -56,16 +53,14 @@ def _slowed(finished: Finished, language: str) -> str:
 
 def _commanded(finished: Finished, language: str, steps: Sequence[Step]) -> str:
     """The end of a turn of a robot that measures nothing: what it was sent, never what it did."""
-    if finished.outcome == "completed":
-        if not finished.duration_s:
-            return say(language, "done_standing")
-        is_known = steps and not any(
-            isinstance(step, RawTwist) for step in steps
-        )  # those may have been scaled
-        plan = describe_steps(steps, language) if is_known else _velocities(finished, language)
-        return say(language, "commanded", plan=plan)
-    reason = render_reason(finished.reason, language) if finished.reason is not None else ""
-    return _stop_sent(finished, reason, language)
+    if finished.outcome != "completed":
+        return _stop_sent(finished, _why(finished.reason, language), language)
+    if not finished.duration_s:
+        return say(language, "done_standing")
+    # A raw twist may have been scaled.
+    is_known = steps and not any(isinstance(step, RawTwist) for step in steps)
+    plan = describe_steps(steps, language) if is_known else _velocities(finished, language)
+    return say(language, "commanded", plan=plan)
 
 
 def _stop_sent(finished: Finished, reason: str, language: str) -> str:
@@ -128,6 +123,10 @@ def offered(finished: Finished, language: str) -> Proposal | None:
     return Proposal(finished.possible, " ".join([*limits, say(language, "offer", text=text)]))
 
 
+def _why(reason: Reason | None, language: str) -> str:
+    return render_reason(reason, language) if reason is not None else ""
+
+
 def _free(reason: Reason | None, language: str) -> str:
     """How far a way is free that is blocked."""
     for code in ("free_m", "free_deg", "short_m"):
@@ -147,7 +146,7 @@ def describe_model_end(ended: Ended, language: str) -> str:
         return ended.said or say(language, "done_standing")
     if ended.outcome == "completed":
         return describe_end(finished, language, ended.steps) if finished else say(language, "done_standing")
-    why = render_reason(reason, language) if reason is not None else ""
+    why = _why(reason, language)
     if ended.outcome == "refused":
         why = " ".join(filter(None, (why, _free(reason, language))))
     moved = _measured(finished, language) if finished is not None else ""
@@ -164,11 +163,8 @@ def describe_model_end(ended: Ended, language: str) -> str:
 
 def _measured(finished: Finished, language: str) -> str:
     if not finished.measured:
-        return (
-            say(language, "commanded_so_far", plan=_velocities(finished, language))
-            if finished.duration_s
-            else ""
-        )
+        plan = _velocities(finished, language) if finished.duration_s else ""
+        return say(language, "commanded_so_far", plan=plan) if plan else ""
     parts = []
     if finished.planned_m > LEAST_M or (finished.open_ended and finished.path_m > LEAST_M):
         code = "drove_open" if finished.open_ended else "drove"

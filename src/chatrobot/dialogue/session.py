@@ -83,9 +83,13 @@ class Session:
         )
         self._programs: ProgramRequests | None = None
         if authoring is not None:
-            is_void = self._utterances.is_void_turn
             self._programs = ProgramRequests(
-                authoring, understanding, self._requests, self._goals, self._emit, is_void
+                authoring,
+                understanding,
+                self._requests,
+                self._goals,
+                self._emit,
+                self._utterances.is_void_turn,
             )
         self._dispatch = Dispatch(
             link, self._goals, self._utterances, understanding, self._requests, self._proposals, self._resuming,
@@ -226,9 +230,7 @@ class Session:
     @property
     def is_idle(self) -> bool:
         """True while nothing is done, waits or is thought about."""
-        return (
-            not self._requests.is_any_with_motion and not self._utterances.waiting and not self._llm.is_busy
-        )
+        return not (self._requests.is_any_with_motion or self._utterances.waiting or self._llm.is_busy)
 
     # --- the pumping thread ---
 
@@ -275,11 +277,9 @@ class Session:
         return self._next.find(self.options, self._dispatch.waits_for_end)
 
     def _take_texts(self) -> None:
-        for utterance in self._utterances.take_too_many():
+        for one in self._utterances.take_too_many():
             # Who said one too many hears so now, not when the ten before it are done.
-            self._requests.conclude(
-                utterance.turn, "refused", self.understanding.say("queue_full", utterance.text)
-            )
+            self._requests.conclude(one.turn, "refused", self.understanding.say("queue_full", one.text))
         self._next.drop_held()
         while (found := self._find_next()) is not None:
             self._goals.pauses = self._utterances.pauses
@@ -303,9 +303,8 @@ class Session:
     def _conclude_model_turn(self, turn: int, text: str, ended: Ended) -> None:
         reply = self.understanding.note_model_turn(text, ended, self.options.rehearse_only)
         is_refused = ended.outcome == "refused" and not self.options.rehearse_only
-        reply, proposal = with_offer(
-            reply, ended.finished if is_refused else None, self.understanding.language_of(text)
-        )
+        finished, language = ended.finished if is_refused else None, self.understanding.language_of(text)
+        reply, proposal = with_offer(reply, finished, language)
         self._requests.conclude(turn, ended.outcome, reply, ended.finished, ended.reason, proposal)
 
     def _hear(self, event: Event) -> None:

@@ -113,9 +113,7 @@ class UtteranceQueue:
     @property
     def held(self) -> tuple[Utterance, ...]:
         """Return what waits behind the pause, oldest first."""
-        return tuple(
-            utterance for utterance in self.waiting if self.is_held(utterance) and not self.is_void(utterance)
-        )
+        return tuple(one for one in self.waiting if self.is_held(one) and not self.is_void(one))
 
     def is_held(self, utterance: Utterance) -> bool:
         """Return whether it waits behind what is paused."""
@@ -168,9 +166,7 @@ class UtteranceQueue:
 
     def take_too_many(self) -> list[Utterance]:
         """Remove and return those that may not even wait."""
-        return [
-            utterance for utterance in self.waiting if utterance.kind == "too_many" and self.take(utterance)
-        ]
+        return [one for one in self.waiting if one.kind == "too_many" and self.take(one)]
 
     def _count_waiting(self) -> int:
         return sum(utterance.is_instruction and not self.is_void(utterance) for utterance in self._texts)
@@ -268,12 +264,8 @@ class EarlyAnswers:
             meant = self._look_at(utterance)
             if meant is None or _teaches(meant):
                 return None
-            if (
-                meant.outcome == "unclear"
-                and meant.code in NOT_UNDERSTOOD
-                and not meant.proposal
-                and not meant.corrects
-            ):
+            asks_back = meant.outcome == "unclear" and meant.code in NOT_UNDERSTOOD
+            if asks_back and not (meant.proposal or meant.corrects):
                 return utterance
         return None
 

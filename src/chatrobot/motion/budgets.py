@@ -91,7 +91,7 @@ class Account:
     def refusal(self, extent: Extent) -> Reason | None:
         """Return why `extent` may not be driven on top of what has been driven."""
         total, budget = self.driven.planned.plus(extent), self.budget
-        if total.length_m > budget.distance_m + ROUNDING_M:
+        if self._is_too_far(extent):
             return Reason("over_max_distance", {"distance_m": total.length_m, "max_m": budget.distance_m})
         if total.driving_s > budget.time_s + ROUNDING_S:
             code = "over_open_loop_time" if budget.is_at_ceiling else "over_max_time"

@@ -51,7 +51,7 @@ class GoalQueue:
             self._sequences.pop((lease, is_beat), None)
 
     def is_old(self, envelope: Envelope) -> bool:
-        """Return whether a later one of the same lease was here before. Beats have a thread of their own and count apart."""
+        """Return whether a later one of the same lease was here before. Beats, sent by a thread, count apart."""
         kind = (envelope.lease, envelope.word == "beat")
         if envelope.sequence <= self._sequences.get(kind, -1):
             return True

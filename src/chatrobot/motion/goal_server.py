@@ -130,10 +130,10 @@ class GoalServer:
         before = [*([current] if current is not None else []), *self._goal_queue.goals]
         for other in before:
             if leases.priority_of(other.lease) > priority:
-                return Reason("outranked", {"source": leases.source_of(other.lease)})
+                return Reason("outranked", {"source": self._source(other)})
         lower = [other for other in before if leases.priority_of(other.lease) < priority]
         if lower:
-            handed_over = self._handed_over(lower[0], goal)
+            handed_over = self._handed_over(lower[0], self._source(goal))
             self._emit(Notice(goal.turn, handed_over))
             for waiting in self._goal_queue.take(lower):
                 self._finish(waiting, "stopped", handed_over)
@@ -141,14 +141,15 @@ class GoalServer:
                 self._end_current_gently(handed_over)
         return None
 
-    def _handed_over(self, goal: Goal, to: Goal) -> Reason:
-        source_of = self._robot.governor.leases.source_of
-        return Reason("handed_over", {"source": source_of(goal.lease), "to": source_of(to.lease)})
+    def _source(self, goal: Goal) -> str:
+        return self._robot.governor.leases.source_of(goal.lease)
+
+    def _handed_over(self, goal: Goal, to: str) -> Reason:
+        return Reason("handed_over", {"source": self._source(goal), "to": to})
 
     def _replace(self, why: Reason) -> None:
         """New motion takes the place of the old, after a controlled stop; what was queued is dropped."""
-        for goal in self._goal_queue.take_all():
-            self._finish(goal, "stopped", why)
+        self._end_queued("stopped", why)
         self._end_current_gently(why)
 
     def _end_current_gently(self, why: Reason) -> None:
@@ -186,8 +187,7 @@ class GoalServer:
     def _take_rehearsed(self, goal: Goal, planned: Planned) -> None:
         if self._preparing is not goal:
             return  # stopped or replaced meanwhile; its end has been told
-        refusal = goal.take(planned)
-        asks = needs_approval(goal, planned)
+        refusal, asks = goal.take(planned), needs_approval(goal, planned)
         notice = goal.account.notice(planned.is_endless)
         if refusal is None and notice is not None:
             self._emit(Notice(goal.turn, notice))
@@ -201,11 +201,11 @@ class GoalServer:
             goal.approval = Approval(self._clock.now_s(), goal.start)
         else:
             self._launch(goal)
-            self._rehearse_part(goal)
 
     def _launch(self, goal: Goal) -> None:
         self._preparing = None
         self._executor.launch(goal)
+        self._rehearse_part(goal)
 
     # --- rehearsed in parts, while it is driven ---
 
@@ -273,7 +273,7 @@ class GoalServer:
         if paused is None or goal.rehearse_only:
             return
         if goal.lease != paused.lease:
-            self._pausing.drop(self._handed_over(paused, goal))
+            self._pausing.drop(self._handed_over(paused, self._source(goal)))
         elif mode == "replace":
             self._pausing.drop(Reason("replaced"))
 
@@ -319,28 +319,28 @@ class GoalServer:
         goals = self._all()
         if not goals:
             return
-        why = Reason(
-            "handed_over", {"source": self._robot.governor.leases.source_of(goals[0].lease), "to": to}
-        )
+        why = self._handed_over(goals[0], to)
         self._emit(Notice(goals[0].turn, why))
         self._executor.end_stopped(why)
-        self._pausing.end(why)
-        self._drop_prepared("stopped", why)
-        for goal in self._goal_queue.take_all():
-            self._finish(goal, "stopped", why)
+        self._end_waiting("stopped", why)
 
     def fail_all(self, why: Reason) -> None:
         """End all goals as failed: the way to the robot is gone for good."""
         self._executor.fail(why)
-        self._pausing.end(why)
-        self._drop_prepared("failed", why)
-        for goal in self._goal_queue.take_all():
-            self._finish(goal, "failed", why)
+        self._end_waiting("failed", why)
 
     def refuse_all(self, why: Reason) -> None:
         """Refuse what is queued."""
+        self._end_queued("refused", why)
+
+    def _end_waiting(self, outcome: Outcome, why: Reason) -> None:
+        self._pausing.end(why)
+        self._drop_prepared(outcome, why)
+        self._end_queued(outcome, why)
+
+    def _end_queued(self, outcome: Outcome, why: Reason) -> None:
         for goal in self._goal_queue.take_all():
-            self._finish(goal, "refused", why)
+            self._finish(goal, outcome, why)
 
     def _drop_prepared(self, outcome: Outcome, reason: Reason | None) -> None:
         goal, self._preparing = self._preparing, None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 from chatrobot.core.events import Event, Finished, Limited, Outcome, Progress, Telemetry
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
@@ -214,13 +215,13 @@ class GovernedMotion:
         *,
         planned_m: float,
         planned_turn_rad: float,
-        steps_done: int,
-        steps: int,
-        executed: str = "",
-        remaining: str = "",
-        open_ended: bool = False,
+        **about: Any,
     ) -> Finished:
-        """Return the end, as odometry measured it; where there is none, what was planned is what was sent."""
+        """Return the end, as odometry measured it; where there is none, what was planned is what was sent.
+
+        Args:
+            about: further fields of the event.
+        """
         measured = self._sensors.has_odometry
         start, estimate = self._goal.start, self._sensors.estimate
         return Finished(
@@ -235,13 +236,9 @@ class GovernedMotion:
             paused_s=self._stopwatch.paused_s,
             planned_m=planned_m if measured else self._meter.sent_m,
             planned_turn_rad=planned_turn_rad if measured else self._meter.sent_rad,
-            steps_done=steps_done,
-            steps=steps,
             measured=measured,
-            executed=executed,
-            remaining=remaining,
-            open_ended=open_ended,
             late_s=self._late_s,
+            **about,
         )
 
 

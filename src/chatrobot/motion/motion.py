@@ -232,21 +232,21 @@ class Motion:
         self._pausing.watch(now_s, is_standing=not self.stop_confirmation.is_watched)
         self._cmd_vel.tick(now_s, self._is_free)
         self._begin_next(now_s)
-        self._stall_detector.beat(
-            self._clock.now_s()
-        )  # last: it wakes the guard, which may take this processor
+        # Late: it wakes the guard, which may take this processor.
+        self._stall_detector.beat(self._clock.now_s())
         self._telemetry.tick(now_s)
 
     def _book_stop(self) -> None:
         """A stop has gone out, from whatever thread: end what ran and what waited, then see the robot stand."""
         why = self._stops.book()
-        if why is not None:
-            if why.code == PAUSED:
-                self.goals.pause(why, self._clock.now_s())
-            else:
-                self.goals.end_stopped(why)
-            self._cmd_vel.stop()
-            self._joystick.stop()
+        if why is None:
+            return
+        if why.code == PAUSED:
+            self.goals.pause(why, self._clock.now_s())
+        else:
+            self.goals.end_stopped(why)
+        self._cmd_vel.stop()
+        self._joystick.stop()
 
     def _begin_next(self, now_s: float) -> None:
         if self.stop_confirmation.disobeyed is not None:

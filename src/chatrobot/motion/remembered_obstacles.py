@@ -43,7 +43,6 @@ TOUCHES_M = 0.02
 class Sight:
     """Tells how much the governor allows where the lidar does not see, by its own rule.
 
-
     Args:
         look: where the lidar looked last; None where it shows nothing, not even that nothing is there.
     """
@@ -52,9 +51,8 @@ class Sight:
         self._mounting = Pose(lidar.x_m, lidar.y_m, lidar.yaw_rad)
         self._look = look
         self._seen = ObstacleMemory(lidar)
-        self._seen.coverage.note(
-            LidarView(ORIGIN, 0.0, math.tau, 1)
-        )  # all around: what it comes by has been seen before
+        # All around: what it comes by has been seen before.
+        self._seen.coverage.note(LidarView(ORIGIN, 0.0, math.tau, 1))
         self._rule = BlindRule(profile, self._seen)
 
     def allowed_share(self, twist: Twist, pose: Pose) -> float:
@@ -119,8 +117,7 @@ class RememberedObstacles:
     def clear_of(self, pose: Pose) -> Floats:
         """Return the points [n, 2] that a robot at `pose` does not touch."""
         clearance = self._clearance_m(np.array([pose]), self.points)[0]
-        found: Floats = self.points[clearance > TOUCHES_M]
-        return found
+        return np.asarray(self.points[clearance > TOUCHES_M])
 
     def _near(self, poses: Floats) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
         """The points that the footprint may come near to on these poses."""
@@ -199,8 +196,7 @@ class _Field:
         ny, nx = self.clearance_m.shape
         j, i = np.rint((points - self.low) / self.cell_m).astype(np.intp).T
         # Whatever lies outside the grid is farther from all points than its edge.
-        found: Floats = self.clearance_m[np.clip(i, 0, ny - 1), np.clip(j, 0, nx - 1)]
-        return found
+        return np.asarray(self.clearance_m[np.clip(i, 0, ny - 1), np.clip(j, 0, nx - 1)])
 
 
 class _KnownAndSeen:

@@ -127,12 +127,7 @@ class MotionRunner:
             self.wire, node, self.profile.wiring.cmd_vel_topic, open_loop_notice(self.profile)
         )
         self._lookout = ConnectionMonitor(
-            self.wire,
-            self._competitors,
-            self.motion,
-            self.profile,
-            self.notice,
-            accept_others=accept_others,
+            self.wire, self._competitors, self.motion, self.profile, self.notice, accept_others=accept_others
         )
         try:
             self._open(said)
@@ -164,9 +159,10 @@ class MotionRunner:
         """
         if threading.current_thread() is threading.main_thread():
             signal.signal(signal.SIGCONT, lambda *_: self.motion.thaw())
-        for target in (self._plan, self._serve_stop, self._lookout.watch):
+        for target in (self._plan, lambda: serve_stop(self._stop_and_tell), self._lookout.watch):
             threading.Thread(target=target, daemon=True).start()
-        _settle_memory()
+        gc.collect()
+        gc.freeze()  # what start-up has made stays: the collector need not look through it while the robot moves
         next_s = time.monotonic()
         try:
             while not has_left():
@@ -241,9 +237,6 @@ class MotionRunner:
         if message.data:
             self.halt(STOP, "")
 
-    def _serve_stop(self) -> None:
-        serve_stop(self._stop_and_tell)
-
     def _stop_and_tell(self) -> str:
         """Stop; what was found, for `chatrobot stop` to say: `moving`, `waiting`, `standing` or `unseen`."""
         has_work = self.motion.has_work  # looked up, not asked for: nothing holds the zero up
@@ -262,12 +255,6 @@ def _meet(
         profile = slowed(profile)
         said = [*said, Reason("drives_on_alone", {"speed_mps": profile.limits.max_speed_mps})]
     return wire, profile, said
-
-
-def _settle_memory() -> None:
-    """What start-up has made stays: the collector need not look through it while the robot moves."""
-    gc.collect()
-    gc.freeze()
 
 
 def _as_others_name_it(wire: Wire, wiring: Wiring) -> Wiring:

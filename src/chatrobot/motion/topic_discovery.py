@@ -11,19 +11,19 @@ from chatrobot.core.wiring import Wiring
 from chatrobot.wire.connect import Endpoint
 
 IMU, SCAN = "sensor_msgs/msg/Imu", "sensor_msgs/msg/LaserScan"
-TWIST, TWIST_STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
+TWISTS = TWIST, TWIST_STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
+ODOMETRY, TURTLE_POSE = "nav_msgs/msg/Odometry", "turtlesim/msg/Pose"
+TURTLE = "turtle1"
+FullName = Callable[[str], str]
+"""A topic of the profile as the wire lists it: absolute, with the robot's namespace."""
 
 
 def is_complete(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullName) -> bool:
     """Return whether the robot is there as its profile says: velocities, odometry, gyro and scan."""
-    wanted = [
-        Endpoint(full_name(wiring.cmd_vel_topic), _cmd_vel_type(wiring), "listens"),
-    ]
     told = ((wiring.odom_topic, _odom_type(wiring)), (wiring.imu_topic, IMU), (wiring.scan_topic, SCAN))
-    for topic, type_name in told:
-        if topic:
-            wanted.append(Endpoint(full_name(topic), type_name, "publishes"))
-    return set(wanted) <= set(endpoints)
+    wanted = {Endpoint(full_name(topic), type_name, "publishes") for topic, type_name in told if topic}
+    wanted.add(Endpoint(full_name(wiring.cmd_vel_topic), _cmd_vel_type(wiring), "listens"))
+    return wanted <= set(endpoints)
 
 
 def fit(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullName) -> tuple[Wiring, list[Reason]]:
@@ -57,7 +57,7 @@ class _Sensors:
         others = {
             f"{end.topic.rpartition('/')[0]}/"
             for end in seen
-            if end.role == "listens" and end.type_name in (TWIST, TWIST_STAMPED) and end.topic != cmd_vel
+            if end.role == "listens" and end.type_name in TWISTS and end.topic != cmd_vel
         }
         self._prefix = prefix
         self._others = tuple(other for other in others if not prefix.startswith(other))
@@ -108,13 +108,6 @@ def _cmd_vel_type(wiring: Wiring) -> str:
 
 def _odom_type(wiring: Wiring) -> str:
     return TURTLE_POSE if wiring.odom_type == "turtlesim/Pose" else ODOMETRY
-
-
-ODOMETRY, TURTLE_POSE = "nav_msgs/msg/Odometry", "turtlesim/msg/Pose"
-TWISTS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
-TURTLE = "turtle1"
-FullName = Callable[[str], str]
-"""A topic of the profile as the wire lists it: absolute, with the robot's namespace."""
 
 
 def hints(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullName) -> list[Reason]:

@@ -105,10 +105,9 @@ class StopConfirmation:
             self._send_zero(now_s)
 
     def _complain(self) -> None:
-        if self.disobeyed is not None:
-            return
-        self.disobeyed = self.disobedience
-        self._tell(self.disobeyed)
+        if self.disobeyed is None:
+            self.disobeyed = self.disobedience
+            self._tell(self.disobeyed)
 
     def _is_in_sight(self) -> bool:
         return self._sensors.estimate is not None and self._sensors.odometry_age_s() < FRESH_S
@@ -196,9 +195,8 @@ class Stops:
         One that came from elsewhere in the same moment is left to be booked, and does clear what waits.
         """
         self._transport.halt()
-        count = (
-            self._epoch.value
-        )  # two at the same instant may share one value: the count alone does not tell
+        count = self._epoch.value
+        # Two at the same instant may share one value: the count alone does not tell.
         if self._asked is self._booked_ask:
             self._booked, self.last_reason = count, why
         self._stop_confirmation.begin(self._clock.now_s())

@@ -102,9 +102,8 @@ class GuardLine:
             answers = b""
         # Its end is closed: it is dead, and nobody has to wait to see that.
         self._echo_at_s = self._clock.now_s() if answers else float("-inf")
-        if (
-            self._is_shaking_hands
-        ):  # what it said before it heard our handshake is about a trip that we know of
+        if self._is_shaking_hands:
+            # What it said before it heard our handshake is about a trip that we know of.
             _, handshake, answers = answers.rpartition(HANDSHAKE)
             self._is_shaking_hands = not handshake
             answers = answers if handshake else b""
