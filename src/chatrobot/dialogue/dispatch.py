@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Event, Interpreted, Notice, Paused
@@ -25,6 +25,7 @@ from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
 
 
+@dataclass(eq=False)
 class Dispatch:
     """Acts on utterances. Belongs to the pumping thread.
 
@@ -35,35 +36,20 @@ class Dispatch:
         hears_robot_soon: waits a moment for the first word of odometry; whether it came.
     """
 
-    def __init__(
-        self,
-        link: MotionLink,
-        goals: GoalClient,
-        utterance: UtteranceQueue,
-        understanding: Understanding,
-        book: RequestLog,
-        proposals: Proposals,
-        resuming: Resuming,
-        llm: ModelRequests,
-        programs: ProgramRequests | None,
-        emit: Callable[[Event], None],
-        stop: Callable[[str], None],
-        hears_robot_soon: Callable[[], bool],
-    ) -> None:
-        self._link = link
-        self._goals = goals
-        self._utterances = utterance
-        self._understanding = understanding
-        self._requests = book
-        self._proposals = proposals
-        self._resuming = resuming
-        self._llm = llm
-        self._programs = programs
-        self._emit = emit
-        self._stop = stop
-        self._hears_robot_soon = hears_robot_soon
-        self.waits_for_end = 0
-        """The turn that is read again once what is under way has ended."""
+    _link: MotionLink
+    _goals: GoalClient
+    _utterances: UtteranceQueue
+    _understanding: Understanding
+    _requests: RequestLog
+    _proposals: Proposals
+    _resuming: Resuming
+    _llm: ModelRequests
+    _programs: ProgramRequests | None
+    _emit: Callable[[Event], None]
+    _stop: Callable[[str], None]
+    _hears_robot_soon: Callable[[], bool]
+    waits_for_end: int = field(default=0, init=False)
+    """The turn that is read again once what is under way has ended."""
 
     def take(self, utterance: Utterance) -> None:
         """Act on `utterance`, whose turn has come."""
@@ -121,7 +107,6 @@ class Dispatch:
         """Go on with what is paused; what is left of a plan that was stopped is offered."""
         self._understanding.hear_language(utterance.text)
         paused = self._resuming.take_paused()
-        self._goals.is_paused = False
         if paused is None and self._utterances.held:
             reply = self._told("goes_on", None)
             self._utterances.release()

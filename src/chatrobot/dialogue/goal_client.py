@@ -9,6 +9,7 @@ from chatrobot.core.events import Event, Finished, Notice, Outcome, Result
 from chatrobot.core.proposal import Proposal
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.options import Options
+from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Instruction, Understanding
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.link.motion_link import MotionLink
@@ -17,17 +18,17 @@ from chatrobot.link.motion_link import MotionLink
 class GoalClient:
     """Sends goals to Motion. `options` may be replaced: those hold for what is sent from then on."""
 
-    def __init__(self, link: MotionLink, options: Options) -> None:
+    def __init__(self, link: MotionLink, options: Options, resuming: Resuming) -> None:
         self._link = link
         self.options = options
-        self.is_paused = False
+        self._resuming = resuming
         self.pauses = 0
         """How many there were before what is sent now was taken up."""
 
     @property
     def mode(self) -> Literal["queue", "replace"]:
         """Return what a new instruction does to one that is under way; what is paused, it replaces."""
-        return "replace" if self.is_paused else self.options.while_moving
+        return "replace" if self._resuming.paused is not None else self.options.while_moving
 
     def resume(self, turn: int) -> None:
         """Have Motion go on with what is paused."""
@@ -37,16 +38,7 @@ class GoalClient:
         self, turn: int, plan_text: str, mode: Literal["queue", "replace", "append"], *, asks: bool = False
     ) -> None:
         """Have Motion rehearse and drive a plan. `asks`: it waits for a yes whatever the options."""
-        options = self.options
-        self._link.send(
-            "plan",
-            turn,
-            plan_text=plan_text,
-            mode=mode,
-            approve=options.approve or asks,
-            rehearse_only=options.rehearse_only,
-            pauses=self.pauses,
-        )
+        self._send("plan", turn, asks, mode=mode, plan_text=plan_text)
 
     def program(
         self,
@@ -70,15 +62,12 @@ class GoalClient:
         options = self.options
         asks_new = is_new and (options.ask_new or (by_model and options.approve_models))
         asks = asks or asks_new or (is_led_elsewhere and options.ask_findings)
+        self._send("program", turn, asks, mode=self.mode, ask_findings=options.ask_findings, **payload)
+
+    def _send(self, word: Literal["plan", "program"], turn: int, asks: bool, **payload: Any) -> None:
+        approve, rehearse_only = self.options.approve or asks, self.options.rehearse_only
         self._link.send(
-            "program",
-            turn,
-            mode=self.mode,
-            approve=options.approve or asks,
-            ask_findings=options.ask_findings,
-            rehearse_only=options.rehearse_only,
-            pauses=self.pauses,
-            **payload,
+            word, turn, approve=approve, rehearse_only=rehearse_only, pauses=self.pauses, **payload
         )
 
 

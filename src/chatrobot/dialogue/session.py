@@ -58,7 +58,8 @@ class Session:
         self._link = link
         self.understanding = understanding
         self._on_event = on_event
-        self._goals = GoalClient(link, options)
+        self._resuming = Resuming(understanding)
+        self._goals = GoalClient(link, options, self._resuming)
         self._utterances = UtteranceQueue()
         self._proposals = Proposals(understanding, self._utterances.is_void_turn)
         self._requests = RequestLog(understanding, self._emit)
@@ -72,7 +73,6 @@ class Session:
             lambda: self._utterances.pauses,
         )
         self.authoring = authoring
-        self._resuming = Resuming(understanding)
         self._next = NextUtterance(
             self._utterances,
             self._requests,
@@ -321,7 +321,6 @@ class Session:
         if self._requests.has(event.turn) or self._llm.has(event.turn):
             was_paused = self.is_plan_paused
             self._resuming.hear(event)
-            self._goals.is_paused = self.is_plan_paused
             if was_paused and not self.is_plan_paused:
                 self._utterances.drop_held(self._resuming.ended_by)
         if self._programs is not None and self._programs.hear(event):

@@ -263,13 +263,11 @@ class Understanding:
         self, text: str, meant: Interpretation, finished: Finished, rehearse_only: bool, program: int = 0
     ) -> str:
         """Remember a turn of a plan or a program as it really went; return the reply."""
-        if finished.outcome == "completed":
+        outcome = finished.outcome
+        if outcome == "completed":
             self._learn(meant)
-        self._state = replace(self._state, pose=finished.pose, twist=ZERO_TWIST, moving=False)
-        outcome: Outcome = finished.outcome
         plan = meant.plan if outcome in ("completed", "stopped", "failed") and not rehearse_only else None
-        self._record_measured(TurnRecord(text, outcome, plan, walk=meant.walk, program=program), finished)
-        self._dialogue = replace(self._dialogue, pending="")
+        self._note_end(TurnRecord(text, outcome, plan, walk=meant.walk, program=program), finished)
         if rehearse_only and outcome == "completed":
             return say(meant.language, "only_rehearsed")
         return describe_end(finished, meant.language, meant.plan.steps if meant.plan is not None else ())
@@ -281,14 +279,8 @@ class Understanding:
     def note_model_turn(self, text: str, ended: Ended, rehearse_only: bool) -> str:
         """Remember a turn that a model planned; return the reply, in the language of the order."""
         language = self.language_of(text)
-        finished = ended.finished
-        plan = _plan_of(ended.steps) if not rehearse_only else None
-        if finished is not None:
-            self._state = replace(self._state, pose=finished.pose, twist=ZERO_TWIST, moving=False)
-            self._record_measured(TurnRecord(text, ended.outcome, plan), finished)
-        else:
-            self._record(TurnRecord(text, ended.outcome))
-        self._dialogue = replace(self._dialogue, pending="")
+        plan = _plan_of(ended.steps) if not rehearse_only and ended.finished is not None else None
+        self._note_end(TurnRecord(text, ended.outcome, plan), ended.finished)
         if rehearse_only and ended.outcome == "completed":
             return say(language, "only_rehearsed")
         return describe_model_end(ended, language)
@@ -307,8 +299,13 @@ class Understanding:
         plan, pose = meant.plan, self._state.pose
         return TurnRecord(text, "completed", plan, start, pose, executed=plan, walk=meant.walk)
 
-    def _record_measured(self, record: TurnRecord, finished: Finished) -> None:
-        """Enter a turn that Motion has ended into the ledger, as it was measured."""
+    def _note_end(self, record: TurnRecord, finished: Finished | None) -> None:
+        """Enter a turn into the ledger; one that Motion has ended, as it was measured."""
+        self._dialogue = replace(self._dialogue, pending="")
+        if finished is None:
+            self._record(record)
+            return
+        self._state = replace(self._state, pose=finished.pose, twist=ZERO_TWIST, moving=False)
         self._lose(self._rest.begin(finished))
         measured = replace(
             record,

@@ -9,7 +9,7 @@ import threading
 import time
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
 from chatrobot.core.reason import Reason
@@ -172,24 +172,16 @@ class UtteranceQueue:
         return sum(utterance.is_instruction and not self.is_void(utterance) for utterance in self._texts)
 
 
+@dataclass(eq=False)
 class NextUtterance:
     """Finds the text to take now. Belongs to the pumping thread."""
 
-    def __init__(
-        self,
-        utterance: UtteranceQueue,
-        book: RequestLog,
-        llm: ModelRequests,
-        understanding: Understanding,
-        resuming: Resuming,
-        early: EarlyAnswers,
-    ) -> None:
-        self._utterances = utterance
-        self._requests = book
-        self._llm = llm
-        self._understanding = understanding
-        self._resuming = resuming
-        self._early = early
+    _utterances: UtteranceQueue
+    _requests: RequestLog
+    _llm: ModelRequests
+    _understanding: Understanding
+    _resuming: Resuming
+    _early: EarlyAnswers
 
     def find(self, options: Options, waits_for_end: int | None) -> Utterance | None:
         """Return the one to take now: the first, unless it has to wait.
@@ -244,17 +236,15 @@ NOT_UNDERSTOOD = frozenset({"unknown_part", "nothing_to_do", "empty", "too_long"
 """Of the questions back, those that what happens until then cannot answer."""
 
 
+@dataclass(eq=False)
 class EarlyAnswers:
     """Finds waiting texts that are answered before their turn. Belongs to the pumping thread; looks at each once."""
 
-    def __init__(
-        self, understanding: Understanding, llm: ModelRequests, book: RequestLog, authoring: Authoring | None
-    ) -> None:
-        self._understanding = understanding
-        self._llm = llm
-        self._requests = book
-        self._authoring = authoring
-        self._meant: dict[int, Interpretation | None] = {}
+    _understanding: Understanding
+    _llm: ModelRequests
+    _requests: RequestLog
+    _authoring: Authoring | None
+    _meant: dict[int, Interpretation | None] = field(default_factory=dict, init=False)
 
     def find(self, waiting: Sequence[Utterance]) -> Utterance | None:
         """Return the first of them that nobody understands, and that those before it do not teach us to."""

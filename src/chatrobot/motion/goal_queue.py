@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Callable, Collection
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
 from chatrobot.core.clock import Clock
@@ -249,28 +249,19 @@ def why_not_kept(goal: Goal | None, robot: GovernedRobot) -> Reason | None:
     return Reason("nothing_to_keep" if robot.sensors.has_odometry else "pause_unmeasured")
 
 
+@dataclass(eq=False)
 class Pausing:
     """Keeps the one plan that is paused, if any."""
 
-    def __init__(
-        self,
-        robot: GovernedRobot,
-        goal_queue: GoalQueue,
-        interlock: Interlock,
-        stops: Stops,
-        clock: Clock,
-        outcomes: OutcomeQueue,
-        emit: Callable[[Event], None],
-    ) -> None:
-        self._robot = robot
-        self._goal_queue = goal_queue
-        self._interlock = interlock
-        self._stops = stops
-        self._clock = clock
-        self._outcomes = outcomes
-        self._emit = emit
-        self._paused: PausedGoal | None = None
-        self._heard_s = 0.0
+    _robot: GovernedRobot
+    _goal_queue: GoalQueue
+    _interlock: Interlock
+    _stops: Stops
+    _clock: Clock
+    _outcomes: OutcomeQueue
+    _emit: Callable[[Event], None]
+    _paused: PausedGoal | None = field(default=None, init=False)
+    _heard_s: float = field(default=0.0, init=False)
 
     @property
     def goal(self) -> Goal | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from functools import partial
 
 from chatrobot.core.clock import Clock
@@ -34,39 +35,25 @@ ODOMETRY_WAIT_S = 2.0
 """A robot that has just been connected may need this long to say where it is."""
 
 
+@dataclass(eq=False)
 class GoalServer:
     """Prepares or drives at most one goal; the others wait in the goal queue. Belongs to the control thread."""
 
-    def __init__(
-        self,
-        robot: GovernedRobot,
-        goal_queue: GoalQueue,
-        executor: PlanExecutor,
-        planner: Planner,
-        programs: ProgramSandbox,
-        budgets: Budgets,
-        stops: Stops,
-        inbox: Inbox,
-        clock: Clock,
-        pausing: Pausing,
-        outcomes: OutcomeQueue,
-        emit: Callable[[Event], None],
-    ) -> None:
-        self._robot = robot
-        self._outcomes = outcomes
-        self._budgets = budgets
-        self._goal_queue = goal_queue
-        self._executor = executor
-        self._planner = planner
-        self._programs = programs
-        self._stops = stops
-        self._inbox = inbox
-        self._clock = clock
-        self._emit = emit
-        self._pausing = pausing
-        self._preparing: Goal | None = None
-        self.why_unheard: Reason | None = None
-        """Why no odometry comes, as far as those know who look after the wire; any thread may set it."""
+    _robot: GovernedRobot
+    _goal_queue: GoalQueue
+    _executor: PlanExecutor
+    _planner: Planner
+    _programs: ProgramSandbox
+    _budgets: Budgets
+    _stops: Stops
+    _inbox: Inbox
+    _clock: Clock
+    _pausing: Pausing
+    _outcomes: OutcomeQueue
+    _emit: Callable[[Event], None]
+    _preparing: Goal | None = field(default=None, init=False)
+    why_unheard: Reason | None = field(default=None, init=False)
+    """Why no odometry comes, as far as those know who look after the wire; any thread may set it."""
 
     @property
     def current(self) -> Goal | None:

@@ -7,7 +7,7 @@ and only then do pose, turn and path say what became of the motion.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Finished, Outcome, Progress, Started
@@ -129,31 +129,21 @@ FAILURES = frozenset(
 """A stop for one of these is no wish of anybody's: what ran has failed."""
 
 
+@dataclass(eq=False)
 class PlanExecutor:
     """Drives the `goal` it was given, from `launch` until its end is told. Belongs to the control thread."""
 
-    def __init__(
-        self,
-        robot: GovernedRobot,
-        interlock: Interlock,
-        stops: Stops,
-        programs: ProgramSandbox,
-        inbox: Inbox,
-        clock: Clock,
-        outcomes: OutcomeQueue,
-        emit: Callable[[Event], None],
-    ) -> None:
-        self._robot = robot
-        self._outcomes = outcomes
-        self._interlock = interlock
-        self._stops = stops
-        self._programs = programs
-        self._inbox = inbox
-        self._clock = clock
-        self._emit = emit
-        self._run: GoalExecution | ProgramExecution | None = None
-        self.goal: Goal | None = None
-        """What is being launched or driven."""
+    _robot: GovernedRobot
+    _interlock: Interlock
+    _stops: Stops
+    _programs: ProgramSandbox
+    _inbox: Inbox
+    _clock: Clock
+    _outcomes: OutcomeQueue
+    _emit: Callable[[Event], None]
+    _run: GoalExecution | ProgramExecution | None = field(default=None, init=False)
+    goal: Goal | None = field(default=None, init=False)
+    """What is being launched or driven."""
 
     @property
     def is_driving(self) -> bool:

@@ -6,16 +6,18 @@ import contextlib
 import socket
 from collections import deque
 from collections.abc import Callable
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from chatrobot.core.clock import Clock
 from chatrobot.core.process import is_machine_busy
 from chatrobot.core.reason import Reason
-from chatrobot.governor.governor import Governor
 from chatrobot.governor.tick import TICK_S
 from chatrobot.guard.watch import BEAT, ECHO_LOST_S, GOODBYE, HANDSHAKE, MISSED_S, TRIPPED, Watch
 from chatrobot.link.processes import spawn_with_line
 from chatrobot.robots.profile import Wiring
+
+if TYPE_CHECKING:  # the process that talks loads this module for its guard, and no numpy
+    from chatrobot.governor.governor import Governor
 
 
 class GuardLink(Protocol):
