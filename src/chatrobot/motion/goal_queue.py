@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
 from chatrobot.core.clock import Clock
-from chatrobot.core.events import Event, Finished, Notice, Paused
+from chatrobot.core.events import Event, Finished, Notice, Outcome, Paused
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import Priority
@@ -129,13 +129,12 @@ class Inbox:
 class OutcomeQueue:
     """Tells ends in their order. An end is made when it is told, so that it says what was measured by then.
 
-    Args:
-        measured: the robot has odometry; without, no end is told as measured, and be it of what never moved.
+    Of a robot without odometry no end is told as measured, and be it of what never moved.
     """
 
-    def __init__(self, emit: Callable[[Event], None], *, measured: bool) -> None:
+    def __init__(self, robot: GovernedRobot, emit: Callable[[Event], None]) -> None:
+        self._robot = robot
         self._emit = emit
-        self._measured = measured
         self._untold: deque[Callable[[], Finished]] = deque()
 
     @property
@@ -150,6 +149,10 @@ class OutcomeQueue:
         else:
             self._tell(end)
 
+    def tell_unmoved(self, goal: Goal, outcome: Outcome, reason: Reason | None) -> None:
+        """Tell the end of a goal that has not moved."""
+        self.tell(lambda: goal.unmoved(outcome, reason, self._robot.pose))
+
     def tell_later(self, end: Callable[[], Finished]) -> None:
         """Tell it once the robot stands."""
         self._untold.append(end)
@@ -161,7 +164,7 @@ class OutcomeQueue:
 
     def _tell(self, end: Callable[[], Finished]) -> None:
         finished = end()
-        self._emit(finished if self._measured else replace(finished, measured=False))
+        self._emit(finished if self._robot.profile.has_odometry else replace(finished, measured=False))
 
 
 KEPT_S = 600.0
@@ -307,10 +310,7 @@ class Pausing:
             return
         self.end(why)
         for goal in self._goal_queue.take_all():
-            self._tell_unmoved(goal, why)
-
-    def _tell_unmoved(self, goal: Goal, why: Reason) -> None:
-        self._outcomes.tell(lambda: goal.unmoved("stopped", why, self._robot.pose))
+            self._outcomes.tell_unmoved(goal, "stopped", why)
 
     def end(self, why: Reason) -> None:
         """End it, and tell so."""

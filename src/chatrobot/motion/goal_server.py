@@ -90,7 +90,7 @@ class GoalServer:
         account = self._budgets.account_of(envelope.source, envelope.lease, envelope.turn)
         goal = goal_of(envelope, epoch, self._clock.now_s(), account)
         if self._goal_queue.is_void(goal, self._stops.count):
-            self._finish(goal, "stopped", self._stops.last_reason)
+            self._outcomes.tell_unmoved(goal, "stopped", self._stops.last_reason)
             return
         self._drop_paused_for(goal, mode)
         declined = self._give_way(goal)
@@ -98,17 +98,19 @@ class GoalServer:
             self._replace(Reason("replaced"))
         declined = declined or self._goal_queue.add(goal)
         if declined is not None:
-            self._finish(goal, "refused", declined)
+            self._outcomes.tell_unmoved(goal, "refused", declined)
 
     def void(self, envelope: Envelope, epoch: int) -> None:
         """End the turn of an envelope that a later one, a stop or another, has overtaken."""
         goal = Goal.of(envelope, epoch, self._clock.now_s())
         is_stopped = self._goal_queue.is_void(goal, self._stops.count)
-        self._finish(goal, "stopped", self._stops.last_reason if is_stopped else Reason("overtaken"))
+        self._outcomes.tell_unmoved(
+            goal, "stopped", self._stops.last_reason if is_stopped else Reason("overtaken")
+        )
 
     def refuse(self, envelope: Envelope, epoch: int, why: Reason) -> None:
         """Refuse what a source asks for that may not ask for anything."""
-        self._finish(Goal.of(envelope, epoch, self._clock.now_s()), "refused", why)
+        self._outcomes.tell_unmoved(Goal.of(envelope, epoch, self._clock.now_s()), "refused", why)
 
     def _give_way(self, goal: Goal) -> Reason | None:
         """A source of higher priority takes over at once; one of lower priority is refused, with the reason."""
@@ -123,7 +125,7 @@ class GoalServer:
             handed_over = self._handed_over(lower[0], self._source(goal))
             self._emit(Notice(goal.turn, handed_over))
             for waiting in self._goal_queue.take(lower):
-                self._finish(waiting, "stopped", handed_over)
+                self._outcomes.tell_unmoved(waiting, "stopped", handed_over)
             if lower[0] is current:
                 self._end_current_gently(handed_over)
         return None
@@ -168,7 +170,9 @@ class GoalServer:
         if now_s - goal.received_s >= ODOMETRY_WAIT_S:
             self._goal_queue.goals.popleft()
             topic = self._robot.profile.wiring.odom_topic
-            self._finish(goal, "failed", self.why_unheard or Reason("no_odometry", {"topic": topic}))
+            self._outcomes.tell_unmoved(
+                goal, "failed", self.why_unheard or Reason("no_odometry", {"topic": topic})
+            )
         return True
 
     def _take_rehearsed(self, goal: Goal, planned: Planned) -> None:
@@ -299,7 +303,7 @@ class GoalServer:
         self._pausing.end(why)
         self._drop_prepared("stopped", why)
         for goal in self._goal_queue.take_void(self._stops.count):
-            self._finish(goal, "stopped", why)
+            self._outcomes.tell_unmoved(goal, "stopped", why)
 
     def hand_over(self, to: str) -> None:
         """End all goals, and tell it: somebody of higher priority takes command."""
@@ -327,12 +331,9 @@ class GoalServer:
 
     def _end_queued(self, outcome: Outcome, why: Reason) -> None:
         for goal in self._goal_queue.take_all():
-            self._finish(goal, outcome, why)
+            self._outcomes.tell_unmoved(goal, outcome, why)
 
     def _drop_prepared(self, outcome: Outcome, reason: Reason | None) -> None:
         goal, self._preparing = self._preparing, None
         if goal is not None:
-            self._finish(goal, outcome, reason)
-
-    def _finish(self, goal: Goal, outcome: Outcome, reason: Reason | None) -> None:
-        self._outcomes.tell(lambda: goal.unmoved(outcome, reason, self._robot.pose))
+            self._outcomes.tell_unmoved(goal, outcome, reason)

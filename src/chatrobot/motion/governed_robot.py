@@ -149,9 +149,9 @@ class Stopwatch:
 
 def is_cut_short(verdict: Verdict) -> bool:
     """Return whether more than a trifle of what was asked is not allowed."""
-    lost = abs(verdict.asked.speed_mps - verdict.allowed.speed_mps)
-    lost_turn = abs(verdict.asked.wz_radps - verdict.allowed.wz_radps)
-    return lost >= WORTH_TELLING_MPS or lost_turn >= WORTH_TELLING_RADPS
+    lost_mps = abs(verdict.asked.speed_mps - verdict.allowed.speed_mps)
+    lost_radps = abs(verdict.asked.wz_radps - verdict.allowed.wz_radps)
+    return lost_mps >= WORTH_TELLING_MPS or lost_radps >= WORTH_TELLING_RADPS
 
 
 def is_worth_telling(verdict: Verdict) -> bool:

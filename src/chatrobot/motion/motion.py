@@ -78,28 +78,19 @@ class Motion:
             self._governor.leases, lambda lease: self.goals.is_engaged(lease), self._goal_queue.forget
         )
         self._inbox = Inbox(background)
-        self._outcomes = outcomes = OutcomeQueue(emit, measured=profile.has_odometry)
-        stops, inbox = self._stops, self._inbox
+        self._outcomes = outcomes = OutcomeQueue(robot, emit)
+        stops, inbox, queue = self._stops, self._inbox, self._goal_queue
         self._executor = PlanExecutor(robot, self.interlock, stops, programs, inbox, clock, outcomes, emit)
-        self._pausing = pausing = Pausing(
-            robot, self._goal_queue, self.interlock, stops, clock, outcomes, emit
-        )
+        self._pausing = pausing = Pausing(robot, queue, self.interlock, stops, clock, outcomes, emit)
         self._budgets = Budgets(profile.safety.budget)
         self.goals = GoalServer(
-            robot, self._goal_queue, self._executor, planner, programs, self._budgets, stops, inbox, clock, pausing,
-            outcomes, emit,
+            robot, queue, self._executor, planner, programs, self._budgets, stops, inbox, clock, pausing, outcomes, emit
         )  # fmt: skip
-        other_drove = Reason("other_drove", {"source": CMD_VEL_INPUT_TOPIC})
-        self._cmd_vel = CmdVelInput(
-            CMD_VEL_INPUT_TOPIC,
-            clock,
-            robot,
-            lambda: pausing.drop(other_drove),
-            self.see_it_stand,
-            self._notice,
-        )
+        cmd_vel, stand, tell = CMD_VEL_INPUT_TOPIC, self.see_it_stand, self._notice
+        other_drove = Reason("other_drove", {"source": cmd_vel})
+        self._cmd_vel = CmdVelInput(cmd_vel, clock, robot, lambda: pausing.drop(other_drove), stand, tell)
         self._joystick = CmdVelInput(
-            JOYSTICK, clock, robot, lambda: self.goals.hand_over(JOYSTICK), self.see_it_stand, self._notice
+            JOYSTICK, clock, robot, lambda: self.goals.hand_over(JOYSTICK), stand, tell
         )
         self._stall_detector = StallDetector(clock, guard, self.halt)
         self._telemetry = TelemetryPublisher(self.sensors, self._executor.progress, emit)

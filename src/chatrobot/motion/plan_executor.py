@@ -280,4 +280,4 @@ class PlanExecutor:
         goal, self.goal = self.goal, None
         assert goal is not None
         self._robot.governor.end(goal.lease)
-        self._outcomes.tell(lambda: goal.unmoved(outcome, reason, self._robot.pose))
+        self._outcomes.tell_unmoved(goal, outcome, reason)
