@@ -12,116 +12,16 @@ from dataclasses import dataclass, field, replace
 from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Finished, Outcome, Progress, Started
 from chatrobot.core.reason import Reason
-from chatrobot.execution.executor import Executor
 from chatrobot.execution.health import is_seen_moving
-from chatrobot.governor.governor import Verdict
 from chatrobot.motion.budgets import REACHED
 from chatrobot.motion.goal import Goal
 from chatrobot.motion.goal_queue import Inbox, OutcomeQueue
-from chatrobot.motion.governed_robot import GovernedMotion, GovernedRobot, is_worth_telling
+from chatrobot.motion.governed_motion import GoalExecution
+from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.programs.execution import LiveProgram, ProgramExecution, ProgramSandbox
 from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.motion.safety.stop import Stops
 from chatrobot.motion.safety.watchdog import Interlock
-from chatrobot.plan.split import split
-from chatrobot.plan.steps import Plan
-from chatrobot.plan.text import format_plan
-
-
-class GoalExecution:
-    """Drives the plan of `goal`, which has been rehearsed. `tick` until `is_done`, or until it is stopped."""
-
-    def __init__(self, goal: Goal, robot: GovernedRobot, emit: Callable[[Event], None], now_s: float) -> None:
-        assert goal.stream.walk is not None
-        self.goal = goal
-        self._emit = emit
-        self._robot = robot
-        self._motion = GovernedMotion(goal, robot, now_s)
-        self._told: set[tuple[int, str]] = set()
-        self._executor = Executor(robot.profile, robot.sensors, emit)
-        self._executor.start(goal.turn, goal.stream.walk, goal.stream.duration_s, now_s)
-
-    def tick(self, now_s: float) -> None:
-        """Send what the executor asks for this period, as far as the governor allows it."""
-        asked = self._executor.tick(now_s)
-        if self._executor.is_done:
-            return
-        verdict = self._motion.send(asked, now_s)
-        over = self._motion.over_budget()
-        if over is not None:
-            self.ramp_down(over)
-        self._executor.note(verdict.rule, verdict.reason, verdict.sent.twist, now_s)
-        self._tell(verdict)
-
-    @property
-    def is_done(self) -> bool:
-        """True once the plan has ended."""
-        return self._executor.is_done
-
-    @property
-    def outcome(self) -> Outcome:
-        """Return how it ended."""
-        return self._executor.outcome
-
-    @property
-    def reason(self) -> Reason | None:
-        """Return why it ended so."""
-        return self._executor.reason
-
-    def expect(self, duration_s: float) -> None:
-        """Expect so long a duration in all: the plan has become longer."""
-        self._executor.expect(duration_s)
-
-    def ramp_down(self, why: Reason) -> None:
-        """Stop at the deceleration of the profile."""
-        self._executor.ramp_down(why)
-
-    def close(self) -> None:
-        """Book what it has driven."""
-        self._motion.close()
-
-    def progress(self, now_s: float) -> Progress:
-        """Return how far it is."""
-        progress = self._executor.progress(self.goal.turn, now_s)
-        return replace(progress, fraction=None) if self.goal.is_open_ended else progress
-
-    def finished(self, outcome: Outcome, reason: Reason | None) -> Finished:
-        """Return its end, as odometry measured it."""
-        executed, remaining = self._parts()
-        is_whole = outcome == "completed"  # conditions that came true may have made it shorter than rehearsed
-        planned_m = self._executor.planned_m
-        return self._motion.finished(
-            outcome,
-            reason,
-            planned_m=planned_m if is_whole else max(planned_m, self.goal.length_m),
-            planned_turn_rad=self._executor.planned_turn_rad,
-            steps_done=self._executor.steps_done,
-            steps=self._executor.steps,
-            executed=executed,
-            remaining=remaining if outcome != "completed" else "",
-            open_ended=not is_whole and self.goal.is_open_ended,
-        )
-
-    def _parts(self) -> tuple[str, str]:
-        """The text of the part that was driven, and of the rest; nothing where it was not measured."""
-        reached, planned = self._executor.reached, self.goal.planned
-        if reached is None or planned is None or planned.rehearsal is None:
-            return "", ""
-        context = replace(planned.rehearsal.context, pose=self._robot.pose)
-        parts = split(self.goal.stream.accepted, reached, context)
-        return _text(parts.executed), _text(parts.remaining)
-
-    def _tell(self, verdict: Verdict) -> None:
-        """Say once a step and rule that something was limited."""
-        key = (self._executor.step, verdict.rule)
-        if is_worth_telling(verdict) and key not in self._told:
-            self._told.add(key)
-            self._emit(self._motion.limited(verdict))
-
-
-def _text(plan: Plan | None) -> str:
-    return format_plan(plan) if plan is not None else ""
-
 
 FAILURES = frozenset(
     {"guard_lost", "bumped", "motion_froze", "motion_late", "beats_missed", "beat_late", "wire_gone"}

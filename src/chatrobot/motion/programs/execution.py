@@ -16,7 +16,8 @@ from chatrobot.core.reason import Reason
 from chatrobot.execution.health import STANDS_LATE_S, is_seen_moving, is_seen_standing
 from chatrobot.governor.governor import TICK_S, Verdict
 from chatrobot.governor.lease import TERM_S
-from chatrobot.motion.governed_robot import GovernedMotion, GovernedRobot, decelerated, is_worth_telling
+from chatrobot.motion.governed_motion import GovernedMotion, decelerated, is_worth_telling
+from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.planner import Planned, Planner
 from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.motion.remembered_obstacles import RememberedObstacles

@@ -14,7 +14,7 @@ from chatrobot.core.governed import StopEpoch
 from chatrobot.core.reason import Reason
 from chatrobot.governor.governor import TICK_S, Governor, Verdict
 from chatrobot.governor.rule import Sensed
-from chatrobot.motion.governed_robot import decelerated, is_cut_short
+from chatrobot.motion.governed_motion import decelerated, is_cut_short
 from chatrobot.motion.programs.execution import HeldTwist
 from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.sim.fault_injection import NO_FAULTS
