@@ -80,7 +80,7 @@ class ModelTalk(Talk):
 
     def __init__(self, *replies: Line | Sequence[Line], **setup: object) -> None:
         self.model = ScriptedModel(*replies)
-        super().__init__(model=self.model, **setup)
+        super().__init__(**{"model": self.model, **setup})
 
     def pump_until_moving(self) -> None:
         self.pump_until(self.moved)
