@@ -324,7 +324,7 @@ def test_who_wants_no_colour_gets_plain_lines(tmp_path):
 
 def test_fast_is_refused_because_a_talk_is_in_real_time():
     from chatrobot.cli.console.app import run_console
-    from chatrobot.cli.typed_ahead import TypedAhead
+    from chatrobot.cli.lines import TypedAhead
     from chatrobot.compose import Setup
     from chatrobot.core.errors import UsageError
 

@@ -235,7 +235,7 @@ def test_a_map_of_a_size_that_there_is_not_says_which_there_are(controller, log)
     assert "There is no map 'huge'. /map shows or hides the small one, /map big draws the big one." in shown(
         log
     )
-    assert controller.strip.shows_map
+    assert controller.status_bar.shows_map
 
 
 @pytest.mark.parametrize(("typed", "word"), [("/stop it now", "stop"), ("/estop now", "emergency_stop")])

@@ -12,11 +12,12 @@ import pytest
 from tests.link.link_rigs import SimulatedRig, events_until
 
 from chatrobot.core import process
+from chatrobot.core.clock import LOCAL_TERM_S, TERM_S
 from chatrobot.core.events import Event, Finished, Limited
 from chatrobot.core.process import own_identity, watch_process
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.replies import describe_end
-from chatrobot.governor.lease import LOCAL_TERM_S, LONGEST_S, OVER_S, TERM_S
+from chatrobot.governor.lease import LONGEST_S, OVER_S
 from chatrobot.link.in_process import InProcessLink
 from chatrobot.motion.safety import watchdog
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
@@ -174,7 +174,11 @@ class UtteranceQueue:
 
 @dataclass(eq=False)
 class NextUtterance:
-    """Finds the text to take now. Belongs to the pumping thread."""
+    """Finds the text to take now. Belongs to the pumping thread.
+
+    Args:
+        is_writing: a model writes a program; what is said meanwhile comes after it.
+    """
 
     _utterances: UtteranceQueue
     _requests: RequestLog
@@ -182,6 +186,7 @@ class NextUtterance:
     _understanding: Understanding
     _resuming: Resuming
     _early: EarlyAnswers
+    _is_writing: Callable[[], bool]
 
     def find(self, options: Options, waits_for_end: int | None) -> Utterance | None:
         """Return the one to take now: the first, unless it has to wait.
@@ -196,7 +201,7 @@ class NextUtterance:
                 return None if is_about_a_pause and self.is_being_paused else utterance
             if self._utterances.is_held(utterance):
                 continue
-            if self.is_being_paused:
+            if self.is_being_paused or self._is_writing():
                 return None
             replaces = self._resuming.paused is not None or options.while_moving == "replace"
             if replaces and utterance.turn != waits_for_end:

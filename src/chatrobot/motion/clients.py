@@ -12,12 +12,12 @@ import math
 from collections.abc import Callable
 from itertools import islice
 
-from chatrobot.core.clock import Clock
+from chatrobot.core.clock import LOCAL_TERM_S, TERM_S, Clock
 from chatrobot.core.geometry import Twist
 from chatrobot.core.process import watch_process
 from chatrobot.core.reason import Reason
-from chatrobot.governor.lease import LOCAL_TERM_S, TERM_S, Leases
-from chatrobot.link.envelope import Envelope, seconds
+from chatrobot.governor.lease import Leases
+from chatrobot.link.envelope import PROTOCOL, Envelope, other_protocol, protocol_of, seconds
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.wire.messages import TwistMessage
 
@@ -47,6 +47,8 @@ class Clients:
         self._forget = forget
         self._known: dict[str, None] = {}
         self._leaving: set[str] = set()
+        self._strangers: dict[str, int] = {}
+        """The protocol of each lease whose half speaks another than we do."""
         self._some_have_left = False
 
     def note(self, lease: str, now_s: float) -> None:
@@ -63,6 +65,7 @@ class Clients:
             gone = [next(one for one in self._known if not self._is_engaged(one))]
         for lease in gone:
             del self._known[lease]
+            self._strangers.pop(lease, None)
             if lease in self._leaving:
                 self._leases.end(lease)  # it was entrusted with what it had said, and that is done
                 self._leaving.discard(lease)
@@ -87,6 +90,9 @@ class Clients:
             return
         if envelope.word == "hello" or self._was_there_before_us(envelope):
             term_s = min(seconds(envelope.payload.get("term_s"), LOCAL_TERM_S), LONGEST_TERM_S)
+            self._strangers.pop(envelope.lease, None)
+            if (protocol := protocol_of(envelope.payload)) != PROTOCOL:
+                self._strangers[envelope.lease] = protocol
             is_stopped = watch_process(str(envelope.payload.get("process", "")))
             self._leases.open(envelope.lease, envelope.source, term_s, now_s, is_stopped)
 
@@ -105,6 +111,13 @@ class Clients:
     def has_left(self, lease: str) -> bool:
         """Return whether no beat of it is waited for any more: what it says now could never lapse."""
         return lease in self._leaving
+
+    def refusal(self, envelope: Envelope) -> Reason | None:
+        """Say why nothing is driven for that source: it has left, or its half misunderstands ours. Stops are heeded."""
+        if self.has_left(envelope.lease):
+            return Reason("lease_lapsed", {"source": envelope.source})
+        protocol = self._strangers.get(envelope.lease, PROTOCOL)
+        return None if protocol == PROTOCOL else other_protocol(motion=PROTOCOL, dialogue=protocol)
 
     @property
     def some_have_left(self) -> bool:

@@ -292,8 +292,9 @@ class Motion:
             self._pausing.drop(Reason("source_left", {"source": envelope.source}), envelope.lease)
 
     def _accept(self, envelope: Envelope, epoch: int) -> None:
-        if self._clients.has_left(envelope.lease):
-            self.goals.refuse(envelope, epoch, Reason("lease_lapsed", {"source": envelope.source}))
+        refusal = self._clients.refusal(envelope)
+        if refusal is not None:
+            self.goals.refuse(envelope, epoch, refusal)
         elif self._joystick.is_driving:  # what waited would set out by itself once the person lets go
             self.goals.refuse(envelope, epoch, Reason("outranked", {"source": JOYSTICK}))
         else:

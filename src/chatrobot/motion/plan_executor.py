@@ -18,7 +18,8 @@ from chatrobot.motion.goal import Goal
 from chatrobot.motion.goal_queue import Inbox, OutcomeQueue
 from chatrobot.motion.governed_motion import GoalExecution
 from chatrobot.motion.governed_robot import GovernedRobot
-from chatrobot.motion.programs.execution import LiveProgram, ProgramExecution, ProgramSandbox
+from chatrobot.motion.programs.clocks import LiveProgram
+from chatrobot.motion.programs.execution import ProgramExecution, ProgramSandbox
 from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.motion.safety.stop import Stops
 from chatrobot.motion.safety.watchdog import Interlock

@@ -18,7 +18,7 @@ from chatrobot.motion.remembered_obstacles import RememberedObstacles, RoutesAro
 from chatrobot.plan.context import RoutePlanner
 from chatrobot.plan.free_part import ANY_WAY, Most
 from chatrobot.plan.known_world import Floats
-from chatrobot.plan.rehearsal import Rehearsal, rehearse
+from chatrobot.plan.rehearsal import Rehearsal, RehearsedPath, rehearse
 from chatrobot.plan.route import GridRoutePlanner
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
@@ -67,14 +67,19 @@ class Planned:
         return format_plan(self.offer.plan) if self.offer.plan is not None else ""
 
     @property
+    def shown(self) -> RehearsedPath | None:
+        """Return what its rehearsal shows, of a plan or a program; None where it could not be read."""
+        return self.rehearsal
+
+    @property
     def duration_s(self) -> float:
         """Return how long it was rehearsed to last."""
-        return self.rehearsal.duration_s if self.rehearsal is not None else 0.0
+        return self.shown.duration_s if self.shown is not None else 0.0
 
     @property
     def length_m(self) -> float:
         """Return how far it was rehearsed to drive."""
-        return self.rehearsal.length_m if self.rehearsal is not None else 0.0
+        return self.shown.length_m if self.shown is not None else 0.0
 
     @property
     def is_endless(self) -> bool:
@@ -97,7 +102,7 @@ class Planned:
     @property
     def _driving_s(self) -> float:
         """How long it drives, without its waits."""
-        return driving_s(self.rehearsal.path) if self.rehearsal is not None else 0.0
+        return driving_s(self.shown.path) if self.shown is not None else 0.0
 
     @property
     def _unknown_lengths_m(self) -> list[float]:
@@ -123,21 +128,21 @@ class Planned:
 
     def event(self, needs_approval: bool) -> Rehearsed:
         """Return what the displays show of it."""
-        rehearsal = self.rehearsal
-        if rehearsal is None:
+        shown = self.shown
+        if shown is None:
             return Rehearsed(self.turn, False, 0.0, 0.0, Pose())
         findings = tuple(
             FindingSeen(self.turn, found.severity, found.reason, tuple(i + 1 for i in found.index), found.t_s)
-            for found in rehearsal.findings
+            for found in shown.findings
         )
         return Rehearsed(
             self.turn,
-            rehearsal.ok,
-            rehearsal.duration_s,
-            rehearsal.length_m,
-            rehearsal.end_pose,
+            self.ok,
+            shown.duration_s,
+            shown.length_m,
+            shown.end_pose,
             findings,
-            drawn(rehearsal.path),
+            drawn(shown.path),
             needs_approval,
             self.is_open_ended,
         )

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.plan.context import (
@@ -26,7 +27,7 @@ from chatrobot.plan.context import (
 from chatrobot.plan.core_motion import Pause, RampedTwist
 from chatrobot.plan.findings import Finding, Severity
 from chatrobot.plan.free_part import ANY_WAY, Leg, Most, leg_at, nearest_part, part_up_to
-from chatrobot.plan.governed_path import TICK_S, GovernorCheck, pose_of
+from chatrobot.plan.governed_path import GovernorCheck, pose_of
 from chatrobot.plan.known_world import Contact, Floats, GovernorKernel, KnownWorld, SeenWorld
 from chatrobot.plan.lowering import CoreWalk, PlannedMotion, iterate_core
 from chatrobot.plan.rounding import round_corners
@@ -54,40 +55,49 @@ class StepEnd:
 
 
 @dataclass(frozen=True, eq=False)
-class Rehearsal:
-    """What a plan would do.
+class RehearsedPath:
+    """Where a robot would be at every moment, and what was found about that.
 
-    `plan` is the one to run (corners may have been rounded for a base that steers). `path` is [n, 4] of t_s, x_m,
-    y_m, yaw_rad in the odom frame, at most 50 ms apart, up to the end or to the first step that cannot be done.
-    `possible` is what can be done of a plan that is refused, or else drives more than it may, where that is worth a
-    question.
+    `path` is [n, 4] of t_s, x_m, y_m, yaw_rad in the odom frame, at most 50 ms apart.
     """
 
-    plan: Plan
-    context: LoweringContext
     path: Floats
     length_m: float
     findings: tuple[Finding, ...]
-    steps: tuple[StepEnd, ...]
-    possible: Plan | None = None
 
     @property
     def ok(self) -> bool:
-        """Nothing was found that refuses it."""
+        """Tell whether nothing was found that refuses it."""
         return self.refusal is None
 
     @property
     def refusal(self) -> Finding | None:
-        """The first finding that refuses it."""
+        """Return the first finding that refuses it."""
         return next((finding for finding in self.findings if finding.severity == "refuse"), None)
 
     @property
     def duration_s(self) -> float:
+        """Return how long it takes."""
         return float(self.path[-1, 0])
 
     @property
     def end_pose(self) -> Pose:
+        """Return where the robot stands at its end."""
         return pose_of(self.path[-1])
+
+
+@dataclass(frozen=True, eq=False)
+class Rehearsal(RehearsedPath):
+    """What a plan would do; its path ends where it ends, or at the first step that cannot be done.
+
+    `plan` is the one to run (corners may have been rounded for a base that steers). `possible` is what can be done of
+    a plan that is refused, or else drives more than it may, where that is worth a question.
+    """
+
+    plan: Plan
+    context: LoweringContext
+    steps: tuple[StepEnd, ...]
+    possible: Plan | None = None
 
     def walk(self) -> CoreWalk:
         """The very motions that were rehearsed, for the executor."""
@@ -183,7 +193,7 @@ class _Run:
         path = np.concatenate(rows)
         length_m = float(np.hypot(*np.diff(path[:, 1:3], axis=0).T).sum())
         findings = tuple(sorted(self.findings, key=lambda finding: finding.t_s))
-        return Rehearsal(self.plan, self.context, path, length_m, findings, tuple(self.steps), self.possible)
+        return Rehearsal(path, length_m, findings, self.plan, self.context, tuple(self.steps), self.possible)
 
     def _find(
         self,
@@ -221,11 +231,11 @@ class _Run:
             walk.ended_at(segment.end_pose)
         segment = self._slowed(segment)
         if motion.asked is not None:
-            self._find("note", _limited(motion.asked, motion.twist), item.index, item.start)
+            self._find("note", limited_reason(motion.asked, motion.twist), item.index, item.start)
         changed = self.governor.changed(segment)
         if changed is not None:
             sent, rows = changed
-            self._find("note", _limited(motion.twist, sent), item.index, item.start)
+            self._find("note", limited_reason(motion.twist, sent), item.index, item.start)
             walk.ended_at(pose_of(rows[-1]))
         else:
             times = tick_times(segment.total_s, TICK_S)
@@ -318,7 +328,8 @@ class _Run:
         return self.world.obstacle_name_at(contact.x_m, contact.y_m) if is_known else ""
 
 
-def _limited(asked: Twist, possible: Twist) -> Reason:
+def limited_reason(asked: Twist, possible: Twist) -> Reason:
+    """Return what to tell of a velocity that is beyond the limits."""
     values: dict[str, float | int | str] = {
         "asked_mps": asked.speed_mps,
         "possible_mps": possible.speed_mps,
