@@ -64,36 +64,20 @@ class Session:
         self._proposals = Proposals(understanding, self._utterances.is_void_turn)
         self._requests = RequestLog(understanding, self._emit)
         self._llm = ModelRequests(
-            model_setup,
-            options.interpreter,
-            link,
-            understanding,
-            self._emit,
-            self._conclude_model_turn,
+            model_setup, options.interpreter, link, understanding, self._emit, self._conclude_model_turn,
             lambda: self._utterances.pauses,
-        )
+        )  # fmt: skip
         self.authoring = authoring
         self._next = NextUtterance(
-            self._utterances,
-            self._requests,
-            self._llm,
-            understanding,
-            self._resuming,
-            EarlyAnswers(understanding, self._llm, self._requests, authoring),
-            lambda: self._is_writing,
-        )
+            self._utterances, self._requests, self._llm, understanding, self._resuming,
+            EarlyAnswers(understanding, self._llm, self._requests, authoring), lambda: self._is_writing,
+        )  # fmt: skip
         self._programs: ProgramRequests | None = None
         if authoring is not None:
             self._programs = ProgramRequests(
-                authoring,
-                understanding,
-                self._requests,
-                self._goals,
-                link,
-                self._emit,
-                self._utterances.is_void_turn,
-                self._finish,
-            )
+                authoring, understanding, self._requests, self._goals, link, self._emit,
+                self._utterances.is_void_turn, self._finish,
+            )  # fmt: skip
         self._dispatch = Dispatch(
             link, self._goals, self._utterances, understanding, self._requests, self._proposals, self._resuming,
             self._llm, self._programs, self._emit, self.stop, self._hears_robot_soon,
@@ -188,10 +172,7 @@ class Session:
         self._link.send("release")
 
     def limit(self, **limits: Any) -> None:
-        """Change the motion budget, or ask for it: `max_distance_m`, `max_time_s`, each a number or `none`.
-
-        For the local console alone.
-        """
+        """Change or ask for the motion budget: `max_distance_m`, `max_time_s` (a number or `none`). For the console."""
         self._link.send("limit", **limits)
 
     def approve(self, turn: int, yes: bool) -> None:
@@ -264,14 +245,17 @@ class Session:
         if self._link.is_simulated and self._wait_for_model(timeout_s):
             self._hear_models()
             timeout_s = 0.0
-        event = self._link.next_event(0.0 if self._find_next() is not None else timeout_s)
-        while event is not None:
-            self._hear(event)
-            event = self._link.next_event(0.0)
+        self._hear_events(0.0 if self._find_next() is not None else timeout_s)
         self._hear_models()
         if self._link.is_lost:
             raise LinkError("Motion is gone, and its guard sends the robot zeros. Start chatrobot again.")
         self._take_texts()
+
+    def _hear_events(self, timeout_s: float) -> None:
+        event = self._link.next_event(timeout_s)
+        while event is not None:
+            self._hear(event)
+            event = self._link.next_event(0.0)
 
     def _hear_models(self) -> None:
         self._llm.pump()
@@ -296,8 +280,6 @@ class Session:
         self._proposals.hear(event)
         self._on_event(event)
 
-    # --- what was said ---
-
     def _find_next(self) -> Utterance | None:
         """The text to take now, if any."""
         return self._next.find(self.options, self._dispatch.waits_for_end)
@@ -313,15 +295,10 @@ class Session:
                 self._dispatch.take(taken)
                 self._next.drop_held()
 
-    # --- what Motion and the model tell ---
-
     def _hears_robot_soon(self) -> bool:
         """A robot that is there says where it is within a moment of the start."""
         for _ in range(FIRST_NEWS_LOOKS):
-            event = self._link.next_event(FIRST_NEWS_LOOK_S)
-            while event is not None:
-                self._hear(event)
-                event = self._link.next_event(0.0)
+            self._hear_events(FIRST_NEWS_LOOK_S)
             if self.understanding.hears_robot:
                 return True
         return False
