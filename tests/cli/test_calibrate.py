@@ -89,13 +89,13 @@ def test_of_any_other_robot_a_person_measures_what_it_did(
     child.sendline("y")
     metre = seen(child, r"Odometry says ([\d.]+) m")
     child.sendline("a lot")
-    child.expect("no length")
+    child.expect("a length or an angle above zero")
     child.sendline(f"{metre * 95:.2f} cm")
     child.expect("Turn once.*leave")
     child.sendline("skip")
     child.expect("Saved in")
     assert code(child) == 0
-    assert "no tape" not in (child.before or "")
+    assert "simulated robot" not in (child.before or "")
     calibration = load_profile(str(tmp_path / PROFILE)).calibration
     assert calibration.distance_scale == pytest.approx(0.95, abs=0.002)
 
@@ -119,7 +119,7 @@ def test_a_robot_that_does_not_fit_its_profile_is_noticed(terminal: Terminal, tm
     child.expect("Drive one metre.*leave")
     child.sendline("y")
     child.expect("other way")
-    child.expect("does not do what the profile wheeltec_mini_mec says")
+    child.expect("does not do what its profile wheeltec_mini_mec says")
     assert code(child) == 1
     assert not (tmp_path / PROFILE).exists()
 

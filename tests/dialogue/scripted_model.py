@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Union
 
-from chatrobot.compose import Connection, Setup, connect
-from chatrobot.core.events import Event, Result, TruePose
+from tests.dialogue.talk import Talk
+
+from chatrobot.core.events import Event, TruePose
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.llm.terms import ModelOptions
 from chatrobot.dialogue.options import Options
@@ -74,25 +75,12 @@ class ScriptedModel:
         return self.asked[-1][-1].text
 
 
-class ModelTalk:
+class ModelTalk(Talk):
     """A session with a scripted model, on simulated time, and everything it told."""
 
     def __init__(self, *replies: Line | Sequence[Line], **setup: object) -> None:
-        self.events: list[Event] = []
         self.model = ScriptedModel(*replies)
-        given = {"world": "empty", "fast": True, "trace": True, "model": self.model, **setup}
-        self.connection: Connection = connect(Setup(**given), self.events.append)  # type: ignore[arg-type]
-        self.session = self.connection.session
-
-    def do(self, text: str) -> Result:
-        return self.session.do(text)
-
-    def pump_until(self, done: Callable[[], bool]) -> None:
-        for _ in range(100_000):
-            if done():
-                return
-            self.session.pump(0.02)
-        raise AssertionError("it did not come to pass")
+        super().__init__(**{"model": self.model, **setup})
 
     def pump_until_moving(self) -> None:
         self.pump_until(self.moved)

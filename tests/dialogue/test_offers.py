@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from tests.dialogue.scripted_model import ModelTalk, Options
-from tests.dialogue.test_session import Talk
+from tests.dialogue.talk import Talk
 
 from chatrobot.core.events import Result
 from chatrobot.robots.profile import MotionBudget

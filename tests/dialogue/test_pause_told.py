@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
-from tests.dialogue.test_session import Talk
+from tests.dialogue.talk import Talk, said_while_moving
 from tests.link.link_rigs import SimulatedRig, events_until, finished, send_plan
 from tests.motion.test_pause import pause, run_s
 from tests.motion.test_stream import wait_s
@@ -138,11 +138,7 @@ def test_keep_going_goes_on_the_way_the_last_drive_went() -> None:
 
 
 def test_keep_going_while_it_moves_changes_nothing() -> None:
-    talk = Talk(options=Options(while_moving="replace"))
-    talk.session.say("forward 1 m")
-    talk.pump_until_moving()
-    talk.session.say("keep going")
-    talk.pump_until(lambda: len(talk.results()) == 2)
+    talk = said_while_moving("forward 1 m", "keep going")
     assert talk.results()[2].outcome == "answered"
     assert talk.results()[1].path_m == pytest.approx(1.0, abs=0.01)
 

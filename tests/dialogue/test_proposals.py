@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from rich.console import Console
-from tests.dialogue.test_session import Talk
+from tests.dialogue.talk import Talk
 
 from chatrobot.cli.console.narrator import Narrator
 from chatrobot.cli.console.words import Words

@@ -2,38 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from tests.dialogue.talk import Talk, said_while_moving
 
-from chatrobot.compose import Connection, Setup, connect
-from chatrobot.core.events import Event, Interpreted, Result, TruePose
-from chatrobot.dialogue.options import Options
+from chatrobot.core.events import Interpreted, TruePose
 from chatrobot.link.envelope import QUEUE_LIMIT
-
-
-class Talk:
-    """A session on simulated time, and everything it told."""
-
-    def __init__(self, **setup: object) -> None:
-        self.events: list[Event] = []
-        options = Setup(**{"world": "empty", "fast": True, "trace": True, **setup})  # type: ignore[arg-type]
-        self.connection: Connection = connect(options, self.events.append)
-        self.session = self.connection.session
-
-    def pump_until(self, done: Callable[[], bool]) -> None:
-        for _ in range(100_000):
-            if done():
-                return
-            self.session.pump(0.02)
-        raise AssertionError("it did not come to pass")
-
-    def pump_until_moving(self) -> None:
-        self.pump_until(lambda: any(isinstance(e, TruePose) and e.vx_mps > 0.1 for e in self.events))
-
-    def results(self) -> dict[int, Result]:
-        return {event.turn: event for event in self.events if isinstance(event, Result)}
 
 
 def test_two_instructions_in_a_row_are_both_done_in_order() -> None:
@@ -85,21 +60,13 @@ def test_more_than_ten_waiting_instructions_are_refused_and_named() -> None:
 
 
 def test_at_the_keyboard_new_motion_replaces_the_old() -> None:
-    talk = Talk(options=Options(while_moving="replace"))
-    talk.session.say("forward 5 m")
-    talk.pump_until_moving()
-    talk.session.say("turn left 90 degrees")
-    talk.pump_until(lambda: len(talk.results()) == 2)
+    talk = said_while_moving("forward 5 m", "turn left 90 degrees")
     assert talk.results()[1].outcome == "stopped"
     assert talk.results()[2].outcome == "completed"
 
 
 def test_at_the_keyboard_then_appends() -> None:
-    talk = Talk(options=Options(while_moving="replace"))
-    talk.session.say("forward 1 m")
-    talk.pump_until_moving()
-    talk.session.say("then turn left 90 degrees")
-    talk.pump_until(lambda: len(talk.results()) == 2)
+    talk = said_while_moving("forward 1 m", "then turn left 90 degrees")
     assert talk.results()[1].outcome == "completed"
     assert talk.results()[2].pose.x_m == pytest.approx(1.0, abs=0.01)
 

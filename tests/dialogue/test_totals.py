@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from tests.dialogue.scripted_model import ModelTalk
-from tests.dialogue.test_session import Talk
+from tests.dialogue.talk import Talk
 from tests.link.link_rigs import SimulatedRig, events_until, finished, send_plan
 from tests.motion.test_stream import stream, wait_s
 

@@ -129,7 +129,7 @@ def test_a_program_whose_fence_was_closed_before_the_cut_is_whole() -> None:
     ("why", "told"),
     [
         ("nobody reads", "nobody reads the output any more"),
-        ("operator lost", "no heartbeat comes from the input that gave the order"),
+        ("operator lost", "the input that gave the order is silent"),
         ("Ctrl-C", "Ctrl-C"),
         ("halt!", "you said “halt!”"),
         ("", "a stop was requested"),

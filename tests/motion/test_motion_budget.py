@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from tests.dialogue.scripted_model import ModelTalk, Options
-from tests.dialogue.test_session import Talk
+from tests.dialogue.talk import Talk
 from tests.link.link_rigs import (
     PROFILE,
     ProcessRig,

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.dialogue.test_session import Talk
+from tests.dialogue.talk import Talk
 
 from chatrobot.core.events import Rehearsed, Result
 from chatrobot.core.geometry import ORIGIN

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from tests.dialogue.test_session import Talk
+from tests.dialogue.talk import Talk
 
 from chatrobot.core.events import Finished, Interpreted, Paused, Rehearsed, Result, Started, TruePose
 from chatrobot.core.geometry import Pose

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.dialogue.test_session import Talk
+from tests.dialogue.talk import Talk
 
 from chatrobot.core.events import Finished, Rehearsed
 from chatrobot.core.geometry import ORIGIN, Pose, Twist

@@ -10,7 +10,7 @@ import pytest
 from chatrobot.core.events import Limited, Rehearsed
 from chatrobot.link.envelope import Envelope
 from chatrobot.robots.load import load_profile
-from tests.dialogue.test_session import Talk
+from tests.dialogue.talk import Talk
 from tests.link.link_rigs import PROFILE, SimulatedRig, finished, send_plan
 
 LIMITS = load_profile(PROFILE).limits

@@ -1,9 +1,9 @@
-"""What is done with one text once its turn has come: it is answered, given to Motion, or given to a model."""
+"""Does with one text what is due once its turn has come: answers it, gives it to Motion, or to a model."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Event, Interpreted, Notice, Paused
@@ -25,8 +25,9 @@ from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
 
 
+@dataclass(eq=False)
 class Dispatch:
-    """Belongs to the pumping thread.
+    """Acts on utterances. Belongs to the pumping thread.
 
     Args:
         programs: None where programs are neither written nor run.
@@ -35,37 +36,23 @@ class Dispatch:
         hears_robot_soon: waits a moment for the first word of odometry; whether it came.
     """
 
-    def __init__(
-        self,
-        link: MotionLink,
-        goals: GoalClient,
-        utterance: UtteranceQueue,
-        understanding: Understanding,
-        book: RequestLog,
-        proposals: Proposals,
-        resuming: Resuming,
-        llm: ModelRequests,
-        programs: ProgramRequests | None,
-        emit: Callable[[Event], None],
-        stop: Callable[[str], None],
-        hears_robot_soon: Callable[[], bool],
-    ) -> None:
-        self._link = link
-        self._goals = goals
-        self._utterances = utterance
-        self._understanding = understanding
-        self._requests = book
-        self._proposals = proposals
-        self._resuming = resuming
-        self._llm = llm
-        self._programs = programs
-        self._emit = emit
-        self._stop = stop
-        self._hears_robot_soon = hears_robot_soon
-        self.waits_for_end = 0
-        """The turn that is read again once what is under way has ended."""
+    _link: MotionLink
+    _goals: GoalClient
+    _utterances: UtteranceQueue
+    _understanding: Understanding
+    _requests: RequestLog
+    _proposals: Proposals
+    _resuming: Resuming
+    _llm: ModelRequests
+    _programs: ProgramRequests | None
+    _emit: Callable[[Event], None]
+    _stop: Callable[[str], None]
+    _hears_robot_soon: Callable[[], bool]
+    waits_for_end: int = field(default=0, init=False)
+    """The turn that is read again once what is under way has ended."""
 
     def take(self, utterance: Utterance) -> None:
+        """Act on `utterance`, whose turn has come."""
         if self._utterances.is_void(utterance):
             self._drop(utterance)
             return
@@ -90,25 +77,21 @@ class Dispatch:
             self._requests.conclude(utterance.turn, "stopped", reply)
 
     def texts_behind(self, turn: int) -> tuple[str, ...]:
-        """What is done after that turn, which is paused: what Motion has already, and what waits here."""
+        """Return what is done after that turn, which is paused: what Motion has already, and what waits here."""
         return (*self._requests.texts_but(turn), *(utterance.text for utterance in self._utterances.held))
 
     def _drop(self, utterance: Utterance) -> None:
         """End a turn that waited for what was stopped, or paused and not gone on with."""
         why = self._utterances.why_void(utterance.turn)
-        code = (
-            "dropped_behind_pause"
-            if self._utterances.waited_behind_pause(utterance.turn)
-            else "dropped_by_stop"
-        )
+        was_held = self._utterances.waited_behind_pause(utterance.turn)
+        code = "dropped_behind_pause" if was_held else "dropped_by_stop"
         reply = self._understanding.say_because(code, utterance.text, why)
         self._requests.conclude(utterance.turn, "stopped", reply, reason=why)
 
     def _goes_on(self, text: str) -> bool:
         """Whether it asks to go on with what was paused or stopped, be there anything or not."""
-        return wants_to_resume(
-            text, may_mean_more=self._resuming.is_about_this or bool(self._utterances.held)
-        )
+        may_mean_more = self._resuming.is_about_this or bool(self._utterances.held)
+        return wants_to_resume(text, may_mean_more=may_mean_more)
 
     def _told(self, code: str, paused: Paused | None) -> str:
         """What is left of a paused plan, or else of what was said and had not begun, in the phrase of that code."""
@@ -124,7 +107,6 @@ class Dispatch:
         """Go on with what is paused; what is left of a plan that was stopped is offered."""
         self._understanding.hear_language(utterance.text)
         paused = self._resuming.take_paused()
-        self._goals.is_paused = False
         if paused is None and self._utterances.held:
             reply = self._told("goes_on", None)
             self._utterances.release()
@@ -145,9 +127,8 @@ class Dispatch:
 
     def _begin_program(self, utterance: Utterance) -> None:
         if self._programs is None:
-            self._requests.conclude(
-                utterance.turn, "refused", self._understanding.say("no_programs_here", utterance.text)
-            )
+            reply = self._understanding.say("no_programs_here", utterance.text)
+            self._requests.conclude(utterance.turn, "refused", reply)
         elif isinstance(utterance.about, Draft):
             self._programs.run(utterance.turn, utterance.text, utterance.about)
         elif utterance.kind == "source":
@@ -214,9 +195,8 @@ class Dispatch:
         else:
             self._understanding.note_unmoved(utterance.text, meant)
             self._llm.note(utterance.text, "", f"{meant.outcome}: {meant.reply}")
-            self._requests.conclude(
-                utterance.turn, meant.outcome, meant.reply, None, parting(meant), meant.proposal
-            )
+            reason, proposal = parting(meant), meant.proposal
+            self._requests.conclude(utterance.turn, meant.outcome, meant.reply, None, reason, proposal)
 
     def _told_under_way(self, meant: Interpretation) -> str:
         """The motion that runs and what is left of it; an empty string where no plan of ours runs."""
@@ -247,12 +227,9 @@ class Dispatch:
         try:
             plan = self._plan_in(utterance)
         except PlanTextError as error:
+            reply = self._understanding.say("plan_text", utterance.text, problem=str(error))
             self._emit(Interpreted(utterance.turn, "offline", "", ""))
-            self._requests.conclude(
-                utterance.turn,
-                "unclear",
-                self._understanding.say("plan_text", utterance.text, problem=str(error)),
-            )
+            self._requests.conclude(utterance.turn, "unclear", reply)
             return
         meant = self._understanding.accept(plan)
         plan_text = format_plan(plan)

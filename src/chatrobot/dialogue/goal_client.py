@@ -9,25 +9,26 @@ from chatrobot.core.event import Proposal
 from chatrobot.core.events import Event, Finished, Notice, Outcome, Result
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.options import Options
+from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Instruction, Understanding
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.link.motion_link import MotionLink
 
 
 class GoalClient:
-    """Sends them. `options` may be replaced: those hold for what is sent from then on."""
+    """Sends goals to Motion. `options` may be replaced: those hold for what is sent from then on."""
 
-    def __init__(self, link: MotionLink, options: Options) -> None:
+    def __init__(self, link: MotionLink, options: Options, resuming: Resuming) -> None:
         self._link = link
         self.options = options
-        self.is_paused = False
+        self._resuming = resuming
         self.pauses = 0
         """How many there were before what is sent now was taken up."""
 
     @property
     def mode(self) -> Literal["queue", "replace"]:
-        """What a new instruction does to one that is under way; what is paused, it replaces."""
-        return "replace" if self.is_paused else self.options.while_moving
+        """Return what a new instruction does to one that is under way; what is paused, it replaces."""
+        return "replace" if self._resuming.paused is not None else self.options.while_moving
 
     def resume(self, turn: int) -> None:
         """Have Motion go on with what is paused."""
@@ -37,16 +38,7 @@ class GoalClient:
         self, turn: int, plan_text: str, mode: Literal["queue", "replace", "append"], *, asks: bool = False
     ) -> None:
         """Have Motion rehearse and drive a plan. `asks`: it waits for a yes whatever the options."""
-        options = self.options
-        self._link.send(
-            "plan",
-            turn,
-            plan_text=plan_text,
-            mode=mode,
-            approve=options.approve or asks,
-            rehearse_only=options.rehearse_only,
-            pauses=self.pauses,
-        )
+        self._send("plan", turn, asks, mode=mode, plan_text=plan_text)
 
     def program(
         self,
@@ -70,20 +62,17 @@ class GoalClient:
         options = self.options
         asks_new = is_new and (options.ask_new or (by_model and options.approve_models))
         asks = asks or asks_new or (is_led_elsewhere and options.ask_findings)
+        self._send("program", turn, asks, mode=self.mode, ask_findings=options.ask_findings, **payload)
+
+    def _send(self, word: Literal["plan", "program"], turn: int, asks: bool, **payload: Any) -> None:
+        approve, rehearse_only = self.options.approve or asks, self.options.rehearse_only
         self._link.send(
-            "program",
-            turn,
-            mode=self.mode,
-            approve=options.approve or asks,
-            ask_findings=options.ask_findings,
-            rehearse_only=options.rehearse_only,
-            pauses=self.pauses,
-            **payload,
+            word, turn, approve=approve, rehearse_only=rehearse_only, pauses=self.pauses, **payload
         )
 
 
 class RequestLog:
-    """Used by the session's pumping thread; `is_any_with_motion` may be read from any thread."""
+    """Logs which turns Motion has, and their results. Any thread may read `is_any_with_motion`."""
 
     def __init__(self, understanding: Understanding, emit: Callable[[Event], None]) -> None:
         self._understanding = understanding
@@ -93,32 +82,33 @@ class RequestLog:
 
     @property
     def is_any_with_motion(self) -> bool:
+        """True while Motion has a turn of ours."""
         return bool(self._with_motion)
 
     @property
     def under_way(self) -> tuple[Instruction, ...]:
-        """What Motion has, in the order it was said."""
+        """Return what Motion has, in the order it was said."""
         return tuple(self._with_motion.values())
 
     def texts_but(self, turn: int) -> tuple[str, ...]:
-        """What Motion has besides that turn, in the order it was said."""
+        """Return the texts that Motion has besides that turn, in the order they were said."""
         return tuple(one.text for number, one in self._with_motion.items() if number != turn)
 
     @property
     def first_with_motion(self) -> tuple[int, Instruction] | None:
-        """The turn that Motion is at, and what it is about."""
+        """Return the turn that Motion is at, and what it is about."""
         return next(iter(self._with_motion.items()), None)
 
     def has(self, turn: int) -> bool:
-        """That turn is with Motion."""
+        """Return whether that turn is with Motion."""
         return turn in self._with_motion
 
     def track(self, turn: int, text: str, meant: Interpretation) -> None:
-        """That turn is now Motion's; its `finished` ends it."""
+        """Note that Motion has that turn; its `finished` ends it."""
         self._with_motion[turn] = Instruction(text, meant, self._understanding.pose)
 
     def take(self, turn: int) -> Instruction | None:
-        """Motion is done with that turn: what it was about, None where Motion never had it."""
+        """Return what a turn was about that Motion is done with, None where Motion never had it."""
         return self._with_motion.pop(turn, None)
 
     def conclude(
@@ -133,26 +123,23 @@ class RequestLog:
         """End that turn: `finished` is what was measured, None where nothing moved; the reply asks about `proposal`."""
         self.take(turn)
         understanding = self._understanding
-        pose = understanding.pose
         unkept = understanding.places.take_unkept()
         if unkept:
             self._emit(Notice(turn, Reason("places_not_kept", {"why": unkept})))
-        result = Result(
-            turn, outcome, reply, pose, reason=reason, proposal=proposal, measured=understanding.is_measured
-        )
-        if finished is not None:
+        if finished is None:
+            measured = understanding.is_measured
             result = Result(
-                turn,
-                outcome,
-                reply,
+                turn, outcome, reply, understanding.pose, 0.0, 0.0, 0.0, 0.0, reason, proposal, measured
+            )
+        else:
+            moved = (
                 finished.pose,
                 finished.turned_rad,
                 finished.path_m,
                 finished.duration_s,
                 finished.paused_s,
-                reason or finished.reason,
-                proposal,
-                finished.measured,
             )
+            why = reason or finished.reason
+            result = Result(turn, outcome, reply, *moved, why, proposal, finished.measured)
         self.results[turn] = result
         self._emit(result)

@@ -34,11 +34,12 @@ class Exchange:
 
     @property
     def chars(self) -> int:
+        """Return its length in a prompt."""
         return len(self.request or self.text) + len(self.answer) + len(self.end)
 
 
 class History:
-    """The exchanges of one conversation. `pinned` ones stay whatever happens (the tutorial's first instruction)."""
+    """Keeps the exchanges of one conversation. `pinned` ones stay (the tutorial's first instruction)."""
 
     def __init__(self) -> None:
         self._pinned: list[Exchange] = []
@@ -47,6 +48,7 @@ class History:
         self._count = 0
 
     def add(self, exchange: Exchange, *, pin: bool = False) -> None:
+        """Add an exchange; older ones are forgotten where all are too long."""
         (self._pinned if pin else self._kept).append(exchange)
         if sum(kept.chars for kept in self._kept) > BUDGET_CHARS:
             while len(self._kept) > 1 and sum(kept.chars for kept in self._kept) > BUDGET_CHARS / 2:
@@ -59,13 +61,10 @@ class History:
             self._forgotten.pop(0)
 
     def messages(self) -> tuple[list[Message], list[str]]:
-        """Earlier messages, and the news since the model last spoke, a line each, for the next one."""
+        """Return earlier messages, and the news since the model last spoke, a line each, for the next one."""
         messages: list[Message] = []
-        news = (
-            [f"data: {self._count} earlier turns, the last: {'; '.join(self._forgotten)}"]
-            if self._count
-            else []
-        )
+        before = f"data: {self._count} earlier turns, the last: {'; '.join(self._forgotten)}"
+        news = [before] if self._count else []
         for exchange in (*self._pinned, *self._kept):
             if exchange.request:
                 messages.append(Message("user", "\n".join([*news, exchange.request])))
@@ -92,7 +91,7 @@ def observation(
     finished: Finished | None,
     take: Callable[[], bytes | None],
 ) -> Message:
-    """The answer to a `look` line. What became of the last motion always comes first. `take` takes a picture."""
+    """Return the answer to a `look` line: first what became of the last motion. `take` takes a picture."""
     lines = [outcome_line(finished)] if finished is not None or "outcome" in looks else []
     picture: bytes | None = None
     for look in looks:
@@ -110,7 +109,7 @@ def observation(
 
 
 def without_pictures(messages: Sequence[Message]) -> list[Message]:
-    """The same in words alone: an older picture is sent again with no later call."""
+    """Return the same in words alone: an older picture is sent again with no later call."""
     return [
         replace(message, picture=None, text=message.text.replace(ATTACHED, SEEN))
         if message.picture
@@ -120,7 +119,7 @@ def without_pictures(messages: Sequence[Message]) -> list[Message]:
 
 
 def outcome_line(finished: Finished | None) -> str:
-    """What the robot has measured of its last motion, never what was asked for."""
+    """Return what the robot has measured of its last motion, never what was asked for."""
     if finished is None:
         return "data: nothing has moved yet"
     why = f" ({finished.reason.code})" if finished.reason is not None else ""
@@ -131,7 +130,7 @@ def outcome_line(finished: Finished | None) -> str:
 
 
 def measured(finished: Finished) -> str:
-    """What odometry shows, in numbers."""
+    """Return what odometry shows, in numbers."""
     if not finished.measured:
         return "nobody knows how far, this robot does not measure its motion"
     of_all = "" if finished.open_ended else f" of {finished.planned_m:.2f} m"
@@ -139,7 +138,7 @@ def measured(finished: Finished) -> str:
 
 
 def scan_line(looked: Looked | None) -> str:
-    """The free way in each direction."""
+    """Return the free way in each direction."""
     if looked is None or not looked.sectors_m:
         return "data: no lidar scan to be had"
     told = (f"{name} {'free' if d is None else f'{d:.2f} m'}" for name, d in zip(_SECTORS, looked.sectors_m))

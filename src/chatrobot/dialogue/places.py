@@ -1,4 +1,4 @@
-"""Places a person has named, each with the odometry epoch its coordinates belong to; and how far it is to a place."""
+"""Keeps the places a person has named, with the odometry epoch of each, and tells how far it is to a place."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _FILE = "places.json"
 
 
 class Places:
-    """The named places of one robot.
+    """Keeps the named places of one robot.
 
     Args:
         folder: where they are kept; None keeps them for this session only.
@@ -53,12 +53,12 @@ class Places:
             self._unkept = error.strerror or str(error)
 
     def take_unkept(self) -> str:
-        """Why the last place is remembered for this session only; said once, empty where it was kept."""
+        """Return why the last place is remembered for this session only; once, empty where it was kept."""
         unkept, self._unkept = self._unkept, ""
         return unkept
 
     def all(self) -> Mapping[str, Place]:
-        """Every place by name."""
+        """Return every place by name."""
         return {name: self._place(entry) for name, entry in self._kept.items()}
 
     def _place(self, entry: Mapping[str, object]) -> Place:
@@ -95,7 +95,7 @@ class Places:
 
 
 class MapWays:
-    """Ways of one robot in one world. numpy is loaded with the first question, not with the console."""
+    """Measures ways of one robot in one world. numpy is loaded with the first question, not with the console."""
 
     def __init__(self, world: World, profile: RobotProfile) -> None:
         self._world = world

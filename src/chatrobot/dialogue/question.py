@@ -25,7 +25,8 @@ from chatrobot.plan.text import parse_plan
 class Approving(Protocol):
     """A `Session`, as far as a question needs it."""
 
-    def approve(self, turn: int, yes: bool) -> None: ...
+    def approve(self, turn: int, yes: bool) -> None:
+        """Answer a rehearsed plan that waits for a yes."""
 
 
 class Question:
@@ -36,12 +37,12 @@ class Question:
 
     @property
     def turn(self) -> int | None:
-        """Of the plan that waits; None where none does."""
+        """Return the turn of the plan that waits; None where none does."""
         asked = self._asked
         return asked.turn if asked is not None else None
 
     def hear(self, event: Event) -> bool:
-        """Take an event in; True where it is a question."""
+        """Take an event in; return whether it is a question."""
         if isinstance(event, Rehearsed) and event.needs_approval:
             self._asked = event
             return True
@@ -50,7 +51,7 @@ class Question:
         return False
 
     def answer(self, session: Approving, yes: bool) -> bool:
-        """Answer it, once; False where nothing waits.
+        """Answer it, once; return whether something waited.
 
         Raises:
             LinkError: Motion is gone.
@@ -83,11 +84,11 @@ class Proposals:
         self._offered: _Offered | None = None
 
     def declines_motion(self, text: str) -> bool:
-        """Whether `text` says no to what moves, and not to an offer. From any thread."""
+        """Return whether `text` says no to what moves, and not to an offer. From any thread."""
         return self._offered is None and read_consent(text) is False
 
     def hear(self, event: Event) -> None:
-        """A result may offer a plan; a motion makes an earlier offer void."""
+        """Keep the plan that a result offers; drop it when something moves."""
         if isinstance(event, Result) and event.proposal is not None:
             approval = Approval(time.monotonic(), event.pose)
             self._offered = _Offered(event.turn, event.proposal, approval)
@@ -95,7 +96,7 @@ class Proposals:
             self._offered = None
 
     def answered(self, utterance: Utterance) -> Interpretation | None:
-        """What `utterance` means as the answer to the offer; None where it is none. The offer is over in any case."""
+        """Return what `utterance` means as the answer to the offer; None where it is none. The offer is then over."""
         offered, self._offered = self._offered, None
         if offered is None or utterance.kind != "text" or self._is_void_turn(offered.turn):
             return None

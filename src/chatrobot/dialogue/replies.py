@@ -1,4 +1,4 @@
-"""The sentence at the end of a turn: what was measured, and why it ended, in the language of the question."""
+"""Makes the sentence at the end of a turn: what was measured, and why it ended, in the language of the question."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _STOPPED_TWICE = re.compile(r"([.?!。？！])[.。]")
 
 
 def describe_end(finished: Finished, language: str, steps: Sequence[Step] = ()) -> str:
-    """What a plan of those steps came to: outcome, measured motion, and the reason if it did not complete."""
+    """Return what a plan of those steps came to: outcome, measured motion, and the reason if it did not complete."""
     if not finished.measured and finished.outcome != "refused":
         return _ended_once(_commanded(finished, language, steps))
     moved = _measured(finished, language)
@@ -36,14 +36,11 @@ def describe_end(finished: Finished, language: str, steps: Sequence[Step] = ()) 
         done = say(language, "done", moved=moved) if moved else _done_standing(steps, language)
         heading, slowed = _heading_there(finished, steps, language), _slowed(finished, language)
         return " ".join(filter(None, (done, heading, slowed)))
-    reason = render_reason(finished.reason, language) if finished.reason is not None else ""
+    reason = _why(finished.reason, language)
     if finished.outcome == "refused":
         refused = " ".join(filter(None, (reason, _free(finished.reason, language))))
-        return (
-            say(language, "model_so_far", reason=refused, moved=moved)
-            if moved and finished.path_m
-            else refused
-        )
+        has_moved = moved and finished.path_m
+        return say(language, "model_so_far", reason=refused, moved=moved) if has_moved else refused
     code = "stopped_after" if finished.outcome == "stopped" else "failed_after"
     return _ended_once(say(language, code, moved=moved or say(language, "nothing_moved"), reason=reason))
 
@@ -55,16 +52,14 @@ def _slowed(finished: Finished, language: str) -> str:
 
 def _commanded(finished: Finished, language: str, steps: Sequence[Step]) -> str:
     """The end of a turn of a robot that measures nothing: what it was sent, never what it did."""
-    if finished.outcome == "completed":
-        if not finished.duration_s:
-            return say(language, "done_standing")
-        is_known = steps and not any(
-            isinstance(step, RawTwist) for step in steps
-        )  # those may have been scaled
-        plan = describe_steps(steps, language) if is_known else _velocities(finished, language)
-        return say(language, "commanded", plan=plan)
-    reason = render_reason(finished.reason, language) if finished.reason is not None else ""
-    return _stop_sent(finished, reason, language)
+    if finished.outcome != "completed":
+        return _stop_sent(finished, _why(finished.reason, language), language)
+    if not finished.duration_s:
+        return say(language, "done_standing")
+    # A raw twist may have been scaled.
+    is_known = steps and not any(isinstance(step, RawTwist) for step in steps)
+    plan = describe_steps(steps, language) if is_known else _velocities(finished, language)
+    return say(language, "commanded", plan=plan)
 
 
 def _stop_sent(finished: Finished, reason: str, language: str) -> str:
@@ -88,7 +83,7 @@ def _done_standing(steps: Sequence[Step], language: str) -> str:
 
 
 def describe_left(paused: Paused, language: str) -> str:
-    """What is left of a paused plan in a few words, and the texts that wait behind it."""
+    """Return what is left of a paused plan in a few words, and the texts that wait behind it."""
     plan = describe_text(paused.plan_text, language)
     if not paused.waiting:
         return plan
@@ -96,13 +91,13 @@ def describe_left(paused: Paused, language: str) -> str:
 
 
 def describe_waiting(texts: Sequence[str], language: str) -> str:
-    """Texts that wait, in quotation marks."""
+    """Return texts that wait, in quotation marks."""
     shown = (say(language, "quoted", text=one_line(text, SHOWN_CHARS)) for text in texts)
     return say(language, "list_comma").join(shown)
 
 
 def with_offer(reply: str, finished: Finished | None, language: str) -> tuple[str, Proposal | None]:
-    """The reply with the question whether to do what is possible of a plan that was refused, and what it offers."""
+    """Return the reply with the question whether to do what is possible of a refused plan, and what it offers."""
     proposal = offered(finished, language) if finished is not None else None
     return (f"{reply} {proposal.say}", proposal) if proposal is not None else (reply, None)
 
@@ -118,13 +113,17 @@ def _heading_there(finished: Finished, steps: Sequence[Step], language: str) -> 
 
 
 def offered(finished: Finished, language: str) -> Proposal | None:
-    """The question whether to do what is possible of a plan that was refused."""
+    """Return the question whether to do what is possible of a plan that was refused."""
     if not finished.possible:
         return None
     text = describe_plan(parse_plan(finished.possible), language)
     values = finished.reason.values if finished.reason is not None else {}
     limits = [say(language, code, **values) for code in ("limit_m", "limit_s") if code in values]
     return Proposal(finished.possible, " ".join([*limits, say(language, "offer", text=text)]))
+
+
+def _why(reason: Reason | None, language: str) -> str:
+    return render_reason(reason, language) if reason is not None else ""
 
 
 def _free(reason: Reason | None, language: str) -> str:
@@ -140,13 +139,13 @@ def _ended_once(sentences: str) -> str:
 
 
 def describe_model_end(ended: Ended, language: str) -> str:
-    """What a turn that a model planned came to."""
+    """Return what a turn that a model planned came to."""
     finished, reason = ended.finished, ended.reason
     if ended.outcome == "answered":
         return ended.said or say(language, "done_standing")
     if ended.outcome == "completed":
         return describe_end(finished, language, ended.steps) if finished else say(language, "done_standing")
-    why = render_reason(reason, language) if reason is not None else ""
+    why = _why(reason, language)
     if ended.outcome == "refused":
         why = " ".join(filter(None, (why, _free(reason, language))))
     moved = _measured(finished, language) if finished is not None else ""
@@ -163,11 +162,8 @@ def describe_model_end(ended: Ended, language: str) -> str:
 
 def _measured(finished: Finished, language: str) -> str:
     if not finished.measured:
-        return (
-            say(language, "commanded_so_far", plan=_velocities(finished, language))
-            if finished.duration_s
-            else ""
-        )
+        plan = _velocities(finished, language) if finished.duration_s else ""
+        return say(language, "commanded_so_far", plan=plan) if plan else ""
     parts = []
     if finished.planned_m > LEAST_M or (finished.open_ended and finished.path_m > LEAST_M):
         code = "drove_open" if finished.open_ended else "drove"
@@ -188,10 +184,10 @@ PARTING = "parting"
 
 
 def parting(meant: Interpretation) -> Reason | None:
-    """The reason of a result that ends the conversation; None for any other."""
+    """Return the reason of a result that ends the conversation; None for any other."""
     return Reason(PARTING) if meant.code == PARTING else None
 
 
 def is_parting(event: Event) -> bool:
-    """The person has said goodbye, and has been answered."""
+    """Return whether the person has said goodbye, and has been answered."""
     return isinstance(event, Result) and event.reason is not None and event.reason.code == PARTING

@@ -1,4 +1,4 @@
-"""What is under way, and what may be gone on with: what is paused, or what is left of what was stopped last.
+"""Knows what is under way, and what may be resumed: what is paused, or left of what was stopped last.
 
 Motion keeps a paused plan and goes on with it on a word; the rest of a stopped one is offered as a plan of its own.
 """
@@ -26,7 +26,7 @@ _LEAST = 0.05
 
 
 class UnderWay:
-    """It hears the events of the session's own turns. Used by the pumping thread."""
+    """Hears the events of the session's own turns. Used by the pumping thread."""
 
     def __init__(self) -> None:
         self._turn = 0
@@ -36,6 +36,7 @@ class UnderWay:
         self._turned_rad = 0.0
 
     def hear(self, event: Event) -> None:
+        """Follow the motion by its events."""
         if isinstance(event, Started):
             self._turn, self._step = event.turn, 0
             self._at(event.pose)
@@ -52,7 +53,7 @@ class UnderWay:
         self._turned_rad = 0.0
 
     def told(self, turn: int, steps: Sequence[Step], language: str, speed_mps: float) -> str:
-        """The step that runs, with what is left of it and after it; an empty string where that is not known."""
+        """Return the step that runs, what is left of it and comes after it; empty where that is not known."""
         flat = list(expanded(steps))
         if turn != self._turn or not 0 < self._step <= len(flat):
             return ""
@@ -75,7 +76,7 @@ class UnderWay:
 
 
 class Resuming:
-    """Belongs to the pumping thread; `paused` may be read from any. It hears the events of its own turns."""
+    """Hears the events of its own turns. Belongs to the pumping thread; any thread may read `paused`."""
 
     def __init__(self, understanding: Understanding) -> None:
         self._understanding = understanding
@@ -88,6 +89,7 @@ class Resuming:
         self.under_way = UnderWay()
 
     def hear(self, event: Event) -> None:
+        """Follow what is paused and what is left of what was stopped."""
         self.under_way.hear(event)
         if isinstance(event, Paused):
             self.paused = event
@@ -100,16 +102,16 @@ class Resuming:
 
     @property
     def is_about_this(self) -> bool:
-        """To go on would be to go on with what was paused or stopped, be anything left of it or not."""
+        """True where “go on” means what was paused or stopped, be anything left of it or not."""
         return self.paused is not None or self._was_stopped
 
     def take_paused(self) -> Paused | None:
-        """The plan that is paused: from now on it is Motion's again."""
+        """Return the plan that is paused: from now on it is Motion's again."""
         paused, self.paused = self.paused, None
         return paused
 
     def offer(self) -> Interpretation | None:
-        """The question whether to drive what is left of the plan that was stopped last; None where nothing is."""
+        """Ask whether to drive what is left of the plan that was stopped last; None where nothing is."""
         if not self._rest:
             return None
         language = self._understanding.language
@@ -119,7 +121,7 @@ class Resuming:
         return Interpretation("unclear", reply, language, code="ask_rest", proposal=Proposal(self._rest, ask))
 
     def more(self, meant: Interpretation, *, is_under_way: bool) -> Interpretation:
-        """“Keep going” where nothing was paused or stopped: `meant`, in the direction of the drive before it.
+        """Read “keep going” where nothing was paused or stopped: `meant`, in the direction of the drive before it.
 
         It is asked about where the last motion was no drive, and moves nothing where a motion goes on anyway.
         """
@@ -135,7 +137,7 @@ class Resuming:
         return planned([*steps], meant.language)
 
     def told(self, paused: Paused | None, code: str) -> str:
-        """What is left of a paused plan, in the phrase of that code; that it stands, where nothing is paused."""
+        """Return what is left of a paused plan, in the phrase of that code; that it stands, where nothing is paused."""
         language = self._understanding.language
         if paused is None:
             is_measured = self._understanding.is_measured

@@ -58,35 +58,26 @@ class Session:
         self._link = link
         self.understanding = understanding
         self._on_event = on_event
-        self._goals = GoalClient(link, options)
+        self._resuming = Resuming(understanding)
+        self._goals = GoalClient(link, options, self._resuming)
         self._utterances = UtteranceQueue()
         self._proposals = Proposals(understanding, self._utterances.is_void_turn)
         self._requests = RequestLog(understanding, self._emit)
         self._llm = ModelRequests(
-            model_setup,
-            options.interpreter,
-            link,
-            understanding,
-            self._emit,
-            self._conclude_model_turn,
+            model_setup, options.interpreter, link, understanding, self._emit, self._conclude_model_turn,
             lambda: self._utterances.pauses,
-        )
+        )  # fmt: skip
         self.authoring = authoring
-        self._resuming = Resuming(understanding)
+        early = EarlyAnswers(understanding, self._llm, self._requests, authoring)
         self._next = NextUtterance(
-            self._utterances,
-            self._requests,
-            self._llm,
-            understanding,
-            self._resuming,
-            EarlyAnswers(understanding, self._llm, self._requests, authoring),
+            self._utterances, self._requests, self._llm, understanding, self._resuming, early
         )
         self._programs: ProgramRequests | None = None
         if authoring is not None:
-            is_void = self._utterances.is_void_turn
             self._programs = ProgramRequests(
-                authoring, understanding, self._requests, self._goals, link, self._emit, is_void, self._finish
-            )
+                authoring, understanding, self._requests, self._goals, link, self._emit,
+                self._utterances.is_void_turn, self._finish,
+            )  # fmt: skip
             self._llm.writer = self._programs
         self._dispatch = Dispatch(
             link, self._goals, self._utterances, understanding, self._requests, self._proposals, self._resuming,
@@ -95,7 +86,7 @@ class Session:
 
     @property
     def options(self) -> Options:
-        """They may be replaced between two turns, but for who interprets."""
+        """Return the options. They may be replaced between two turns, but for who interprets."""
         return self._goals.options
 
     @options.setter
@@ -104,7 +95,7 @@ class Session:
 
     @property
     def results(self) -> dict[int, Result]:
-        """How each turn ended, by its number."""
+        """Return how each turn ended, by its number."""
         return self._requests.results
 
     # --- from any thread ---
@@ -129,7 +120,7 @@ class Session:
         return self._take_in(plan_text, "plan")
 
     def say_edited_plan(self, plan_text: str, instead_of: str = "") -> int:
-        """What a person made of a plan that waited for a yes: it, or `instead_of` if it is none, is asked about."""
+        """Take in an edit of a plan that waited for a yes: it, or `instead_of` if it is none, is asked about."""
         return self._take_in(plan_text, "edited_plan", instead_of)
 
     def say_program(self, text: str, name: str = "") -> int:
@@ -174,10 +165,7 @@ class Session:
         self._link.send("release")
 
     def limit(self, **limits: Any) -> None:
-        """Change the motion budget, or ask for it: `max_distance_m`, `max_time_s`, each a number or `none`.
-
-        For the local console alone.
-        """
+        """Change or ask for the motion budget: `max_distance_m`, `max_time_s` (a number or `none`). For the console."""
         self._link.send("limit", **limits)
 
     def approve(self, turn: int, yes: bool) -> None:
@@ -191,28 +179,28 @@ class Session:
 
     @property
     def model_wait_s(self) -> float | None:
-        """For how long a model has been asked by now, for a plan or a program; None where none is."""
+        """Return how long a model has been asked by now, for a plan or a program; None where none is."""
         asked_at_s = self._llm.asked_at_s
         return time.monotonic() - asked_at_s if asked_at_s is not None else None
 
     @property
     def is_paused(self) -> bool:
-        """A plan of ours is paused, or what was said and had not begun."""
+        """True while a plan of ours is paused, or what was said and had not begun."""
         return self.is_plan_paused or self._utterances.is_unbegun_held
 
     @property
     def is_plan_paused(self) -> bool:
-        """A plan of ours that had begun is paused."""
+        """True while a plan of ours that had begun is paused."""
         return self._resuming.paused is not None
 
     @property
     def is_being_paused(self) -> bool:
-        """A pause was said, and Motion has not told yet what came of it."""
+        """True from a pause until Motion has told what came of it."""
         return self._next.is_being_paused
 
     @property
     def waits_for_a_word(self) -> bool:
-        """A plan is paused, and nothing happens before somebody says something."""
+        """True while a plan is paused, and nothing happens before somebody says something."""
         return self.is_paused and not self._llm.is_calling and self._find_next() is None
 
     @property
@@ -224,7 +212,7 @@ class Session:
     # --- the pumping thread ---
 
     def do(self, text: str) -> Result:
-        """Say it and see it through: the result of its turn."""
+        """Say it and see it through; return the result of its turn."""
         return self.see_through(self.say(text))
 
     def see_through(self, turn: int) -> Result:
@@ -246,35 +234,34 @@ class Session:
             self._llm.wait(timeout_s)  # a model thinks in no time at all
             self._llm.pump()
             timeout_s = 0.0
-        event = self._link.next_event(0.0 if self._find_next() is not None else timeout_s)
-        while event is not None:
-            self._hear(event)
-            event = self._link.next_event(0.0)
+        self._hear_events(0.0 if self._find_next() is not None else timeout_s)
         self._llm.pump()
         if self._link.is_lost:
             raise LinkError("Motion is gone, and its guard sends the robot zeros. Start chatrobot again.")
         self._take_texts()
 
+    def _hear_events(self, timeout_s: float) -> None:
+        event = self._link.next_event(timeout_s)
+        while event is not None:
+            self._hear(event)
+            event = self._link.next_event(0.0)
+
     def close(self) -> None:
-        """Goodbye: what runs is still done."""
+        """Say goodbye: what runs is still done."""
         self._link.close()
 
     def _emit(self, event: Event) -> None:
         self._proposals.hear(event)
         self._on_event(event)
 
-    # --- what was said ---
-
     def _find_next(self) -> Utterance | None:
         """The text to take now, if any."""
         return self._next.find(self.options, self._dispatch.waits_for_end)
 
     def _take_texts(self) -> None:
-        for utterance in self._utterances.take_too_many():
+        for one in self._utterances.take_too_many():
             # Who said one too many hears so now, not when the ten before it are done.
-            self._requests.conclude(
-                utterance.turn, "refused", self.understanding.say("queue_full", utterance.text)
-            )
+            self._requests.conclude(one.turn, "refused", self.understanding.say("queue_full", one.text))
         self._next.drop_held()
         while (found := self._find_next()) is not None:
             self._goals.pauses = self._utterances.pauses
@@ -282,15 +269,10 @@ class Session:
                 self._dispatch.take(taken)
                 self._next.drop_held()
 
-    # --- what Motion and the model tell ---
-
     def _hears_robot_soon(self) -> bool:
         """A robot that is there says where it is within a moment of the start."""
         for _ in range(FIRST_NEWS_LOOKS):
-            event = self._link.next_event(FIRST_NEWS_LOOK_S)
-            while event is not None:
-                self._hear(event)
-                event = self._link.next_event(0.0)
+            self._hear_events(FIRST_NEWS_LOOK_S)
             if self.understanding.hears_robot:
                 return True
         return False
@@ -298,9 +280,8 @@ class Session:
     def _conclude_model_turn(self, turn: int, text: str, ended: Ended) -> None:
         reply = self.understanding.note_model_turn(text, ended, self.options.rehearse_only)
         is_refused = ended.outcome == "refused" and not self.options.rehearse_only
-        reply, proposal = with_offer(
-            reply, ended.finished if is_refused else None, self.understanding.language_of(text)
-        )
+        finished, language = ended.finished if is_refused else None, self.understanding.language_of(text)
+        reply, proposal = with_offer(reply, finished, language)
         self._requests.conclude(turn, ended.outcome, reply, ended.finished, ended.reason, proposal)
 
     def _hear(self, event: Event) -> None:
@@ -317,7 +298,6 @@ class Session:
         if self._requests.has(event.turn) or self._llm.has(event.turn):
             was_paused = self.is_plan_paused
             self._resuming.hear(event)
-            self._goals.is_paused = self.is_plan_paused
             if was_paused and not self.is_plan_paused:
                 self._utterances.drop_held(self._resuming.ended_by)
         if self._programs is not None and self._programs.hear(event):

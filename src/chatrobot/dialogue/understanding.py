@@ -1,4 +1,4 @@
-"""The half that understands: text to a reply and a plan, with what was said and done before."""
+"""Understands: makes of a text a reply and a plan, with what was said and done before."""
 
 from __future__ import annotations
 
@@ -47,18 +47,18 @@ class RestWatch:
         self._odometry_epoch: int | None = None
 
     def hear(self, event: Telemetry, *, is_ours: bool) -> str:
-        """`is_ours`: a turn of ours moves the robot, or may."""
+        """Compare where the robot is. `is_ours`: a turn of ours moves it, or may."""
         before, self._odometry_epoch = self._odometry_epoch, event.odometry_epoch
         if before is not None and before != event.odometry_epoch:
             return ODOMETRY_ANEW
         return "" if is_ours else self._displaced(event.pose)
 
     def begin(self, finished: Finished) -> str:
-        """That turn has ended: was the robot moved before it began?"""
+        """Compare where the robot was when the turn that has ended began."""
         return self._displaced(finished.start)
 
     def end(self, finished: Finished) -> str:
-        """That turn has ended: does somebody else drive on?"""
+        """Note where a turn has ended, and whether somebody else drives on."""
         self._rest = finished.pose
         handed_over = finished.reason is not None and finished.reason.code == "handed_over"
         return MOVED if handed_over else ""
@@ -72,7 +72,7 @@ class RestWatch:
 
 
 class Instruction(NamedTuple):
-    """What was said, what it means, and where the robot stood then."""
+    """Holds what was said, what it means, and where the robot stood then."""
 
     text: str
     meant: Interpretation
@@ -113,17 +113,17 @@ class Understanding:
 
     @property
     def pose(self) -> Pose:
-        """Where the robot last said it was."""
+        """Return where the robot last said it was."""
         return self._state.pose
 
     @property
     def known_pose(self) -> Pose | None:
-        """The same; None where it has never said."""
+        """Return the same; None where it has never said."""
         return self._state.pose if self._state.has_said_so else None
 
     @property
     def usable_places(self) -> dict[str, Pose]:
-        """The places a person has named, as far as their coordinates still hold."""
+        """Return the places a person has named, as far as their coordinates still hold."""
         return {name: place.pose for name, place in self.places.all().items() if place.usable}
 
     def warm(self) -> None:
@@ -132,7 +132,7 @@ class Understanding:
             self._interpreter.interpret(text, Context())
 
     def interpret(self, text: str, under_way: Sequence[Instruction] = ()) -> Interpretation:
-        """What `text` means now. Instructions that are under way are read as turns before."""
+        """Return what `text` means now. Instructions that are under way are read as turns before."""
         turns = (*self._dialogue.turns, *map(self._as_if_done, under_way))
         dialogue = replace(self._dialogue, turns=turns, places=self.places.all())
         meant = self._interpreter.interpret(text, self._context(dialogue))
@@ -147,75 +147,75 @@ class Understanding:
         return Context(dialogue, self._state, self.world_places, without_heading, self._names, self._ways)
 
     def can_do(self, text: str) -> bool:
-        """Whether `text` would be driven if it were said now. From any thread: nothing is noted."""
+        """Return whether `text` would be driven if it were said now. From any thread: nothing is noted."""
         dialogue = replace(self._dialogue, places=self.places.all())
         return self._interpreter.interpret(text, self._context(dialogue)).outcome == "plan"
 
     def place_names(self) -> list[tuple[str, ...]]:
-        """The names of each place that can be gone to, the person's own first."""
+        """Return the names of each place that can be gone to, the person's own first."""
         own = self.usable_places
         return [*((name,) for name in own), *(names for names in self._names if names[0] not in own)]
 
     @property
     def is_measured(self) -> bool:
-        """The robot has odometry, as far as is known."""
+        """True where the robot has odometry, as far as is known."""
         return self._state.is_measured
 
     def note_open_loop(self) -> None:
-        """Motion has said that it drives without odometry, whatever our profile says."""
+        """Note that Motion drives without odometry, whatever our profile says."""
         self._state = replace(self._state, is_measured=False)
 
     @property
     def hears_robot(self) -> bool:
-        """Whether the robot has said where it is."""
+        """True once the robot has said where it is."""
         return self._started
 
     def misses_robot(self, meant: Interpretation) -> bool:
-        """What was said cannot be answered before the robot has said where it is."""
+        """Return whether `meant` cannot be answered before the robot has said where it is."""
         return not self.hears_robot and meant.reply == say(meant.language, UNHEARD)
 
     def tells_it_stands(self, meant: Interpretation) -> bool:
-        """The answer is that the robot stands and is ready."""
+        """Return whether the answer is that the robot stands and is ready."""
         return meant.reply == say(meant.language, "answer_standing")
 
     def tells_it_moves(self, meant: Interpretation) -> bool:
-        """The answer is that the robot moves, and how fast."""
+        """Return whether the answer is that the robot moves, and how fast."""
         return meant.reply == say(meant.language, "answer_moving", speed_mps=self.speed_mps)
 
     @property
     def speed_mps(self) -> float:
-        """How fast the robot last said it was."""
+        """Return how fast the robot last said it was."""
         return math.hypot(self._state.twist.vx_mps, self._state.twist.vy_mps)
 
     @property
     def last_done(self) -> Step | None:
-        """The last step of the last turn that moved."""
+        """Return the last step of the last turn that moved."""
         done = (turn.way for turn in reversed(self._dialogue.turns) if turn.moved)
         way = next(done, None)
         return way[-1] if way else None
 
     def undone_programs(self, meant: Interpretation) -> Entry | None:
-        """The entry of the ledger that `meant` does again, where it was undone whole and programs are in it."""
+        """Return the ledger's entry that `meant` does again, where it was undone whole and programs are in it."""
         if meant.walk is None or meant.walk.kind != "redo":
             return None
         entry = self._dialogue.ledger.redoes()
         return entry if entry is not None and entry.programs and not entry.back else None
 
     def with_manner(self, plan: Plan, said: str) -> Plan | None:
-        """The plan as fast or as slow as `said`; None where that says anything else."""
+        """Return the plan as fast or as slow as `said`; None where that says anything else."""
         return self._interpreter.with_manner(plan, said, self._context(self._dialogue))
 
     def accept(self, plan: Plan) -> Interpretation:
-        """A plan as it is: there is nothing to understand."""
+        """Return the meaning of a plan as it is: there is nothing to understand."""
         return Interpretation("plan", "", self.language, plan)
 
     def say(self, code: str, text: str, **values: float | str) -> str:
-        """A phrase in the language of `text`, what the person said."""
+        """Return a phrase in the language of `text`, what the person said."""
         self.hear_language(text)
         return say(self.language, code, text=text[:80], **values)
 
     def say_because(self, code: str, text: str, why: Reason) -> str:
-        """A phrase in the language of `text` that gives a reason."""
+        """Return a phrase in the language of `text` that gives a reason."""
         self.hear_language(text)
         return say(self.language, code, text=text[:80], reason=render_reason(why, self.language))
 
@@ -224,13 +224,13 @@ class Understanding:
         self.language = self.language_of(text)
 
     def language_of(self, text: str) -> LanguageCode:
-        """The language of `text`; of what was said last, where it has none."""
+        """Return the language of `text`; of what was said last, where it has none."""
         if not any(character.isalpha() for character in text):
             return self.language
         return "zh" if has_chinese(text) else "en"
 
     def note_telemetry(self, event: Telemetry, *, is_ours: bool) -> None:
-        """`is_ours`: a turn of ours moves the robot, or may."""
+        """Note where the robot is. `is_ours`: a turn of ours moves it, or may."""
         self._lose(self._rest.hear(event, is_ours=is_ours))
         self._state = RobotState(
             event.pose,
@@ -245,10 +245,11 @@ class Understanding:
             self._dialogue = replace(self._dialogue, start_pose=event.pose)
 
     def note_place(self, event: Remembered) -> None:
+        """Remember a place that a plan named."""
         self.places.add(event.place, event.pose)
 
     def note_unmoved(self, text: str, meant: Interpretation) -> None:
-        """A turn that ended without motion: refused, unclear or answered; it may still have taught us something."""
+        """Remember a turn that ended without motion; it may still have taught us something."""
         if meant.outcome == "answered":
             self._learn(meant)
             if meant.remember_place:
@@ -261,33 +262,25 @@ class Understanding:
     def note_finished(
         self, text: str, meant: Interpretation, finished: Finished, rehearse_only: bool, program: int = 0
     ) -> str:
-        """A plan's turn, or that of a program, has ended: remember it as it really went. Returns the reply."""
-        if finished.outcome == "completed":
+        """Remember a turn of a plan or a program as it really went; return the reply."""
+        outcome = finished.outcome
+        if outcome == "completed":
             self._learn(meant)
-        self._state = replace(self._state, pose=finished.pose, twist=ZERO_TWIST, moving=False)
-        outcome: Outcome = finished.outcome
         plan = meant.plan if outcome in ("completed", "stopped", "failed") and not rehearse_only else None
-        self._record_measured(TurnRecord(text, outcome, plan, walk=meant.walk, program=program), finished)
-        self._dialogue = replace(self._dialogue, pending="")
+        self._note_end(TurnRecord(text, outcome, plan, walk=meant.walk, program=program), finished)
         if rehearse_only and outcome == "completed":
             return say(meant.language, "only_rehearsed")
         return describe_end(finished, meant.language, meant.plan.steps if meant.plan is not None else ())
 
     def describe(self, steps: Sequence[Step]) -> str:
-        """Steps in a few words."""
+        """Return steps in a few words."""
         return describe_steps(steps, self.language)
 
     def note_model_turn(self, text: str, ended: Ended, rehearse_only: bool) -> str:
-        """A turn that a model planned has ended. Returns the reply, in the language of the order."""
+        """Remember a turn that a model planned; return the reply, in the language of the order."""
         language = self.language_of(text)
-        finished = ended.finished
-        plan = _plan_of(ended.steps) if not rehearse_only else None
-        if finished is not None:
-            self._state = replace(self._state, pose=finished.pose, twist=ZERO_TWIST, moving=False)
-            self._record_measured(TurnRecord(text, ended.outcome, plan), finished)
-        else:
-            self._record(TurnRecord(text, ended.outcome))
-        self._dialogue = replace(self._dialogue, pending="")
+        plan = _plan_of(ended.steps) if not rehearse_only and ended.finished is not None else None
+        self._note_end(TurnRecord(text, ended.outcome, plan), ended.finished)
         if rehearse_only and ended.outcome == "completed":
             return say(language, "only_rehearsed")
         return describe_model_end(ended, language)
@@ -306,8 +299,13 @@ class Understanding:
         plan, pose = meant.plan, self._state.pose
         return TurnRecord(text, "completed", plan, start, pose, executed=plan, walk=meant.walk)
 
-    def _record_measured(self, record: TurnRecord, finished: Finished) -> None:
-        """Enter a turn that Motion has ended into the ledger, as it was measured."""
+    def _note_end(self, record: TurnRecord, finished: Finished | None) -> None:
+        """Enter a turn into the ledger; one that Motion has ended, as it was measured."""
+        self._dialogue = replace(self._dialogue, pending="")
+        if finished is None:
+            self._record(record)
+            return
+        self._state = replace(self._state, pose=finished.pose, twist=ZERO_TWIST, moving=False)
         self._lose(self._rest.begin(finished))
         measured = replace(
             record,

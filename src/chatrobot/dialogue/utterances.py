@@ -9,7 +9,7 @@ import threading
 import time
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
 from chatrobot.core.reason import Reason
@@ -45,6 +45,7 @@ class Utterance:
 
     @property
     def is_instruction(self) -> bool:
+        """True where it may have to wait, and a stop clears it."""
         return self.kind in INSTRUCTIONS
 
 
@@ -58,7 +59,7 @@ class _Hold(NamedTuple):
 
 
 class UtteranceQueue:
-    """`add`, `void` and `hold` may be called from any thread; the rest belongs to the thread that pumps."""
+    """Keeps utterances in their order. Any thread may call `add`, `void` and `hold`; the rest the pumping one."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -72,7 +73,7 @@ class UtteranceQueue:
         self._gone_on_turn = 0
 
     def add(self, text: str, kind: Kind, about: Draft | str = "", *, is_moving: bool) -> int:
-        """Take in a text; the number of its turn. Where too many wait for a moving robot it is one too many."""
+        """Take in a text; return the number of its turn. One too many for a moving robot becomes `too_many`."""
         with self._lock:
             self._turns += 1
             if kind in INSTRUCTIONS and is_moving and self._count_waiting() >= QUEUE_LIMIT:
@@ -81,13 +82,13 @@ class UtteranceQueue:
             return self._turns
 
     def void(self, why: str) -> int:
-        """A stop, and why: what was said up to now is void; the last turn of it. No lock: a stop waits for nothing."""
+        """Make void what was said up to now; return its last turn. No lock: a stop waits for nothing."""
         self.stopped_by = Reason("stopped_by", {"why": why})
         self._void_turn = self._turns
         return self._void_turn
 
     def hold(self, *, is_under_way: bool) -> None:
-        """A pause: what was said up to now and waits goes on waiting. No lock: it waits for nothing.
+        """Have what was said up to now and waits go on waiting, for a pause. No lock: it waits for nothing.
 
         Args:
             is_under_way: something is driven or thought about, which is what is paused.
@@ -96,64 +97,62 @@ class UtteranceQueue:
 
     @property
     def pauses(self) -> int:
-        """How many pauses there were."""
+        """Return how many pauses there were."""
         return self._hold.number
 
     @property
     def is_holding(self) -> bool:
-        """There was a pause, and what was said before it has neither been released nor dropped."""
+        """True from a pause until what was said before it has been released or dropped."""
         return self._hold is not self._released
 
     @property
     def is_unbegun_held(self) -> bool:
-        """Something waits behind a pause for a word, not for a plan that is paused."""
+        """True while something waits behind a pause for a word, not for a plan that is paused."""
         return self.is_holding and self._hold.keeps_unbegun and bool(self.held)
 
     @property
     def held(self) -> tuple[Utterance, ...]:
-        """What waits behind the pause, oldest first."""
-        return tuple(
-            utterance for utterance in self.waiting if self.is_held(utterance) and not self.is_void(utterance)
-        )
+        """Return what waits behind the pause, oldest first."""
+        return tuple(one for one in self.waiting if self.is_held(one) and not self.is_void(one))
 
     def is_held(self, utterance: Utterance) -> bool:
-        """It waits behind what is paused."""
+        """Return whether it waits behind what is paused."""
         return utterance.is_instruction and self.is_holding and utterance.turn <= self._hold.turn
 
     def release(self) -> None:
-        """What was paused is gone on with: what waits behind it waits its turn again."""
+        """Let what waits behind a pause wait its turn again: what was paused is resumed."""
         self._released = self._hold
         self._gone_on_turn = self._hold.turn
 
     def drop_held(self, why: Reason) -> None:
-        """What was paused is not gone on with, for that reason: what waits behind it is not done."""
+        """Drop what waits behind a pause: what was paused is not resumed, for that reason."""
         hold = self._hold
         self._dropped_by = why
         self._dropped_turn, self._released = hold.turn, hold
 
     def is_void_turn(self, turn: int) -> bool:
-        """A stop came after that turn was said."""
+        """Return whether a stop came after that turn was said."""
         return turn <= max(self._void_turn, self._dropped_turn)
 
     def why_void(self, turn: int) -> Reason:
-        """Why that turn, which is void, is not done."""
+        """Return why that turn, which is void, is not done."""
         return self.stopped_by if turn <= self._void_turn else self._dropped_by
 
     def waited_behind_pause(self, turn: int) -> bool:
-        """That turn was said before a pause that was not gone on with."""
+        """Return whether that turn was said before a pause that was not resumed."""
         return self._gone_on_turn < turn <= self._hold.turn
 
     def is_void(self, utterance: Utterance) -> bool:
-        """A stop came after it was said; what is no instruction is answered all the same."""
+        """Return whether a stop came after it was said; what is no instruction is answered all the same."""
         return utterance.is_instruction and self.is_void_turn(utterance.turn)
 
     @property
     def waiting(self) -> tuple[Utterance, ...]:
-        """Oldest first."""
+        """Return what waits, oldest first."""
         return tuple(self._texts)
 
     def take(self, utterance: Utterance) -> Utterance | None:
-        """It waits no longer; None where a pause came in the same moment, so that it does."""
+        """Remove and return it; None where a pause came in the same moment, so that it waits."""
         if self.is_held(utterance) and not self.is_void(utterance):
             return None
         with self._lock:
@@ -161,41 +160,31 @@ class UtteranceQueue:
         return utterance
 
     def put_back(self, utterance: Utterance) -> None:
-        """It waits again, before all others."""
+        """Let it wait again, before all others."""
         with self._lock:
             self._texts.appendleft(utterance)
 
     def take_too_many(self) -> list[Utterance]:
-        """Those that may not even wait."""
-        return [
-            utterance for utterance in self.waiting if utterance.kind == "too_many" and self.take(utterance)
-        ]
+        """Remove and return those that may not even wait."""
+        return [one for one in self.waiting if one.kind == "too_many" and self.take(one)]
 
     def _count_waiting(self) -> int:
         return sum(utterance.is_instruction and not self.is_void(utterance) for utterance in self._texts)
 
 
+@dataclass(eq=False)
 class NextUtterance:
     """Finds the text to take now. Belongs to the pumping thread."""
 
-    def __init__(
-        self,
-        utterance: UtteranceQueue,
-        book: RequestLog,
-        llm: ModelRequests,
-        understanding: Understanding,
-        resuming: Resuming,
-        early: EarlyAnswers,
-    ) -> None:
-        self._utterances = utterance
-        self._requests = book
-        self._llm = llm
-        self._understanding = understanding
-        self._resuming = resuming
-        self._early = early
+    _utterances: UtteranceQueue
+    _requests: RequestLog
+    _llm: ModelRequests
+    _understanding: Understanding
+    _resuming: Resuming
+    _early: EarlyAnswers
 
     def find(self, options: Options, waits_for_end: int | None) -> Utterance | None:
-        """The one to take now: the first, unless it has to wait.
+        """Return the one to take now: the first, unless it has to wait.
 
         Args:
             waits_for_end: the turn that is read again once what is under way has ended.
@@ -220,7 +209,7 @@ class NextUtterance:
 
     @property
     def is_being_paused(self) -> bool:
-        """A pause was said, and Motion has not told yet what came of it."""
+        """True from a pause until Motion has told what came of it."""
         is_moving = self._requests.is_any_with_motion or self._llm.is_moving
         return self._utterances.is_holding and self._resuming.paused is None and is_moving
 
@@ -247,32 +236,26 @@ NOT_UNDERSTOOD = frozenset({"unknown_part", "nothing_to_do", "empty", "too_long"
 """Of the questions back, those that what happens until then cannot answer."""
 
 
+@dataclass(eq=False)
 class EarlyAnswers:
     """Finds waiting texts that are answered before their turn. Belongs to the pumping thread; looks at each once."""
 
-    def __init__(
-        self, understanding: Understanding, llm: ModelRequests, book: RequestLog, authoring: Authoring | None
-    ) -> None:
-        self._understanding = understanding
-        self._llm = llm
-        self._requests = book
-        self._authoring = authoring
-        self._meant: dict[int, Interpretation | None] = {}
+    _understanding: Understanding
+    _llm: ModelRequests
+    _requests: RequestLog
+    _authoring: Authoring | None
+    _meant: dict[int, Interpretation | None] = field(default_factory=dict, init=False)
 
     def find(self, waiting: Sequence[Utterance]) -> Utterance | None:
-        """The first of them that nobody understands, and that those before it do not teach us to."""
+        """Return the first of them that nobody understands, and that those before it do not teach us to."""
         if self._llm.has_model or any(_teaches(one.meant) for one in self._requests.under_way):
             return None
         for utterance in waiting:
             meant = self._look_at(utterance)
             if meant is None or _teaches(meant):
                 return None
-            if (
-                meant.outcome == "unclear"
-                and meant.code in NOT_UNDERSTOOD
-                and not meant.proposal
-                and not meant.corrects
-            ):
+            asks_back = meant.outcome == "unclear" and meant.code in NOT_UNDERSTOOD
+            if asks_back and not (meant.proposal or meant.corrects):
                 return utterance
         return None
 

@@ -1,4 +1,4 @@
-"""Motion's accounts of the motion budget: what each text may drive, and what it has driven so far.
+"""Keep Motion's accounts of the motion budget: what each text may drive, and what it has driven so far.
 
 The budget comes from the profile and from the command line. While Motion runs, only the person at the local console
 changes it. What an envelope, a plan, a model or a program says lowers it at most.
@@ -56,13 +56,14 @@ class Extent:
 
     @property
     def planned(self) -> Extent:
-        """What a plan for it was at least: odometry counts every correction, and each pause costs two ramps."""
+        """Return what a plan for it was at least: odometry counts every correction, and each pause costs two ramps."""
         share = 1.0 - TOLERANCE_SHARE
         return Extent(
             max(0.0, share * self.length_m - MEASURED_M), max(0.0, share * self.driving_s - MEASURED_S)
         )
 
     def plus(self, other: Extent) -> Extent:
+        """Return the sum of both."""
         return Extent(self.length_m + other.length_m, self.driving_s + other.driving_s)
 
 
@@ -75,7 +76,7 @@ class Account:
 
     @property
     def budget(self) -> MotionBudget:
-        """What holds now."""
+        """Return the budget that holds now."""
         return self._budget()
 
     def book(self, run: Extent) -> None:
@@ -83,13 +84,13 @@ class Account:
         self.driven = self.driven.plus(run)
 
     def renew(self) -> None:
-        """A person has ordered more: what was driven before counts no longer."""
+        """Count anew: a person has ordered more."""
         self.driven = Extent()
 
     def refusal(self, extent: Extent) -> Reason | None:
-        """Why `extent` may not be driven on top of what has been driven."""
+        """Return why `extent` may not be driven on top of what has been driven."""
         total, budget = self.driven.planned.plus(extent), self.budget
-        if total.length_m > budget.distance_m + ROUNDING_M:
+        if self._is_too_far(extent):
             return Reason("over_max_distance", {"distance_m": total.length_m, "max_m": budget.distance_m})
         if total.driving_s > budget.time_s + ROUNDING_S:
             code = "over_open_loop_time" if budget.is_at_ceiling else "over_max_time"
@@ -97,19 +98,19 @@ class Account:
         return None
 
     def left(self, certain: Extent) -> Most:
-        """What may be driven besides what has been driven, and `certain`."""
+        """Return what may be driven besides what has been driven, and `certain`."""
         used, budget = self.driven.planned.plus(certain), self.budget
         return Most(max(0.0, budget.distance_m - used.length_m), max(0.0, budget.time_s - used.driving_s))
 
     def notice(self, is_endless: bool) -> Reason | None:
-        """What a person should know before it runs: when a program without an end will be stopped."""
+        """Return when a program without an end will be stopped, for a person to know before it runs."""
         max_s = self.budget.endless_program_s
         if not is_endless or math.isinf(max_s):
             return None
         return Reason("endless_program_limit", {"max_s": max_s})
 
     def end(self, extent: Extent) -> Reason | None:
-        """As `refusal`, for what comes after a part that is driven already."""
+        """Return the `refusal` of what comes after a part that is driven already."""
         if self.refusal(extent) is None:
             return None
         return self.distance_reached() if self._is_too_far(extent) else self.time_reached()
@@ -118,9 +119,11 @@ class Account:
         return self.driven.planned.plus(extent).length_m > self.budget.distance_m + ROUNDING_M
 
     def distance_reached(self) -> Reason:
+        """Return the reason of a motion that was stopped at its distance."""
         return Reason("max_distance_reached", {"max_m": self.budget.distance_m})
 
     def time_reached(self) -> Reason:
+        """Return the reason of a motion that was stopped at its time."""
         code = "open_loop_time_reached" if self.budget.is_at_ceiling else "max_time_reached"
         return Reason(code, {"max_s": self.budget.time_s})
 
@@ -163,13 +166,13 @@ class Meter:
 
     @property
     def extent(self) -> Extent:
-        """How far and how long this run has driven: as measured, or as sent where nothing is measured."""
+        """Return how far and how long this run has driven: as measured, or as sent where nothing is measured."""
         driven_m = self._path_m - self._start_path_m if self._sensors.has_odometry else self.sent_m
         return Extent(driven_m, self._driving_s)
 
     @property
     def least_s(self) -> float:
-        """How long it was told to move at least: what was sent is held until something else is."""
+        """Return how long it was told to move at least: what was sent is held until something else is."""
         return 0.0 if self._sent.is_zero else TICK_S
 
     def note(self, sent: Twist, now_s: float) -> None:
@@ -181,7 +184,7 @@ class Meter:
         self._sent, self._now_s = sent, now_s
 
     def over(self) -> Reason | None:
-        """Why the robot has to brake now; told once."""
+        """Return why the robot has to brake now; once."""
         reason = None if self._has_told else self._over()
         self._has_told = self._has_told or reason is not None
         return reason
@@ -207,7 +210,7 @@ class Meter:
         return None
 
     def close(self) -> None:
-        """The run is over: book it."""
+        """Book the run, which is over."""
         self._account.book(self.extent)
 
 
@@ -217,14 +220,14 @@ def _with_tolerance(limit: float, known: float, tolerance: float) -> float:
 
 
 class Budgets:
-    """The budget that holds, and the accounts of the texts. Belongs to the control thread."""
+    """Keeps the budget that holds, and the accounts of the texts. Belongs to the control thread."""
 
     def __init__(self, budget: MotionBudget) -> None:
         self.current = budget
         self._accounts: OrderedDict[tuple[str, int], Account] = OrderedDict()
 
     def account_of(self, source: str, lease: str, turn: int) -> Account:
-        """The account of that turn. Who is no person has one for all turns: only a person orders more."""
+        """Return the account of that turn. Whoever is no person has one for all turns: only a person orders more."""
         priority = priority_of(source)
         if priority == Priority.FOREIGN and turn == 0:
             return Account(lambda: self.current)  # a line of text without a sender, and without a turn
@@ -236,7 +239,7 @@ class Budgets:
         return account
 
     def change(self, source: str, payload: Mapping[str, Any]) -> Iterator[Reason]:
-        """Do what a `limit` envelope asks; what is to be told. Without a limit in it it only asks what holds."""
+        """Do what a `limit` envelope asks, and yield what is to be told; an empty one only asks what holds."""
         choice = MotionBudget(*(_chosen(payload, name) for name in ("max_distance_m", "max_time_s")))
         if payload and source not in RELEASERS:
             yield Reason("limit_refused", {"source": source})
@@ -246,7 +249,7 @@ class Budgets:
 
 
 def said(budget: MotionBudget) -> Iterator[Reason]:
-    """The budget in reasons, one for each of its two limits."""
+    """Yield the budget in reasons, one for each of its two limits."""
     if math.isinf(budget.distance_m):
         yield Reason("limit_no_distance")
     else:
@@ -259,7 +262,7 @@ def said(budget: MotionBudget) -> Iterator[Reason]:
 
 
 def open_loop_notice(profile: RobotProfile) -> Reason | None:
-    """What a person should know of a robot that is driven open loop; None for any other."""
+    """Return what a person should know of a robot that is driven open loop; None for any other."""
     if not profile.open_loop:
         return None
     limits, budget = profile.limits, profile.safety.budget

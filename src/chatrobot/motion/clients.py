@@ -32,7 +32,7 @@ _LOOKED_AT = 32
 
 
 class Clients:
-    """Belongs to the control thread, but for `lose`.
+    """Keeps the leases of those who speak to Motion. Belongs to the control thread, but for `lose`.
 
     Args:
         is_engaged: whether something is driven or waits in that lease's name; such a one is never forgotten.
@@ -52,7 +52,7 @@ class Clients:
         self._some_have_left = False
 
     def note(self, lease: str, now_s: float) -> None:
-        """Something came in its name. With one too many those that are gone are forgotten."""
+        """Note that something came in its name. With one too many, forget those that are gone."""
         is_new = lease not in self._known
         self._known.pop(lease, None)
         if is_new and len(self._known) >= MANY_SOURCES:
@@ -78,7 +78,7 @@ class Clients:
         return not is_there and not self._is_engaged(lease)
 
     def hear(self, envelope: Envelope, now_s: float) -> None:
-        """Whatever a source says keeps its lease; a hello opens it.
+        """Keep the lease of whoever says something; a hello opens it.
 
         Args:
             now_s: when the envelope came.
@@ -97,19 +97,19 @@ class Clients:
             self._leases.open(envelope.lease, envelope.source, term_s, now_s, is_stopped)
 
     def leave(self, lease: str) -> None:
-        """A goodbye: what is queued is still done, without beats."""
+        """Take a goodbye: what is queued is still done, without beats."""
         self._leases.entrust(lease)
         self._leaving.add(lease)
         self._some_have_left = True
 
     def lose(self, lease: str) -> None:
-        """Gone without one: nothing more is done in its name. From any thread."""
+        """Do nothing more in the name of a source that is gone without a goodbye. From any thread."""
         self._leases.end(lease)
         self._leaving.add(lease)
         self._some_have_left = True
 
     def has_left(self, lease: str) -> bool:
-        """No beat of it is waited for any more: what it says now could never lapse."""
+        """Return whether no beat of it is waited for any more: what it says now could never lapse."""
         return lease in self._leaving
 
     def refusal(self, envelope: Envelope) -> Reason | None:
@@ -121,6 +121,7 @@ class Clients:
 
     @property
     def some_have_left(self) -> bool:
+        """True once a source has left or was lost."""
         return self._some_have_left
 
     def _was_there_before_us(self, envelope: Envelope) -> bool:
@@ -162,18 +163,18 @@ class CmdVelInput:
         self.is_driving = False
 
     def hear(self, message: TwistMessage) -> None:
-        """A velocity somebody asks for. It is held for as long as a lease is, and governed anew with every tick."""
+        """Take a velocity that somebody asks for: held for as long as a lease is, governed anew with every tick."""
         now_s, twist = self._clock.now_s(), Twist(*message)
         if twist.is_zero or now_s - self._heard[0] > TERM_S:
             self._has_to_let_go = False
         self._heard = (now_s, twist)
 
     def stop(self) -> None:
-        """The robot has been stopped: what was heard before counts no more."""
+        """Count nothing that was heard before: the robot has been stopped."""
         self._has_to_let_go = True
 
     def tick(self, now_s: float, is_free: Callable[[], bool]) -> None:
-        """One period; `is_free`: nothing of ours drives, waits or stops the robot."""
+        """Do one period; `is_free`: nothing of ours drives, waits or stops the robot."""
         at_s, twist = self._heard
         is_asked = now_s - at_s <= TERM_S
         if is_asked and not is_free():

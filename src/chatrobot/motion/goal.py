@@ -28,7 +28,7 @@ PARTS_LIMIT = MAX_LINES
 
 
 class Stream:
-    """The parts of one goal, and the walk through those that were accepted. Belongs to the control thread.
+    """Holds the parts of one goal, and the walk through those that were accepted. Belongs to the control thread.
 
     `is_open` while more may come; `refusal` is why a part was not accepted: those after it are dropped, those before
     it are still done. `possible` is what can be done of that part. A program is one part, without a walk.
@@ -56,7 +56,7 @@ class Stream:
 
     @property
     def waiting(self) -> tuple[str, ...]:
-        """The parts that have not been rehearsed."""
+        """Return the parts that have not been rehearsed."""
         return tuple(self._waiting)
 
     def add(self, plan_text: str, more: bool) -> None:
@@ -71,7 +71,7 @@ class Stream:
             self.refuse(Reason("plan_too_large", {"steps": self._count}))
 
     def take(self) -> str | None:
-        """The next part to rehearse; None while one is being rehearsed, or none waits."""
+        """Return the next part to rehearse; None while one is being rehearsed, or none waits."""
         if self._planning is not None or not self._waiting:
             return None
         self._planning = self._waiting.popleft()
@@ -103,19 +103,19 @@ class Stream:
         return None
 
     def refuse(self, reason: Reason) -> None:
-        """Nothing more is taken."""
+        """Take nothing more, for that reason."""
         self.refusal = self.refusal or reason
         self.is_open = False
         self._waiting.clear()
 
     @property
     def is_open_ended(self) -> bool:
-        """The whole way is not known."""
+        """True where the whole way is not known."""
         return self.may_go_on or self._has_unknown_part
 
     @property
     def may_go_on(self) -> bool:
-        """Another part may still become part of the walk."""
+        """True while another part may still become part of the walk."""
         return self.is_open or self._planning is not None or bool(self._waiting)
 
 
@@ -141,12 +141,12 @@ class PartedWalk:
 
     @property
     def pose(self) -> Pose:
-        """Where the last motion ends."""
+        """Return where the last motion ends."""
         return self._walk.pose if self._walk is not None else self._pose
 
     @property
     def end(self) -> Pose:
-        """Where all that was accepted will end: as predicted, or as it did where it has been walked already."""
+        """Return where all that was accepted will end, or did where it has been walked already."""
         return self._end if self._parts or self._walk is not None else self._pose
 
     def ended_at(self, pose: Pose) -> None:
@@ -239,12 +239,12 @@ class Goal:
 
     @property
     def refusal(self) -> Reason | None:
-        """Why what was planned may not run."""
+        """Return why what was planned may not run."""
         return self.stream.refusal
 
     @property
     def length_m(self) -> float:
-        """The length of the whole way, as it was rehearsed."""
+        """Return the length of the whole way, as it was rehearsed."""
         return self.stream.length_m
 
     @property
@@ -254,7 +254,7 @@ class Goal:
 
     @property
     def left(self) -> Most:
-        """What its budget leaves for what comes next."""
+        """Return what its budget leaves for what comes next."""
         return self.account.left(self.stream.certain)
 
     def take(self, planned: Planned) -> Reason | None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Callable, Collection
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
 from chatrobot.core.clock import Clock
-from chatrobot.core.events import Event, Finished, Notice, Paused
+from chatrobot.core.events import Event, Finished, Notice, Outcome, Paused
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.governor.priority import Priority
@@ -23,7 +23,7 @@ from chatrobot.motion.safety.watchdog import Interlock
 
 
 class GoalQueue:
-    """The queue of goals, and who may still join it. `void_turn` and `pause` may be called from any thread."""
+    """Keeps goals in their order, and who may still join them. Any thread may call `void_turn` and `pause`."""
 
     def __init__(self) -> None:
         self.goals: deque[Goal] = deque()
@@ -32,11 +32,11 @@ class GoalQueue:
         self._pauses: dict[str, int] = {}
 
     def void_turn(self, lease: str, turn: int) -> None:
-        """A stop said after that turn: plans of it and of earlier ones may still be on their way."""
+        """Make void that turn and earlier ones, before a stop: plans of them may still be on their way."""
         self._void_turns[lease] = max(turn, self._void_turns.get(lease, turn))
 
     def pause(self, lease: str) -> None:
-        """A pause of that source: what it asked for before may still be on its way, and must not begin after it."""
+        """Count a pause of that source: what it asked for before may still come, and must not begin after it."""
         self._pauses[lease] = self._pauses.get(lease, 0) + 1
 
     def resume(self, goal: Goal) -> None:
@@ -44,14 +44,14 @@ class GoalQueue:
         self.goals.appendleft(goal)
 
     def forget(self, lease: str) -> None:
-        """Nothing is to be known of that lease any more."""
+        """Forget that lease."""
         self._void_turns.pop(lease, None)
         self._pauses.pop(lease, None)
         for is_beat in (True, False):
             self._sequences.pop((lease, is_beat), None)
 
     def is_old(self, envelope: Envelope) -> bool:
-        """A later one of the same lease was here before. Beats, sent by a thread of their own, count for themselves."""
+        """Return whether a later one of the same lease was here before. Beats, sent by a thread, count apart."""
         kind = (envelope.lease, envelope.word == "beat")
         if envelope.sequence <= self._sequences.get(kind, -1):
             return True
@@ -59,12 +59,12 @@ class GoalQueue:
         return False
 
     def is_void(self, goal: Goal, epoch: int) -> bool:
-        """A stop has overtaken it."""
+        """Return whether a stop has overtaken it."""
         is_paused = goal.pauses is not None and goal.pauses < self._pauses.get(goal.lease, 0)
         return goal.epoch != epoch or is_paused or goal.turn <= self._void_turns.get(goal.lease, -1)
 
     def add(self, goal: Goal) -> Reason | None:
-        """Queue `goal`, or say why not: too many wait."""
+        """Queue `goal`; return why not where too many wait."""
         if len(self.goals) >= QUEUE_LIMIT:
             return Reason("queue_full", {"limit": QUEUE_LIMIT})
         self.goals.append(goal)
@@ -110,7 +110,7 @@ class Inbox:
         self._actions.append(action)
 
     def fetch(self, work: Callable[[], T], take: Callable[[T], None]) -> None:
-        """Have `work` done off the control thread; what it gives is taken on it, with a tick to come."""
+        """Have `work` done off the control thread, and `take` what it gives on it, with a tick to come."""
 
         def run() -> None:
             result = work()
@@ -119,7 +119,7 @@ class Inbox:
         self._background(run)
 
     def take(self) -> Callable[[], None] | None:
-        """The next action, None where there is none."""
+        """Return the next action, None where there is none."""
         return self._actions.popleft() if self._actions else None
 
     def __bool__(self) -> bool:
@@ -127,19 +127,19 @@ class Inbox:
 
 
 class OutcomeQueue:
-    """Belongs to the control thread. An end is made when it is told, so that it says what was measured by then.
+    """Tells ends in their order. An end is made when it is told, so that it says what was measured by then.
 
-    Args:
-        measured: the robot has odometry; without, no end is told as measured, and be it of what never moved.
+    Of a robot without odometry no end is told as measured, and be it of what never moved.
     """
 
-    def __init__(self, emit: Callable[[Event], None], *, measured: bool) -> None:
+    def __init__(self, robot: GovernedRobot, emit: Callable[[Event], None]) -> None:
+        self._robot = robot
         self._emit = emit
-        self._measured = measured
         self._untold: deque[Callable[[], Finished]] = deque()
 
     @property
     def are_told(self) -> bool:
+        """True where none waits to be told."""
         return not self._untold
 
     def tell(self, end: Callable[[], Finished]) -> None:
@@ -149,18 +149,22 @@ class OutcomeQueue:
         else:
             self._tell(end)
 
+    def tell_unmoved(self, goal: Goal, outcome: Outcome, reason: Reason | None) -> None:
+        """Tell the end of a goal that has not moved."""
+        self.tell(lambda: goal.unmoved(outcome, reason, self._robot.pose))
+
     def tell_later(self, end: Callable[[], Finished]) -> None:
         """Tell it once the robot stands."""
         self._untold.append(end)
 
     def tell_all(self) -> None:
-        """The robot stands, or nobody sees whether it does."""
+        """Tell all that wait: the robot stands, or nobody sees whether it does."""
         while self._untold:
             self._tell(self._untold.popleft())
 
     def _tell(self, end: Callable[[], Finished]) -> None:
         finished = end()
-        self._emit(finished if self._measured else replace(finished, measured=False))
+        self._emit(finished if self._robot.profile.has_odometry else replace(finished, measured=False))
 
 
 KEPT_S = 600.0
@@ -169,7 +173,7 @@ SILENT_S = 2.0
 
 
 class PausedGoal:
-    """Made with the pause; it waits to be gone on with once the robot has come to stand.
+    """Waits to be resumed once the robot has come to stand. Made with the pause.
 
     Args:
         measure: what has been done of `goal` by now, with the text of the rest.
@@ -184,20 +188,20 @@ class PausedGoal:
 
     @property
     def has_settled(self) -> bool:
-        """The robot has come to stand."""
+        """True once the robot has come to stand."""
         return self._so_far is not None
 
     def is_for(self, envelope: Envelope) -> bool:
-        """Whether it may be gone on with at this word: it is of the same source and turn, and the robot stands."""
+        """Return whether this word may resume it: of the same source and turn, and the robot stands."""
         return self.has_settled and (self.goal.turn, self.goal.lease) == (envelope.turn, envelope.lease)
 
     def settle(self) -> Paused:
-        """The robot stands now: from here it would go on. What the faces show of it."""
+        """Measure how far it came, now that the robot stands; return what is shown of it."""
         self._so_far = so_far = self._measure()
         return Paused(self.goal.turn, so_far.pose, so_far.remaining, so_far.reason)
 
     def lapsed(self, now_s: float, pose: Pose) -> Reason | None:
-        """Why it may not be gone on with any more, the robot being at `pose`."""
+        """Return why it may not be resumed any more, the robot being at `pose`."""
         if now_s - self._since_s > KEPT_S:
             return Reason("pause_too_long", {"limit_s": KEPT_S})
         stood = self._so_far.pose if self._so_far is not None else pose
@@ -208,11 +212,11 @@ class PausedGoal:
         return None
 
     def ended(self, reason: Reason, now_s: float) -> Finished:
-        """Its end as a plan that was stopped."""
+        """Return its end as a plan that was stopped."""
         return replace(self._waited(now_s), outcome="stopped", reason=reason)
 
     def rest(self, epoch: int, now_s: float) -> Goal:
-        """What is left, as a goal of the same turn."""
+        """Return what is left, as a goal of the same turn."""
         goal, so_far = self.goal, self._waited(now_s)
         goal.stream.rewind()
         return replace(
@@ -233,12 +237,12 @@ class PausedGoal:
 
 
 def is_foreign(goal: Goal, robot: GovernedRobot) -> bool:
-    """It came without a sender: nobody could go on with it."""
+    """Return whether it came without a sender: nobody could resume it."""
     return robot.governor.leases.priority_of(goal.lease) <= Priority.FOREIGN
 
 
 def why_not_kept(goal: Goal | None, robot: GovernedRobot) -> Reason | None:
-    """Why a pause ended that goal as a stop does; None where it was nothing to go on with."""
+    """Return why a pause ended that goal as a stop does; None where there was nothing to resume."""
     if goal is None or goal.rehearse_only:
         return None
     if isinstance(goal, ProgramGoal):
@@ -248,32 +252,23 @@ def why_not_kept(goal: Goal | None, robot: GovernedRobot) -> Reason | None:
     return Reason("nothing_to_keep" if robot.sensors.has_odometry else "pause_unmeasured")
 
 
+@dataclass(eq=False)
 class Pausing:
     """Keeps the one plan that is paused, if any."""
 
-    def __init__(
-        self,
-        robot: GovernedRobot,
-        goal_queue: GoalQueue,
-        interlock: Interlock,
-        stops: Stops,
-        clock: Clock,
-        outcomes: OutcomeQueue,
-        emit: Callable[[Event], None],
-    ) -> None:
-        self._robot = robot
-        self._goal_queue = goal_queue
-        self._interlock = interlock
-        self._stops = stops
-        self._clock = clock
-        self._outcomes = outcomes
-        self._emit = emit
-        self._paused: PausedGoal | None = None
-        self._heard_s = 0.0
+    _robot: GovernedRobot
+    _goal_queue: GoalQueue
+    _interlock: Interlock
+    _stops: Stops
+    _clock: Clock
+    _outcomes: OutcomeQueue
+    _emit: Callable[[Event], None]
+    _paused: PausedGoal | None = field(default=None, init=False)
+    _heard_s: float = field(default=0.0, init=False)
 
     @property
     def goal(self) -> Goal | None:
-        """What is paused."""
+        """Return what is paused."""
         return self._paused.goal if self._paused is not None else None
 
     def begin(self, paused: PausedGoal) -> None:
@@ -282,7 +277,7 @@ class Pausing:
         self._paused = paused
 
     def watch(self, now_s: float, *, is_standing: bool) -> None:
-        """Tell of it once the robot stands; drop what may not be gone on with any more."""
+        """Tell of it once the robot stands; drop what may not be resumed any more."""
         paused = self._paused
         if paused is None:
             return
@@ -301,7 +296,7 @@ class Pausing:
                 self.drop(event.reason or Reason("cause_unknown"))
 
     def resume(self, envelope: Envelope) -> None:
-        """Its own source wants to go on: the rest comes before all that waits, as a plan of the same turn."""
+        """Put the rest before all that waits, as a plan of the same turn: its own source wants to go on."""
         paused = self._paused
         if paused is None or not paused.is_for(envelope):
             self._emit(Notice(envelope.turn, Reason("nothing_paused")))
@@ -310,18 +305,15 @@ class Pausing:
         self._goal_queue.resume(paused.rest(self._stops.count, self._clock.now_s()))
 
     def drop(self, why: Reason, lease: str | None = None) -> None:
-        """It is not gone on with, and what waits behind it is not done. `lease`: only where it is that one's."""
+        """End it and what waits behind it. `lease`: only where it is that one's."""
         if self._paused is None or lease not in (None, self._paused.goal.lease):
             return
         self.end(why)
         for goal in self._goal_queue.take_all():
-            self._tell_unmoved(goal, why)
-
-    def _tell_unmoved(self, goal: Goal, why: Reason) -> None:
-        self._outcomes.tell(lambda: goal.unmoved("stopped", why, self._robot.pose))
+            self._outcomes.tell_unmoved(goal, "stopped", why)
 
     def end(self, why: Reason) -> None:
-        """It is not gone on with: tell its end."""
+        """End it, and tell so."""
         paused, self._paused = self._paused, None
         if paused is None:
             return

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from functools import partial
 
 from chatrobot.core.clock import Clock
@@ -34,57 +35,43 @@ ODOMETRY_WAIT_S = 2.0
 """A robot that has just been connected may need this long to say where it is."""
 
 
+@dataclass(eq=False)
 class GoalServer:
-    """At most one goal is prepared or driven; the others wait in the goal queue. Belongs to the control thread."""
+    """Prepares or drives at most one goal; the others wait in the goal queue. Belongs to the control thread."""
 
-    def __init__(
-        self,
-        robot: GovernedRobot,
-        goal_queue: GoalQueue,
-        executor: PlanExecutor,
-        planner: Planner,
-        programs: ProgramSandbox,
-        budgets: Budgets,
-        stops: Stops,
-        inbox: Inbox,
-        clock: Clock,
-        pausing: Pausing,
-        outcomes: OutcomeQueue,
-        emit: Callable[[Event], None],
-    ) -> None:
-        self._robot = robot
-        self._outcomes = outcomes
-        self._budgets = budgets
-        self._goal_queue = goal_queue
-        self._executor = executor
-        self._planner = planner
-        self._programs = programs
-        self._stops = stops
-        self._inbox = inbox
-        self._clock = clock
-        self._emit = emit
-        self._pausing = pausing
-        self._preparing: Goal | None = None
-        self.why_unheard: Reason | None = None
-        """Why no odometry comes, as far as those know who look after the wire; any thread may set it."""
+    _robot: GovernedRobot
+    _goal_queue: GoalQueue
+    _executor: PlanExecutor
+    _planner: Planner
+    _programs: ProgramSandbox
+    _budgets: Budgets
+    _stops: Stops
+    _inbox: Inbox
+    _clock: Clock
+    _pausing: Pausing
+    _outcomes: OutcomeQueue
+    _emit: Callable[[Event], None]
+    _preparing: Goal | None = field(default=None, init=False)
+    why_unheard: Reason | None = field(default=None, init=False)
+    """Why no odometry comes, as far as those know who look after the wire; any thread may set it."""
 
     @property
     def current(self) -> Goal | None:
-        """What is being prepared or driven."""
+        """Return what is being prepared or driven."""
         return self._preparing or self._executor.goal
 
     @property
     def are_done(self) -> bool:
-        """Nothing is prepared, driven, paused or queued."""
+        """True while nothing is prepared, driven, paused or queued."""
         return self._pausing.goal is None and self.current is None and not self._goal_queue.goals
 
     @property
     def let_others_drive(self) -> bool:
-        """Nothing is done before others; what is paused is dropped for them."""
+        """True while nothing is done before others; what is paused is dropped for them."""
         return self.are_done or self._pausing.goal is not None
 
     def is_engaged(self, lease: str) -> bool:
-        """Something is prepared, driven, paused or queued in that lease's name."""
+        """Return whether something is prepared, driven, paused or queued in that lease's name."""
         return any(goal.lease == lease for goal in self._all())
 
     def _all(self) -> list[Goal]:
@@ -103,7 +90,7 @@ class GoalServer:
         account = self._budgets.account_of(envelope.source, envelope.lease, envelope.turn)
         goal = goal_of(envelope, epoch, self._clock.now_s(), account)
         if self._goal_queue.is_void(goal, self._stops.count):
-            self._finish(goal, "stopped", self._stops.last_reason)
+            self._outcomes.tell_unmoved(goal, "stopped", self._stops.last_reason)
             return
         self._drop_paused_for(goal, mode)
         declined = self._give_way(goal)
@@ -111,17 +98,19 @@ class GoalServer:
             self._replace(Reason("replaced"))
         declined = declined or self._goal_queue.add(goal)
         if declined is not None:
-            self._finish(goal, "refused", declined)
+            self._outcomes.tell_unmoved(goal, "refused", declined)
 
     def void(self, envelope: Envelope, epoch: int) -> None:
-        """A later word came before it, a stop or another: its turn ends here."""
+        """End the turn of an envelope that a later one, a stop or another, has overtaken."""
         goal = Goal.of(envelope, epoch, self._clock.now_s())
         is_stopped = self._goal_queue.is_void(goal, self._stops.count)
-        self._finish(goal, "stopped", self._stops.last_reason if is_stopped else Reason("overtaken"))
+        self._outcomes.tell_unmoved(
+            goal, "stopped", self._stops.last_reason if is_stopped else Reason("overtaken")
+        )
 
     def refuse(self, envelope: Envelope, epoch: int, why: Reason) -> None:
-        """Its source may not ask for anything."""
-        self._finish(Goal.of(envelope, epoch, self._clock.now_s()), "refused", why)
+        """Refuse what a source asks for that may not ask for anything."""
+        self._outcomes.tell_unmoved(Goal.of(envelope, epoch, self._clock.now_s()), "refused", why)
 
     def _give_way(self, goal: Goal) -> Reason | None:
         """A source of higher priority takes over at once; one of lower priority is refused, with the reason."""
@@ -130,25 +119,26 @@ class GoalServer:
         before = [*([current] if current is not None else []), *self._goal_queue.goals]
         for other in before:
             if leases.priority_of(other.lease) > priority:
-                return Reason("outranked", {"source": leases.source_of(other.lease)})
+                return Reason("outranked", {"source": self._source(other)})
         lower = [other for other in before if leases.priority_of(other.lease) < priority]
         if lower:
-            handed_over = self._handed_over(lower[0], goal)
+            handed_over = self._handed_over(lower[0], self._source(goal))
             self._emit(Notice(goal.turn, handed_over))
             for waiting in self._goal_queue.take(lower):
-                self._finish(waiting, "stopped", handed_over)
+                self._outcomes.tell_unmoved(waiting, "stopped", handed_over)
             if lower[0] is current:
                 self._end_current_gently(handed_over)
         return None
 
-    def _handed_over(self, goal: Goal, to: Goal) -> Reason:
-        source_of = self._robot.governor.leases.source_of
-        return Reason("handed_over", {"source": source_of(goal.lease), "to": source_of(to.lease)})
+    def _source(self, goal: Goal) -> str:
+        return self._robot.governor.leases.source_of(goal.lease)
+
+    def _handed_over(self, goal: Goal, to: str) -> Reason:
+        return Reason("handed_over", {"source": self._source(goal), "to": to})
 
     def _replace(self, why: Reason) -> None:
         """New motion takes the place of the old, after a controlled stop; what was queued is dropped."""
-        for goal in self._goal_queue.take_all():
-            self._finish(goal, "stopped", why)
+        self._end_queued("stopped", why)
         self._end_current_gently(why)
 
     def _end_current_gently(self, why: Reason) -> None:
@@ -180,14 +170,15 @@ class GoalServer:
         if now_s - goal.received_s >= ODOMETRY_WAIT_S:
             self._goal_queue.goals.popleft()
             topic = self._robot.profile.wiring.odom_topic
-            self._finish(goal, "failed", self.why_unheard or Reason("no_odometry", {"topic": topic}))
+            self._outcomes.tell_unmoved(
+                goal, "failed", self.why_unheard or Reason("no_odometry", {"topic": topic})
+            )
         return True
 
     def _take_rehearsed(self, goal: Goal, planned: Planned) -> None:
         if self._preparing is not goal:
             return  # stopped or replaced meanwhile; its end has been told
-        refusal = goal.take(planned)
-        asks = needs_approval(goal, planned)
+        refusal, asks = goal.take(planned), needs_approval(goal, planned)
         notice = goal.account.notice(planned.is_endless)
         if refusal is None and notice is not None:
             self._emit(Notice(goal.turn, notice))
@@ -201,11 +192,11 @@ class GoalServer:
             goal.approval = Approval(self._clock.now_s(), goal.start)
         else:
             self._launch(goal)
-            self._rehearse_part(goal)
 
     def _launch(self, goal: Goal) -> None:
         self._preparing = None
         self._executor.launch(goal)
+        self._rehearse_part(goal)
 
     # --- rehearsed in parts, while it is driven ---
 
@@ -248,7 +239,7 @@ class GoalServer:
     # --- paused ---
 
     def pause(self, why: Reason, now_s: float) -> None:
-        """The robot has been stopped by a word that keeps what was under way; what cannot be kept has ended."""
+        """Keep what was under way when a pause stopped the robot; end what cannot be kept."""
         goal = self.current
         if goal is None and self._pausing.goal is not None:
             return  # it waits already
@@ -273,14 +264,14 @@ class GoalServer:
         if paused is None or goal.rehearse_only:
             return
         if goal.lease != paused.lease:
-            self._pausing.drop(self._handed_over(paused, goal))
+            self._pausing.drop(self._handed_over(paused, self._source(goal)))
         elif mode == "replace":
             self._pausing.drop(Reason("replaced"))
 
     # --- approved ---
 
     def approve(self, envelope: Envelope) -> None:
-        """A person's answer to what was rehearsed in that turn."""
+        """Take a person's answer to what was rehearsed in that turn."""
         goal = self._preparing
         if goal is None or goal.approval is None or goal.turn != envelope.turn:
             return
@@ -307,45 +298,42 @@ class GoalServer:
     # --- ended, before anything moved ---
 
     def end_stopped(self, why: Reason) -> None:
-        """The robot has been stopped: end what was driven, prepared, paused, or queued before the stop."""
+        """End what was driven, prepared, paused, or queued before a stop."""
         self._executor.end_stopped(why)
         self._pausing.end(why)
         self._drop_prepared("stopped", why)
         for goal in self._goal_queue.take_void(self._stops.count):
-            self._finish(goal, "stopped", why)
+            self._outcomes.tell_unmoved(goal, "stopped", why)
 
     def hand_over(self, to: str) -> None:
-        """Somebody of higher priority takes command: what was driven, prepared or queued ends, and it is told."""
+        """End all goals, and tell it: somebody of higher priority takes command."""
         goals = self._all()
         if not goals:
             return
-        why = Reason(
-            "handed_over", {"source": self._robot.governor.leases.source_of(goals[0].lease), "to": to}
-        )
+        why = self._handed_over(goals[0], to)
         self._emit(Notice(goals[0].turn, why))
         self._executor.end_stopped(why)
-        self._pausing.end(why)
-        self._drop_prepared("stopped", why)
-        for goal in self._goal_queue.take_all():
-            self._finish(goal, "stopped", why)
+        self._end_waiting("stopped", why)
 
     def fail_all(self, why: Reason) -> None:
-        """The way to the robot is gone for good: all that was asked for has failed."""
+        """End all goals as failed: the way to the robot is gone for good."""
         self._executor.fail(why)
-        self._pausing.end(why)
-        self._drop_prepared("failed", why)
-        for goal in self._goal_queue.take_all():
-            self._finish(goal, "failed", why)
+        self._end_waiting("failed", why)
 
     def refuse_all(self, why: Reason) -> None:
         """Refuse what is queued."""
+        self._end_queued("refused", why)
+
+    def _end_waiting(self, outcome: Outcome, why: Reason) -> None:
+        self._pausing.end(why)
+        self._drop_prepared(outcome, why)
+        self._end_queued(outcome, why)
+
+    def _end_queued(self, outcome: Outcome, why: Reason) -> None:
         for goal in self._goal_queue.take_all():
-            self._finish(goal, "refused", why)
+            self._outcomes.tell_unmoved(goal, outcome, why)
 
     def _drop_prepared(self, outcome: Outcome, reason: Reason | None) -> None:
         goal, self._preparing = self._preparing, None
         if goal is not None:
-            self._finish(goal, outcome, reason)
-
-    def _finish(self, goal: Goal, outcome: Outcome, reason: Reason | None) -> None:
-        self._outcomes.tell(lambda: goal.unmoved(outcome, reason, self._robot.pose))
+            self._outcomes.tell_unmoved(goal, outcome, reason)

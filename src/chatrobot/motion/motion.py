@@ -37,7 +37,7 @@ JOYSTICK = "joystick"
 
 
 class Motion:
-    """See the module. It takes in envelopes, and does with each tick what is due; others do the work.
+    """Takes in envelopes, and does with each tick what is due; others do the work. See the module.
 
     Args:
         planner: makes `Planned` from plan text: parsed, lowered, rehearsed.
@@ -77,28 +77,19 @@ class Motion:
             self._governor.leases, lambda lease: self.goals.is_engaged(lease), self._goal_queue.forget
         )
         self._inbox = Inbox(background)
-        self._outcomes = outcomes = OutcomeQueue(emit, measured=profile.has_odometry)
-        stops, inbox = self._stops, self._inbox
+        self._outcomes = outcomes = OutcomeQueue(robot, emit)
+        stops, inbox, queue = self._stops, self._inbox, self._goal_queue
         self._executor = PlanExecutor(robot, self.interlock, stops, programs, inbox, clock, outcomes, emit)
-        self._pausing = pausing = Pausing(
-            robot, self._goal_queue, self.interlock, stops, clock, outcomes, emit
-        )
+        self._pausing = pausing = Pausing(robot, queue, self.interlock, stops, clock, outcomes, emit)
         self._budgets = Budgets(profile.safety.budget)
         self.goals = GoalServer(
-            robot, self._goal_queue, self._executor, planner, programs, self._budgets, stops, inbox, clock, pausing,
-            outcomes, emit,
+            robot, queue, self._executor, planner, programs, self._budgets, stops, inbox, clock, pausing, outcomes, emit
         )  # fmt: skip
-        other_drove = Reason("other_drove", {"source": CMD_VEL_INPUT_TOPIC})
-        self._cmd_vel = CmdVelInput(
-            CMD_VEL_INPUT_TOPIC,
-            clock,
-            robot,
-            lambda: pausing.drop(other_drove),
-            self.see_it_stand,
-            self._notice,
-        )
+        cmd_vel, stand, tell = CMD_VEL_INPUT_TOPIC, self.see_it_stand, self._notice
+        other_drove = Reason("other_drove", {"source": cmd_vel})
+        self._cmd_vel = CmdVelInput(cmd_vel, clock, robot, lambda: pausing.drop(other_drove), stand, tell)
         self._joystick = CmdVelInput(
-            JOYSTICK, clock, robot, lambda: self.goals.hand_over(JOYSTICK), self.see_it_stand, self._notice
+            JOYSTICK, clock, robot, lambda: self.goals.hand_over(JOYSTICK), stand, tell
         )
         self._stall_detector = StallDetector(clock, guard, self.halt)
         self._telemetry = TelemetryPublisher(self.sensors, self._executor.progress, emit)
@@ -111,7 +102,7 @@ class Motion:
         self._stops.halt(why)
 
     def thaw(self) -> None:
-        """This process was stopped by a signal (SIGSTOP) and goes on: what drove does not. For a signal handler."""
+        """Void what drove before this process was stopped by a signal (SIGSTOP). For a signal handler."""
         why = self._stall_detector.thaw(self._clock.now_s())
         if why is not None:
             self._stops.void(why)
@@ -147,7 +138,7 @@ class Motion:
         self.halt(Reason(PAUSED if keeps else "stopped_by", about))
 
     def lose(self, lease: str) -> None:
-        """The source behind `lease` is gone without a goodbye: a loss, and it stops."""
+        """Stop: the source behind `lease` is gone without a goodbye."""
         self.halt(Reason("source_lost", {"source": self._governor.leases.source_of(lease)}))
         self._clients.lose(lease)
 
@@ -172,40 +163,39 @@ class Motion:
 
     @property
     def has_work(self) -> bool:
-        """Something is driven, prepared or queued. From any thread."""
+        """True while something is driven, prepared or queued. From any thread."""
         return not self.goals.are_done
 
     @property
     def stops(self) -> int:
-        """Changes with every stop: what was asked before it does not count any more."""
+        """Return a number that changes with every stop: what was asked before it does not count any more."""
         return self._stops.count
 
     @property
     def latched(self) -> Reason | None:
-        """The emergency stop that has not been released."""
+        """Return the emergency stop that has not been released."""
         return self._governor.latched
 
     @property
     def has_left(self) -> bool:
-        """A source has gone, and all is done."""
+        """True once a source has gone, and all is done."""
         return self._clients.some_have_left and not self.is_busy
 
     def see_it_stand(self) -> None:
-        """Send zeros until it does: nobody knows what it has heard last."""
+        """Send zeros until the robot stands: nobody knows what it has heard last."""
         self.stop_confirmation.begin(self._clock.now_s())
 
     def give_up(self, why: Reason) -> None:
-        """The wire is closed for good, and with it the way to the robot: all that was asked for ends as failed."""
+        """End as failed all that was asked for: the wire is closed for good."""
         self.goals.fail_all(why)
 
     def leave(self) -> None:
-        """Goodbye to the guard; where the robot is out of sight, and may move, no word is said, so that it goes on
-        sending zeros."""
+        """Say goodbye to the guard, so that it sends no zeros; not where the robot is out of sight and may move."""
         if not (self.stop_confirmation.has_lost_sight and self._robot.may_move):
             self._guard.goodbye()
 
     def tick(self) -> None:
-        """One period of the control loop."""
+        """Do one period of the control loop."""
         now_s = self._clock.now_s()
         late_s = self._stall_detector.tick(
             now_s,
@@ -232,21 +222,21 @@ class Motion:
         self._pausing.watch(now_s, is_standing=not self.stop_confirmation.is_watched)
         self._cmd_vel.tick(now_s, self._is_free)
         self._begin_next(now_s)
-        self._stall_detector.beat(
-            self._clock.now_s()
-        )  # last: it wakes the guard, which may take this processor
+        # Late: it wakes the guard, which may take this processor.
+        self._stall_detector.beat(self._clock.now_s())
         self._telemetry.tick(now_s)
 
     def _book_stop(self) -> None:
         """A stop has gone out, from whatever thread: end what ran and what waited, then see the robot stand."""
         why = self._stops.book()
-        if why is not None:
-            if why.code == PAUSED:
-                self.goals.pause(why, self._clock.now_s())
-            else:
-                self.goals.end_stopped(why)
-            self._cmd_vel.stop()
-            self._joystick.stop()
+        if why is None:
+            return
+        if why.code == PAUSED:
+            self.goals.pause(why, self._clock.now_s())
+        else:
+            self.goals.end_stopped(why)
+        self._cmd_vel.stop()
+        self._joystick.stop()
 
     def _begin_next(self, now_s: float) -> None:
         if self.stop_confirmation.disobeyed is not None:

@@ -7,118 +7,22 @@ and only then do pose, turn and path say what became of the motion.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Finished, Outcome, Progress, Started
 from chatrobot.core.reason import Reason
-from chatrobot.execution.executor import Executor
 from chatrobot.execution.health import is_seen_moving
-from chatrobot.governor.governor import Verdict
 from chatrobot.motion.budgets import REACHED
 from chatrobot.motion.goal import Goal
 from chatrobot.motion.goal_queue import Inbox, OutcomeQueue
-from chatrobot.motion.governed_robot import GovernedMotion, GovernedRobot, is_worth_telling
+from chatrobot.motion.governed_motion import GoalExecution
+from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.programs.clocks import LiveProgram
 from chatrobot.motion.programs.execution import ProgramExecution, ProgramSandbox
 from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.motion.safety.stop import Stops
 from chatrobot.motion.safety.watchdog import Interlock
-from chatrobot.plan.split import split
-from chatrobot.plan.steps import Plan
-from chatrobot.plan.text import format_plan
-
-
-class GoalExecution:
-    """Drives the plan of `goal`, which has been rehearsed. `tick` until `is_done`, or until it is stopped."""
-
-    def __init__(self, goal: Goal, robot: GovernedRobot, emit: Callable[[Event], None], now_s: float) -> None:
-        assert goal.stream.walk is not None
-        self.goal = goal
-        self._emit = emit
-        self._robot = robot
-        self._motion = GovernedMotion(goal, robot, now_s)
-        self._told: set[tuple[int, str]] = set()
-        self._executor = Executor(robot.profile, robot.sensors, emit)
-        self._executor.start(goal.turn, goal.stream.walk, goal.stream.duration_s, now_s)
-
-    def tick(self, now_s: float) -> None:
-        """One period: what the executor asks, as far as the governor allows it."""
-        asked = self._executor.tick(now_s)
-        if self._executor.is_done:
-            return
-        verdict = self._motion.send(asked, now_s)
-        over = self._motion.over_budget()
-        if over is not None:
-            self.ramp_down(over)
-        self._executor.note(verdict.rule, verdict.reason, verdict.sent.twist, now_s)
-        self._tell(verdict)
-
-    @property
-    def is_done(self) -> bool:
-        return self._executor.is_done
-
-    @property
-    def outcome(self) -> Outcome:
-        return self._executor.outcome
-
-    @property
-    def reason(self) -> Reason | None:
-        return self._executor.reason
-
-    def expect(self, duration_s: float) -> None:
-        """The plan has become longer: so long in all."""
-        self._executor.expect(duration_s)
-
-    def ramp_down(self, why: Reason) -> None:
-        """A controlled stop."""
-        self._executor.ramp_down(why)
-
-    def close(self) -> None:
-        """Nothing is left behind."""
-        self._motion.close()
-
-    def progress(self, now_s: float) -> Progress:
-        progress = self._executor.progress(self.goal.turn, now_s)
-        return replace(progress, fraction=None) if self.goal.is_open_ended else progress
-
-    def finished(self, outcome: Outcome, reason: Reason | None) -> Finished:
-        """The end, as odometry measured it."""
-        executed, remaining = self._parts()
-        is_whole = outcome == "completed"  # conditions that came true may have made it shorter than rehearsed
-        planned_m = self._executor.planned_m
-        return self._motion.finished(
-            outcome,
-            reason,
-            planned_m=planned_m if is_whole else max(planned_m, self.goal.length_m),
-            planned_turn_rad=self._executor.planned_turn_rad,
-            steps_done=self._executor.steps_done,
-            steps=self._executor.steps,
-            executed=executed,
-            remaining=remaining if outcome != "completed" else "",
-            open_ended=not is_whole and self.goal.is_open_ended,
-        )
-
-    def _parts(self) -> tuple[str, str]:
-        """The text of the part that was driven, and of the rest; nothing where it was not measured."""
-        reached, planned = self._executor.reached, self.goal.planned
-        if reached is None or planned is None or planned.rehearsal is None:
-            return "", ""
-        context = replace(planned.rehearsal.context, pose=self._robot.pose)
-        parts = split(self.goal.stream.accepted, reached, context)
-        return _text(parts.executed), _text(parts.remaining)
-
-    def _tell(self, verdict: Verdict) -> None:
-        """Say once a step and rule that something was limited."""
-        key = (self._executor.step, verdict.rule)
-        if is_worth_telling(verdict) and key not in self._told:
-            self._told.add(key)
-            self._emit(self._motion.limited(verdict))
-
-
-def _text(plan: Plan | None) -> str:
-    return format_plan(plan) if plan is not None else ""
-
 
 FAILURES = frozenset(
     {"guard_lost", "bumped", "motion_froze", "motion_late", "beats_missed", "beat_late", "wire_gone"}
@@ -126,38 +30,29 @@ FAILURES = frozenset(
 """A stop for one of these is no wish of anybody's: what ran has failed."""
 
 
+@dataclass(eq=False)
 class PlanExecutor:
-    """Has the `goal` it was given from `launch` until its end is told. Belongs to the control thread."""
+    """Drives the `goal` it was given, from `launch` until its end is told. Belongs to the control thread."""
 
-    def __init__(
-        self,
-        robot: GovernedRobot,
-        interlock: Interlock,
-        stops: Stops,
-        programs: ProgramSandbox,
-        inbox: Inbox,
-        clock: Clock,
-        outcomes: OutcomeQueue,
-        emit: Callable[[Event], None],
-    ) -> None:
-        self._robot = robot
-        self._outcomes = outcomes
-        self._interlock = interlock
-        self._stops = stops
-        self._programs = programs
-        self._inbox = inbox
-        self._clock = clock
-        self._emit = emit
-        self._run: GoalExecution | ProgramExecution | None = None
-        self.goal: Goal | None = None
-        """What is being launched or driven."""
+    _robot: GovernedRobot
+    _interlock: Interlock
+    _stops: Stops
+    _programs: ProgramSandbox
+    _inbox: Inbox
+    _clock: Clock
+    _outcomes: OutcomeQueue
+    _emit: Callable[[Event], None]
+    _run: GoalExecution | ProgramExecution | None = field(default=None, init=False)
+    goal: Goal | None = field(default=None, init=False)
+    """What is being launched or driven."""
 
     @property
     def is_driving(self) -> bool:
+        """True while a goal is under way."""
         return self._run is not None
 
     def drives(self, goal: Goal) -> bool:
-        """Whether that goal is under way."""
+        """Return whether that goal is under way."""
         return self._run is not None and self._run.goal is goal
 
     # --- begin ---
@@ -199,7 +94,7 @@ class PlanExecutor:
     # --- under way ---
 
     def tick(self, now_s: float) -> None:
-        """One period of what is under way. Where it may not go on the robot is halted; that stop is to be booked."""
+        """Do one period of what is under way. Where it may not go on, halt the robot; that stop is to be booked."""
         run = self._run
         if run is None:
             return
@@ -222,32 +117,32 @@ class PlanExecutor:
                 self._outcomes.tell_all()
 
     def expect(self, duration_s: float) -> None:
-        """The plan under way has become longer: so long in all."""
+        """Expect so long a duration in all: the plan under way has become longer."""
         if isinstance(self._run, GoalExecution):
             self._run.expect(duration_s)
 
     def progress(self, now_s: float) -> Progress | None:
-        """How far it is; None where nothing is under way."""
+        """Return how far it is; None where nothing is under way."""
         return self._run.progress(now_s) if self._run is not None else None
 
     # --- end ---
 
     def ramp_down(self, why: Reason) -> None:
-        """A controlled stop; what is only being launched ends at once."""
+        """Stop at the deceleration of the profile; end at once what is only being launched."""
         if self._run is not None:
             self._run.ramp_down(why)
         elif self.goal is not None:
             self._give_up("stopped", why)
 
     def end_stopped(self, why: Reason) -> None:
-        """The robot has been stopped: end what was under way."""
+        """End what was under way: the robot has been stopped."""
         if self._run is not None:
             self._end(self._run, "failed" if why.code in FAILURES else "stopped", why)
         elif self.goal is not None:
             self._give_up("stopped", why)
 
     def break_off(self, why: Reason) -> Callable[[], Finished] | None:
-        """The robot has been paused: what tells how much was done of the plan under way, and is left of it.
+        """Let go of the plan under way for a pause; return what tells how much of it was done, and is left.
 
         None, and nothing is done, where it cannot be gone on with.
         """
@@ -258,7 +153,7 @@ class PlanExecutor:
         return lambda: run.goal.whole(run.finished("stopped", why))
 
     def fail(self, why: Reason) -> None:
-        """The way to the robot is gone for good: what was under way has failed."""
+        """End what was under way as failed: the way to the robot is gone for good."""
         if self._run is not None:
             self._end(self._run, "failed", why)
         elif self.goal is not None:
@@ -286,4 +181,4 @@ class PlanExecutor:
         goal, self.goal = self.goal, None
         assert goal is not None
         self._robot.governor.end(goal.lease)
-        self._outcomes.tell(lambda: goal.unmoved(outcome, reason, self._robot.pose))
+        self._outcomes.tell_unmoved(goal, outcome, reason)

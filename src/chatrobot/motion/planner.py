@@ -1,4 +1,4 @@
-"""From plan text to something that may run: read, rehearsed from where the robot stands, in the world that is known."""
+"""Makes of plan text something that may run: read, rehearsed from where the robot stands, in the known world."""
 
 from __future__ import annotations
 
@@ -48,11 +48,12 @@ class Planned:
 
     @property
     def ok(self) -> bool:
+        """True where it may run."""
         return self.rehearsal is not None and self.rehearsal.ok
 
     @property
     def refusal(self) -> Reason | None:
-        """Why it may not run."""
+        """Return why it may not run."""
         if self.rehearsal is None:
             return self.unreadable
         found = self.rehearsal.refusal
@@ -62,7 +63,7 @@ class Planned:
 
     @property
     def possible(self) -> str:
-        """Plan text of what can be done of it if it is refused; empty where nothing is worth a question."""
+        """Return plan text of what can be done of a refused plan; empty where nothing is worth a question."""
         return format_plan(self.offer.plan) if self.offer.plan is not None else ""
 
     @property
@@ -72,25 +73,27 @@ class Planned:
 
     @property
     def duration_s(self) -> float:
+        """Return how long it was rehearsed to last."""
         return self.shown.duration_s if self.shown is not None else 0.0
 
     @property
     def length_m(self) -> float:
+        """Return how far it was rehearsed to drive."""
         return self.shown.length_m if self.shown is not None else 0.0
 
     @property
     def is_endless(self) -> bool:
-        """It does not end by itself."""
+        """True where it does not end by itself."""
         return False
 
     @property
     def is_open_ended(self) -> bool:
-        """Nobody knows before how far and how long it drives: its length and duration are those of its rehearsal."""
+        """True where its length and duration are only those of its rehearsal."""
         return self.is_endless or bool(self._unknown_lengths_m)
 
     @cached_property
     def certain(self) -> Extent:
-        """What it drives at least. Asked with every tick."""
+        """Return what it drives at least. Asked with every tick."""
         if self.is_endless:
             return Extent()
         length_m = max(0.0, self.length_m - sum(self._unknown_lengths_m))
@@ -110,21 +113,21 @@ class Planned:
 
     @property
     def has_findings(self) -> bool:
-        """Something that a person should look at before it runs."""
+        """True where a person should look at it before it runs."""
         return False
 
     def events(self, needs_approval: bool) -> tuple[Event, ...]:
-        """All that is told of it."""
+        """Return all that is told of it."""
         return (self.event(needs_approval),)
 
     def part_event(self, steps_before: int) -> Rehearsed:
-        """As `event`, for a part that goes on after so many steps of the same turn."""
+        """Return its `event` as a part that goes on after so many steps of the same turn."""
         event = self.event(False)
         findings = tuple(replace(found, step=_later(found.step, steps_before)) for found in event.findings)
         return replace(event, findings=findings)
 
     def event(self, needs_approval: bool) -> Rehearsed:
-        """What the faces show of it."""
+        """Return what the displays show of it."""
         shown = self.shown
         if shown is None:
             return Rehearsed(self.turn, False, 0.0, 0.0, Pose())
@@ -146,7 +149,7 @@ class Planned:
 
 
 def refused(event: Event, reason: Reason | None) -> Event:
-    """The event; where it shows a plan that may not run for `reason`, it says so."""
+    """Return the event; where it shows a plan that may not run for `reason`, with that finding."""
     if reason is None or not isinstance(event, Rehearsed) or not event.ok:
         return event
     found = FindingSeen(event.turn, "refuse", reason)
@@ -154,13 +157,13 @@ def refused(event: Event, reason: Reason | None) -> Event:
 
 
 def driving_s(path: Floats) -> float:
-    """How long the robot moves on a path whose rows ([n, 4]) begin with a time."""
+    """Return how long the robot moves on a path whose rows ([n, 4]) begin with a time."""
     steps = np.diff(path, axis=0)
     return float(steps[np.any(np.abs(steps[:, 1:]) > 1e-9, axis=1), 0].sum())
 
 
 def drawn(path: Floats) -> tuple[tuple[float, float, float], ...]:
-    """x_m, y_m, yaw_rad of a path whose rows ([n, 4]) begin with a time; thinned, but for its end."""
+    """Return x_m, y_m, yaw_rad of a path whose rows ([n, 4]) begin with a time; thinned, but for its end."""
     stride = max(1, len(path) // DRAWN_POINTS)
     rows = [*path[:-1:stride].tolist(), path[-1].tolist()]
     return tuple((row[1], row[2], row[3]) for row in rows)
@@ -182,17 +185,17 @@ class Planner:
 
     @property
     def world(self) -> World:
-        """What is known of the surroundings."""
+        """Return what is known of the surroundings."""
         return self._world
 
     @property
     def kernel(self) -> Kernel:
-        """The governor's own arithmetic, which rehearsals use, too."""
+        """Return the governor's own arithmetic, which rehearsals use, too."""
         return self._kernel
 
     @property
     def allowed_area(self) -> Sequence[Point] | None:
-        """Corners, in `odom`, of where the world lets a robot be; None where it says nothing."""
+        """Return the corners, in `odom`, of where the world lets a robot be; None where it says nothing."""
         return self._world.allowed_area.points if self._world.allowed_area is not None else None
 
     def plan(

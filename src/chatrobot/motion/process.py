@@ -24,7 +24,7 @@ OUTBOX_LIMIT = 200
 
 
 class Outbox:
-    """Events on their way to the other half. Never blocks: a frozen reader costs it telemetry, nothing else.
+    """Sends events to the other half. Never blocks: a frozen reader costs it telemetry, nothing else.
 
     They are written down after the tick they belong to: that takes longer than a velocity may wait.
     """
@@ -34,11 +34,13 @@ class Outbox:
         self._waiting: deque[Event] = deque()
 
     def put(self, event: Event) -> None:
+        """Queue `event`; telemetry is dropped where too much waits."""
         if isinstance(event, Telemetry) and len(self._waiting) > OUTBOX_LIMIT:
             return
         self._waiting.append(event)
 
     def flush(self) -> None:
+        """Send what waits, as far as the line takes it."""
         while self._waiting:
             try:
                 packet = json.dumps(self._waiting[0].to_json(), separators=(",", ":")).encode()
@@ -49,7 +51,7 @@ class Outbox:
 
 
 class SocketReader:
-    """The link's reader: Motion hears a stop in this very thread."""
+    """Reads the link: Motion hears a stop in this very thread."""
 
     def __init__(self, line: socket.socket, runner: MotionRunner) -> None:
         self._line = line
@@ -58,7 +60,7 @@ class SocketReader:
         self._said_goodbye = False
 
     def run(self) -> None:
-        """Until the other end leaves; without a goodbye that is a loss."""
+        """Read until the other end leaves; without a goodbye that is a loss."""
         while packet := self._receive():
             envelope = Envelope.from_bytes(packet)
             if envelope is None:
@@ -77,6 +79,7 @@ class SocketReader:
 
 
 def main(arguments: list[str]) -> int:
+    """Run Motion on the inherited socket; return the exit code."""
     for name in ("SIGINT", "SIGTSTP", "SIGHUP", "SIGPIPE"):
         signal.signal(getattr(signal, name), signal.SIG_IGN)
     options = dict(zip(arguments[::2], arguments[1::2]))

@@ -41,8 +41,7 @@ TOUCHES_M = 0.02
 
 
 class Sight:
-    """How much the governor allows where the lidar does not see, by its own rule.
-
+    """Tells how much the governor allows where the lidar does not see, by its own rule.
 
     Args:
         look: where the lidar looked last; None where it shows nothing, not even that nothing is there.
@@ -52,13 +51,12 @@ class Sight:
         self._mounting = Pose(lidar.x_m, lidar.y_m, lidar.yaw_rad)
         self._look = look
         self._seen = ObstacleMemory(lidar)
-        self._seen.coverage.note(
-            LidarView(ORIGIN, 0.0, math.tau, 1)
-        )  # all around: what it comes by has been seen before
+        # All around: what it comes by has been seen before.
+        self._seen.coverage.note(LidarView(ORIGIN, 0.0, math.tau, 1))
         self._rule = BlindRule(profile, self._seen)
 
     def allowed_share(self, twist: Twist, pose: Pose) -> float:
-        """Of a twist at that pose, from where the lidar looks as it does now."""
+        """Return the share of a twist that is allowed at that pose, from where the lidar looks as it does now."""
         sensed = NOTHING_SENSED
         if self._look is not None:
             self._seen.coverage.latest = replace(self._look, lidar=pose.compose(self._mounting))
@@ -80,11 +78,11 @@ class RememberedObstacles:
         self.points = points
 
     def allowed_share(self, twist: Twist, pose: Pose) -> float:
-        """How much the governor will allow of a twist at that pose."""
+        """Return how much the governor will allow of a twist at that pose."""
         return self._sight.allowed_share(twist, pose) if self._sight is not None else 1.0
 
     def free_ahead_m(self, pose: Pose, direction_rad: float) -> float:
-        """How far the strip that the footprint sweeps straight on is free; infinite where nothing was seen in it."""
+        """Return how far the strip that the footprint sweeps straight on is free; infinite where nothing was seen."""
         forward = np.array([math.cos(direction_rad), math.sin(direction_rad)])
         front_m = (self._corners @ forward).max()
         sides_m = self._corners @ np.array([-forward[1], forward[0]])
@@ -96,7 +94,7 @@ class RememberedObstacles:
         return float(ahead_m[inside & (ahead_m > 0.0)].min(initial=math.inf))
 
     def first_contact(self, poses: Floats) -> Contact | None:
-        """The first of [n, 3] poses, from where the robot stands, that comes nearer to a seen point than is allowed.
+        """Return the first of [n, 3] poses along a path that comes nearer to a seen point than is allowed.
 
         Where the robot is nearer than the margin of a rehearsal already, the governor's own counts; where it is in
         contact, it may come no nearer than it was.
@@ -117,10 +115,9 @@ class RememberedObstacles:
         return None
 
     def clear_of(self, pose: Pose) -> Floats:
-        """The points [n, 2] that a robot at `pose` does not touch."""
+        """Return the points [n, 2] that a robot at `pose` does not touch."""
         clearance = self._clearance_m(np.array([pose]), self.points)[0]
-        found: Floats = self.points[clearance > TOUCHES_M]
-        return found
+        return np.asarray(self.points[clearance > TOUCHES_M])
 
     def _near(self, poses: Floats) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
         """The points that the footprint may come near to on these poses."""
@@ -149,7 +146,7 @@ def _apart(poses: Floats, radius_m: float) -> np.ndarray[tuple[int], np.dtype[np
 
 
 def with_seen(world: World, points: Floats) -> World:
-    """The world with small obstacles where points [n, 2] were seen that it does not know."""
+    """Return the world with small obstacles where points [n, 2] were seen that it does not know."""
     unknown = seen_but_unknown(world, points)
     cells = np.unique(np.rint(unknown / APART_IN_WORLD_M), axis=0) * APART_IN_WORLD_M
     added = (Obstacle("", Circle(x, y, TOUCHES_M / 2.0)) for x, y in cells.tolist())
@@ -157,7 +154,7 @@ def with_seen(world: World, points: Floats) -> World:
 
 
 def seen_but_unknown(world: World, points: Floats) -> Floats:
-    """Those of the seen points [n, 2] that are no obstacle of the map."""
+    """Return those of the seen points [n, 2] that are no obstacle of the map."""
     if world.is_empty or not len(points):
         return points
     return points[world.clearance_m(points) >= rehearsal.KNOWN_WITHIN_M]
@@ -199,8 +196,7 @@ class _Field:
         ny, nx = self.clearance_m.shape
         j, i = np.rint((points - self.low) / self.cell_m).astype(np.intp).T
         # Whatever lies outside the grid is farther from all points than its edge.
-        found: Floats = self.clearance_m[np.clip(i, 0, ny - 1), np.clip(j, 0, nx - 1)]
-        return found
+        return np.asarray(self.clearance_m[np.clip(i, 0, ny - 1), np.clip(j, 0, nx - 1)])
 
 
 class _KnownAndSeen:
@@ -257,6 +253,7 @@ class RoutesAroundObstacles:
         self._around: GridRoutePlanner | None = None
 
     def route(self, start: Pose, goal: Point, *, named_place: bool) -> Route | NoRoute:
+        """Return the way to `goal` (odom frame), or why there is none."""
         if self._around is None:
             self._around = GridRoutePlanner(_KnownAndSeen(self._world, self._unknown), self._profile)
         found = self._around.route(start, goal, named_place=named_place)

@@ -1,4 +1,4 @@
-"""Motion with its robot, its guard and its threads, whatever carries the link.
+"""Runs Motion with its robot, its guard and its threads, whatever carries the link.
 
 Threads: the control loop at 50 Hz (the caller's); the planner, so that a rehearsal never delays a tick; a listener
 for `chatrobot stop`; and a watch for others who drive the same robot. The carrier's reader hands envelopes to
@@ -120,12 +120,7 @@ class MotionRunner:
             self.wire, node, self.profile.wiring.cmd_vel_topic, open_loop_notice(self.profile)
         )
         self._lookout = ConnectionMonitor(
-            self.wire,
-            self._competitors,
-            self.motion,
-            self.profile,
-            self.notice,
-            accept_others=accept_others,
+            self.wire, self._competitors, self.motion, self.profile, self.notice, accept_others=accept_others
         )
         with contextlib.ExitStack() as ended_early:
             ended_early.callback(
@@ -151,16 +146,17 @@ class MotionRunner:
             self._lookout.look_around()
 
     def run(self, has_left: Callable[[], bool], each_tick: Callable[[], None]) -> None:
-        """The control loop, until `has_left`; then the guard is told goodbye.
+        """Run the control loop until `has_left`; then say goodbye to the guard.
 
         Raises:
             WireError: the wire is closed for good. What was under way has been told to have failed.
         """
         if threading.current_thread() is threading.main_thread():
             signal.signal(signal.SIGCONT, lambda *_: self.motion.thaw())
-        for target in (self._plan, self._serve_stop, self._lookout.watch):
+        for target in (self._plan, lambda: serve_stop(self._stop_and_tell), self._lookout.watch):
             threading.Thread(target=target, daemon=True).start()
-        _settle_memory()
+        gc.collect()
+        gc.freeze()  # what start-up has made stays: the collector need not look through it while the robot moves
         next_s = time.monotonic()
         try:
             while not has_left():
@@ -183,7 +179,7 @@ class MotionRunner:
 
     @property
     def robot_has_left(self) -> bool:
-        """The robot's process is seen to be gone; for who waits for the robot to stand. On the control thread."""
+        """True once the robot's process is seen to be gone; for who waits for it to stand. On the control thread."""
         return self._departure.is_over(time.monotonic())
 
     # --- from any thread ---
@@ -196,7 +192,7 @@ class MotionRunner:
             self._wake.set()
 
     def lose(self, lease: str) -> None:
-        """The source behind that lease is gone without a goodbye."""
+        """Stop: the source behind that lease is gone without a goodbye."""
         self.motion.lose(lease)
         self._wake.set()
 
@@ -235,9 +231,6 @@ class MotionRunner:
         if message.data:
             self.halt(STOP, "")
 
-    def _serve_stop(self) -> None:
-        serve_stop(self._stop_and_tell)
-
     def _stop_and_tell(self) -> str:
         """Stop; what was found, for `chatrobot stop` to say: `moving`, `waiting`, `standing` or `unseen`."""
         has_work = self.motion.has_work  # looked up, not asked for: nothing holds the zero up
@@ -256,12 +249,6 @@ def _meet(
         profile = slowed(profile)
         said = [*said, Reason("drives_on_alone", {"speed_mps": profile.limits.max_speed_mps})]
     return wire, profile, said
-
-
-def _settle_memory() -> None:
-    """What start-up has made stays: the collector need not look through it while the robot moves."""
-    gc.collect()
-    gc.freeze()
 
 
 def _as_others_name_it(wire: Wire, wiring: Wiring) -> Wiring:

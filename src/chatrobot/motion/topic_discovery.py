@@ -1,5 +1,4 @@
-"""Where the robot's topics are not as its profile says: what the wire shows is taken where it is plain, or a
-remapping is proposed that a person can type."""
+"""Finds the robot's topics where they are not as its profile says, or proposes a remapping that a person can type."""
 
 from __future__ import annotations
 
@@ -12,23 +11,23 @@ from chatrobot.core.wiring import Wiring
 from chatrobot.wire.wire import Endpoint
 
 IMU, SCAN = "sensor_msgs/msg/Imu", "sensor_msgs/msg/LaserScan"
-TWIST, TWIST_STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
+TWISTS = TWIST, TWIST_STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
+ODOMETRY, TURTLE_POSE = "nav_msgs/msg/Odometry", "turtlesim/msg/Pose"
+TURTLE = "turtle1"
+FullName = Callable[[str], str]
+"""A topic of the profile as the wire lists it: absolute, with the robot's namespace."""
 
 
 def is_complete(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullName) -> bool:
-    """The robot is there as its profile says: it listens for velocities, and tells odometry, gyro and scan."""
-    wanted = [
-        Endpoint(full_name(wiring.cmd_vel_topic), _cmd_vel_type(wiring), "listens"),
-    ]
+    """Return whether the robot is there as its profile says: velocities, odometry, gyro and scan."""
     told = ((wiring.odom_topic, _odom_type(wiring)), (wiring.imu_topic, IMU), (wiring.scan_topic, SCAN))
-    for topic, type_name in told:
-        if topic:
-            wanted.append(Endpoint(full_name(topic), type_name, "publishes"))
-    return set(wanted) <= set(endpoints)
+    wanted = {Endpoint(full_name(topic), type_name, "publishes") for topic, type_name in told if topic}
+    wanted.add(Endpoint(full_name(wiring.cmd_vel_topic), _cmd_vel_type(wiring), "listens"))
+    return wanted <= set(endpoints)
 
 
 def fit(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullName) -> tuple[Wiring, list[Reason]]:
-    """The wiring as the wire shows it, and what a person should know of the differences.
+    """Return the wiring as the wire shows it, and what a person should know of the differences.
 
     Args:
         endpoints: of others.
@@ -58,7 +57,7 @@ class _Sensors:
         others = {
             f"{end.topic.rpartition('/')[0]}/"
             for end in seen
-            if end.role == "listens" and end.type_name in (TWIST, TWIST_STAMPED) and end.topic != cmd_vel
+            if end.role == "listens" and end.type_name in TWISTS and end.topic != cmd_vel
         }
         self._prefix = prefix
         self._others = tuple(other for other in others if not prefix.startswith(other))
@@ -111,15 +110,8 @@ def _odom_type(wiring: Wiring) -> str:
     return TURTLE_POSE if wiring.odom_type == "turtlesim/Pose" else ODOMETRY
 
 
-ODOMETRY, TURTLE_POSE = "nav_msgs/msg/Odometry", "turtlesim/msg/Pose"
-TWISTS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
-TURTLE = "turtle1"
-FullName = Callable[[str], str]
-"""A topic of the profile as the wire lists it: absolute, with the robot's namespace."""
-
-
 def hints(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullName) -> list[Reason]:
-    """What to know of a robot whose velocities nobody takes, or whose odometry nobody tells; nothing where it is there.
+    """Return what to know of a robot whose velocities nobody takes, or whose odometry nobody publishes.
 
     Args:
         endpoints: of others.
@@ -139,7 +131,7 @@ def hints(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullName) ->
 
 
 def why_unheard(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullName) -> Reason | None:
-    """Why no odometry comes, as far as the wire shows it."""
+    """Return why no odometry comes, as far as the wire shows it."""
     seen = list(endpoints)
     found = hints(wiring, seen, full_name)
     if found or not wiring.odom_topic:
@@ -156,7 +148,7 @@ def why_unheard(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullNa
 
 
 def unclear(topic: str, told: list[str]) -> Reason:
-    """A sensor is told, but not where the profile says, and which one is this robot's nobody can tell."""
+    """Return the reason of a sensor that is published elsewhere, where nobody can tell which is this robot's."""
     return Reason(
         "sensor_unclear", {"topic": topic, "found": ", ".join(told), "ros_args": _remap(topic, told[0])}
     )

@@ -10,7 +10,7 @@ from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 from chatrobot.core.governed import StopEpoch
 from chatrobot.governor.governor import Governor, Verdict
 from chatrobot.governor.rule import Sensed
-from chatrobot.motion.governed_robot import decelerated, is_cut_short
+from chatrobot.motion.governed_motion import decelerated, is_cut_short
 from chatrobot.motion.programs.clocks import HeldTwist, SensorMailbox
 from chatrobot.motion.safety.stop import WireTransport
 from chatrobot.robots.profile import RobotProfile

@@ -25,7 +25,7 @@ Sight = Literal["moving", "standing", "unseen"]
 
 
 class StopConfirmation:
-    """Belongs to the control thread: `begin` with every stop, `tick` while nothing of ours moves the robot.
+    """Sends zeros until the robot is seen standing: `begin` with every stop, `tick` while nothing of ours moves it.
 
     Args:
         send_zero: puts one on the wire.
@@ -47,17 +47,17 @@ class StopConfirmation:
 
     @property
     def is_active(self) -> bool:
-        """Zeros are being sent."""
+        """True while zeros are being sent."""
         return self._since_s is not None
 
     @property
     def has_lost_sight(self) -> bool:
-        """Nobody saw it stand after the last stop, and it has not been seen since."""
+        """True where nobody saw it stand after the last stop, and it has not been seen since."""
         return self._was_out_of_sight
 
     @property
     def sight(self) -> Sight:
-        """What odometry shows of the robot just now."""
+        """Return what odometry shows of the robot just now."""
         estimate = self._sensors.estimate
         if estimate is None or not self._is_in_sight():
             return "unseen"
@@ -65,15 +65,16 @@ class StopConfirmation:
 
     @property
     def is_watched(self) -> bool:
-        """A robot that was told to stand is in sight, and not seen standing yet: what it measures still changes."""
+        """True while a robot that was told to stand is in sight and moves yet: what it measures still changes."""
         return self.is_active and self.disobeyed is None and self.sight != "unseen"
 
     @property
     def is_at_rest(self) -> bool:
-        """It is seen standing, and nobody has told it to stand since."""
+        """True where it is seen standing, and nobody has told it to stand since."""
         return not self.is_active and self.sight == "standing"
 
     def begin(self, now_s: float) -> None:
+        """Begin to send zeros."""
         self._since_s = now_s
         self._was_out_of_sight = False
 
@@ -106,22 +107,21 @@ class StopConfirmation:
             self._send_zero(now_s)
 
     def _complain(self) -> None:
-        if self.disobeyed is not None:
-            return
-        self.disobeyed = self.disobedience
-        self._tell(self.disobeyed)
+        if self.disobeyed is None:
+            self.disobeyed = self.disobedience
+            self._tell(self.disobeyed)
 
     def _is_in_sight(self) -> bool:
         return self._sensors.estimate is not None and self._sensors.odometry_age_s() < FRESH_S
 
     @property
     def disobedience(self) -> Reason:
-        """What to say of a robot that moves though it has been told to stand."""
+        """Return what to say of a robot that moves though it has been told to stand."""
         return Reason("not_ours_alone", {"who": self.others}) if self.others else Reason("moves_on")
 
     @property
     def is_seen_moving(self) -> bool:
-        """Odometry shows clearly, and just now, that it moves."""
+        """True where odometry shows clearly, and just now, that it moves."""
         return is_seen_moving(self._sensors)
 
 
@@ -166,7 +166,7 @@ class WireTransport:
 
 
 class Stops:
-    """`halt` may be called from any thread at any moment; the rest belongs to the control thread.
+    """Stops the robot from any thread with `halt`; the rest belongs to the control thread.
 
     Booking means that what ran and what waited is told its end, and that the robot is seen standing.
     """
@@ -190,7 +190,7 @@ class Stops:
         self._transport.halt()
 
     def void(self, why: Reason) -> None:
-        """What has been minted is worth nothing from now on; the zero goes out with the next tick.
+        """Make worthless what has been minted; the zero goes out with the next tick.
 
         For a signal handler: it may have interrupted what sends in this very thread.
         """
@@ -206,15 +206,16 @@ class Stops:
 
     @property
     def count(self) -> int:
-        """Changes with every stop: what was asked before it does not count any more."""
+        """Return a number that changes with every stop: what was asked before it does not count any more."""
         return self._epoch.value
 
     @property
     def is_unbooked(self) -> bool:
+        """True where a stop has not been booked."""
         return self._booked != self._epoch.value
 
     def book(self) -> Reason | None:
-        """Why the robot was stopped since the last time, None where it was not; from now on zeros are sent.
+        """Return why the robot was stopped since the last time, None where it was not; begin to send zeros.
 
         Of a pause and a stop that came together the stop counts.
         """
@@ -227,21 +228,20 @@ class Stops:
         return self._clear_reason if cleared else self.last_reason
 
     def halt_and_book(self, why: Reason) -> None:
-        """The stop at the end of a motion that failed or was broken off: what waits is not touched by it.
+        """Stop at the end of a motion that failed or was broken off: what waits is not touched by it.
 
         One that came from elsewhere in the same moment is left to be booked, and does clear what waits.
         """
         self._transport.halt()
-        count = (
-            self._epoch.value
-        )  # two at the same instant may share one value: the count alone does not tell
+        count = self._epoch.value
+        # Two at the same instant may share one value: the count alone does not tell.
         if self._asked is self._booked_ask:
             self._booked, self.last_reason = count, why
         self._stop_confirmation.begin(self._clock.now_s())
 
 
 def serve_stop(stop: Callable[[], str]) -> None:
-    """For ever: who calls on this process's socket stops the robot, and is answered when the zero is out.
+    """Stop the robot for whoever calls on this process's socket, and answer when the zero is out. Never returns.
 
     Args:
         stop: stops, and returns in a word what was found.
@@ -261,6 +261,6 @@ def serve_stop(stop: Callable[[], str]) -> None:
 
 
 def remove_stop_socket() -> None:
-    """Nobody serves it any more."""
+    """Remove the socket that nobody serves any more."""
     with contextlib.suppress(OSError):
         stop_socket_path(os.getpid()).unlink()

@@ -6,34 +6,38 @@ import contextlib
 import socket
 from collections import deque
 from collections.abc import Callable
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from chatrobot.core.clock import TICK_S, Clock
 from chatrobot.core.process import is_machine_busy
 from chatrobot.core.reason import Reason
-from chatrobot.governor.governor import Governor
 from chatrobot.guard.watch import BEAT, ECHO_LOST_S, GOODBYE, HANDSHAKE, MISSED_S, TRIPPED, Watch
 from chatrobot.link.processes import spawn_with_line
 from chatrobot.robots.profile import Wiring
 
+if TYPE_CHECKING:  # the process that talks loads this module for its guard, and no numpy
+    from chatrobot.governor.governor import Governor
+
 
 class GuardLink(Protocol):
-    """Motion refuses to move while `is_alive` is false."""
+    """Motion's line to the guard: Motion refuses to move while `is_alive` is false."""
 
-    def handshake(self) -> None: ...
+    def handshake(self) -> None:
+        """Begin anew: a trip that the guard has told is known."""
 
-    def beat(self) -> None: ...
+    def beat(self) -> None:
+        """Say that Motion is there."""
 
     def is_alive(self) -> bool:
-        """True while the guard answers, as it was last heard."""
+        """Return whether the guard answers, as it was last heard."""
         ...
 
     def was_tripped(self) -> bool:
-        """Hear what the guard has answered, at the beginning of each tick. True from when it has tripped until the
-        handshake that is then due."""
+        """Hear what the guard has answered; return whether it has tripped since the last handshake."""
         ...
 
-    def goodbye(self) -> None: ...
+    def goodbye(self) -> None:
+        """Say that nothing is to be watched any more."""
 
 
 class GuardLine:
@@ -52,6 +56,7 @@ class GuardLine:
         self._tripped = False
 
     def handshake(self) -> None:
+        """Say hello; what comes before the answer is about a trip that is known."""
         self._tripped, self._is_shaking_hands = False, True
         self._say(HANDSHAKE)
 
@@ -59,13 +64,16 @@ class GuardLine:
         self._say(BEAT)
 
     def is_alive(self) -> bool:
+        """Return whether an answer came within `ECHO_LOST_S`."""
         return self._clock.now_s() - self._echo_at_s < ECHO_LOST_S
 
     def was_tripped(self) -> bool:
+        """Read what has been answered; return whether the guard has tripped since the last handshake."""
         self._hear()
         return self._tripped
 
     def goodbye(self) -> None:
+        """Say goodbye, and close the line."""
         self._say(GOODBYE)
         self._line.close()
 
@@ -95,9 +103,8 @@ class GuardLine:
             answers = b""
         # Its end is closed: it is dead, and nobody has to wait to see that.
         self._echo_at_s = self._clock.now_s() if answers else float("-inf")
-        if (
-            self._is_shaking_hands
-        ):  # what it said before it heard our handshake is about a trip that we know of
+        if self._is_shaking_hands:
+            # What it said before it heard our handshake is about a trip that we know of.
             _, handshake, answers = answers.rpartition(HANDSHAKE)
             self._is_shaking_hands = not handshake
             answers = answers if handshake else b""
@@ -142,15 +149,19 @@ class SimulatedGuard:
         self._tripped = self._tripped or self._watch.state == "tripped"
 
     def is_alive(self) -> bool:
+        """Return True: it cannot die."""
         return True
 
     def was_tripped(self) -> bool:
+        """Return whether it has tripped since the last handshake."""
         return self._tripped
 
     def goodbye(self) -> None:
+        """Watch nothing any more."""
         self._watch = Watch()
 
     def must_halt(self) -> bool:
+        """Return whether the guard has to halt the robot now."""
         return self._watch.must_halt(self._clock.now_s())
 
 
@@ -177,7 +188,7 @@ class StallDetector:
         self._was_stopped = False
 
     def tick(self, now_s: float, *, is_driven: bool, is_engaged: bool) -> float:
-        """Halt where we were frozen, or the guard thinks so; then shake hands with it anew.
+        """Halt where this process was frozen, or the guard thinks so; then shake hands with it anew.
 
         Args:
             is_driven: a velocity of ours, or of others through us, moves the robot.
@@ -205,14 +216,14 @@ class StallDetector:
         return gap_s - TICK_S if gap_s > LATE_S else 0.0
 
     def beat(self, now_s: float) -> None:
-        """Say to the guard that we are there."""
+        """Say to the guard that this process is there."""
         self._guard.beat()
         if self._last_beat_s is not None:
             self._beat_gaps_s.append(now_s - self._last_beat_s)
         self._last_beat_s = now_s
 
     def thaw(self, now_s: float) -> Reason | None:
-        """This process was stopped by a signal and goes on; why what is driven is over."""
+        """Note that a signal had stopped this process; return why what is driven is over."""
         self._was_stopped = True
         since_s = now_s - self._last_tick_s if self._last_tick_s is not None else 0.0
         return Reason("motion_froze", {"gap_s": round(since_s, 2)}) if self._is_driven else None
@@ -227,7 +238,7 @@ def _late(gap_s: float) -> Reason:
 
 
 class Interlock:
-    """Asked before every motion and with every tick of one. Belongs to the control thread but for `obstruction`."""
+    """Allows motion, or says why nothing may move. Belongs to the control thread but for `obstruction`."""
 
     def __init__(self, governor: Governor, guard: GuardLink) -> None:
         self._governor = governor
@@ -236,7 +247,7 @@ class Interlock:
         """Why nothing may move for now, by those who look after the wire; any thread may set it."""
 
     def barrier(self) -> Reason | None:
-        """Why nothing may move, whoever asks: an emergency stop, the wire, or a guard that is not there."""
+        """Return why nothing may move, whoever asks: an emergency stop, the wire, or a guard that is not there."""
         if self._governor.latched is not None:
             return self._governor.latched
         if self.obstruction is not None:
@@ -244,7 +255,7 @@ class Interlock:
         return None if self._guard.is_alive() else Reason("guard_lost")
 
     def barrier_for(self, lease: str, now_s: float) -> Reason | None:
-        """Why what asks under that lease may not move."""
+        """Return why what asks under that lease may not move."""
         barrier, leases = self.barrier(), self._governor.leases
         if barrier is not None:
             return barrier
