@@ -104,7 +104,7 @@ class SandboxedProgram:
         return events
 
     def tell(self, sensor: str, values: Sequence[Any]) -> None:
-        """Pass on a sensor's words: its stamp (seconds since the program's start) and numbers. A full pipe drops them."""
+        """Pass on a sensor's stamp (seconds since the program's start) and numbers, if the pipe is not full."""
         if len(self._outbox) < OUTBOX_BYTES:
             self._outbox += encode("feed", [[sensor, *values]])
         self._send()

@@ -23,7 +23,7 @@ from chatrobot.models.seam import CallLimits, Message, Model, ModelError, Usage
 from chatrobot.plan.context import Impossible, RoutePlanner
 from chatrobot.plan.steps import Plan
 from chatrobot.programs.check import check
-from chatrobot.programs.extract import extract
+from chatrobot.programs.extract import Extracted, extract
 from chatrobot.programs.library import KeptProgram, Library, Provenance, RunRecord, clean_name, today
 from chatrobot.programs.prompts import mend_prompt, system_prompt
 from chatrobot.programs.writing.program import Wanted, write_program
@@ -49,14 +49,6 @@ class Spent:
     model: str
     usage: Usage
     duration_s: float
-
-
-@dataclass
-class Rehearsal:
-    """What Motion told of one version, as it comes in."""
-
-    program: ProgramRehearsed | None = None
-    path: Rehearsed | None = None
 
 
 class Authoring:
@@ -126,6 +118,10 @@ class Authoring:
         program = replace(program, remap=dict(checked.remap))
         place = self.library.place(program.name)
         return Draft(program, checked, place=place, version=program.provenance.versions)
+
+    def _new(self, program: KeptProgram, request: ProgramRequest, messages: Sequence[Message] = ()) -> Draft:
+        draft = self.draft_of(program)
+        return replace(draft, is_new=True, promises=request.promises, messages=tuple(messages))
 
     def draft_of_file(self, path: Path, source: str) -> Draft:
         """Return the draft of a program from a file, which is not kept."""
@@ -197,32 +193,15 @@ class Authoring:
             raise NotWrittenError("refused", meant.reply)
         return meant.plan
 
-    def _new(self, program: KeptProgram, request: ProgramRequest, messages: Sequence[Message] = ()) -> Draft:
-        checked = check(program.source, self._profile)
-        program = replace(program, remap=dict(checked.remap))
-        return Draft(
-            program,
-            checked,
-            is_new=True,
-            place=self.library.place(program.name),
-            promises=request.promises,
-            messages=tuple(messages),
-        )
-
     # --- with a model ---
 
     def _by_model(self, request: ProgramRequest, language: str) -> Draft:
         assert self.model is not None
         messages = [Message("system", system_prompt(self._profile)), Message("user", request.text)]
-        reply = self._ask(messages, language)
-        found = extract(reply)
-        if found is None:
-            raise NotWrittenError("unclear", say(language, "no_program_in_reply", reply=reply.strip()[:200]))
+        found, messages = self._written_by_model(messages, "unclear", language)
         provenance = Provenance(request.text, "model", self.model.name, today())
-        program = KeptProgram(
-            self.library.free_name(request.name), found.source, found.description, provenance
-        )
-        return self._new(program, request, [*messages, Message("assistant", reply)])
+        name = self.library.free_name(request.name)
+        return self._new(KeptProgram(name, found.source, found.description, provenance), request, messages)
 
     def mend(self, draft: Draft, problem: Reason, details: str, language: str) -> Draft | None:
         """Have the model write the next version; None where it may not be mended any more. Blocks.
@@ -233,13 +212,18 @@ class Authoring:
         if not draft.by_model or draft.version > MOST_REPAIRS or self.model is None:
             return None
         told = mend_prompt(render_reason(problem, "en"), details)
-        messages = [*draft.messages, Message("user", told)]
+        found, messages = self._written_by_model([*draft.messages, Message("user", told)], "failed", language)
+        return draft.next(found.source, check(found.source, self._profile), tuple(messages))
+
+    def _written_by_model(
+        self, messages: Sequence[Message], without: Outcome, language: str
+    ) -> tuple[Extracted, list[Message]]:
+        """The program that the model answers, and the conversation with it; `without` is the outcome if it has none."""
         reply = self._ask(messages, language)
         found = extract(reply)
         if found is None:
-            raise NotWrittenError("failed", say(language, "no_program_in_reply", reply=reply.strip()[:200]))
-        checked = check(found.source, self._profile)
-        return draft.next(found.source, checked, (*messages, Message("assistant", reply)))
+            raise NotWrittenError(without, say(language, "no_program_in_reply", reply=reply.strip()[:200]))
+        return found, [*messages, Message("assistant", reply)]
 
     def _ask(self, messages: Sequence[Message], language: str) -> str:
         assert self.model is not None
@@ -275,11 +259,8 @@ class Authoring:
         if draft.is_new:
             self.library.keep(draft.program)
 
-    def note_rehearsal(self, draft: Draft, rehearsal: Rehearsal) -> None:
+    def note_rehearsal(self, draft: Draft, program: ProgramRehearsed, path: Rehearsed) -> None:
         """Keep what the last rehearsal of a kept program showed."""
-        program, path = rehearsal.program, rehearsal.path
-        if program is None or path is None:
-            return
         self.library.note_rehearsal(
             draft.program.name,
             {

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
-from typing import Any
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Literal
 
 from chatrobot.core.events import (
     Event,
@@ -18,7 +18,7 @@ from chatrobot.core.events import (
 )
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.goal_client import GoalClient
-from chatrobot.dialogue.programs.authoring import MOST_REPAIRS, Authoring, NotWrittenError, Rehearsal
+from chatrobot.dialogue.programs.authoring import MOST_REPAIRS, Authoring, NotWrittenError
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.dialogue.request_log import RequestLog
 from chatrobot.dialogue.understanding import Understanding
@@ -43,7 +43,7 @@ MENDABLE = frozenset(
 @dataclass
 class _Turn:
     draft: Draft
-    rehearsal: Rehearsal = field(default_factory=Rehearsal)
+    rehearsed: ProgramRehearsed | None = None
     has_started: bool = False
 
 
@@ -88,7 +88,8 @@ class ProgramRequests:
                 draft = self._write(turn, replace(request, name=name or request.name), language)
         except NotWrittenError as refusal:
             self._emit(Interpreted(turn, "offline", "", refusal.reply))
-            meant = Interpretation(_MEANT.get(refusal.outcome, "refused"), refusal.reply, language)
+            outcome: Literal["unclear", "refused"] = "unclear" if refusal.outcome == "unclear" else "refused"
+            meant = Interpretation(outcome, refusal.reply, language)
             self._understanding.note_unmoved(text, meant)
             self._requests.conclude(turn, refusal.outcome, refusal.reply)
             return True
@@ -142,10 +143,9 @@ class ProgramRequests:
         if about is None:
             return False
         if isinstance(event, ProgramRehearsed):
-            about.rehearsal.program = event
-        elif isinstance(event, Rehearsed):
-            about.rehearsal.path = event
-            self.authoring.note_rehearsal(about.draft, about.rehearsal)
+            about.rehearsed = event
+        elif isinstance(event, Rehearsed) and about.rehearsed is not None:
+            self.authoring.note_rehearsal(about.draft, about.rehearsed, event)
         elif isinstance(event, Started):
             about.has_started = True
             self._ran[event.turn] = about.draft
@@ -167,7 +167,7 @@ class ProgramRequests:
         reason = event.reason
         if reason is None or reason.code not in MENDABLE or self._is_void_turn(event.turn):
             return False
-        problem = about.rehearsal.program.problem if about.rehearsal.program is not None else ""
+        problem = about.rehearsed.problem if about.rehearsed is not None else ""
         if not self._mend(event.turn, about, reason, problem):
             return False
         self._send(event.turn, about)
@@ -227,8 +227,5 @@ class ProgramRequests:
             self._tell_spent(turn, about.draft.version + 1)
         if draft is None:
             return False
-        about.draft, about.rehearsal = draft, Rehearsal()
+        about.draft, about.rehearsed = draft, None
         return True
-
-
-_MEANT: Mapping[str, Any] = {"unclear": "unclear", "answered": "answered"}
