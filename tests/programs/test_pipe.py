@@ -16,9 +16,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from chatrobot.programs.events import ENDS, Beat, Died, Ended, Log, TwistAsked, read_event
-from chatrobot.programs.frames import LARGEST_FROM_PROGRAM, FrameReader, PipeError, encode
+from chatrobot.programs.pipe import LARGEST_FROM_PROGRAM, FrameReader, PipeError, ProgramSettings, encode
 from chatrobot.programs.sandboxed import TEXT_BYTES, SandboxedProgram
-from chatrobot.programs.settings import ProgramSettings
 from chatrobot.sandbox.limits import SandboxLimits
 from chatrobot.sandbox.process import ExitReport
 

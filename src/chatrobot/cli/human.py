@@ -118,7 +118,7 @@ class HumanPrinter:
             self._line(f"  {event.t_s:8.2f} s  x {x} m  y {y} m  {yaw}°")
 
     def _show_program(self, event: ProgramWritten, language: LanguageCode) -> None:
-        from chatrobot.dialogue.programs.text import body, headline
+        from chatrobot.dialogue.programs.draft import body, headline
 
         for line in (headline(event, language), *body(event, language)):
             self._line(line)

@@ -31,7 +31,7 @@ from chatrobot.dialogue.llm.setup import ModelSetup, warm_up
 from chatrobot.dialogue.llm.terms import ModelOptions
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring
-from chatrobot.dialogue.programs.text import body, headline
+from chatrobot.dialogue.programs.draft import body, headline
 from chatrobot.dialogue.question import Question
 from chatrobot.dialogue.session import Session
 from chatrobot.dialogue.understanding import Understanding

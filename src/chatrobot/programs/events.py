@@ -12,8 +12,7 @@ from typing import Any, Literal, NamedTuple, Union
 
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
-from chatrobot.programs.frames import PipeError
-from chatrobot.programs.settings import LATEST_S
+from chatrobot.programs.pipe import LATEST_S, PipeError
 
 SENSORS = ("odom", "scan", "imu", "battery", "bumper")
 LEVELS = ("DEBUG", "INFO", "WARN", "ERROR", "FATAL")

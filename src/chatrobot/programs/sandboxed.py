@@ -22,8 +22,7 @@ from typing import Any, Protocol
 
 from chatrobot.core.reason import Reason
 from chatrobot.programs.events import ENDS, AsksTime, Died, Log, Output, ProgramEvent, read_event
-from chatrobot.programs.frames import LARGEST_FROM_PROGRAM, FrameReader, PipeError, encode
-from chatrobot.programs.settings import ProgramSettings
+from chatrobot.programs.pipe import LARGEST_FROM_PROGRAM, FrameReader, PipeError, ProgramSettings, encode
 from chatrobot.sandbox.limits import SandboxLimits
 from chatrobot.sandbox.process import ExitReport, SandboxedProcess
 from chatrobot.sandbox.warm_server import WarmServer

@@ -36,8 +36,8 @@ from chatrobot.programs.events import (
     TopicNoticed,
     TwistAsked,
 )
+from chatrobot.programs.pipe import ProgramSettings, robot_topics
 from chatrobot.programs.sandboxed import Launcher, SandboxedProgram
-from chatrobot.programs.settings import ProgramSettings, robot_topics
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sandbox.limits import SandboxLimits
 from chatrobot.sim.world import EMPTY_WORLD, World

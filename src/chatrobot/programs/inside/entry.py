@@ -17,7 +17,7 @@ from typing import Any, NoReturn
 
 from chatrobot.programs.inside import event_loop, top_level, virtual_time
 from chatrobot.programs.inside.link import Link, open_link
-from chatrobot.programs.settings import ProgramSettings
+from chatrobot.programs.pipe import ProgramSettings
 
 
 def run(channel: socket.socket, payload: bytes) -> None:
@@ -57,15 +57,8 @@ def _compiled(source: str, file_name: str) -> CodeType:
     """A program that only defines `main`, for an entry point of its package, has it called as that would."""
     tree = ast.parse(source, file_name)
     names = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
-    passive = (
-        ast.Import,
-        ast.ImportFrom,
-        ast.FunctionDef,
-        ast.AsyncFunctionDef,
-        ast.ClassDef,
-        ast.Assign,
-        ast.AnnAssign,
-    )
+    passive = (ast.Import, ast.ImportFrom, ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Assign,
+               ast.AnnAssign)  # fmt: skip
     if "main" in names and all(
         isinstance(node, passive) or (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant))
         for node in tree.body

@@ -10,9 +10,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, NoReturn
 
-from chatrobot.programs.frames import LARGEST_FROM_HOST, FrameReader, encode
 from chatrobot.programs.inside.scheduler import Scheduler
-from chatrobot.programs.settings import LATEST_S, ProgramSettings
+from chatrobot.programs.pipe import LARGEST_FROM_HOST, LATEST_S, FrameReader, ProgramSettings, encode
 
 Listener = Callable[[list[Any]], None]
 """Takes what a sensor says: its stamp (seconds since the program's start) and its numbers."""
