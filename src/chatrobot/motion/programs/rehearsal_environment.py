@@ -11,7 +11,7 @@ from chatrobot.core.governed import StopEpoch
 from chatrobot.governor.governor import TICK_S, Governor, Verdict
 from chatrobot.governor.rule import Sensed
 from chatrobot.motion.governed_motion import decelerated, is_cut_short
-from chatrobot.motion.programs.clocks import HeldTwist, SensorMailbox
+from chatrobot.motion.programs.clocks import HeldTwist, SensorMailbox, is_tick
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.fault_injection import NO_FAULTS
 from chatrobot.sim.robot import SimRobot
@@ -96,7 +96,8 @@ class RehearsalEnvironment:
         self.robot.step(end_s - self.now_s)
         self._clock.advance(end_s - self.now_s)
         self.path.append((self.now_s, *self.robot.true_pose))
-        self.sensors.collect(self.now_s)
+        if is_tick(self.now_s):
+            self.sensors.collect(self.now_s)
         if not self._is_steady:
             self._govern()
 
