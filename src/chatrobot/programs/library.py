@@ -112,7 +112,7 @@ class Library:
         """
         if not clean_name(program.name):
             raise InputError(
-                f"{program.name!r} is no name for a program", allowed="letters, digits and spaces"
+                f"{program.name!r} cannot be the name of a program", allowed="letters, digits and spaces"
             )
         self._kept[folder_name(program.name)] = program
         if self._folder is not None:
@@ -131,7 +131,8 @@ class Library:
         program, new = self.get(old), clean_name(new)
         taken = self.find(new)
         if not new or (taken is not None and taken.name != program.name):
-            raise InputError(f"{new!r} is taken" if new else "a name is needed", where="rename")
+            problem = f"there is a program {new!r} already" if new else "the new name is empty"
+            raise InputError(problem, where="rename", allowed="another name")
         self.remove(program.name)
         self.keep(replace(program, name=new))
 

@@ -137,7 +137,7 @@ class Node(NodeEntities, NodeParameters):
         yield from tuple(self.__waitables)
 
     def add_waitable(self, waitable: Any) -> None:
-        """Nothing in the box waits for one."""
+        """Nothing in the sandbox waits for one."""
         self.__waitables.append(waitable)
         self._wake_executor()
 

@@ -77,7 +77,7 @@ QoSLivelinessPolicy = LivelinessPolicy
 
 
 class QoSProfile:
-    """How a topic is served. In the box everything is delivered in order; `depth` and durability count."""
+    """How a topic is served. In the sandbox everything is delivered in order; `depth` and durability count."""
 
     def __init__(
         self,
@@ -168,8 +168,8 @@ class _Callbacks:
 
 
 class PublisherEventCallbacks(_Callbacks):
-    """Taken and never called: in the box no QoS goes wrong."""
+    """Taken and never called: in the sandbox no QoS goes wrong."""
 
 
 class SubscriptionEventCallbacks(_Callbacks):
-    """Taken and never called: in the box no QoS goes wrong."""
+    """Taken and never called: in the sandbox no QoS goes wrong."""
