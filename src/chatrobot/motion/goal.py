@@ -107,6 +107,11 @@ class Goal:
         self.planned = planned
         return self.stream.accept(planned) if self.stream is not None else self.refusal
 
+    @property
+    def asks(self) -> bool:
+        """Tell whether what was planned waits for a yes."""
+        return self.approve and self.refusal is None and not self.rehearse_only
+
     def walk(self) -> Walk:
         """What is to be driven; `take` has accepted its beginning."""
         if self.stream is not None and self.stream.walk is not None:

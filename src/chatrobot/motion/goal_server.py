@@ -22,7 +22,7 @@ from chatrobot.motion.plan_executor import OutcomeQueue, PlanExecutor
 from chatrobot.motion.plan_stream import Stream
 from chatrobot.motion.planner import Planned, Planner, refused
 from chatrobot.motion.programs.execution import ProgramSandbox
-from chatrobot.motion.programs.goal import ProgramGoal, goal_of, needs_approval
+from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.motion.safety.stop import Stops
 
 ODOMETRY_WAIT_S = 2.0
@@ -96,7 +96,8 @@ class GoalServer:
             self._extend(envelope)
             return
         account = self._budgets.account_of(envelope.source, envelope.lease, envelope.turn)
-        goal = goal_of(envelope, epoch, self._clock.now_s(), account)
+        kind = ProgramGoal if envelope.word == "program" else Goal
+        goal = kind.of(envelope, epoch, self._clock.now_s(), account)
         if self._goal_queue.is_void(goal, self._stops.count):
             self._finish(goal, "stopped", self._stops.last_reason)
             return
@@ -182,7 +183,7 @@ class GoalServer:
         if self._preparing is not goal:
             return  # stopped or replaced meanwhile; its end has been told
         refusal = goal.take(planned)
-        asks = needs_approval(goal, planned)
+        asks = goal.asks
         notice = goal.account.notice(planned.is_endless)
         if refusal is None and notice is not None:
             self._emit(Notice(goal.turn, notice))
