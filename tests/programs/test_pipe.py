@@ -23,7 +23,6 @@ from chatrobot.sandbox.process import ExitReport
 
 SECOND_NS = 1_000_000_000
 GOOD = (
-    ["ready", 0],
     ["twist", SECOND_NS, 0.1, -0.2, 1, True],
     ["topic", 0, "publishes", "/cmd_vel", "geometry_msgs/msg/Twist"],
     ["listens", 0, "scan", 10],

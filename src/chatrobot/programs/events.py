@@ -21,12 +21,6 @@ LONGEST_NAME = 512
 LONGEST_ERROR = 300
 
 
-class Ready(NamedTuple):
-    """The program is about to begin."""
-
-    t_s: float
-
-
 class TwistAsked(NamedTuple):
     """It published a velocity for the robot; `planar` is false where it had parts that no ground robot has."""
 
@@ -122,9 +116,7 @@ class Died(NamedTuple):
     log: str
 
 
-ProgramEvent = Union[
-    Ready, TwistAsked, TopicNoticed, Listens, Log, Output, AsksTime, Beat, Ended, Raised, Died
-]
+ProgramEvent = Union[TwistAsked, TopicNoticed, Listens, Log, Output, AsksTime, Beat, Ended, Raised, Died]
 ENDS = (Ended, Raised, Died)
 
 
@@ -154,28 +146,10 @@ def _number(value: Any) -> float:
     return float(value)
 
 
-def _flag(value: Any) -> bool:
-    if type(value) is not bool:
-        raise PipeError("not a flag")
-    return value
-
-
-def _count(value: Any) -> int:
-    if type(value) is not int or not 0 <= value <= 1_000_000:
-        raise PipeError("not a count")
-    return value
-
-
 def _code(value: Any) -> int:
     if type(value) is not int:
         raise PipeError("not an exit code")
     return value & 0xFF
-
-
-def _name(value: Any) -> str:
-    if type(value) is not str or len(value) > LONGEST_NAME:
-        raise PipeError("not a name")
-    return value
 
 
 def _text(value: Any) -> str:
@@ -184,13 +158,22 @@ def _text(value: Any) -> str:
     return value[:LONGEST_TEXT]
 
 
-def _one_of(*allowed: str) -> Callable[[Any], str]:
-    def read(value: Any) -> str:
-        if type(value) is not str or value not in allowed:
-            raise PipeError(f"not one of {allowed}")
+def _typed(kind: type, what: str, is_one: Callable[[Any], bool] = lambda _: True) -> Callable[[Any], Any]:
+    def read(value: Any) -> Any:
+        if type(value) is not kind or not is_one(value):
+            raise PipeError(f"not {what}")
         return value
 
     return read
+
+
+def _one_of(*allowed: str) -> Callable[[Any], str]:
+    return _typed(str, f"one of {allowed}", allowed.__contains__)
+
+
+_flag = _typed(bool, "a flag")
+_count = _typed(int, "a count", lambda value: 0 <= value <= 1_000_000)
+_name = _typed(str, "a name", lambda value: len(value) <= LONGEST_NAME)
 
 
 def _twist_asked(t_s: float, vx: float, vy: float, wz: float, planar: bool) -> TwistAsked:
@@ -198,7 +181,6 @@ def _twist_asked(t_s: float, vx: float, vy: float, wz: float, planar: bool) -> T
 
 
 _READERS: Mapping[str, tuple[Callable[..., ProgramEvent], tuple[Callable[[Any], Any], ...]]] = {
-    "ready": (Ready, (_seconds,)),
     "twist": (_twist_asked, (_seconds, _number, _number, _number, _flag)),
     "topic": (TopicNoticed, (_seconds, _one_of("publishes", "listens"), _name, _name)),
     "listens": (Listens, (_seconds, _one_of(*SENSORS), _count)),

@@ -7,8 +7,8 @@
     program.tell("odom", [stamp_s, x, y, yaw, vx, vy, wz])
     program.close()
 
-`server` is a `WarmServer` made by `warm_server()`. Nothing here blocks but for `poll`'s own timeout; `fileno` is
-readable when there is something to poll. A live program beats every 0.1 s: who holds its lease goes by that.
+`server` is a `WarmServer` made by `warm_server()`. Nothing here blocks but for `poll`'s own timeout. A live program
+beats every 0.1 s: who holds its lease goes by that.
 """
 
 from __future__ import annotations
@@ -76,10 +76,6 @@ class SandboxedProgram:
     def end(self) -> ProgramEvent | None:
         """Return its last event; None while it runs."""
         return self._end
-
-    def fileno(self) -> int:
-        """Return what is readable when there is something to poll."""
-        return self._channel.fileno()
 
     def poll(self, timeout_s: float = 0.0) -> list[ProgramEvent]:
         """Return what happened since the last poll; wait for something at most `timeout_s`. Nothing after its end."""

@@ -31,7 +31,6 @@ def run(channel: socket.socket, payload: bytes) -> None:
     sys.stdout, sys.stderr = _PipeStream(link, "stdout"), _PipeStream(link, "stderr")
     sys.stdin = io.StringIO("")
     threading.excepthook = _tell_of_thread
-    link.send("ready")
     _end(link, *_run(settings))
 
 
