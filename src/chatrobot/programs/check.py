@@ -1,4 +1,4 @@
-"""What can be seen by reading a program: syntax, imports, risky lines, another robot's topic. Advice, never the fence.
+"""Reads a program for syntax errors, imports, risky lines and another robot's topic. This is advice, never the fence.
 
 What contains a program is the sandbox, whatever this file overlooks.
 """
@@ -69,7 +69,7 @@ class Mark:
 
 @dataclass(frozen=True)
 class Checked:
-    """What reading the program shows. `remap` leads other topics for velocities to the robot's own, if agreed to."""
+    """The marks of a program that was read. `remap` leads other topics for velocities to the robot's own, if agreed to."""
 
     marks: tuple[Mark, ...]
     remap: tuple[tuple[str, str], ...] = ()

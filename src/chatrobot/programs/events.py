@@ -1,4 +1,4 @@
-"""What a sandboxed program does, as its host hears it. Read strictly: the program may say anything.
+"""The events of a sandboxed program, as its host hears them. Read strictly: the program may say anything.
 
 Times are seconds since the program's start, by the program's own clock; a live program may lie about them, so the
 host goes by its own.
@@ -56,7 +56,7 @@ class Log(NamedTuple):
 
 
 class Output(NamedTuple):
-    """What it printed."""
+    """It printed a line."""
 
     t_s: float
     stream: Literal["stdout", "stderr"]

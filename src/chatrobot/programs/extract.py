@@ -1,4 +1,4 @@
-"""From what a model answers to the program in it: a fence of any flavour, several, or none; the prose is kept, too."""
+"""Finds the program in a model's answer: in a fence of any flavour, several, or none. The prose is kept, too."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class _Block:
 
     @property
     def score(self) -> tuple[int, int]:
-        """How much this looks like the whole program that was asked for; then, how much of one it is."""
+        """Rate how much this looks like the whole program that was asked for; then, how much of one it is."""
         whole = 4 * ("rclpy" in self.code) + 2 * bool(re.search(r"\.publish\(|\bspin(?:_once)?\(", self.code))
         whole += 2 * _parses(self.code) + bool(re.search(r"__main__|^main\(", self.code, re.M))
         return (whole - 8 * bool(_NOT_A_NODE.search(self.code)), 0)

@@ -21,7 +21,7 @@ _ABOUT, _SOURCE = "about.json", "program.py"
 
 @dataclass(frozen=True)
 class Provenance:
-    """Where a program comes from. `model` is PROVIDER:NAME, "" where none wrote it; `date` is ISO 8601, UTC."""
+    """The origin of a program. `model` is PROVIDER:NAME, "" where none wrote it; `date` is ISO 8601, UTC."""
 
     sentence: str = ""
     by: Literal["offline", "model", "person"] = "person"
@@ -32,7 +32,7 @@ class Provenance:
 
 @dataclass(frozen=True)
 class RunRecord:
-    """How one run ended, as odometry measured it."""
+    """The end of one run, as odometry measured it."""
 
     date: str
     outcome: str
@@ -105,7 +105,7 @@ class Library:
         )
 
     def keep(self, program: KeptProgram) -> None:
-        """Keep it; an older one of that name is replaced, its runs are kept on.
+        """Keep it; an older one of that name is replaced.
 
         Raises:
             InputError: the name cannot be one.

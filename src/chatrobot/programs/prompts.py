@@ -1,4 +1,4 @@
-"""What a model is told when it is to write a program, or to mend one."""
+"""The prompts for a model that is to write a program, or to mend one."""
 
 from __future__ import annotations
 

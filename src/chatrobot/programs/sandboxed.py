@@ -43,7 +43,7 @@ def warm_server(limits: SandboxLimits | None = None, path: Sequence[Path] = ()) 
 
 
 class Launcher(Protocol):
-    """What is used of a warm server."""
+    """The part of a warm server that is used here."""
 
     def launch(
         self, entry: str, payload: bytes = b"", limits: SandboxLimits | None = None
@@ -136,7 +136,7 @@ class SandboxedProgram:
                 del self._outbox[:sent]
 
     def _read(self, data: bytes) -> list[ProgramEvent]:
-        """Up to the end, if that is among it: what a program says after its end does not count."""
+        """Read up to the end, if that is among it: what a program says after its end does not count."""
         events: list[ProgramEvent] = []
         try:
             for frame in self._reader.feed(data):

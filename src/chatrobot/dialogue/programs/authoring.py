@@ -44,7 +44,7 @@ class NotWrittenError(Exception):
 
 @dataclass(frozen=True)
 class Spent:
-    """What one call of the model that writes has used, and how long it took."""
+    """The usage of one call of the model that writes, and how long it took."""
 
     model: str
     usage: Usage

@@ -207,7 +207,7 @@ class ProgramRequests:
         self._emit(draft.event(turn))
 
     def _tell_spent(self, turn: int, call: int) -> None:
-        """What a model has used, as for plans; `call` counts those of the turn."""
+        """Tell what a model has used, as for plans; `call` counts those of the turn."""
         for spent in self.authoring.take_spent():
             usage = spent.usage
             self._emit(

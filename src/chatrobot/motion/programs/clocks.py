@@ -234,7 +234,7 @@ class SteppedProgram:
 
 
 class HeldTwist:
-    """What a program asks for now: what it published last, for as long as the base would have held it.
+    """Holds what a program published last, for as long as the base would have held it.
 
     Args:
         base_timeout_s: of the robot's wiring; None holds for ever. The lease ends it in any case.

@@ -60,7 +60,7 @@ _SENSOR_TYPES = (
 
 @dataclass(frozen=True, eq=False)
 class ProgramRehearsal(RehearsedPath):
-    """What a program would do; `path` goes on to where the robot stands after the program's end.
+    """The rehearsal of a program; `path` goes on to where the robot stands after the program's end.
 
     `did` is what it did, with the time since its start; its end comes last. `wall_s` is how long the rehearsal took.
     """
@@ -111,7 +111,7 @@ class ProgramRehearsal(RehearsedPath):
 
     @property
     def _steps(self) -> Floats:
-        """From row to row of the path, where these are not too near to divide by."""
+        """The steps from row to row of the path, where these are not too near to divide by."""
         steps: Floats = np.diff(self.path, axis=0)
         return steps[steps[:, 0] > 1e-3]
 

@@ -1,4 +1,4 @@
-"""Where a program is rehearsed: a simulated robot, the governor, and a clock that only we move."""
+"""The surroundings of a rehearsal: a simulated robot, the governor, and a clock that only we move."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ class RehearsalEnvironment:
             self._step(ends_s)
 
     def _step(self, until_s: float) -> None:
-        """To the next tick, or over several where nothing changes."""
+        """Let time pass to the next tick, or over several where nothing changes."""
         stride_s = STEADY_STEP_S if self._is_steady and not self._heard else TICK_S
         end_s = min(until_s, (int((self.now_s + _EARLY_S) / TICK_S)) * TICK_S + stride_s)
         expires_s = self._held.ends_s

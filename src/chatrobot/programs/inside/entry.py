@@ -1,4 +1,4 @@
-"""Where a sandboxed process begins: it puts names, time and output in place, runs the program and tells its end."""
+"""Begins a sandboxed process: puts names, time and output in place, runs the program and tells its end."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def run(channel: socket.socket, payload: bytes) -> None:
 
 
 def _run(settings: ProgramSettings) -> tuple[str, int, BaseException | None]:
-    """How the program ended: how, its exit code, and what it raised."""
+    """Run it; return how it ended, its exit code, and what it raised."""
     file_name = f"{settings.name}.py"
     linecache.cache[file_name] = (len(settings.source), None, settings.source.splitlines(True), file_name)
     module = ModuleType("__main__")

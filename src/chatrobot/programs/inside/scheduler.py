@@ -21,7 +21,7 @@ _allocate_lock = _thread.allocate_lock
 
 
 class Outside(Protocol):
-    """Where time comes from."""
+    """The source of time."""
 
     due_ns: int
     """When the next message of the robot may come that the program listens for."""

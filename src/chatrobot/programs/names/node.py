@@ -57,7 +57,7 @@ class NodeHandle(Destroyable):
 
 
 class Node(NodeEntities, NodeParameters):
-    """What a program's class derives from."""
+    """The base class of a program's node."""
 
     def __init__(
         self,

@@ -234,7 +234,7 @@ def qos_of(qos_or_depth: Any) -> QoSProfile:
 
 
 def check_type(wanted: str, kind: Any) -> None:
-    """What is no ROS type, or one of another sort than "message" or "service", fails as in rclpy."""
+    """Fail as rclpy does for what is no ROS type, or not of the wanted sort: "message" or "service"."""
     if not hasattr(kind, "_type_name"):
         raise AttributeError(
             f"type object '{type(kind).__name__}' has no attribute '_TYPE_SUPPORT' This might be a ROS 1 message type "

@@ -240,7 +240,7 @@ def _repeats(steps: Sequence[Step], at: int) -> tuple[int, int]:
 
 @dataclass(frozen=True)
 class Wanted:
-    """How the program is to be.
+    """The wishes for a program.
 
     Args:
         name: of the program and its node, in words of any language.
