@@ -69,7 +69,7 @@ class Mark:
 
 @dataclass(frozen=True)
 class Checked:
-    """The marks of a program that was read. `remap` leads other topics for velocities to the robot's own, if agreed to."""
+    """The marks of a program that was read. `remap` leads other topics for velocities to the robot's, if agreed to."""
 
     marks: tuple[Mark, ...]
     remap: tuple[tuple[str, str], ...] = ()
