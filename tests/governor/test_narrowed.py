@@ -9,9 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.governor.situations import at
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import Twist
 from chatrobot.core.governed import StopEpoch
-from chatrobot.governor.governor import TICK_S, Governor
+from chatrobot.governor.governor import Governor
 from chatrobot.governor.narrowed import NarrowedRule
 from chatrobot.governor.rule import FREE
 from chatrobot.robots.load import load_profile

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.events import Event, Outcome, Progress, Remembered, Said
 from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
 from chatrobot.core.reason import Reason
@@ -20,7 +21,7 @@ from chatrobot.execution.health import (
     tracking_fault,
 )
 from chatrobot.execution.lookahead import must_brake
-from chatrobot.execution.reference_trajectory import TICK_S, ReferenceTrajectory
+from chatrobot.execution.reference_trajectory import ReferenceTrajectory
 from chatrobot.execution.sensors import Sensors
 from chatrobot.execution.tally import Tally
 from chatrobot.execution.terminal_correction import AT_THE_END, BETWEEN_STEPS, TRIES, Tolerance, correction

@@ -3,11 +3,9 @@ the end of the last one."""
 
 from __future__ import annotations
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import Pose
 from chatrobot.plan.trajectory import Segment
-
-TICK_S = 0.02
-"""The control period, 50 Hz, as the governor has it."""
 
 
 class ReferenceTrajectory:

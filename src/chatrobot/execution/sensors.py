@@ -12,8 +12,7 @@ from chatrobot.execution.estimator import Estimate, PoseEstimator
 from chatrobot.execution.response import Response
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.messages import Flag, Imu, LaserScan, Number, Odometry
-from chatrobot.wire.sensor_topics import subscribe_sensors
-from chatrobot.wire.wire import Wire
+from chatrobot.wire.wire import Wire, subscribe_sensors
 
 OLD_NEWS_S = 0.5
 """What was measured longer ago is as old as that, however lately it came."""

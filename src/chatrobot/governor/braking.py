@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import math
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import Twist
 from chatrobot.robots.profile import Limits
 
-TICK_S = 0.02
 LOOK_BEYOND_S = 0.3
 """Farther than it takes to brake, so that slowing down begins softly."""
 

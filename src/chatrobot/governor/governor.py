@@ -7,6 +7,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
 from chatrobot.core.governed import GovernedTwist, Mint, StopEpoch
 from chatrobot.core.reason import Reason
@@ -20,7 +21,6 @@ from chatrobot.governor.priority import RELEASERS
 from chatrobot.governor.rule import NOTHING_SENSED, Sensed, Situation
 from chatrobot.governor.rules import Composed, Setting, compose, make_rules
 from chatrobot.governor.scan_coverage import Floats, LidarView
-from chatrobot.governor.tick import TICK_S as TICK_S
 from chatrobot.robots.open_loop import OPEN_LOOP_MPS, OPEN_LOOP_RADPS
 from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.wire.messages import LaserScan

@@ -14,12 +14,10 @@ from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.governor.kernel import Kernel, make_kernel
 from chatrobot.motion.budgets import Extent
-from chatrobot.motion.obstacle_routes import RoutesAroundObstacles
-from chatrobot.motion.remembered_obstacles import RememberedObstacles, seen_but_unknown
+from chatrobot.motion.remembered_obstacles import RememberedObstacles, RoutesAroundObstacles, seen_but_unknown
 from chatrobot.plan.context import RoutePlanner
 from chatrobot.plan.free_part import ANY_WAY, Most
 from chatrobot.plan.known_world import Floats
-from chatrobot.plan.lowering import CoreWalk
 from chatrobot.plan.rehearsal import Rehearsal, RehearsedPath, rehearse
 from chatrobot.plan.route import GridRoutePlanner
 from chatrobot.plan.steps import Plan
@@ -114,11 +112,6 @@ class Planned:
     def has_findings(self) -> bool:
         """Something that a person should look at before it runs."""
         return False
-
-    def walk(self) -> CoreWalk:
-        """The very motions that were rehearsed."""
-        assert self.rehearsal is not None
-        return self.rehearsal.walk()
 
     def events(self, needs_approval: bool) -> tuple[Event, ...]:
         """All that is told of it."""

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
 from chatrobot.plan.known_world import Floats, GovernorKernel
 from chatrobot.plan.trajectory import Segment
 
-TICK_S = 0.02
 _SAME = 1e-6
 _STOPPED_TICKS = 500  # ten seconds to come to rest after the reference has
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.plan.context import (
@@ -26,7 +27,7 @@ from chatrobot.plan.context import (
 from chatrobot.plan.core_motion import Pause, RampedTwist
 from chatrobot.plan.findings import Finding, Severity
 from chatrobot.plan.free_part import ANY_WAY, Leg, Most, leg_at, nearest_part, part_up_to
-from chatrobot.plan.governed_path import TICK_S, GovernorCheck, pose_of
+from chatrobot.plan.governed_path import GovernorCheck, pose_of
 from chatrobot.plan.known_world import Contact, Floats, GovernorKernel, KnownWorld, SeenWorld
 from chatrobot.plan.lowering import CoreWalk, PlannedMotion, iterate_core
 from chatrobot.plan.rounding import round_corners

@@ -101,12 +101,11 @@ class Raised(NamedTuple):
         values: Mapping[str, str | int] = {"error": error[:LONGEST_ERROR], "line": self.line}
         if self.type_name in ("SyntaxError", "IndentationError", "TabError"):
             return Reason("program_syntax", {"problem": self.message[:LONGEST_ERROR], "line": self.line})
-        return Reason(_ERROR_CODES.get(self.type_name, "program_raised"), values)
-
-
-_ERROR_CODES = {
-    "ModuleNotFoundError": "program_import", "ImportError": "program_import", "PermissionError": "program_forbidden"
-}  # fmt: skip
+        if self.type_name in ("ModuleNotFoundError", "ImportError"):
+            return Reason("program_import", values)
+        if self.type_name == "PermissionError":
+            return Reason("program_forbidden", values)
+        return Reason("program_raised", values)
 
 
 class Died(NamedTuple):

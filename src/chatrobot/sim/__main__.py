@@ -18,7 +18,7 @@ from chatrobot.sim.marshalled import MarshalledWire
 from chatrobot.sim.robot import SimRobot
 from chatrobot.sim.server import SimServer
 from chatrobot.sim.start import check_start
-from chatrobot.sim.tf import FieldsPublisher, TransformPublisher
+from chatrobot.sim.tf import TransformPublisher
 from chatrobot.wire.local import LocalHub
 from chatrobot.wire.messages import TwistMessage
 from chatrobot.wire.wire import Wire
@@ -91,9 +91,12 @@ def _open_wire(options: argparse.Namespace, profile: RobotProfile) -> LocalHub |
     address = f"{options.on}:" if options.on in ("dds", "ros") else options.on
     if not address.startswith(("dds:", "ros:", "rosbridge:")):
         raise UsageError(
-            f"{options.on!r} is no wire", where="--on", allowed="local, dds, ros or rosbridge:ws://host:9090"
+            f"{options.on!r} is not a robot address",
+            where="--on",
+            allowed="local, dds, ros or rosbridge:ws://host:9090",
         )
-    from chatrobot.wire.connect import connect_ros, connect_wire
+    from chatrobot.wire.connect import connect_wire
+    from chatrobot.wire.ros import connect_ros
 
     if address.startswith("ros:"):
         on_ros = connect_ros(address, profile.wiring, NODE, options.ros_args)
@@ -102,9 +105,7 @@ def _open_wire(options: argparse.Namespace, profile: RobotProfile) -> LocalHub |
         wire: Wire = on_ros
     else:
         wire = connect_wire(address, profile.wiring, NODE)
-    if isinstance(wire, FieldsPublisher):
-        return MarshalledWire(wire, TransformPublisher(wire, profile).after)
-    return MarshalledWire(wire)
+    return MarshalledWire(wire, TransformPublisher(wire, profile).after)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from chatrobot.wire.messages import Message
 from chatrobot.wire.wire import M, Wire
 
 
-class MarshalledWire:
+class MarshalledWire(Wire):
     """One end of `wire` that delivers in `poll` alone, as a `LocalHub` does.
 
     Args:

@@ -3,9 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, Protocol, runtime_checkable
-
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.messages import Message, Odometry
 from chatrobot.wire.ros_messages import BASE_FRAME, LASER_FRAME, ODOM_FRAME, transform
@@ -19,19 +16,10 @@ _EVERY = 2
 """Of 100 odometry messages a second, every second one: RViz draws no faster."""
 
 
-@runtime_checkable
-class FieldsPublisher(Wire, Protocol):
-    """A wire that also carries ROS messages that have no planar form."""
-
-    def publish_fields(
-        self, topic: str, type_name: str, fields: Mapping[str, Any], *, is_kept: bool = False
-    ) -> None: ...
-
-
 class TransformPublisher:
     """Says with the odometry where the frames are."""
 
-    def __init__(self, wire: FieldsPublisher, profile: RobotProfile) -> None:
+    def __init__(self, wire: Wire, profile: RobotProfile) -> None:
         self._wire = wire
         self._odom_topic = profile.wiring.odom_topic
         self._lidar = profile.lidar

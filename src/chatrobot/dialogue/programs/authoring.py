@@ -6,31 +6,35 @@ Nothing here runs a program: its source goes to Motion, which rehearses it in th
 from __future__ import annotations
 
 import shlex
-import time
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Generator, Sequence
+from dataclasses import replace
 from pathlib import Path
+from typing import TypeVar
 
 from chatrobot.core.events import Finished, Outcome, ProgramRehearsed, Rehearsed
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
-from chatrobot.dialogue.llm.call import estimated
+from chatrobot.dialogue.llm.call import ModelCall
+from chatrobot.dialogue.llm.prompt import mend_prompt, program_prompt
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.language.program_request import ProgramRequest, read_program_name, read_request
-from chatrobot.models.seam import CallLimits, Message, Model, ModelError, Usage
+from chatrobot.models.seam import CallLimits, Message, Model
 from chatrobot.plan.context import Impossible, RoutePlanner
 from chatrobot.plan.steps import Plan
 from chatrobot.programs.check import check
 from chatrobot.programs.extract import Extracted, extract
 from chatrobot.programs.library import KeptProgram, Library, Provenance, RunRecord, clean_name, today
-from chatrobot.programs.prompts import mend_prompt, system_prompt
 from chatrobot.programs.writing.program import Wanted, write_program
 from chatrobot.robots.profile import RobotProfile
 
 MOST_REPAIRS = 2
 LIMITS = CallLimits(reply_tokens=4000)
+
+T = TypeVar("T")
+Writing = Generator[Sequence[Message], ModelCall, T]
+"""Work that yields what a model is to be asked, and goes on with the call once that has ended."""
 
 
 class NotWrittenError(Exception):
@@ -42,17 +46,8 @@ class NotWrittenError(Exception):
         super().__init__(reply)
 
 
-@dataclass(frozen=True)
-class Spent:
-    """The usage of one call of the model that writes, and how long it took."""
-
-    model: str
-    usage: Usage
-    duration_s: float
-
-
 class Authoring:
-    """Writes programs for one robot. Used by the session's pumping thread; only `cancel` may come from any other.
+    """Writes programs for one robot. Used by the session's pumping thread.
 
     Args:
         library: where programs are kept.
@@ -78,18 +73,6 @@ class Authoring:
         self.model = model
         self.prefers_model = prefers_model
         self._routes = routes
-        self._spent: list[Spent] = []
-        self._cancels = 0
-        self._cancel_reply: Callable[[], None] | None = None
-        self.asked_at_s: float | None = None
-        """Since when a model is being asked (monotonic); None where none is."""
-
-    def cancel(self) -> None:
-        """Stop waiting for a model. From any thread; returns at once."""
-        self._cancels += 1
-        cancel = self._cancel_reply
-        if cancel is not None:
-            cancel()
 
     # --- which program ---
 
@@ -148,20 +131,20 @@ class Authoring:
 
     # --- writing ---
 
-    def write(self, request: ProgramRequest, pose: Pose, language: str) -> Draft:
-        """Write the program for a request of somebody whose robot stands at `pose`. Blocks while a model writes.
+    def write(self, request: ProgramRequest, pose: Pose, language: str) -> Writing[Draft]:
+        """Write the program for a request of somebody whose robot stands at `pose`.
 
         Raises:
             NotWrittenError: nobody could write it, and why.
         """
         if self.prefers_model and self.model is not None:
-            return self._by_model(request, language)
+            return (yield from self._by_model(request, language))
         try:
             return self._offline(request, pose, language)
         except NotWrittenError as refusal:
             if self.model is None or refusal.outcome != "unclear":
                 raise
-            return self._by_model(request, language)
+            return (yield from self._by_model(request, language))
 
     def _offline(self, request: ProgramRequest, pose: Pose, language: str) -> Draft:
         plan = self._plan(request, language)
@@ -195,62 +178,47 @@ class Authoring:
 
     # --- with a model ---
 
-    def _by_model(self, request: ProgramRequest, language: str) -> Draft:
+    def _by_model(self, request: ProgramRequest, language: str) -> Writing[Draft]:
         assert self.model is not None
-        messages = [Message("system", system_prompt(self._profile)), Message("user", request.text)]
-        found, messages = self._written_by_model(messages, "unclear", language)
+        messages = [Message("system", program_prompt(self._profile)), Message("user", request.text)]
+        found, messages = yield from self._ask(messages, "unclear", language)
         provenance = Provenance(request.text, "model", self.model.name, today())
         name = self.library.free_name(request.name)
         return self._new(KeptProgram(name, found.source, found.description, provenance), request, messages)
 
-    def mend(self, draft: Draft, problem: Reason, details: str, language: str) -> Draft | None:
-        """Have the model write the next version; None where it may not be mended any more. Blocks.
+    def may_mend(self, draft: Draft) -> bool:
+        """Tell whether a model wrote it, and may write a further version."""
+        return draft.by_model and draft.version <= MOST_REPAIRS and self.model is not None
+
+    def mend(self, draft: Draft, problem: Reason, details: str, language: str) -> Writing[Draft]:
+        """Write the next version of a model's program.
 
         Raises:
             NotWrittenError: the model did not answer with one.
         """
-        if not draft.by_model or draft.version > MOST_REPAIRS or self.model is None:
-            return None
         told = mend_prompt(render_reason(problem, "en"), details)
-        found, messages = self._written_by_model([*draft.messages, Message("user", told)], "failed", language)
+        messages = [*draft.messages, Message("user", told)]
+        found, messages = yield from self._ask(messages, "failed", language)
         return draft.next(found.source, check(found.source, self._profile), tuple(messages))
 
-    def _written_by_model(
-        self, messages: Sequence[Message], without: Outcome, language: str
-    ) -> tuple[Extracted, list[Message]]:
+    @staticmethod
+    def _ask(
+        messages: Sequence[Message], without: Outcome, language: str
+    ) -> Writing[tuple[Extracted, list[Message]]]:
         """The program that the model answers, and the conversation with it; `without` is the outcome if it has none."""
-        reply = self._ask(messages, language)
-        found = extract(reply)
-        if found is None:
-            raise NotWrittenError(without, say(language, "no_program_in_reply", reply=reply.strip()[:200]))
-        return found, [*messages, Message("assistant", reply)]
-
-    def _ask(self, messages: Sequence[Message], language: str) -> str:
-        assert self.model is not None
-        before = self._cancels
-        began_s = self.asked_at_s = time.monotonic()
-        reply = self.model.ask(messages, LIMITS)
-        self._cancel_reply = reply.cancel
-        pieces: list[str] = []
-        try:
-            if self._cancels == before:
-                pieces.extend(reply)
-        except ModelError as error:
-            found = extract("".join(pieces))
-            if found is None or not found.is_closed:  # half a program is not run, nor blamed on its writer
-                raise NotWrittenError("failed", render_reason(error.reason, language)) from error
-        finally:
-            self._cancel_reply = self.asked_at_s = None
-            usage = reply.usage or estimated(messages, "".join(pieces))
-            self._spent.append(Spent(self.model.name, usage, time.monotonic() - began_s))
-        if self._cancels != before:
+        call = yield messages
+        if call.is_cancelled:
             raise NotWrittenError("stopped", say(language, "stopped_now"))
-        return "".join(pieces)
-
-    def take_spent(self) -> list[Spent]:
-        """Return the calls since this was asked last, given up ones too."""
-        spent, self._spent = self._spent, []
-        return spent
+        found = extract(call.text)
+        problem = call.end.problem if call.end is not None else None
+        if problem is not None and (found is None or not found.is_closed):
+            raise NotWrittenError(
+                "failed", render_reason(problem, language)
+            )  # half a program is not run, nor blamed
+        if found is None:
+            reply = call.text.strip()[:200]
+            raise NotWrittenError(without, say(language, "no_program_in_reply", reply=reply))
+        return found, [*messages, Message("assistant", call.text)]
 
     # --- what became of it ---
 

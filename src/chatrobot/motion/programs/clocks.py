@@ -13,15 +13,14 @@ from collections.abc import Sequence
 from functools import partial
 from typing import Any, Protocol
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import Wiring
-from chatrobot.governor.tick import TICK_S
 from chatrobot.programs.events import ENDS, AsksTime, Beat, Died, Listens, ProgramEvent
 from chatrobot.programs.sandboxed import SandboxedProgram
 from chatrobot.wire.messages import Flag, Imu, LaserScan, Message, Number, Odometry
-from chatrobot.wire.sensor_topics import SENSOR_KINDS, subscribe_sensors
-from chatrobot.wire.wire import Wire
+from chatrobot.wire.wire import SENSOR_KINDS, Wire, subscribe_sensors
 
 POLLS_A_TICK = 8
 """A flood is read on with the next tick: the control loop has other work."""

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from chatrobot.core.clock import VirtualClock
+from chatrobot.core.clock import TICK_S, VirtualClock
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 from chatrobot.core.governed import StopEpoch
-from chatrobot.governor.governor import TICK_S, Governor, Verdict
+from chatrobot.governor.governor import Governor, Verdict
 from chatrobot.governor.rule import Sensed
-from chatrobot.motion.governed_motion import decelerated, is_cut_short
+from chatrobot.motion.governed_robot import decelerated, is_cut_short
 from chatrobot.motion.programs.clocks import HeldTwist, SensorMailbox, is_tick
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.fault_injection import NO_FAULTS
