@@ -175,8 +175,8 @@ _count = _typed(int, "a count", lambda value: 0 <= value <= 1_000_000)
 _name = _typed(str, "a name", lambda value: len(value) <= LONGEST_NAME)
 
 
-def _twist_asked(t_s: float, vx: float, vy: float, wz: float, planar: bool) -> TwistAsked:
-    return TwistAsked(t_s, Twist(vx, vy, wz), planar)
+def _twist_asked(t_s: float, vx_mps: float, vy_mps: float, wz_radps: float, planar: bool) -> TwistAsked:
+    return TwistAsked(t_s, Twist(vx_mps, vy_mps, wz_radps), planar)
 
 
 _READERS: Mapping[str, tuple[Callable[..., ProgramEvent], tuple[Callable[[Any], Any], ...]]] = {

@@ -78,11 +78,11 @@ class FrameReader:
     """Takes bytes as they come and gives whole frames.
 
     Args:
-        largest: bytes; who announces a longer frame breaks the protocol.
+        largest_bytes: who announces a longer frame breaks the protocol.
     """
 
-    def __init__(self, largest: int) -> None:
-        self._largest = largest
+    def __init__(self, largest_bytes: int) -> None:
+        self._largest_bytes = largest_bytes
         self._buffer = bytearray()
 
     def feed(self, data: bytes) -> Iterator[list[Any]]:
@@ -92,7 +92,7 @@ class FrameReader:
         try:
             while len(self._buffer) - begin >= _LENGTH.size:
                 (length,) = _LENGTH.unpack_from(self._buffer, begin)
-                if length > self._largest:
+                if length > self._largest_bytes:
                     raise PipeError(f"a frame of {length} bytes")
                 end = begin + _LENGTH.size + length
                 if len(self._buffer) < end:

@@ -221,7 +221,7 @@ def _nested(kind: str) -> Field:
     return make, check
 
 
-def _sequence(base: str, most: int | None = None) -> Field:
+def _sequence(base: str, most_count: int | None = None) -> Field:
     _, check_one = _scalar(base)
     code = _code(base)
     name = {"string": "str", "byte": "bytes"}.get(base) or (
@@ -242,7 +242,7 @@ def _sequence(base: str, most: int | None = None) -> Field:
                 check_one(field, item)
             except AssertionError as error:
                 raise AssertionError(problem) from error
-        assert most is None or len(items) <= most, problem
+        assert most_count is None or len(items) <= most_count, problem
         if code:
             return array(code, value if isinstance(value, (bytes, bytearray)) else items)
         return items
@@ -250,13 +250,13 @@ def _sequence(base: str, most: int | None = None) -> Field:
     return (lambda: array(code)) if code else list, check
 
 
-def _fixed(base: str, size: int) -> Field:
-    """A numpy array, as in ROS, of one of its numbers: no message here has anything else of a fixed size."""
+def _fixed(base: str, count: int) -> Field:
+    """A numpy array, as in ROS, of one of its numbers: no message here has anything else of a fixed count."""
     _, check_one = _scalar(base)
 
     def check(field: str, value: Any) -> Any:
-        problem = f"The '{field}' field must be a set or sequence with length {size}"
-        assert hasattr(value, "__len__") and not isinstance(value, str) and len(value) == size, problem
+        problem = f"The '{field}' field must be a set or sequence with length {count}"
+        assert hasattr(value, "__len__") and not isinstance(value, str) and len(value) == count, problem
         if isinstance(value, np.ndarray):
             assert value.dtype == np.dtype(base), (
                 f"The '{field}' numpy.ndarray() must have the dtype of '{base}'"
@@ -264,7 +264,7 @@ def _fixed(base: str, size: int) -> Field:
             return value
         return np.array([check_one(field, item) for item in value], dtype=base)
 
-    return lambda: np.zeros(size, dtype=base), check
+    return lambda: np.zeros(count, dtype=base), check
 
 
 def _code(base: str) -> str:

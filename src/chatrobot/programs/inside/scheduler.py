@@ -167,5 +167,5 @@ class Scheduler:
         return bool(self._sleepers) and self._sleepers[0][0] <= self.now_ns
 
     @staticmethod
-    def _is_waiting(task: Task, ticket: int) -> bool:
-        return task.waits and task.ticket == ticket
+    def _is_waiting(task: Task, ticket_number: int) -> bool:
+        return task.waits and task.ticket == ticket_number

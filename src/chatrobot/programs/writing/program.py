@@ -223,15 +223,15 @@ def folded(steps: Sequence[Step]) -> tuple[Step, ...]:
     return tuple(found)
 
 
-def _repeats(steps: Sequence[Step], at: int) -> tuple[int, int]:
+def _repeats(steps: Sequence[Step], first_index: int) -> tuple[int, int]:
     """Length and count of the block that covers most from there on; (1, 1) where nothing repeats."""
     best = (1, 1)
-    for length in range(1, (len(steps) - at) // 2 + 1):
-        block = steps[at : at + length]
+    for length in range(1, (len(steps) - first_index) // 2 + 1):
+        block = steps[first_index : first_index + length]
         if any(isinstance(step, (Go, Block)) for step in block):
             break
         count = 1
-        while steps[at + length * count : at + length * (count + 1)] == block:
+        while steps[first_index + length * count : first_index + length * (count + 1)] == block:
             count += 1
         if count > 1 and length * count > best[0] * best[1]:
             best = (length, count)
