@@ -16,8 +16,8 @@ import numpy as np
 
 from chatrobot.motion.programs.rehearsal import rehearse_program
 from chatrobot.programs.events import TwistAsked
+from chatrobot.programs.pipe import ProgramSettings, robot_topics
 from chatrobot.programs.sandboxed import SandboxedProgram, warm_server
-from chatrobot.programs.settings import ProgramSettings, robot_topics
 from chatrobot.robots.load import load_profile
 from chatrobot.sandbox.warm_server import WarmServer
 from chatrobot.sim.load import load_world

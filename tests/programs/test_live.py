@@ -21,8 +21,8 @@ from chatrobot.programs.events import (
     Raised,
     TwistAsked,
 )
+from chatrobot.programs.pipe import ProgramSettings, robot_topics
 from chatrobot.programs.sandboxed import SandboxedProgram
-from chatrobot.programs.settings import ProgramSettings, robot_topics
 from chatrobot.robots.load import load_profile
 from chatrobot.sandbox.warm_server import WarmServer
 

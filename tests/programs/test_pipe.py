@@ -16,15 +16,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from chatrobot.programs.events import ENDS, Beat, Died, Ended, Log, TwistAsked, read_event
-from chatrobot.programs.frames import LARGEST_FROM_PROGRAM, FrameReader, PipeError, encode
+from chatrobot.programs.pipe import LARGEST_FROM_PROGRAM, FrameReader, PipeError, ProgramSettings, encode
 from chatrobot.programs.sandboxed import TEXT_BYTES, SandboxedProgram
-from chatrobot.programs.settings import ProgramSettings
 from chatrobot.sandbox.limits import SandboxLimits
 from chatrobot.sandbox.process import ExitReport
 
 SECOND_NS = 1_000_000_000
 GOOD = (
-    ["ready", 0],
     ["twist", SECOND_NS, 0.1, -0.2, 1, True],
     ["topic", 0, "publishes", "/cmd_vel", "geometry_msgs/msg/Twist"],
     ["listens", 0, "scan", 10],

@@ -114,7 +114,7 @@ def test_a_level_of_the_log_is_set(server: WarmServer) -> None:
         (["-p", "speed:=1"], "InvalidParameterTypeException", "of type 'INTEGER', expecting type 'DOUBLE'"),
         (["-p", "speed"], "RCLInvalidROSArgsError", "Failed to parse ROS arguments"),
         (["--nonsense"], "UnknownROSArgsError", "['--nonsense']"),
-        (["--params-file", "x.yaml"], "RCLInvalidROSArgsError", "no file can be read here"),
+        (["--params-file", "x.yaml"], "RCLInvalidROSArgsError", "a program cannot read files"),
         (["-r", "__node:=1x"], "InvalidNodeNameException", "must not start with a number"),
     ],
 )

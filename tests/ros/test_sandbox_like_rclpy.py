@@ -15,8 +15,8 @@ sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parents[2] / "src
 from snippets import HEAD, SNIPPETS
 
 from chatrobot.programs.events import Ended, Output, ProgramEvent
+from chatrobot.programs.pipe import ProgramSettings
 from chatrobot.programs.sandboxed import SandboxedProgram, warm_server
-from chatrobot.programs.settings import ProgramSettings
 from chatrobot.sandbox.warm_server import WarmServer
 
 

@@ -90,7 +90,7 @@ class HumanPrinter:
     def _show_program(
         self, event: events.ProgramWritten | events.ProgramRehearsed, language: LanguageCode
     ) -> None:
-        from chatrobot.dialogue.programs.text import body, headline
+        from chatrobot.dialogue.programs.draft import body, headline
 
         if isinstance(event, events.ProgramWritten):
             lines = [headline(event, language), *body(event, language)]

@@ -132,7 +132,7 @@ def _summary(program: KeptProgram) -> str:
 
 
 def _show(args: argparse.Namespace) -> int:
-    from chatrobot.dialogue.programs.text import numbered
+    from chatrobot.dialogue.programs.draft import numbered
     from chatrobot.programs.check import check
     from chatrobot.robots.load import load_profile
 

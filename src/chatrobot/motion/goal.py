@@ -262,6 +262,11 @@ class Goal:
         self.planned = self.planned or planned
         return self.stream.accept(planned, self.account, self.longest_s)
 
+    @property
+    def asks(self) -> bool:
+        """Tell whether what was planned waits for a yes."""
+        return self.approve and self.refusal is None and not self.rehearse_only
+
     def unmoved(self, outcome: Outcome, reason: Reason | None, pose: Pose) -> Finished:
         """Return its end where nothing moved."""
         is_blocked = outcome == "refused" and reason == self.stream.refusal

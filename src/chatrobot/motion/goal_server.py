@@ -28,7 +28,7 @@ from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planned, Planner, refused
 from chatrobot.motion.programs.execution import ProgramSandbox
-from chatrobot.motion.programs.goal import ProgramGoal, goal_of, needs_approval
+from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.motion.safety.stop import Stops
 
 ODOMETRY_WAIT_S = 2.0
@@ -88,7 +88,8 @@ class GoalServer:
             self._extend(envelope)
             return
         account = self._budgets.account_of(envelope.source, envelope.lease, envelope.turn)
-        goal = goal_of(envelope, epoch, self._clock.now_s(), account)
+        kind = ProgramGoal if envelope.word == "program" else Goal
+        goal = kind.of(envelope, epoch, self._clock.now_s(), account)
         if self._goal_queue.is_void(goal, self._stops.count):
             self._outcomes.tell_unmoved(goal, "stopped", self._stops.last_reason)
             return
@@ -178,7 +179,8 @@ class GoalServer:
     def _take_rehearsed(self, goal: Goal, planned: Planned) -> None:
         if self._preparing is not goal:
             return  # stopped or replaced meanwhile; its end has been told
-        refusal, asks = goal.take(planned), needs_approval(goal, planned)
+        refusal = goal.take(planned)
+        asks = goal.asks
         notice = goal.account.notice(planned.is_endless)
         if refusal is None and notice is not None:
             self._emit(Notice(goal.turn, notice))

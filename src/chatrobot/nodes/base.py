@@ -16,7 +16,7 @@ from chatrobot.core import events
 from chatrobot.core.errors import LinkError, WireError
 from chatrobot.core.events import Event
 from chatrobot.dialogue.llm.setup import warm_up
-from chatrobot.dialogue.programs.text import body, headline
+from chatrobot.dialogue.programs.draft import body, headline
 from chatrobot.dialogue.question import Question
 from chatrobot.language.consent import read_consent
 from chatrobot.language.phrases import render_reason, say

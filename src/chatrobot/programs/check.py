@@ -1,4 +1,4 @@
-"""What can be seen by reading a program: syntax, imports, risky lines, another robot's topic. Advice, never the fence.
+"""Reads a program for syntax errors, imports, risky lines and another robot's topic. This is advice, never the fence.
 
 What contains a program is the sandbox, whatever this file overlooks.
 """
@@ -7,15 +7,12 @@ from __future__ import annotations
 
 import ast
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
 
 from chatrobot.core.reason import Reason, Value
+from chatrobot.plan.findings import Severity
 from chatrobot.robots.profile import RobotProfile
-
-Values = Mapping[str, Value]
-Severity = Literal["refuse", "warn", "note"]
 
 MAX_SOURCE_CHARS = 60_000
 
@@ -58,14 +55,7 @@ _INSIDES = frozenset(
      "tb_frame", "__mro__", "__bases__", "__reduce__", "_getframe"}
 )  # fmt: skip
 _TWISTS = frozenset({"Twist", "TwistStamped"})
-_FIELDS = {
-    ("linear", "x"),
-    ("linear", "y"),
-    ("linear", "z"),
-    ("angular", "x"),
-    ("angular", "y"),
-    ("angular", "z"),
-}
+_FIELDS = {(vector, axis) for vector in ("linear", "angular") for axis in "xyz"}
 
 
 @dataclass(frozen=True)
@@ -79,7 +69,7 @@ class Mark:
 
 @dataclass(frozen=True)
 class Checked:
-    """What reading the program shows. `remap` leads other topics for velocities to the robot's own, if agreed to."""
+    """The marks of a program that was read. `remap` leads other topics for velocities to the robot's, if agreed to."""
 
     marks: tuple[Mark, ...]
     remap: tuple[tuple[str, str], ...] = ()
@@ -93,25 +83,22 @@ class Checked:
 def check(source: str, profile: RobotProfile) -> Checked:
     """Read `source` for a robot of that profile. Never raises, whatever the source; nothing of it is run."""
     if len(source) > MAX_SOURCE_CHARS:
-        values = {"characters": len(source), "limit": MAX_SOURCE_CHARS}
-        return Checked((Mark("refuse", 0, Reason("program_too_long", values)),))
+        return Checked(
+            (_mark("refuse", 0, "program_too_long", characters=len(source), limit=MAX_SOURCE_CHARS),)
+        )
     try:
         reader = _Reader(ast.parse(source), profile)
         found = {(mark.line, str(mark.reason)): mark for mark in reader.marks()}
     except SyntaxError as error:
-        return Checked((_syntax(error),))
-    except (
-        ValueError,
-        RecursionError,
-        MemoryError,
-    ):  # nested beyond what this Python's parser or ours can follow
-        return Checked((Mark("refuse", 0, Reason("program_unreadable")),))
+        line = error.lineno or 0
+        return Checked((_mark("refuse", line, "program_syntax", line=line, problem=str(error.msg)),))
+    except (ValueError, RecursionError, MemoryError):  # nested too deep for this Python's parser, or for ours
+        return Checked((_mark("refuse", 0, "program_unreadable"),))
     return Checked(tuple(found[key] for key in sorted(found)), tuple(sorted(reader.remap.items())))
 
 
-def _syntax(error: SyntaxError) -> Mark:
-    line = error.lineno or 0
-    return Mark("refuse", line, Reason("program_syntax", {"line": line, "problem": str(error.msg)}))
+def _mark(severity: Severity, at_line: int, code: str, **values: Value) -> Mark:
+    return Mark(severity, at_line, Reason(code, values))
 
 
 class _Reader:
@@ -133,27 +120,26 @@ class _Reader:
             elif isinstance(node, ast.Call):
                 yield from self._call(node)
             elif isinstance(node, ast.Attribute) and node.attr in _INSIDES:
-                yield Mark("warn", node.lineno, Reason("looks_inside", {"what": node.attr}))
+                yield _mark("warn", node.lineno, "looks_inside", what=node.attr)
             elif isinstance(node, ast.Assign):
                 yield from self._assignment(node)
             elif isinstance(node, ast.While):
                 yield from self._loop(node)
             elif isinstance(node, ast.ExceptHandler) and node.type is None:
-                yield Mark("note", node.lineno, Reason("catches_everything"))
+                yield _mark("note", node.lineno, "catches_everything")
         yield from self._whole()
 
     def _import(self, module: str, names: tuple[str, ...], line: int) -> Iterator[Mark]:
         root = module.split(".")[0]
         if module.startswith(".") or root in FORBIDDEN_MODULES:
-            yield Mark("refuse", line, Reason("import_forbidden", {"module": module, "line": line}))
+            yield _mark("refuse", line, "import_forbidden", module=module, line=line)
         elif root in _ROBOT_ROOTS:
-            known = module in ROBOT_MODULES or module in _ROBOT_ROOTS
-            if not known:
-                yield Mark("refuse", line, Reason("import_unknown", {"module": module, "line": line}))
-        elif root not in sys.stdlib_module_names and root not in ("numpy",):
-            yield Mark("refuse", line, Reason("import_unknown", {"module": module, "line": line}))
+            if module not in ROBOT_MODULES and module not in _ROBOT_ROOTS:
+                yield _mark("refuse", line, "import_unknown", module=module, line=line)
+        elif root not in sys.stdlib_module_names and root != "numpy":
+            yield _mark("refuse", line, "import_unknown", module=module, line=line)
         elif root == "os" and set(names) & {"system", "popen", "fork"}:
-            yield Mark("warn", line, Reason("runs_commands", {"what": module}))
+            yield _mark("warn", line, "runs_commands", what=module)
 
     def _call(self, node: ast.Call) -> Iterator[Mark]:
         name = ast.unparse(node.func) if isinstance(node.func, (ast.Name, ast.Attribute)) else ""
@@ -161,7 +147,7 @@ class _Reader:
             (code for prefix, code in _RISKY_PREFIXES.items() if name.startswith(prefix)), None
         )
         if code is not None:
-            yield Mark("warn", node.lineno, Reason(code, {"what": name}))
+            yield _mark("warn", node.lineno, code, what=name)
         elif name.endswith(".create_publisher") and len(node.args) >= 2:
             yield from self._publisher(node)
 
@@ -169,17 +155,15 @@ class _Reader:
         kind, topic = ast.unparse(node.args[0]).split(".")[-1], _text(node.args[1])
         if kind not in _TWISTS or topic is None:
             return
-        wiring = self._profile.wiring
+        wiring, line = self._profile.wiring, node.lineno
         if topic.strip("/") != wiring.cmd_vel_topic.strip("/"):
             self.remap[topic] = wiring.cmd_vel_topic
-            values: Values = {"topic": topic, "robot_topic": wiring.cmd_vel_topic, "line": node.lineno}
-            yield Mark("warn", node.lineno, Reason("other_topic", values))
+            yield _mark("warn", line, "other_topic", topic=topic, robot_topic=wiring.cmd_vel_topic, line=line)
         if kind != wiring.cmd_vel_type:
-            differs: Values = {"type": kind, "robot_type": wiring.cmd_vel_type, "line": node.lineno}
-            yield Mark("note", node.lineno, Reason("other_type", differs))
+            yield _mark("note", line, "other_type", type=kind, robot_type=wiring.cmd_vel_type, line=line)
 
     def _assignment(self, node: ast.Assign) -> Iterator[Mark]:
-        value = _number(node.value)
+        value, line = _number(node.value), node.lineno
         if value is None:
             return
         for target in node.targets:
@@ -187,29 +171,29 @@ class _Reader:
             if field is None:
                 continue
             if isinstance(value, int):
-                whole: Values = {"field": ".".join(field), "value": value, "line": node.lineno}
-                yield Mark("warn", node.lineno, Reason("float_field", whole))
+                yield _mark("warn", line, "float_field", field=".".join(field), value=value, line=line)
             limits = self._profile.limits
             most = {("linear", "x"): limits.max_speed_mps, ("linear", "y"): limits.max_sideways_mps,
                     ("angular", "z"): limits.max_rate_radps}.get(field)  # fmt: skip
             if most is not None and abs(value) > most:
-                said: Values = {"field": ".".join(field), "value": value, "max": most, "line": node.lineno}
-                yield Mark("warn", node.lineno, Reason("beyond_limit", said))
+                yield _mark(
+                    "warn", line, "beyond_limit", field=".".join(field), value=value, max=most, line=line
+                )
 
     def _loop(self, node: ast.While) -> Iterator[Mark]:
         is_endless = isinstance(node.test, ast.Constant) and bool(node.test.value)
         leaves = any(isinstance(inner, (ast.Break, ast.Return, ast.Raise)) for inner in ast.walk(node))
         if is_endless and not leaves:
-            yield Mark("note", node.lineno, Reason("endless_loop", {"line": node.lineno}))
+            yield _mark("note", node.lineno, "endless_loop", line=node.lineno)
 
     def _whole(self) -> Iterator[Mark]:
         called = {ast.unparse(node.func) for node in ast.walk(self._tree) if isinstance(node, ast.Call)}
         publishes = any(name.endswith(".publish") for name in called)
         if not publishes:
-            yield Mark("note", 0, Reason("publishes_nothing"))
+            yield _mark("note", 0, "publishes_nothing")
         has_init = any(name.split(".")[-1] in ("init", "Context") for name in called)
         if publishes and not has_init:
-            yield Mark("warn", 0, Reason("no_init"))
+            yield _mark("warn", 0, "no_init")
 
 
 _ROBOT_ROOTS = frozenset(module.split(".")[0] for module in ROBOT_MODULES)

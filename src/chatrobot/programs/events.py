@@ -1,4 +1,4 @@
-"""What a sandboxed program does, as its host hears it. Read strictly: the program may say anything.
+"""The events of a sandboxed program, as its host hears them. Read strictly: the program may say anything.
 
 Times are seconds since the program's start, by the program's own clock; a live program may lie about them, so the
 host goes by its own.
@@ -12,20 +12,13 @@ from typing import Any, Literal, NamedTuple, Union
 
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
-from chatrobot.programs.frames import PipeError
-from chatrobot.programs.settings import LATEST_S
+from chatrobot.programs.pipe import LATEST_S, PipeError
 
 SENSORS = ("odom", "scan", "imu", "battery", "bumper")
 LEVELS = ("DEBUG", "INFO", "WARN", "ERROR", "FATAL")
 LONGEST_TEXT = 16 * 1024
 LONGEST_NAME = 512
 LONGEST_ERROR = 300
-
-
-class Ready(NamedTuple):
-    """The program is about to begin."""
-
-    t_s: float
 
 
 class TwistAsked(NamedTuple):
@@ -63,7 +56,7 @@ class Log(NamedTuple):
 
 
 class Output(NamedTuple):
-    """What it printed."""
+    """It printed a line."""
 
     t_s: float
     stream: Literal["stdout", "stderr"]
@@ -108,12 +101,11 @@ class Raised(NamedTuple):
         values: Mapping[str, str | int] = {"error": error[:LONGEST_ERROR], "line": self.line}
         if self.type_name in ("SyntaxError", "IndentationError", "TabError"):
             return Reason("program_syntax", {"problem": self.message[:LONGEST_ERROR], "line": self.line})
-        return Reason(_ERROR_CODES.get(self.type_name, "program_raised"), values)
-
-
-_ERROR_CODES = {
-    "ModuleNotFoundError": "program_import", "ImportError": "program_import", "PermissionError": "program_forbidden"
-}  # fmt: skip
+        if self.type_name in ("ModuleNotFoundError", "ImportError"):
+            return Reason("program_import", values)
+        if self.type_name == "PermissionError":
+            return Reason("program_forbidden", values)
+        return Reason("program_raised", values)
 
 
 class Died(NamedTuple):
@@ -123,9 +115,7 @@ class Died(NamedTuple):
     log: str
 
 
-ProgramEvent = Union[
-    Ready, TwistAsked, TopicNoticed, Listens, Log, Output, AsksTime, Beat, Ended, Raised, Died
-]
+ProgramEvent = Union[TwistAsked, TopicNoticed, Listens, Log, Output, AsksTime, Beat, Ended, Raised, Died]
 ENDS = (Ended, Raised, Died)
 
 
@@ -155,28 +145,10 @@ def _number(value: Any) -> float:
     return float(value)
 
 
-def _flag(value: Any) -> bool:
-    if type(value) is not bool:
-        raise PipeError("not a flag")
-    return value
-
-
-def _count(value: Any) -> int:
-    if type(value) is not int or not 0 <= value <= 1_000_000:
-        raise PipeError("not a count")
-    return value
-
-
 def _code(value: Any) -> int:
     if type(value) is not int:
         raise PipeError("not an exit code")
     return value & 0xFF
-
-
-def _name(value: Any) -> str:
-    if type(value) is not str or len(value) > LONGEST_NAME:
-        raise PipeError("not a name")
-    return value
 
 
 def _text(value: Any) -> str:
@@ -185,21 +157,29 @@ def _text(value: Any) -> str:
     return value[:LONGEST_TEXT]
 
 
-def _one_of(*allowed: str) -> Callable[[Any], str]:
-    def read(value: Any) -> str:
-        if type(value) is not str or value not in allowed:
-            raise PipeError(f"not one of {allowed}")
+def _typed(kind: type, what: str, is_one: Callable[[Any], bool] = lambda _: True) -> Callable[[Any], Any]:
+    def read(value: Any) -> Any:
+        if type(value) is not kind or not is_one(value):
+            raise PipeError(f"not {what}")
         return value
 
     return read
 
 
-def _twist_asked(t_s: float, vx: float, vy: float, wz: float, planar: bool) -> TwistAsked:
-    return TwistAsked(t_s, Twist(vx, vy, wz), planar)
+def _one_of(*allowed: str) -> Callable[[Any], str]:
+    return _typed(str, f"one of {allowed}", allowed.__contains__)
+
+
+_flag = _typed(bool, "a flag")
+_count = _typed(int, "a count", lambda value: 0 <= value <= 1_000_000)
+_name = _typed(str, "a name", lambda value: len(value) <= LONGEST_NAME)
+
+
+def _twist_asked(t_s: float, vx_mps: float, vy_mps: float, wz_radps: float, planar: bool) -> TwistAsked:
+    return TwistAsked(t_s, Twist(vx_mps, vy_mps, wz_radps), planar)
 
 
 _READERS: Mapping[str, tuple[Callable[..., ProgramEvent], tuple[Callable[[Any], Any], ...]]] = {
-    "ready": (Ready, (_seconds,)),
     "twist": (_twist_asked, (_seconds, _number, _number, _number, _flag)),
     "topic": (TopicNoticed, (_seconds, _one_of("publishes", "listens"), _name, _name)),
     "listens": (Listens, (_seconds, _one_of(*SENSORS), _count)),

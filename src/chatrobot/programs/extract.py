@@ -1,4 +1,4 @@
-"""From what a model answers to the program in it: a fence of any flavour, several, or none; the prose is kept, too."""
+"""Finds the program in a model's answer: in a fence of any flavour, several, or none. The prose is kept, too."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class _Block:
 
     @property
     def score(self) -> tuple[int, int]:
-        """How much this looks like the whole program that was asked for; then, how much of one it is."""
+        """Rate how much this looks like the whole program that was asked for; then, how much of one it is."""
         whole = 4 * ("rclpy" in self.code) + 2 * bool(re.search(r"\.publish\(|\bspin(?:_once)?\(", self.code))
         whole += 2 * _parses(self.code) + bool(re.search(r"__main__|^main\(", self.code, re.M))
         return (whole - 8 * bool(_NOT_A_NODE.search(self.code)), 0)
@@ -117,15 +117,15 @@ def _split_info(info: str) -> tuple[str, str]:
     return info, ""
 
 
-def _until_closed(lines: list[str], begin: int, fence: str) -> tuple[list[str], int | None]:
+def _until_closed(lines: list[str], first_line: int, fence: str) -> tuple[list[str], int | None]:
     """The lines up to the closing fence, and the number of the line after it; None where it is never closed."""
-    for at in range(begin, len(lines)):
+    for at in range(first_line, len(lines)):
         stripped = lines[at].strip()
         if stripped.startswith(fence) and not stripped.strip(fence[0]):
-            return lines[begin:at], at + 1
+            return lines[first_line:at], at + 1
         if stripped.endswith(fence) and fence not in stripped[: -len(fence)] and not stripped.startswith("#"):
-            return [*lines[begin:at], lines[at].rstrip()[: -len(fence)]], at + 1
-    return lines[begin:], None
+            return [*lines[first_line:at], lines[at].rstrip()[: -len(fence)]], at + 1
+    return lines[first_line:], None
 
 
 def _unquoted(text: str) -> str:
@@ -193,13 +193,15 @@ def _is_bare_begin(line: str) -> bool:
     return bool(re.fullmatch(r"class \w+(?:\([\w., ]*\))?:|def \w+\(.*\).*:|#!\s*/.*python.*", line))
 
 
-def _bare_end(lines: list[str], begin: int) -> int:
+def _bare_end(lines: list[str], first_line: int) -> int:
     """Prose at the end is cut off piece by piece, as long as what is left does not parse."""
-    ends = [at for at in range(begin + 1, len(lines) + 1) if at == len(lines) or not lines[at - 1].strip()]
+    ends = [
+        at for at in range(first_line + 1, len(lines) + 1) if at == len(lines) or not lines[at - 1].strip()
+    ]
     for end in reversed(ends[-200:]):
-        if _parses(_mended("\n".join(lines[begin:end]))):
+        if _parses(_mended("\n".join(lines[first_line:end]))):
             return end
-    last = max(at for at in range(begin, len(lines)) if at == begin or _looks_like_code(lines[at]))
+    last = max(at for at in range(first_line, len(lines)) if at == first_line or _looks_like_code(lines[at]))
     return last + 1
 
 

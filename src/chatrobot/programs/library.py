@@ -21,7 +21,7 @@ _ABOUT, _SOURCE = "about.json", "program.py"
 
 @dataclass(frozen=True)
 class Provenance:
-    """Where a program comes from. `model` is PROVIDER:NAME, "" where none wrote it; `date` is ISO 8601, UTC."""
+    """The origin of a program. `model` is PROVIDER:NAME, "" where none wrote it; `date` is ISO 8601, UTC."""
 
     sentence: str = ""
     by: Literal["offline", "model", "person"] = "person"
@@ -32,7 +32,7 @@ class Provenance:
 
 @dataclass(frozen=True)
 class RunRecord:
-    """How one run ended, as odometry measured it."""
+    """The end of one run, as odometry measured it."""
 
     date: str
     outcome: str
@@ -105,14 +105,14 @@ class Library:
         )
 
     def keep(self, program: KeptProgram) -> None:
-        """Keep it; an older one of that name is replaced, its runs are kept on.
+        """Keep it; an older one of that name is replaced.
 
         Raises:
             InputError: the name cannot be one.
         """
         if not clean_name(program.name):
             raise InputError(
-                f"{program.name!r} is no name for a program", allowed="letters, digits and spaces"
+                f"{program.name!r} cannot be the name of a program", allowed="letters, digits and spaces"
             )
         self._kept[folder_name(program.name)] = program
         if self._folder is not None:
@@ -131,7 +131,8 @@ class Library:
         program, new = self.get(old), clean_name(new)
         taken = self.find(new)
         if not new or (taken is not None and taken.name != program.name):
-            raise InputError(f"{new!r} is taken" if new else "a name is needed", where="rename")
+            problem = f"there is a program {new!r} already" if new else "the new name is empty"
+            raise InputError(problem, where="rename", allowed="another name")
         self.remove(program.name)
         self.keep(replace(program, name=new))
 

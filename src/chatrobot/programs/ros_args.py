@@ -99,7 +99,9 @@ def read_ros_args(args: Sequence[str]) -> RosArguments:
         elif name in _LEVEL:
             levels.append(_level(value))
         elif name in _FILES:
-            raise RosArgumentsError(f"{name} {value}: no file can be read here")
+            raise RosArgumentsError(
+                f"{name} {value}: a program cannot read files; give -p NAME:=VALUE instead"
+            )
         elif name not in _WITH_VALUE and not _SWITCH.fullmatch(name):
             unknown.append(name)
     return RosArguments(tuple(parameters), tuple(remaps), tuple(levels), tuple(unknown))

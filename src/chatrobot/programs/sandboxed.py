@@ -7,8 +7,8 @@
     program.tell("odom", [stamp_s, x, y, yaw, vx, vy, wz])
     program.close()
 
-`server` is a `WarmServer` made by `warm_server()`. Nothing here blocks but for `poll`'s own timeout; `fileno` is
-readable when there is something to poll. A live program beats every 0.1 s: who holds its lease goes by that.
+`server` is a `WarmServer` made by `warm_server()`. Nothing here blocks but for `poll`'s own timeout. A live program
+beats every 0.1 s: who holds its lease goes by that.
 """
 
 from __future__ import annotations
@@ -22,8 +22,7 @@ from typing import Any, Protocol
 
 from chatrobot.core.reason import Reason
 from chatrobot.programs.events import ENDS, AsksTime, Died, Log, Output, ProgramEvent, read_event
-from chatrobot.programs.frames import LARGEST_FROM_PROGRAM, FrameReader, PipeError, encode
-from chatrobot.programs.settings import ProgramSettings
+from chatrobot.programs.pipe import LARGEST_FROM_PROGRAM, FrameReader, PipeError, ProgramSettings, encode
 from chatrobot.sandbox.limits import SandboxLimits
 from chatrobot.sandbox.process import ExitReport, SandboxedProcess
 from chatrobot.sandbox.warm_server import WarmServer
@@ -44,7 +43,7 @@ def warm_server(limits: SandboxLimits | None = None, path: Sequence[Path] = ()) 
 
 
 class Launcher(Protocol):
-    """What is used of a warm server."""
+    """The part of a warm server that is used here."""
 
     def launch(
         self, entry: str, payload: bytes = b"", limits: SandboxLimits | None = None
@@ -78,10 +77,6 @@ class SandboxedProgram:
         """Return its last event; None while it runs."""
         return self._end
 
-    def fileno(self) -> int:
-        """Return what is readable when there is something to poll."""
-        return self._channel.fileno()
-
     def poll(self, timeout_s: float = 0.0) -> list[ProgramEvent]:
         """Return what happened since the last poll; wait for something at most `timeout_s`. Nothing after its end."""
         if self._end is not None:
@@ -104,7 +99,7 @@ class SandboxedProgram:
         return events
 
     def tell(self, sensor: str, values: Sequence[Any]) -> None:
-        """Pass on a sensor's words: its stamp (seconds since the program's start) and numbers. A full pipe drops them."""
+        """Pass on a sensor's stamp (seconds since the program's start) and numbers, if the pipe is not full."""
         if len(self._outbox) < OUTBOX_BYTES:
             self._outbox += encode("feed", [[sensor, *values]])
         self._send()
@@ -141,7 +136,7 @@ class SandboxedProgram:
                 del self._outbox[:sent]
 
     def _read(self, data: bytes) -> list[ProgramEvent]:
-        """Up to the end, if that is among it: what a program says after its end does not count."""
+        """Read up to the end, if that is among it: what a program says after its end does not count."""
         events: list[ProgramEvent] = []
         try:
             for frame in self._reader.feed(data):

@@ -16,7 +16,7 @@ from chatrobot.core import events
 from chatrobot.core.events import Event
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import fixed
-from chatrobot.dialogue.programs.text import body, headline
+from chatrobot.dialogue.programs.draft import body, headline
 from chatrobot.dialogue.replies import describe_left
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.plan.folded import folded_plan

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Callable, Generator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -24,7 +24,7 @@ from chatrobot.models.seam import CallLimits, Message, Model
 from chatrobot.plan.context import Impossible, RoutePlanner
 from chatrobot.plan.steps import Plan
 from chatrobot.programs.check import check
-from chatrobot.programs.extract import extract
+from chatrobot.programs.extract import Extracted, extract
 from chatrobot.programs.library import KeptProgram, Library, Provenance, RunRecord, clean_name, today
 from chatrobot.programs.writing.program import Wanted, write_program
 from chatrobot.robots.profile import RobotProfile
@@ -44,14 +44,6 @@ class NotWrittenError(Exception):
         self.outcome = outcome
         self.reply = reply
         super().__init__(reply)
-
-
-@dataclass
-class Rehearsal:
-    """What Motion told of one version, as it comes in."""
-
-    program: ProgramRehearsed | None = None
-    path: Rehearsed | None = None
 
 
 class Authoring:
@@ -109,6 +101,10 @@ class Authoring:
         program = replace(program, remap=dict(checked.remap))
         place = self.library.place(program.name)
         return Draft(program, checked, place=place, version=program.provenance.versions)
+
+    def _new(self, program: KeptProgram, request: ProgramRequest, messages: Sequence[Message] = ()) -> Draft:
+        draft = self.draft_of(program)
+        return replace(draft, is_new=True, promises=request.promises, messages=tuple(messages))
 
     def draft_of_file(self, path: Path, source: str) -> Draft:
         """Return the draft of a program from a file, which is not kept."""
@@ -180,32 +176,15 @@ class Authoring:
             raise NotWrittenError("refused", meant.reply)
         return meant.plan
 
-    def _new(self, program: KeptProgram, request: ProgramRequest, messages: Sequence[Message] = ()) -> Draft:
-        checked = check(program.source, self._profile)
-        program = replace(program, remap=dict(checked.remap))
-        return Draft(
-            program,
-            checked,
-            is_new=True,
-            place=self.library.place(program.name),
-            promises=request.promises,
-            messages=tuple(messages),
-        )
-
     # --- with a model ---
 
     def _by_model(self, request: ProgramRequest, language: str) -> Writing[Draft]:
         assert self.model is not None
         messages = [Message("system", program_prompt(self._profile)), Message("user", request.text)]
-        reply = yield from self._ask(messages, language)
-        found = extract(reply)
-        if found is None:
-            raise NotWrittenError("unclear", say(language, "no_program_in_reply", reply=reply.strip()[:200]))
+        found, messages = yield from self._ask(messages, "unclear", language)
         provenance = Provenance(request.text, "model", self.model.name, today())
-        program = KeptProgram(
-            self.library.free_name(request.name), found.source, found.description, provenance
-        )
-        return self._new(program, request, [*messages, Message("assistant", reply)])
+        name = self.library.free_name(request.name)
+        return self._new(KeptProgram(name, found.source, found.description, provenance), request, messages)
 
     def may_mend(self, draft: Draft) -> bool:
         """Tell whether a model wrote it, and may write a further version."""
@@ -219,23 +198,27 @@ class Authoring:
         """
         told = mend_prompt(render_reason(problem, "en"), details)
         messages = [*draft.messages, Message("user", told)]
-        reply = yield from self._ask(messages, language)
-        found = extract(reply)
-        if found is None:
-            raise NotWrittenError("failed", say(language, "no_program_in_reply", reply=reply.strip()[:200]))
-        checked = check(found.source, self._profile)
-        return draft.next(found.source, checked, (*messages, Message("assistant", reply)))
+        found, messages = yield from self._ask(messages, "failed", language)
+        return draft.next(found.source, check(found.source, self._profile), tuple(messages))
 
     @staticmethod
-    def _ask(messages: Sequence[Message], language: str) -> Writing[str]:
+    def _ask(
+        messages: Sequence[Message], without: Outcome, language: str
+    ) -> Writing[tuple[Extracted, list[Message]]]:
+        """The program that the model answers, and the conversation with it; `without` is the outcome if it has none."""
         call = yield messages
         if call.is_cancelled:
             raise NotWrittenError("stopped", say(language, "stopped_now"))
-        if call.end is not None and call.end.problem is not None:
-            found = extract(call.text)
-            if found is None or not found.is_closed:  # half a program is not run, nor blamed on its writer
-                raise NotWrittenError("failed", render_reason(call.end.problem, language))
-        return call.text
+        found = extract(call.text)
+        problem = call.end.problem if call.end is not None else None
+        if problem is not None and (found is None or not found.is_closed):
+            raise NotWrittenError(
+                "failed", render_reason(problem, language)
+            )  # half a program is not run, nor blamed
+        if found is None:
+            reply = call.text.strip()[:200]
+            raise NotWrittenError(without, say(language, "no_program_in_reply", reply=reply))
+        return found, [*messages, Message("assistant", call.text)]
 
     # --- what became of it ---
 
@@ -244,11 +227,8 @@ class Authoring:
         if draft.is_new:
             self.library.keep(draft.program)
 
-    def note_rehearsal(self, draft: Draft, rehearsal: Rehearsal) -> None:
+    def note_rehearsal(self, draft: Draft, program: ProgramRehearsed, path: Rehearsed) -> None:
         """Keep what the last rehearsal of a kept program showed."""
-        program, path = rehearsal.program, rehearsal.path
-        if program is None or path is None:
-            return
         self.library.note_rehearsal(
             draft.program.name,
             {

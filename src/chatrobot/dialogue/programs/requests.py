@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Any
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
 
 from chatrobot.core.events import (
     Event,
@@ -23,7 +23,6 @@ from chatrobot.dialogue.programs.authoring import (
     MOST_REPAIRS,
     Authoring,
     NotWrittenError,
-    Rehearsal,
     Writing,
 )
 from chatrobot.dialogue.programs.draft import Draft
@@ -51,7 +50,7 @@ MENDABLE = frozenset(
 @dataclass
 class _Turn:
     draft: Draft
-    rehearsal: Rehearsal = field(default_factory=Rehearsal)
+    rehearsed: ProgramRehearsed | None = None
     has_started: bool = False
 
 
@@ -178,7 +177,8 @@ class ProgramRequests:
 
     def _refuse(self, turn: int, text: str, refusal: NotWrittenError, language: LanguageCode) -> None:
         self._emit(Interpreted(turn, "offline", "", refusal.reply))
-        meant = Interpretation(_MEANT.get(refusal.outcome, "refused"), refusal.reply, language)
+        outcome: Literal["unclear", "refused"] = "unclear" if refusal.outcome == "unclear" else "refused"
+        meant = Interpretation(outcome, refusal.reply, language)
         self._understanding.note_unmoved(text, meant)
         self._requests.conclude(turn, refusal.outcome, refusal.reply)
 
@@ -226,10 +226,9 @@ class ProgramRequests:
         if about is None:
             return False
         if isinstance(event, ProgramRehearsed):
-            about.rehearsal.program = event
-        elif isinstance(event, Rehearsed):
-            about.rehearsal.path = event
-            self.authoring.note_rehearsal(about.draft, about.rehearsal)
+            about.rehearsed = event
+        elif isinstance(event, Rehearsed) and about.rehearsed is not None:
+            self.authoring.note_rehearsal(about.draft, about.rehearsed, event)
         elif isinstance(event, Started):
             about.has_started = True
             self._ran[event.turn] = about.draft
@@ -258,7 +257,7 @@ class ProgramRequests:
         return True
 
     def _mend_refused(self, event: Finished, about: _Turn, reason: Reason) -> Writing[None]:
-        problem = about.rehearsal.program.problem if about.rehearsal.program is not None else ""
+        problem = about.rehearsed.problem if about.rehearsed is not None else ""
         if (yield from self._mend(about, reason, problem)):
             yield from self._send(event.turn, about)
         else:
@@ -274,7 +273,7 @@ class ProgramRequests:
             )
         except NotWrittenError:
             return False  # what was wrong is told all the same
-        about.draft, about.rehearsal = draft, Rehearsal()
+        about.draft, about.rehearsed = draft, None
         return True
 
     def _send(self, turn: int, about: _Turn) -> Writing[None]:
@@ -309,6 +308,3 @@ class ProgramRequests:
     def _show(self, turn: int, draft: Draft) -> None:
         self._shown[draft.program.name] = draft
         self._emit(draft.event(turn))
-
-
-_MEANT: Mapping[str, Any] = {"unclear": "unclear", "answered": "answered"}

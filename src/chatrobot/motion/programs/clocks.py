@@ -29,7 +29,7 @@ STEP_LIMIT_S = 5.0
 MOST_KEPT = 100
 """Messages of one sensor, whatever depth the program asks for."""
 _WAIT_S = 0.2
-_SLACK_S = 1e-9
+_SLACK_S = 1e-7
 
 
 class LiveProgram(Protocol):
@@ -54,7 +54,6 @@ class SensorMailbox:
         self._lock = threading.Lock()
         self._kept: dict[str, deque[list[Any]]] = {}
         self._said: deque[tuple[str, Message]] = deque(maxlen=MOST_KEPT)
-        self._tick = 0
         self._yaw_rad = 0.0
 
     def attach(self, wire: Wire, wiring: Wiring) -> None:
@@ -64,7 +63,7 @@ class SensorMailbox:
     def forget(self) -> None:
         """Begin anew for another program, which listens to nothing yet."""
         with self._lock:
-            self._kept, self._tick = {}, 0
+            self._kept = {}
             self._said.clear()
 
     def listen(self, sensor: str, depth: int) -> None:
@@ -80,17 +79,13 @@ class SensorMailbox:
         return frozenset(self._kept)
 
     def collect(self, now_s: float) -> None:
-        """Stamp what was said up to `now_s` of the program's time, once a tick."""
-        tick = int((now_s + _SLACK_S) / TICK_S)
+        """Stamp what was said since the last tick with the program's own time."""
         with self._lock:
-            if tick == self._tick:
-                return
             newest = dict(self._said)
             for sensor, message in self._said:
                 if message is newest[sensor] or isinstance(message, (Flag, Number)):
                     self._kept[sensor].append([sensor, now_s, *self._numbers(message)])
             self._said.clear()
-            self._tick = tick
 
     def take(self) -> list[list[Any]]:
         """Return what was collected since the last time, by its stamp: (sensor, stamp, numbers…)."""
@@ -116,6 +111,11 @@ class SensorMailbox:
         if isinstance(message, LaserScan):
             return (*message[1:-1], [round(range_m, 4) for range_m in message.ranges_m])
         return message if isinstance(message, (Flag, Number)) else message[1:]
+
+
+def is_tick(now_s: float) -> bool:
+    """Tell whether the control loop ticks then, on a clock that does not jitter."""
+    return abs(now_s - round(now_s / TICK_S) * TICK_S) < _SLACK_S
 
 
 class RealTimeProgram:
@@ -173,7 +173,8 @@ class SteppedProgram:
     def poll_until(self, now_s: float) -> Sequence[ProgramEvent]:
         """Return what it did up to `now_s` of its time; the last event is its end, or a beat."""
         self._now_s = now_s
-        self._sensors.collect(now_s)
+        if is_tick(now_s):
+            self._sensors.collect(now_s)
         began_s = time.monotonic() if self._began_s is None else self._began_s
         found: list[ProgramEvent] = []
         while True:
@@ -232,7 +233,7 @@ class SteppedProgram:
 
 
 class HeldTwist:
-    """What a program asks for now: what it published last, for as long as the base would have held it.
+    """Holds what a program published last, for as long as the base would have held it.
 
     Args:
         base_timeout_s: of the robot's wiring; None holds for ever. The lease ends it in any case.

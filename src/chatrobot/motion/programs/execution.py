@@ -174,7 +174,7 @@ class ProgramExecution:
 
 
 class ProgramSandbox(Protocol):
-    """What Motion needs of it."""
+    """The part of the sandbox that Motion needs."""
 
     def attach(self, wire: Wire) -> None:
         """Hear the robot's sensors, for programs that listen to them."""

@@ -29,29 +29,24 @@ class ProgramGoal(Goal):
     ask_findings: bool = False
     strict: bool = False
 
+    @classmethod
+    def of(cls, envelope: Envelope, epoch: int, now_s: float, account: Account | None = None) -> ProgramGoal:
+        """Return the goal that a `program` envelope asks for."""
+        payload = envelope.payload
+        return cls(
+            **vars(Goal.of(envelope, epoch, now_s, account)),
+            code=str(payload.get("code", "")),
+            name=str(payload.get("name", "")) or "program",
+            remap={str(name): str(to) for name, to in dict(payload.get("remap", {})).items()},
+            args=tuple(payload.get("args", ())),
+            ask_findings=bool(payload.get("ask_findings")),
+            strict=bool(payload.get("strict")),
+        )
 
-def goal_of(envelope: Envelope, epoch: int, now_s: float, account: Account) -> Goal:
-    """Return the goal that a `plan` or a `program` envelope asks for."""
-    goal = Goal.of(envelope, epoch, now_s, account)
-    if envelope.word != "program":
-        return goal
-    payload = envelope.payload
-    return ProgramGoal(
-        **vars(goal),
-        code=str(payload.get("code", "")),
-        name=str(payload.get("name", "")) or "program",
-        remap={str(name): str(to) for name, to in dict(payload.get("remap", {})).items()},
-        args=tuple(payload.get("args", ())),
-        ask_findings=bool(payload.get("ask_findings")),
-        strict=bool(payload.get("strict")),
-    )
-
-
-def needs_approval(goal: Goal, planned: Planned) -> bool:
-    """Tell whether what was planned waits for a yes."""
-    if goal.refusal is not None or goal.rehearse_only:
-        return False
-    return goal.approve or (isinstance(goal, ProgramGoal) and goal.ask_findings and planned.has_findings)
+    def take(self, planned: Planned) -> Reason | None:
+        """Take what was rehearsed; return why it may not run."""
+        self.approve |= self.ask_findings and planned.has_findings
+        return super().take(planned)
 
 
 @dataclass(frozen=True)

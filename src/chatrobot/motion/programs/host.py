@@ -9,8 +9,8 @@ from chatrobot.motion.programs.clocks import LiveProgram, RealTimeProgram, Senso
 from chatrobot.motion.programs.goal import PlannedProgram, ProgramGoal
 from chatrobot.motion.programs.rehearsal import rehearse_program
 from chatrobot.motion.remembered_obstacles import RememberedObstacles
+from chatrobot.programs.pipe import LATEST_S, ProgramSettings, robot_topics
 from chatrobot.programs.sandboxed import SandboxedProgram, warm_server
-from chatrobot.programs.settings import LATEST_S, ProgramSettings, robot_topics
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.wire import Wire
 

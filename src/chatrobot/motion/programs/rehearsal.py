@@ -24,9 +24,20 @@ from chatrobot.plan.governed_path import pose_of
 from chatrobot.plan.known_world import Contact, Floats
 from chatrobot.plan.rehearsal import MARGIN_M, RehearsedPath, limited_reason
 from chatrobot.plan.sweep import area_clearance, first_contact
-from chatrobot.programs.events import Died, Ended, Log, Output, ProgramEvent, Raised, TopicNoticed, TwistAsked
+from chatrobot.programs.events import (
+    ENDS,
+    Beat,
+    Died,
+    Ended,
+    Log,
+    Output,
+    ProgramEvent,
+    Raised,
+    TopicNoticed,
+    TwistAsked,
+)
+from chatrobot.programs.pipe import ProgramSettings, robot_topics
 from chatrobot.programs.sandboxed import Launcher, SandboxedProgram
-from chatrobot.programs.settings import ProgramSettings, robot_topics
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sandbox.limits import SandboxLimits
 from chatrobot.sim.world import EMPTY_WORLD, World
@@ -49,17 +60,35 @@ _SENSOR_TYPES = (
 
 @dataclass(frozen=True, eq=False)
 class ProgramRehearsal(RehearsedPath):
-    """What a program would do; `path` goes on to where the robot stands after the program's end.
+    """The rehearsal of a program; `path` goes on to where the robot stands after the program's end.
 
-    `end` is its last event. `cmd_vel` is what it published for the robot: (seconds since its start, velocity).
-    `wall_s` is how long the rehearsal took here.
+    `did` is what it did, with the time since its start; its end comes last. `wall_s` is how long the rehearsal took.
     """
 
-    end: Ended | Raised | Died
-    cmd_vel: tuple[tuple[float, Twist], ...]
-    log: tuple[Log | Output, ...]
-    topics: tuple[TopicNoticed, ...]
+    did: tuple[tuple[float, ProgramEvent], ...]
     wall_s: float
+
+    @property
+    def end(self) -> Ended | Raised | Died:
+        """Return its last event."""
+        end = self.did[-1][1]
+        assert isinstance(end, ENDS)
+        return end
+
+    @property
+    def cmd_vel(self) -> list[tuple[float, Twist]]:
+        """Return what it published for the robot: (seconds since its start, velocity)."""
+        return [(t_s, event.twist) for t_s, event in self.did if isinstance(event, TwistAsked)]
+
+    @property
+    def log(self) -> list[Log | Output]:
+        """Return what it logged and printed."""
+        return [event for _, event in self.did if isinstance(event, (Log, Output))]
+
+    @property
+    def topics(self) -> list[TopicNoticed]:
+        """Return what it publishes on and listens to."""
+        return [event for _, event in self.did if isinstance(event, TopicNoticed)]
 
     @property
     def duration_s(self) -> float:
@@ -82,7 +111,7 @@ class ProgramRehearsal(RehearsedPath):
 
     @property
     def _steps(self) -> Floats:
-        """From row to row of the path, where these are not too near to divide by."""
+        """The steps from row to row of the path, where these are not too near to divide by."""
         steps: Floats = np.diff(self.path, axis=0)
         return steps[steps[:, 0] > 1e-3]
 
@@ -164,79 +193,44 @@ def rehearse_program(
     )
     around = with_seen(world, seen.clear_of(start)) if seen is not None else world
     environment = RehearsalEnvironment(profile, around, start)
-    program = SandboxedProgram(server, settings, LIMITS)
-    run = _Run(program, environment)
-    run.drive(wall_limit_s)
+    began_s = time.monotonic()
+    did, tried = _play(SandboxedProgram(server, settings, LIMITS), environment, wall_limit_s)
+    wall_s = time.monotonic() - began_s
+    environment.finish()
     path = np.array(environment.path)
-    shown = ProgramRehearsal(
-        path,
-        float(np.hypot(*np.diff(path[:, 1:3], axis=0).T).sum()),
-        (),
-        run.end,
-        tuple(run.cmd_vel),
-        tuple(run.log),
-        tuple(run.topics),
-        run.wall_s,
-    )
+    length_m = float(np.hypot(*np.diff(path[:, 1:3], axis=0).T).sum())
+    shown = ProgramRehearsal(path, length_m, (), tuple(did), wall_s)
     findings = [
         *_about_the_end(shown, horizon_s),
-        *(
-            _found("warn" if tried.code in _HARMLESS else "refuse", tried, shown.duration_s)
-            for tried in run.tried
-        ),
-        *_about_motion(shown, environment, is_planar=run.is_planar),
+        *(_found("warn" if wall.code in _HARMLESS else "refuse", wall, shown.duration_s) for wall in tried),
+        *_about_motion(shown, environment),
         *_about_topics(shown, settings.topics),
         *_about_the_way(path, profile, world, seen),
     ]
     return replace(shown, findings=tuple(sorted(findings, key=lambda finding: finding.t_s)))
 
 
-class _Run:
-    """One rehearsal: has the program and its simulated robot live step by step, and keeps what it did."""
-
-    def __init__(self, program: SandboxedProgram, environment: RehearsalEnvironment) -> None:
-        self.cmd_vel: list[tuple[float, Twist]] = []
-        self.log: list[Log | Output] = []
-        self.topics: list[TopicNoticed] = []
-        self.is_planar = True
-        self.tried: Sequence[Reason] = ()
-        """What the walls of the sandbox did not let it do."""
-        self.end: Ended | Raised | Died = Ended(0.0, "returned", 0)
-        self.wall_s = 0.0
-        self._program = program
-        self._environment = environment
-
-    def drive(self, wall_limit_s: float) -> None:
-        """Run it to its end, and the robot until it stands."""
-        began_s = time.monotonic()
-        program, environment = self._program, self._environment
-        clocked = SteppedProgram(program, environment.sensors, limit_s=wall_limit_s, in_all=True)
-        program.start()
-        try:
-            while not self._hear(clocked.poll_until(environment.now_s)):
-                environment.advance(clocked.next_s)
-            report = program.exit_report() if program.end is not None else None
-            self.tried = report.findings if report is not None else ()
-        finally:
-            program.close()
-        self.wall_s = time.monotonic() - began_s
-        environment.finish()
-
-    def _hear(self, events: Sequence[ProgramEvent]) -> bool:
-        """Take in what it did; whether it has ended."""
-        for event in events:
-            if isinstance(event, TwistAsked):
-                self.cmd_vel.append((self._environment.now_s, event.twist))
-                self.is_planar &= event.planar
-                self._environment.ask(event.twist)
-            elif isinstance(event, (Log, Output)):
-                self.log.append(event)
-            elif isinstance(event, TopicNoticed):
-                self.topics.append(event)
-            elif isinstance(event, (Ended, Raised, Died)):
-                self.end = event
-                return True
-        return False
+def _play(
+    program: SandboxedProgram, environment: RehearsalEnvironment, wall_limit_s: float
+) -> tuple[list[tuple[float, ProgramEvent]], Sequence[Reason]]:
+    """Have the program and its simulated robot live to its end: what it did, and what the sandbox did not let it do."""
+    clocked = SteppedProgram(program, environment.sensors, limit_s=wall_limit_s, in_all=True)
+    did: list[tuple[float, ProgramEvent]] = []
+    program.start()
+    try:
+        while True:
+            for event in clocked.poll_until(environment.now_s):
+                if isinstance(event, TwistAsked):
+                    environment.ask(event.twist)
+                if not isinstance(event, Beat):
+                    did.append((environment.now_s, event))
+            if did and isinstance(did[-1][1], ENDS):
+                break
+            environment.advance(clocked.next_s)
+        report = program.exit_report() if program.end is not None else None
+    finally:
+        program.close()
+    return did, report.findings if report is not None else ()
 
 
 def _found(severity: Severity, reason: Reason | str, t_s: float = 0.0, **values: Value) -> Finding:
@@ -261,16 +255,14 @@ def _about_the_end(shown: ProgramRehearsal, horizon_s: float) -> Iterator[Findin
         yield _found("warn", "program_exit_code", over_s, exit_code=end.exit_code)
 
 
-def _about_motion(
-    shown: ProgramRehearsal, environment: RehearsalEnvironment, *, is_planar: bool
-) -> Iterator[Finding]:
+def _about_motion(shown: ProgramRehearsal, environment: RehearsalEnvironment) -> Iterator[Finding]:
     for t_s, verdict in environment.limited.values():
         if verdict.asked.is_finite:
             reason = verdict.reason or limited_reason(verdict.asked, verdict.allowed)
             yield _found("note", reason, t_s)
         else:
             yield _found("refuse", "program_not_finite", t_s)
-    if not is_planar:
+    if any(isinstance(event, TwistAsked) and not event.planar for _, event in shown.did):
         yield _found("note", "program_not_planar")
     if not shown.moves:
         yield _found("warn", "program_moves_nothing")

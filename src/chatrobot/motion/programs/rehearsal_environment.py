@@ -1,4 +1,4 @@
-"""Where a program is rehearsed: a simulated robot, the governor, and a clock that only we move."""
+"""The surroundings of a rehearsal: a simulated robot, the governor, and a clock that only we move."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from chatrobot.core.governed import StopEpoch
 from chatrobot.governor.governor import Governor, Verdict
 from chatrobot.governor.rule import Sensed
 from chatrobot.motion.governed_motion import decelerated, is_cut_short
-from chatrobot.motion.programs.clocks import HeldTwist, SensorMailbox
+from chatrobot.motion.programs.clocks import HeldTwist, SensorMailbox, is_tick
 from chatrobot.motion.safety.stop import WireTransport
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.fault_injection import NO_FAULTS
@@ -86,7 +86,7 @@ class RehearsalEnvironment:
             self._step(ends_s)
 
     def _step(self, until_s: float) -> None:
-        """To the next tick, or over several where nothing changes."""
+        """Let time pass to the next tick, or over several where nothing changes."""
         stride_s = STEADY_STEP_S if self._is_steady and not self._heard else TICK_S
         end_s = min(until_s, (int((self.now_s + _EARLY_S) / TICK_S)) * TICK_S + stride_s)
         expires_s = self._held.ends_s
@@ -96,7 +96,8 @@ class RehearsalEnvironment:
         self.robot.step(end_s - self.now_s)
         self._clock.advance(end_s - self.now_s)
         self.path.append((self.now_s, *self.robot.true_pose))
-        self.sensors.collect(self.now_s)
+        if is_tick(self.now_s):
+            self.sensors.collect(self.now_s)
         if not self._is_steady:
             self._govern()
 

@@ -1,4 +1,4 @@
-"""Where a sandboxed process begins: it puts names, time and output in place, runs the program and tells its end."""
+"""Begins a sandboxed process: puts names, time and output in place, runs the program and tells its end."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from typing import Any, NoReturn
 
 from chatrobot.programs.inside import event_loop, top_level, virtual_time
 from chatrobot.programs.inside.link import Link, open_link
-from chatrobot.programs.settings import ProgramSettings
+from chatrobot.programs.pipe import ProgramSettings
 
 
 def run(channel: socket.socket, payload: bytes) -> None:
@@ -31,12 +31,11 @@ def run(channel: socket.socket, payload: bytes) -> None:
     sys.stdout, sys.stderr = _PipeStream(link, "stdout"), _PipeStream(link, "stderr")
     sys.stdin = io.StringIO("")
     threading.excepthook = _tell_of_thread
-    link.send("ready")
     _end(link, *_run(settings))
 
 
 def _run(settings: ProgramSettings) -> tuple[str, int, BaseException | None]:
-    """How the program ended: how, its exit code, and what it raised."""
+    """Run it; return how it ended, its exit code, and what it raised."""
     file_name = f"{settings.name}.py"
     linecache.cache[file_name] = (len(settings.source), None, settings.source.splitlines(True), file_name)
     module = ModuleType("__main__")
@@ -57,15 +56,8 @@ def _compiled(source: str, file_name: str) -> CodeType:
     """A program that only defines `main`, for an entry point of its package, has it called as that would."""
     tree = ast.parse(source, file_name)
     names = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
-    passive = (
-        ast.Import,
-        ast.ImportFrom,
-        ast.FunctionDef,
-        ast.AsyncFunctionDef,
-        ast.ClassDef,
-        ast.Assign,
-        ast.AnnAssign,
-    )
+    passive = (ast.Import, ast.ImportFrom, ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Assign,
+               ast.AnnAssign)  # fmt: skip
     if "main" in names and all(
         isinstance(node, passive) or (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant))
         for node in tree.body

@@ -1,4 +1,4 @@
-"""Who hears what the program publishes: its own nodes and services, and its robot, whose sensors it hears."""
+"""Connects the program's nodes and services with each other, and with the topics of its robot."""
 
 from __future__ import annotations
 

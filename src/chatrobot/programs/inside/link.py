@@ -10,20 +10,20 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, NoReturn
 
-from chatrobot.programs.frames import LARGEST_FROM_HOST, FrameReader, encode
 from chatrobot.programs.inside.scheduler import Scheduler
-from chatrobot.programs.settings import LATEST_S, ProgramSettings
+from chatrobot.programs.pipe import LARGEST_FROM_HOST, LATEST_S, FrameReader, ProgramSettings, encode
 
 Listener = Callable[[list[Any]], None]
 """Takes what a sensor says: its stamp (seconds since the program's start) and its numbers."""
 
 LONGEST_TEXT = 8 * 1024
+BEAT_S = 0.1
 SAME_TWIST_NS = 20_000_000
 """A velocity repeated within a control period is no news."""
 
 
 class Link:
-    """What both kinds of time share.
+    """In real time: words go out at once, a thread takes in what sensors say, another one beats.
 
     `wanted` counts the threads that wait for what sensors may say; `scheduler` is the clock on virtual time.
     """
@@ -40,35 +40,41 @@ class Link:
         self._last_twist: tuple[float, ...] = ()
         self._last_twist_ns = 0
         self._thrift = _Thrift()
+        self._began_ns = time.monotonic_ns()
+        self._sending = threading.Lock()
 
-    # --- each kind of time has its own ---
+    # --- virtual time has its own ---
+
+    def start(self) -> None:
+        """Begin to beat, and to hear the host."""
+        for name, work in (("beat", self._beat), ("take in", self._take_in)):
+            threading.Thread(target=work, name=name, daemon=True).start()
 
     def now_ns(self) -> int:
         """Return the time since the program's start. Costs nothing."""
-        raise NotImplementedError
+        return time.monotonic_ns() - self._began_ns
 
     def look(self) -> int:
         """Return `now_ns` for a program that asks what time it is, or whether something has happened."""
-        raise NotImplementedError
+        return self.now_ns()
+
+    def wall_ns(self) -> int:
+        """Return ROS time, which is system time."""
+        return time.time_ns()
 
     def count_publish(self) -> None:
         """Let the little time pass that publishing takes."""
 
     def send(self, word: str, *values: Any) -> None:
         """Send a word, with the time put first."""
-        raise NotImplementedError
-
-    def start(self) -> None:
-        """Begin to hear the host, where that takes threads."""
+        frame = self._encoded(word, values)
+        with self._sending:
+            self._channel.sendall(frame)
 
     def flush(self) -> None:
         """Send what is kept back."""
 
     # --- what names stand on ---
-
-    def wall_ns(self) -> int:
-        """Return ROS time, which is system time."""
-        return self.settings.start_ns + self.look()
 
     def twist(self, vx_mps: float, vy_mps: float, wz_radps: float, planar: bool) -> None:
         """Ask for a velocity; `planar`: without the parts that no ground robot has."""
@@ -134,13 +140,23 @@ class Link:
             for listener in tuple(self._listeners.get(sensor, ())):
                 listener(values)
 
+    def _beat(self) -> None:
+        while True:
+            self.send("beat")
+            time.sleep(BEAT_S)
+
+    def _take_in(self) -> None:
+        while True:
+            for _, messages in self._read():
+                self._deliver(messages)
+
 
 _current: list[Link] = []
 
 
 def open_link(channel: socket.socket, settings: ProgramSettings) -> Link:
     """Begin to speak with the host on `channel`, for this whole process."""
-    link = _VirtualLink(channel, settings) if settings.mode == "virtual" else _LiveLink(channel, settings)
+    link = (_VirtualLink if settings.mode == "virtual" else Link)(channel, settings)
     _current[:] = [link]
     link.start()
     return link
@@ -178,45 +194,6 @@ class _Thrift:
         yield text
 
 
-BEAT_S = 0.1
-
-
-class _LiveLink(Link):
-    """In real time: words go out at once, a thread takes in what sensors say, another one beats."""
-
-    def __init__(self, channel: socket.socket, settings: ProgramSettings) -> None:
-        super().__init__(channel, settings)
-        self._began_ns = time.monotonic_ns()
-        self._sending = threading.Lock()
-
-    def start(self) -> None:
-        for name, work in (("beat", self._beat), ("take in", self._take_in)):
-            threading.Thread(target=work, name=name, daemon=True).start()
-
-    def now_ns(self) -> int:
-        return time.monotonic_ns() - self._began_ns
-
-    look = now_ns
-
-    def wall_ns(self) -> int:
-        return time.time_ns()
-
-    def send(self, word: str, *values: Any) -> None:
-        frame = self._encoded(word, values)
-        with self._sending:
-            self._channel.sendall(frame)
-
-    def _beat(self) -> None:
-        while True:
-            self.send("beat")
-            time.sleep(BEAT_S)
-
-    def _take_in(self) -> None:
-        while True:
-            for _, messages in self._read():
-                self._deliver(messages)
-
-
 SEND_AT_BYTES = 16 * 1024
 NEVER_NS = 2**62
 SLACK_NS = 100
@@ -243,6 +220,12 @@ class _VirtualLink(Link):
 
     def now_ns(self) -> int:
         return self.scheduler.now_ns
+
+    def start(self) -> None:
+        """No threads: the program waits for the host."""
+
+    def wall_ns(self) -> int:
+        return self.settings.start_ns + self.look()
 
     def look(self) -> int:
         return self.scheduler.look()

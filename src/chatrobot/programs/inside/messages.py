@@ -8,6 +8,8 @@ from array import array
 from collections.abc import Callable, Sequence
 from typing import Any
 
+import numpy as np
+
 REGISTRY: dict[str, type[Any]] = {}
 """Message classes by `package/Name`."""
 
@@ -156,7 +158,7 @@ def _scalar(kind: str) -> Field:
         return _float(kind)
     if kind == "bool":
         return lambda: False, _of_type(bool, "bool")
-    if kind in ("string", "wstring"):
+    if kind == "string":
         return str, _of_type(str, "str")
     if kind == "byte":
         return lambda: b"\x00", _byte
@@ -219,7 +221,7 @@ def _nested(kind: str) -> Field:
     return make, check
 
 
-def _sequence(base: str, most: int | None = None) -> Field:
+def _sequence(base: str, most_count: int | None = None) -> Field:
     _, check_one = _scalar(base)
     code = _code(base)
     name = {"string": "str", "byte": "bytes"}.get(base) or (
@@ -240,7 +242,7 @@ def _sequence(base: str, most: int | None = None) -> Field:
                 check_one(field, item)
             except AssertionError as error:
                 raise AssertionError(problem) from error
-        assert most is None or len(items) <= most, problem
+        assert most_count is None or len(items) <= most_count, problem
         if code:
             return array(code, value if isinstance(value, (bytes, bytearray)) else items)
         return items
@@ -248,26 +250,13 @@ def _sequence(base: str, most: int | None = None) -> Field:
     return (lambda: array(code)) if code else list, check
 
 
-def _fixed(base: str, size: int) -> Field:
-    """Numbers are a numpy array, as in ROS; the rest is a list."""
+def _fixed(base: str, count: int) -> Field:
+    """A numpy array, as in ROS, of one of its numbers: no message here has anything else of a fixed count."""
     _, check_one = _scalar(base)
-    code = _code(base)
-
-    def make() -> Any:
-        if not code:
-            make_one, _ = _scalar(base)
-            return [make_one() for _ in range(size)]
-        import numpy as np
-
-        return np.zeros(size, dtype=base)
 
     def check(field: str, value: Any) -> Any:
-        problem = f"The '{field}' field must be a set or sequence with length {size}"
-        assert hasattr(value, "__len__") and not isinstance(value, str) and len(value) == size, problem
-        if not code:
-            return [check_one(field, item) for item in value]
-        import numpy as np
-
+        problem = f"The '{field}' field must be a set or sequence with length {count}"
+        assert hasattr(value, "__len__") and not isinstance(value, str) and len(value) == count, problem
         if isinstance(value, np.ndarray):
             assert value.dtype == np.dtype(base), (
                 f"The '{field}' numpy.ndarray() must have the dtype of '{base}'"
@@ -275,7 +264,7 @@ def _fixed(base: str, size: int) -> Field:
             return value
         return np.array([check_one(field, item) for item in value], dtype=base)
 
-    return make, check
+    return lambda: np.zeros(count, dtype=base), check
 
 
 def _code(base: str) -> str:

@@ -21,7 +21,7 @@ _allocate_lock = _thread.allocate_lock
 
 
 class Outside(Protocol):
-    """Where time comes from."""
+    """The source of time."""
 
     due_ns: int
     """When the next message of the robot may come that the program listens for."""
@@ -167,5 +167,5 @@ class Scheduler:
         return bool(self._sleepers) and self._sleepers[0][0] <= self.now_ns
 
     @staticmethod
-    def _is_waiting(task: Task, ticket: int) -> bool:
-        return task.waits and task.ticket == ticket
+    def _is_waiting(task: Task, ticket_number: int) -> bool:
+        return task.waits and task.ticket == ticket_number

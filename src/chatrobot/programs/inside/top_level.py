@@ -31,7 +31,9 @@ from chatrobot.programs.names import (
 HOMES: Mapping[str, tuple[ModuleType, str]] = {
     "rclpy": (rclpy, ""),
     "rclpy._rclpy_pybind11": (
-        errors, "RCLError NodeNameNonExistentError RCLInvalidROSArgsError UnknownROSArgsError InvalidHandle Destroyable Entity Queue"
+        errors,
+        "RCLError NodeNameNonExistentError RCLInvalidROSArgsError UnknownROSArgsError InvalidHandle Destroyable Entity "
+        "Queue",
     ),
     "rclpy.action": (services, "ActionClient ActionServer"),
     "rclpy.callback_groups": (task, "CallbackGroup ReentrantCallbackGroup MutuallyExclusiveCallbackGroup"),

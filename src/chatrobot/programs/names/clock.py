@@ -18,7 +18,7 @@ _DurationMsg, _TimeMsg = kind("builtin_interfaces/Duration"), kind("builtin_inte
 
 
 class ClockType(IntEnum):
-    """In the box all three tell the same time."""
+    """In the sandbox all three tell the same time."""
 
     ROS_TIME = 1
     SYSTEM_TIME = 2

@@ -16,7 +16,7 @@ class NodeNameNonExistentError(RCLError):
 
 
 class RCLInvalidROSArgsError(RCLError):
-    """What stands behind `--ros-args` cannot be read."""
+    """The arguments behind `--ros-args` cannot be read."""
 
 
 class UnknownROSArgsError(RuntimeError):
@@ -24,11 +24,11 @@ class UnknownROSArgsError(RuntimeError):
 
 
 class InvalidHandle(RuntimeError):
-    """What is used has been destroyed."""
+    """Something is used that has been destroyed."""
 
 
 class Destroyable:
-    """What stands below an entity; `with` it the entity can be used, until it was destroyed."""
+    """The handle below an entity; `with` it the entity can be used, until it was destroyed."""
 
     def __init__(self) -> None:
         self.is_destroyed = False
@@ -59,7 +59,7 @@ class Entity:
 
 
 class Queue(Destroyable):
-    """What waits at an entity until an executor takes it; `wake` is the executor's."""
+    """Keeps what waits at an entity until an executor takes it; `wake` is the executor's."""
 
     def __init__(self, wake: Callable[[], None], name: str) -> None:
         super().__init__()

@@ -28,7 +28,7 @@ class ExternalShutdownException(Exception):
 
 
 class ConditionReachedException(Exception):
-    """What the wait was for has come."""
+    """The condition of the wait is reached."""
 
 
 class Executor:
@@ -212,7 +212,7 @@ Kind = Callable[[Any], Call]
 
 
 def find_batch(executor: Any, nodes: Iterable[Any], now_ns: int) -> tuple[Iterator[Task], int | None]:
-    """What is ready now, as rclpy works it off: all of it before anything that becomes ready meanwhile.
+    """Find what is ready now, as rclpy works it off: all of it before anything that becomes ready meanwhile.
 
     Returns:
         Tasks, made when they are asked for, and when the next timer ticks.

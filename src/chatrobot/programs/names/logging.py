@@ -10,7 +10,7 @@ from chatrobot.programs.inside.link import get_link
 
 
 class LoggingSeverity(IntEnum):
-    """Of a line of the log."""
+    """The severity of a line of the log."""
 
     UNSET = 0
     DEBUG = 10
@@ -52,7 +52,7 @@ class RcutilsLogger:
         return LoggingSeverity(severity) >= self.get_effective_level()
 
     def log(self, message: str, severity: int, **options: Any) -> bool:
-        """Whether the line went out."""
+        """Send a line; tell whether it went out."""
         for option in options:
             if option not in (*_OPTIONS, "name"):
                 raise TypeError(

@@ -57,7 +57,7 @@ class NodeHandle(Destroyable):
 
 
 class Node(NodeEntities, NodeParameters):
-    """What a program's class derives from."""
+    """The base class of a program's node."""
 
     def __init__(
         self,
@@ -137,7 +137,7 @@ class Node(NodeEntities, NodeParameters):
         yield from tuple(self.__waitables)
 
     def add_waitable(self, waitable: Any) -> None:
-        """Nothing in the box waits for one."""
+        """Nothing in the sandbox waits for one."""
         self.__waitables.append(waitable)
         self._wake_executor()
 

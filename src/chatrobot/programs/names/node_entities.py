@@ -24,6 +24,13 @@ from chatrobot.programs.names.timers import GuardCondition, Rate, Timer
 from chatrobot.programs.names.topics import Publisher, PublisherHandle, Subscription, SubscriptionHandle
 
 
+def _each(attribute: str) -> property:
+    def each(node: Any) -> Iterator[Any]:
+        yield from tuple(getattr(node, attribute))
+
+    return property(each)
+
+
 class NodeEntities(NodeGraph):
     """See the module."""
 
@@ -41,29 +48,12 @@ class NodeEntities(NodeGraph):
         self._guards: list[GuardCondition] = []
         self._rate_group: CallbackGroup = ReentrantCallbackGroup()
 
-    @property
-    def publishers(self) -> Iterator[Publisher]:
-        yield from tuple(self._publishers)
-
-    @property
-    def subscriptions(self) -> Iterator[Subscription]:
-        yield from tuple(self._subscriptions)
-
-    @property
-    def clients(self) -> Iterator[Client]:
-        yield from tuple(self._clients)
-
-    @property
-    def services(self) -> Iterator[Service]:
-        yield from tuple(self._services)
-
-    @property
-    def timers(self) -> Iterator[Timer]:
-        yield from tuple(self._timers)
-
-    @property
-    def guards(self) -> Iterator[GuardCondition]:
-        yield from tuple(self._guards)
+    publishers = _each("_publishers")
+    subscriptions = _each("_subscriptions")
+    clients = _each("_clients")
+    services = _each("_services")
+    timers = _each("_timers")
+    guards = _each("_guards")
 
     # --- making ---
 
@@ -244,7 +234,7 @@ def qos_of(qos_or_depth: Any) -> QoSProfile:
 
 
 def check_type(wanted: str, kind: Any) -> None:
-    """What is no ROS type, or one of another sort than "message" or "service", fails as in rclpy."""
+    """Fail as rclpy does for what is no ROS type, or not of the wanted sort: "message" or "service"."""
     if not hasattr(kind, "_type_name"):
         raise AttributeError(
             f"type object '{type(kind).__name__}' has no attribute '_TYPE_SUPPORT' This might be a ROS 1 message type "

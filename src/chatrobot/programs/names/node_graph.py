@@ -114,7 +114,7 @@ class NodeGraph:
 
 
 class TopicEndpointInfo:
-    """Who publishes on a topic or listens to it."""
+    """A publisher or subscription of a topic."""
 
     def __init__(self, node: Any, entity: Any) -> None:
         self.node_name = node.handle.name
@@ -144,7 +144,7 @@ _SUBSTITUTION = re.compile(r"\{(\w*)\}")
 
 
 def node_name_problem(name: str) -> tuple[str, int] | None:
-    """What is wrong with a node's name and where; None where nothing is."""
+    """Return what is wrong with a node's name and where; None where nothing is."""
     if not name:
         return "node name must not be empty", 0
     if name[0].isdigit():
@@ -153,7 +153,7 @@ def node_name_problem(name: str) -> tuple[str, int] | None:
 
 
 def topic_name_problem(name: str) -> tuple[str, int] | None:
-    """What is wrong with a topic's or service's name as a program writes it, and where."""
+    """Return what is wrong with a topic's or service's name as a program writes it, and where."""
     if not name:
         return "topic name must not be empty string", 0
     if name.endswith("/"):

@@ -22,7 +22,7 @@ class Parameter:
     """A name and a value of one of ROS's types."""
 
     class Type(Enum):
-        """What a parameter may be."""
+        """The types of parameters."""
 
         NOT_SET = 0
         BOOL = 1
@@ -100,7 +100,7 @@ class Parameter:
 
 
 def parameter_value_to_python(parameter_value: Any) -> Any:
-    """What a `ParameterValue` holds."""
+    """Return what a `ParameterValue` holds."""
     kind = Parameter.Type(parameter_value.type)
     if kind is Parameter.Type.NOT_SET:
         return None

@@ -32,7 +32,7 @@ class QoSPolicyEnum(IntEnum):
 
 
 class HistoryPolicy(QoSPolicyEnum):
-    """How many messages are kept."""
+    """Sets how many messages are kept."""
 
     SYSTEM_DEFAULT = 0
     KEEP_LAST = 1
@@ -41,7 +41,7 @@ class HistoryPolicy(QoSPolicyEnum):
 
 
 class ReliabilityPolicy(QoSPolicyEnum):
-    """Whether lost messages are sent again."""
+    """Sets whether lost messages are sent again."""
 
     SYSTEM_DEFAULT = 0
     RELIABLE = 1
@@ -51,7 +51,7 @@ class ReliabilityPolicy(QoSPolicyEnum):
 
 
 class DurabilityPolicy(QoSPolicyEnum):
-    """Whether who comes late gets what was sent before."""
+    """Sets whether a late subscription gets what was sent before."""
 
     SYSTEM_DEFAULT = 0
     TRANSIENT_LOCAL = 1
@@ -61,7 +61,7 @@ class DurabilityPolicy(QoSPolicyEnum):
 
 
 class LivelinessPolicy(QoSPolicyEnum):
-    """How a publisher shows that it lives."""
+    """Sets how a publisher shows that it lives."""
 
     SYSTEM_DEFAULT = 0
     AUTOMATIC = 1
@@ -77,7 +77,7 @@ QoSLivelinessPolicy = LivelinessPolicy
 
 
 class QoSProfile:
-    """How a topic is served. In the box everything is delivered in order; `depth` and durability count."""
+    """The service quality of a topic. In the sandbox everything is delivered in order; `depth` and durability count."""
 
     def __init__(
         self,
@@ -168,8 +168,8 @@ class _Callbacks:
 
 
 class PublisherEventCallbacks(_Callbacks):
-    """Taken and never called: in the box no QoS goes wrong."""
+    """Taken and never called: in the sandbox no QoS goes wrong."""
 
 
 class SubscriptionEventCallbacks(_Callbacks):
-    """Taken and never called: in the box no QoS goes wrong."""
+    """Taken and never called: in the sandbox no QoS goes wrong."""

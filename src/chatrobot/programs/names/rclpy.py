@@ -90,7 +90,7 @@ def spin_until_future_complete(
 
 
 class SignalHandlerOptions(Enum):
-    """In the box no signal reaches a program: a stop ends it."""
+    """In the sandbox no signal reaches a program: a stop ends it."""
 
     NO = 0
     SIGINT = 1

@@ -16,7 +16,7 @@ from chatrobot.programs.names.task import Future
 
 
 class ServiceHandle(Queue):
-    """What is asked of a service: requests, each with what takes its response."""
+    """Keeps requests, each with what takes its response."""
 
     srv_type: Any = None
 
@@ -70,12 +70,12 @@ LOOKS_EVERY_S = 0.25
 
 
 class ClientHandle(Queue):
-    """What services answer: a future and its response."""
+    """Keeps responses, each with its future."""
 
     srv_type: Any = None
 
     def find_service(self) -> Any:
-        """Who serves it, None for nobody."""
+        """Return the handle that serves it, None for nobody."""
         return graph.find_service(self.name, self.srv_type)
 
 

@@ -10,7 +10,7 @@ from chatrobot.programs.names.errors import Destroyable, Entity, RCLError, ROSIn
 
 
 class TimerHandle(Destroyable):
-    """When a timer ticks: after every whole period, the first time after one; late ticks don't shift the later ones."""
+    """Reckons a timer's ticks: one after every whole period; late ticks don't shift the later ones."""
 
     def __init__(self, period_ns: int, *, is_canceled: bool) -> None:
         super().__init__()
@@ -22,7 +22,7 @@ class TimerHandle(Destroyable):
 
     @property
     def due_ns(self) -> int | None:
-        """When it ticks next; None where it does not."""
+        """Return when it ticks next; None where it does not."""
         return None if self.is_canceled or self.is_destroyed else self.next_ns
 
     def take(self) -> None:
@@ -140,7 +140,7 @@ class Rate:
 
 
 class GuardHandle(Destroyable):
-    """Whether it was triggered."""
+    """Notes that it was triggered."""
 
     def __init__(self) -> None:
         super().__init__()

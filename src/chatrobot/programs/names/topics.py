@@ -25,7 +25,7 @@ class PublisherHandle(Destroyable):
         self.kept: deque[Any] = deque()
 
     def kept_for(self, subscription: Any) -> list[Any]:
-        """What a late subscription gets."""
+        """Return what a late subscription gets."""
         late = subscription.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL
         return list(self.kept) if late and subscription.msg_type is self.msg_type else []
 
@@ -92,11 +92,11 @@ class Publisher(Entity):
 
 
 class MessageInfo(dict[str, Any]):
-    """What a callback with two arguments gets besides the message."""
+    """The second argument of callbacks that take two."""
 
 
 class SubscriptionHandle(Queue):
-    """What comes in on `name`: the last messages, as many as the depth."""
+    """Keeps the last messages on `name`, as many as the depth."""
 
     sensor = ""
 
@@ -172,7 +172,7 @@ class Subscription(Entity):
 
 
 def _wants_info(callback: Any) -> bool:
-    """Whether it takes what is known of a message besides the message."""
+    """Tell whether it takes two arguments: the message, and what is known of it."""
     for count in (1, 2):
         try:
             inspect.signature(callback).bind(*range(count))

@@ -1,1 +1,1 @@
-"""From a plan to a readable rclpy program, as a person would write it: see `program`."""
+"""Writes a plan as a readable rclpy program, as a person would: see `program`."""

@@ -69,6 +69,11 @@ ON_ODOM = """\
         self.pose = (position.x, position.y, yaw)
 """
 
+ON_SCAN = """\
+    def on_scan(self, message):
+        self.scan = message
+"""
+
 ON_TURTLE_POSE = """\
     def on_odom(self, message):
         self.pose = (message.x, message.y, message.theta)

@@ -1,4 +1,4 @@
-"""From steps to the lines of the program's `run`, and what helpers those lines call."""
+"""Writes steps as the lines of the program's `run`, and notes which helpers those lines call."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ Walked = dict[tuple[int, ...], list[PlannedMotion]]
 
 
 def _walked(plan: Plan, context: LoweringContext) -> Walked | Impossible:
-    """What each step comes to the first time it is done."""
+    """Return what each step comes to the first time it is done."""
     walk: CoreWalk = iterate_core(plan, context)
     motions: Walked = {}
     closed: set[tuple[int, ...]] = set()
@@ -182,7 +182,7 @@ class _Writer:
         self._rest(depth)
 
     def _waypoints(self, step: Go, index: tuple[int, ...]) -> list[Point]:
-        """Where the way around what is known bends, and the goal, in the frame of `step`."""
+        """Return where the way around what is known bends, and the goal, in the frame of `step`."""
         frame = self._context.frame_pose(step.frame)
         ends = [
             item.end.relative_to(frame)

@@ -44,7 +44,7 @@ class _Program:
         self._profile = profile
         self._wanted = wanted
         self._uses = body.uses
-        self._is_stamped = profile.wiring.cmd_vel_type == "TwistStamped"
+        self._kind = "TwistStamped" if profile.wiring.cmd_vel_type == "TwistStamped" else "Twist"
         self._has_scan = "move_until_near" in body.uses
         self._has_turtle = profile.wiring.odom_type == "turtlesim/Pose"
         self._listens = body.needs_pose or self._has_scan
@@ -67,23 +67,20 @@ class _Program:
         return f'{lead}\n\n{asked}"""' if asked else f'{lead}"""'
 
     def _imports(self) -> str:
-        modules = ["time"]
-        if self._listens or "math" in self._uses:
-            modules.insert(0, "math")
-        lines = [f"import {module}" for module in modules]
-        lines += ["", "import rclpy"]
-        lines.append(f"from geometry_msgs.msg import {'TwistStamped' if self._is_stamped else 'Twist'}")
-        if self._body.needs_pose and not self._has_turtle:
-            lines.append("from nav_msgs.msg import Odometry")
-        lines.append("from rclpy.node import Node")
-        if self._has_scan:
-            lines.append("from rclpy.qos import qos_profile_sensor_data")
-        lines.append("from rclpy.signals import SignalHandlerOptions")
-        if self._has_scan:
-            lines.append("from sensor_msgs.msg import LaserScan")
-        if self._body.needs_pose and self._has_turtle:
-            lines.append("from turtlesim.msg import Pose")
-        return "\n".join(lines)
+        lines = {
+            "import math": self._listens or "math" in self._uses,
+            "import time": True,
+            "": True,
+            "import rclpy": True,
+            f"from geometry_msgs.msg import {self._kind}": True,
+            "from nav_msgs.msg import Odometry": self._body.needs_pose and not self._has_turtle,
+            "from rclpy.node import Node": True,
+            "from rclpy.qos import qos_profile_sensor_data": self._has_scan,
+            "from rclpy.signals import SignalHandlerOptions": True,
+            "from sensor_msgs.msg import LaserScan": self._has_scan,
+            "from turtlesim.msg import Pose": self._body.needs_pose and self._has_turtle,
+        }
+        return "\n".join(line for line, is_needed in lines.items() if is_needed)
 
     def _constants(self) -> str:
         lines = [f"PERIOD = {number(FEEDBACK_PERIOD_S if self._listens else PERIOD_S)}  # s"]
@@ -102,11 +99,10 @@ class _Program:
     def _init(self) -> str:
         wiring = self._profile.wiring
         topic = self._wanted.topic or wiring.cmd_vel_topic
-        kind = "TwistStamped" if self._is_stamped else "Twist"
         lines = [
             "    def __init__(self):",
             f"        super().__init__({node_name(self._wanted.name)!r})",
-            f"        self.publisher = self.create_publisher({kind}, {topic!r}, 10)",
+            f"        self.publisher = self.create_publisher({self._kind}, {topic!r}, 10)",
         ]
         if self._body.needs_pose:
             odom = "Pose" if self._has_turtle else "Odometry"
@@ -147,30 +143,25 @@ class _Program:
         direction = (
             "math.atan2(linear_y, linear_x)" if "linear_y" in self._uses else "math.atan2(0.0, linear_x)"
         )
-        found: list[str] = []
-        if "move" in self._uses or "rest" in self._uses:
-            found.append(helpers.MOVE.format(**calls))
-        if "rest" in self._uses:
-            found.append(helpers.REST.format(rest=number(self._settle_s())))
-        if "go_to" in self._uses:
-            found.append(helpers.GO_TO.format(**filled))
-        if self._body.needs_pose:
-            found.append(helpers.FACE.format(**filled))
-        if "from_start" in self._uses:
-            found.append(helpers.FROM_START)
-        if self._has_scan:
-            found.append(helpers.MOVE_UNTIL_NEAR.format(direction=direction, **calls))
-            found.append(helpers.FREE_AHEAD)
-            found.append("    def on_scan(self, message):\n        self.scan = message\n")
-        if self._body.needs_pose:
-            found.append(helpers.ON_TURTLE_POSE if self._has_turtle else helpers.ON_ODOM)
-            found.append(helpers.WAIT_FOR_POSE)
-        listening = helpers.PAUSE_SLEEPING if self._wanted.uses_sleep else helpers.PAUSE_LISTENING
-        found.append(listening if self._listens else helpers.PAUSE)
-        publish = helpers.PUBLISH_STAMPED if self._is_stamped else helpers.PUBLISH
-        found.append(publish.format(**filled))
-        found.append(helpers.STOP.format(**filled))
-        return found
+        uses, has_pose = self._uses, self._body.needs_pose
+        pause = helpers.PAUSE_SLEEPING if self._wanted.uses_sleep else helpers.PAUSE_LISTENING
+        publish = helpers.PUBLISH_STAMPED if self._kind == "TwistStamped" else helpers.PUBLISH
+        methods = {
+            helpers.MOVE.format(**calls): "move" in uses or "rest" in uses,
+            helpers.REST.format(rest=number(self._settle_s())): "rest" in uses,
+            helpers.GO_TO.format(**filled): "go_to" in uses,
+            helpers.FACE.format(**filled): has_pose,
+            helpers.FROM_START: "from_start" in uses,
+            helpers.MOVE_UNTIL_NEAR.format(direction=direction, **calls): self._has_scan,
+            helpers.FREE_AHEAD: self._has_scan,
+            helpers.ON_SCAN: self._has_scan,
+            helpers.ON_TURTLE_POSE if self._has_turtle else helpers.ON_ODOM: has_pose,
+            helpers.WAIT_FOR_POSE: has_pose,
+            pause if self._listens else helpers.PAUSE: True,
+            publish.format(**filled): True,
+            helpers.STOP.format(**filled): True,
+        }
+        return [method for method, is_needed in methods.items() if is_needed]
 
     def _settle_s(self) -> float:
         """As long as the ramps down from the default speeds take, and a little."""
@@ -232,15 +223,15 @@ def folded(steps: Sequence[Step]) -> tuple[Step, ...]:
     return tuple(found)
 
 
-def _repeats(steps: Sequence[Step], at: int) -> tuple[int, int]:
+def _repeats(steps: Sequence[Step], first_index: int) -> tuple[int, int]:
     """Length and count of the block that covers most from there on; (1, 1) where nothing repeats."""
     best = (1, 1)
-    for length in range(1, (len(steps) - at) // 2 + 1):
-        block = steps[at : at + length]
+    for length in range(1, (len(steps) - first_index) // 2 + 1):
+        block = steps[first_index : first_index + length]
         if any(isinstance(step, (Go, Block)) for step in block):
             break
         count = 1
-        while steps[at + length * count : at + length * (count + 1)] == block:
+        while steps[first_index + length * count : first_index + length * (count + 1)] == block:
             count += 1
         if count > 1 and length * count > best[0] * best[1]:
             best = (length, count)
@@ -249,7 +240,7 @@ def _repeats(steps: Sequence[Step], at: int) -> tuple[int, int]:
 
 @dataclass(frozen=True)
 class Wanted:
-    """How the program is to be.
+    """The wishes for a program.
 
     Args:
         name: of the program and its node, in words of any language.
