@@ -27,9 +27,10 @@ from scripts.fuzz_robots import with_everything
 from tests.realtime import RunningRobot
 
 from bench.latency import percentile
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.governed import StopEpoch
-from chatrobot.governor.governor import TICK_S, Governor
+from chatrobot.governor.governor import Governor
 from chatrobot.governor.rule import Sensed
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile

@@ -9,8 +9,8 @@ import statistics
 import time
 from collections.abc import Callable
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import ORIGIN
-from chatrobot.governor.governor import TICK_S
 from chatrobot.language.context import Context
 from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.motion.planner import Planner

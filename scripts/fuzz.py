@@ -21,9 +21,10 @@ from scripts.fuzz_contact import broken_in_contact
 from scripts.fuzz_limits import BrokenPromiseError, Sent
 from scripts.fuzz_robots import profiles
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.governed import GovernedTwist, StopEpoch
-from chatrobot.governor.governor import TICK_S, Governor
+from chatrobot.governor.governor import Governor
 from chatrobot.governor.rule import Sensed
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.messages import LaserScan

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import Twist
-from chatrobot.governor.governor import LONGEST_STEP_S, TICK_S
+from chatrobot.governor.governor import LONGEST_STEP_S
 from chatrobot.robots.profile import RobotProfile
 
 EPSILON = 1e-9

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from tests.rig import Rig
 
-from chatrobot.governor.tick import TICK_S
+from chatrobot.core.clock import TICK_S
 from chatrobot.plan.text import parse_plan
 
 FILE = Path(__file__).resolve().parents[1] / "docs" / "images" / "speed-profile.svg"

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
-from chatrobot.core.clock import VirtualClock
+from chatrobot.core.clock import TICK_S, VirtualClock
 from chatrobot.core.events import Event
 from chatrobot.core.geometry import ORIGIN, Twist
 from chatrobot.core.governed import StopEpoch
 from chatrobot.execution.executor import Executor
 from chatrobot.execution.sensors import Sensors
-from chatrobot.governor.governor import TICK_S, Governor
+from chatrobot.governor.governor import Governor
 from chatrobot.governor.rule import Sensed
 from chatrobot.plan.context import LoweringContext
 from chatrobot.plan.lowering import iterate_core

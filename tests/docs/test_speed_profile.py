@@ -7,7 +7,7 @@ import re
 import pytest
 from scripts import speed_profile
 
-from chatrobot.governor.tick import TICK_S
+from chatrobot.core.clock import TICK_S
 
 NUMBER = re.compile(r"[0-9]+(?:\.[0-9]+)?")
 

@@ -9,7 +9,7 @@ from collections.abc import Callable
 import pytest
 from tests.rig import Rig
 
-from chatrobot.governor.governor import TICK_S
+from chatrobot.core.clock import TICK_S
 from chatrobot.plan.steps import Drive, ObstacleWithin, Plan, RawTwist, Repeat, Turn, Wait
 from chatrobot.sim.shapes import rectangle
 from chatrobot.wire.messages import Message

@@ -10,8 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.governor.situations import MECANUM
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import Twist
-from chatrobot.governor.braking import CREEP_MPS, TICK_S, Braking
+from chatrobot.governor.kernel import CREEP_MPS, Braking
 
 LIMITS = replace(
     MECANUM.limits,

@@ -7,9 +7,10 @@ from dataclasses import replace
 
 import pytest
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 from chatrobot.core.governed import StopEpoch
-from chatrobot.governor.governor import LONGEST_STEP_S, TICK_S, Governor
+from chatrobot.governor.governor import LONGEST_STEP_S, Governor
 from chatrobot.governor.rule import Sensed
 from chatrobot.robots.load import load_profile
 from chatrobot.wire.messages import LaserScan

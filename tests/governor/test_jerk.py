@@ -9,10 +9,11 @@ from dataclasses import replace
 import pytest
 from tests.governor.situations import ANGULAR_JERK_RADPS3, JERK_MPS3, MECANUM, smooth
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.governed import StopEpoch
-from chatrobot.governor.governor import TICK_S, Governor
-from chatrobot.governor.jerk import JerkLimit, _most
+from chatrobot.governor.governor import Governor
+from chatrobot.governor.kernel import JerkLimit, _most
 from chatrobot.robots.profile import RobotProfile
 
 

@@ -6,8 +6,7 @@ import math
 
 import pytest
 
-from chatrobot.governor.lease import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S, Leases
-from chatrobot.governor.priority import Priority
+from chatrobot.governor.lease import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S, Leases, Priority
 
 
 def opened(source: str = "console", term_s: float = 0.25) -> Leases:

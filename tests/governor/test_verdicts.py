@@ -8,9 +8,10 @@ from dataclasses import replace
 import pytest
 from tests.governor.situations import ANGULAR_JERK_RADPS3, MECANUM, smooth, with_safety
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Twist
 from chatrobot.core.governed import StopEpoch
-from chatrobot.governor.governor import TICK_S, Governor, Verdict
+from chatrobot.governor.governor import Governor, Verdict
 from chatrobot.governor.kernel import make_kernel
 from chatrobot.governor.rule import Ruling, Situation
 from chatrobot.robots.profile import Circle, RobotProfile, Safety

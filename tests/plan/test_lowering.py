@@ -10,7 +10,6 @@ import pytest
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.plan.context import Impossible, LoweringContext, NoRoute, Route
-from chatrobot.plan.core_motion import CoreMotion, Emit, Pause, RampedTwist
 from chatrobot.plan.lowering import PlannedMotion, iterate_core, lower
 from chatrobot.plan.steps import (
     Arc,
@@ -27,6 +26,7 @@ from chatrobot.plan.steps import (
     Turn,
     Wait,
 )
+from chatrobot.plan.trajectory import CoreMotion, Emit, Pause, RampedTwist
 from chatrobot.robots.profile import RobotProfile
 from tests.plan.robots import ACKERMANN, DIFFERENTIAL, MECANUM
 

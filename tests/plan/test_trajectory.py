@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from chatrobot.core.geometry import Pose, Twist
-from chatrobot.plan.core_motion import RAMP_SHARE, RampedTwist
-from chatrobot.plan.trajectory import Ramp, Segment
+from chatrobot.plan.trajectory import RAMP_SHARE, Ramp, RampedTwist, Segment
 from tests.plan.robots import MECANUM
 
 LIMITS = MECANUM.limits

@@ -8,9 +8,10 @@ from collections.abc import Callable
 
 import pytest
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import ORIGIN, Twist
 from chatrobot.core.governed import StopEpoch
-from chatrobot.governor.governor import TICK_S, Governor
+from chatrobot.governor.governor import Governor
 from chatrobot.governor.rule import Sensed
 from chatrobot.robots.open_loop import driven_open_loop
 from chatrobot.robots.profile import RobotProfile

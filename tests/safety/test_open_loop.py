@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.errors import UsageError
 from chatrobot.core.event import event_from_json
 from chatrobot.core.events import Finished, Notice
@@ -19,7 +20,7 @@ from chatrobot.core.governed import StopEpoch
 from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.core.reason import Reason
 from chatrobot.execution.executor import UNSEEN_S
-from chatrobot.governor.governor import TICK_S, Governor
+from chatrobot.governor.governor import Governor
 from chatrobot.link.in_process import InProcessLink
 from chatrobot.link.topic_link import TopicLink
 from chatrobot.motion.safety.competing_controllers import CompetingControllers
@@ -35,7 +36,7 @@ from chatrobot.robots.open_loop import (
 )
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.load import load_world
-from chatrobot.sim.start import check_known
+from chatrobot.sim.world import check_known
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import TwistMessage
 from tests.dialogue.undo_rig import UndoRig

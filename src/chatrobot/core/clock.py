@@ -5,6 +5,9 @@ from __future__ import annotations
 import time
 from typing import Protocol
 
+TICK_S = 0.02
+"""The control period: 50 Hz."""
+
 _BOOT_CLOCK: int = getattr(time, "CLOCK_BOOTTIME", time.CLOCK_MONOTONIC)
 
 

@@ -11,7 +11,7 @@ from chatrobot.core.errors import InputError
 from chatrobot.core.geometry import Pose
 from chatrobot.core.shown import one_line
 from chatrobot.language.context import Place
-from chatrobot.plan.primitives.go import MAX_PLACE_CHARS
+from chatrobot.plan.primitives.drive import MAX_PLACE_CHARS
 
 _FILE = "places.json"
 

@@ -8,28 +8,28 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.events import Event, Outcome, Progress, Remembered, Said
 from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.execution.estimator import Estimate
-from chatrobot.execution.health import (
-    STANDS_LATE_S,
-    is_seen_moving,
-    is_seen_standing,
-    sensor_fault,
+from chatrobot.execution.reference_trajectory import ReferenceTrajectory, Tally
+from chatrobot.execution.sensors import STANDS_LATE_S, Sensors, is_seen_moving, is_seen_standing, sensor_fault
+from chatrobot.execution.tracking import (
+    AT_THE_END,
+    BETWEEN_STEPS,
+    TRIES,
+    Tolerance,
+    corrected,
+    correction,
+    must_brake,
     tracking_fault,
+    without_reverse,
 )
-from chatrobot.execution.lookahead import must_brake
-from chatrobot.execution.reference_trajectory import TICK_S, ReferenceTrajectory
-from chatrobot.execution.sensors import Sensors
-from chatrobot.execution.tally import Tally
-from chatrobot.execution.terminal_correction import AT_THE_END, BETWEEN_STEPS, TRIES, Tolerance, correction
-from chatrobot.execution.tracking import corrected, without_reverse
 from chatrobot.plan.context import Impossible
-from chatrobot.plan.core_motion import CoreMotion, Emit, Pause
 from chatrobot.plan.lowering import NotYet, Walk
 from chatrobot.plan.split import Reached
-from chatrobot.plan.trajectory import Segment
+from chatrobot.plan.trajectory import CoreMotion, Emit, Pause, Segment
 from chatrobot.robots.profile import RobotProfile
 
 UNSEEN_S = 0.1

@@ -6,9 +6,8 @@ from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from chatrobot.core.clock import VirtualClock
+from chatrobot.core.clock import TICK_S, VirtualClock
 from chatrobot.core.events import Event, Notice
-from chatrobot.governor.tick import TICK_S
 from chatrobot.link.envelope import Word
 from chatrobot.motion.safety.watchdog import SimulatedGuard
 from chatrobot.transports.transport import ZERO

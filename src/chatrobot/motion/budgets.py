@@ -12,13 +12,13 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.motion_budget import OPEN_LOOP, MotionBudget, read_limit
 from chatrobot.core.reason import Reason
 from chatrobot.execution.sensors import Sensors
-from chatrobot.governor.priority import RELEASERS, Priority, priority_of
-from chatrobot.governor.tick import TICK_S
-from chatrobot.plan.free_part import Most
+from chatrobot.governor.lease import RELEASERS, Priority, priority_of
+from chatrobot.plan.swept_path import Most
 from chatrobot.robots.profile import Limits, RobotProfile
 
 REACHED = frozenset(

@@ -15,9 +15,9 @@ from chatrobot.motion.budgets import Account, Extent
 from chatrobot.motion.plan_stream import Stream
 from chatrobot.motion.planner import Planned
 from chatrobot.plan.base import Step
-from chatrobot.plan.free_part import Most
 from chatrobot.plan.lowering import Walk
 from chatrobot.plan.rehearsal import Rehearsal
+from chatrobot.plan.swept_path import Most
 
 
 @dataclass

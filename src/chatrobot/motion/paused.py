@@ -13,7 +13,7 @@ from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Finished, Notice, Paused
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
-from chatrobot.governor.priority import Priority
+from chatrobot.governor.lease import Priority
 from chatrobot.link.approval import LAPSES_AFTER_M, LAPSES_AFTER_RAD
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.goal import Goal

@@ -17,12 +17,12 @@ from chatrobot.motion.budgets import Extent
 from chatrobot.motion.obstacle_routes import RoutesAroundObstacles
 from chatrobot.motion.remembered_obstacles import RememberedObstacles, seen_but_unknown
 from chatrobot.plan.context import RoutePlanner
-from chatrobot.plan.free_part import ANY_WAY, Most
 from chatrobot.plan.known_world import Floats
 from chatrobot.plan.lowering import CoreWalk
 from chatrobot.plan.rehearsal import Rehearsal, rehearse
 from chatrobot.plan.route import GridRoutePlanner
 from chatrobot.plan.steps import Plan
+from chatrobot.plan.swept_path import ANY_WAY, Most
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.sim.world import World

@@ -11,12 +11,10 @@ from dataclasses import replace
 import numpy as np
 
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
-from chatrobot.governor.blind import BlindRule
 from chatrobot.governor.contact import Floats, Footprint
-from chatrobot.governor.obstacle_memory import ObstacleMemory
-from chatrobot.governor.obstacles import MARGIN_M, NEARER_M
+from chatrobot.governor.obstacle_memory import LidarView, ObstacleMemory
 from chatrobot.governor.rule import NOTHING_SENSED, Sensed, Situation
-from chatrobot.governor.scan_coverage import LidarView
+from chatrobot.governor.space_rules import MARGIN_M, NEARER_M, BlindRule
 from chatrobot.plan import rehearsal
 from chatrobot.plan.known_world import Contact
 from chatrobot.robots.profile import Lidar, RobotProfile

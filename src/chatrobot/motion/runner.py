@@ -16,7 +16,7 @@ import time
 from collections.abc import Callable, Collection
 from dataclasses import replace
 
-from chatrobot.core.clock import RealClock
+from chatrobot.core.clock import TICK_S, RealClock
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Notice
 from chatrobot.core.memory_pressure import MOTION, prefer
@@ -24,8 +24,7 @@ from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.core.reason import Reason
 from chatrobot.core.scheduling import wake_promptly
 from chatrobot.core.wiring import Wiring
-from chatrobot.governor.priority import RELEASERS
-from chatrobot.governor.tick import TICK_S
+from chatrobot.governor.lease import RELEASERS
 from chatrobot.guard.departure import Departure
 from chatrobot.link.envelope import Envelope
 from chatrobot.link.topics import STOP, USER_INPUT
@@ -43,7 +42,7 @@ from chatrobot.robots.load import load_profile
 from chatrobot.robots.open_loop import as_chosen
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.load import load_world
-from chatrobot.sim.start import check_known
+from chatrobot.sim.world import check_known
 from chatrobot.wire.connect import (
     Connect,
     Knowing,

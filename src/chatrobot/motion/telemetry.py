@@ -6,8 +6,8 @@ import math
 from collections.abc import Callable
 
 from chatrobot.core.events import Event, Telemetry
-from chatrobot.execution.lookahead import nearest_m
 from chatrobot.execution.sensors import Sensors
+from chatrobot.execution.tracking import nearest_m
 from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.messages import LaserScan

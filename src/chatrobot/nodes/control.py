@@ -17,7 +17,7 @@ from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Finished, Telemetry
 from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.core.reason import Reason
-from chatrobot.governor.priority import RELEASERS
+from chatrobot.governor.lease import RELEASERS
 from chatrobot.link.envelope import Envelope, Word
 from chatrobot.link.topics import CHATGPT_NODE, EVENTS, TELEMETRY
 from chatrobot.motion.runner import MotionRunner

@@ -5,17 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 
 from chatrobot.core.geometry import Pose
+from chatrobot.plan.base import Plan
 from chatrobot.plan.context import Impossible, LoweringContext
-from chatrobot.plan.core_motion import CoreMotion, RampedTwist
 from chatrobot.plan.known_world import Floats
 from chatrobot.plan.lowering import PlannedMotion
 from chatrobot.plan.split import Reached, split
-from chatrobot.plan.steps import Plan
+from chatrobot.plan.swept_path import STANDING
+from chatrobot.plan.trajectory import CoreMotion, RampedTwist
 
 SPARE_M = 0.01
 """What is offered ends so far before what is in the way, at least."""
@@ -27,32 +27,6 @@ STEP_DEG = 5
 LEAST_M = 0.1
 LEAST_DEG = 10
 """Less than this is not worth a question."""
-
-STANDING = 1e-9
-"""Rows of a path that differ by less are the same."""
-
-
-class Most(NamedTuple):
-    """How far and how long a plan may drive that is offered; while it waits it does not drive."""
-
-    length_m: float = math.inf
-    driving_s: float = math.inf
-
-    def first_row_over(self, rows: Floats) -> int:
-        """The first of the rows [n, 4] of a path that is beyond it; n where none is."""
-        steps = np.diff(rows, axis=0)
-        driven_m = np.cumsum(np.hypot(steps[:, 1], steps[:, 2]))
-        moves = np.any(np.abs(steps[:, 1:]) > STANDING, axis=1)
-        over = (driven_m > self.length_m + STANDING) | (np.cumsum(steps[:, 0] * moves) > self.driving_s)
-        found = np.flatnonzero(over)
-        return int(found[0]) + 1 if len(found) else len(rows)
-
-    def allows(self, rows: Floats) -> bool:
-        """The whole path [n, 4] is within it."""
-        return self.first_row_over(rows) == len(rows)
-
-
-ANY_WAY = Most()
 
 
 @dataclass(frozen=True)

@@ -13,9 +13,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from chatrobot.core.errors import PlanTextError
-from chatrobot.plan.base import Block, Step
-from chatrobot.plan.registry import for_kind, primitives
-from chatrobot.plan.steps import MAX_LINES, MAX_NESTING, Plan
+from chatrobot.plan.base import MAX_LINES, MAX_NESTING, Block, Plan, Step
+from chatrobot.plan.primitive import for_kind, primitives
 
 VERSION = "chatrobot-plan/1"
 _STEPS_SCHEMA = {"type": "array", "items": {"$ref": "#/$defs/Step"}, "minItems": 1, "maxItems": MAX_LINES}

@@ -12,12 +12,10 @@ from typing import Final, Protocol, Union
 
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
-from chatrobot.plan.base import Block, Step
+from chatrobot.plan.base import Block, Plan, Step, count_steps
 from chatrobot.plan.context import MAX_DURATION_S, Impossible, Lowered, LoweringContext, too_long
-from chatrobot.plan.core_motion import CoreMotion, RampedTwist
-from chatrobot.plan.primitive import BlockPrimitive
-from chatrobot.plan.registry import for_step
-from chatrobot.plan.steps import Plan, count_steps
+from chatrobot.plan.primitive import BlockPrimitive, for_step
+from chatrobot.plan.trajectory import CoreMotion, RampedTwist
 from chatrobot.robots.profile import RobotProfile
 
 

@@ -12,28 +12,38 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.reason import Reason
+from chatrobot.plan.base import Plan
 from chatrobot.plan.context import (
     MAX_DURATION_S,
     MAX_EXTENT_M,
+    Finding,
     Impossible,
     LoweringContext,
     RoutePlanner,
+    Severity,
     too_far,
     too_long,
 )
-from chatrobot.plan.core_motion import Pause, RampedTwist
-from chatrobot.plan.findings import Finding, Severity
-from chatrobot.plan.free_part import ANY_WAY, Leg, Most, leg_at, nearest_part, part_up_to
-from chatrobot.plan.governed_path import TICK_S, GovernorCheck, pose_of
+from chatrobot.plan.free_part import Leg, leg_at, nearest_part, part_up_to
 from chatrobot.plan.known_world import Contact, Floats, GovernorKernel, KnownWorld, SeenWorld
 from chatrobot.plan.lowering import CoreWalk, PlannedMotion, iterate_core
 from chatrobot.plan.rounding import round_corners
-from chatrobot.plan.sampling import sample_poses, sample_ramp, tick_times
-from chatrobot.plan.steps import Plan
-from chatrobot.plan.sweep import fence_clearance, first_contact, free_ahead_m
-from chatrobot.plan.trajectory import Segment
+from chatrobot.plan.swept_path import (
+    ANY_WAY,
+    GovernorCheck,
+    Most,
+    fence_clearance,
+    first_contact,
+    free_ahead_m,
+    pose_of,
+    sample_poses,
+    sample_ramp,
+    tick_times,
+)
+from chatrobot.plan.trajectory import Pause, RampedTwist, Segment
 from chatrobot.robots.profile import Circle, Point, RobotProfile
 
 MARGIN_M = 0.04

@@ -7,16 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from chatrobot.core.reason import Reason
-from chatrobot.plan.base import Block, Step
-from chatrobot.plan.findings import Severity
-from chatrobot.plan.primitives.arc import Arc
+from chatrobot.plan.base import MAX_LINES, Block, Plan, Step
+from chatrobot.plan.context import Severity, max_arc_speed_mps
 from chatrobot.plan.primitives.drive import Drive
-from chatrobot.plan.primitives.remember import Remember
-from chatrobot.plan.primitives.say import Say
-from chatrobot.plan.primitives.turn import Turn
-from chatrobot.plan.primitives.wait import Wait
-from chatrobot.plan.speeds import max_arc_speed_mps
-from chatrobot.plan.steps import MAX_LINES, Plan
+from chatrobot.plan.primitives.no_motion import Remember, Say, Wait
+from chatrobot.plan.primitives.turn import Arc, Turn
 from chatrobot.robots.profile import RobotProfile
 
 _ALONG_RAD = 1e-9

@@ -11,19 +11,14 @@ from dataclasses import dataclass, field, replace
 from itertools import groupby
 
 from chatrobot.core.geometry import ORIGIN, Pose
-from chatrobot.plan.base import Block, Step
+from chatrobot.plan.base import Block, Plan, Step, count_steps
 from chatrobot.plan.context import Impossible, LoweringContext
-from chatrobot.plan.core_motion import CoreMotion, Emit, Pause, RampedTwist
 from chatrobot.plan.lowering import lower
-from chatrobot.plan.primitive import BlockPrimitive
-from chatrobot.plan.primitives.go import Go
-from chatrobot.plan.primitives.remember import Remember
-from chatrobot.plan.primitives.repeat import Repeat
-from chatrobot.plan.primitives.say import Say
+from chatrobot.plan.primitive import BlockPrimitive, for_step
+from chatrobot.plan.primitives.drive import Go
+from chatrobot.plan.primitives.no_motion import Remember, Repeat, Say, Wait
 from chatrobot.plan.primitives.twist import RawTwist
-from chatrobot.plan.primitives.wait import Wait
-from chatrobot.plan.registry import for_step
-from chatrobot.plan.steps import Plan, count_steps
+from chatrobot.plan.trajectory import CoreMotion, Emit, Pause, RampedTwist
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,7 @@ from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.bases import Base
 from chatrobot.sim.contact import RELEASE_M, Surroundings
 from chatrobot.sim.fault_injection import NO_FAULTS, FaultInjection
-from chatrobot.sim.lidar import SimLidar
-from chatrobot.sim.sensors import Gyro, WheelOdometry
+from chatrobot.sim.sensors import Gyro, SimLidar, WheelOdometry
 from chatrobot.sim.shapes import Shape
 from chatrobot.sim.world import EMPTY_WORLD, Obstacle, World
 from chatrobot.wire.messages import Flag, Message, Odometry, TwistMessage

@@ -9,10 +9,9 @@ from dataclasses import dataclass
 from chatrobot.core.geometry import ORIGIN, Twist
 from chatrobot.plan.base import Step, expanded
 from chatrobot.plan.context import Impossible, LoweringContext
-from chatrobot.plan.core_motion import Pause, RampedTwist
 from chatrobot.plan.lowering import PlannedMotion, iterate_core
 from chatrobot.plan.steps import Arc, Drive, Go, Plan, Turn
-from chatrobot.plan.trajectory import Ramp
+from chatrobot.plan.trajectory import Pause, Ramp, RampedTwist
 from chatrobot.robots.profile import RobotProfile
 
 

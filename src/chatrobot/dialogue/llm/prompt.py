@@ -12,9 +12,9 @@ from chatrobot.core.geometry import Pose
 from chatrobot.core.shown import one_line, quoted
 from chatrobot.dialogue.llm.reply_reader import LOOKS, REST
 from chatrobot.plan.base import Step
-from chatrobot.plan.registry import primitives
+from chatrobot.plan.primitive import primitives
 from chatrobot.plan.steps import RawTwist
-from chatrobot.plan.tutorial_form import ImpossibleTwistError, read_tutorial_line
+from chatrobot.plan.text import ImpossibleTwistError, read_tutorial_line
 from chatrobot.robots.profile import RobotProfile
 
 MAX_PLACES = 16

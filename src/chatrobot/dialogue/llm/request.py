@@ -33,7 +33,7 @@ from chatrobot.dialogue.llm.terms import Ended, ModelOptions, Spending, Surround
 from chatrobot.dialogue.observations import without_pictures
 from chatrobot.models.seam import Message, Model
 from chatrobot.plan.base import Step
-from chatrobot.plan.primitives.say import Say
+from chatrobot.plan.primitives.no_motion import Say
 from chatrobot.plan.text import format_step
 
 if TYPE_CHECKING:

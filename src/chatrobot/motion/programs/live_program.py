@@ -8,9 +8,9 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import Wiring
-from chatrobot.governor.tick import TICK_S
 from chatrobot.programs.events import ENDS, AsksTime, Beat, Died, Listens, ProgramEvent
 from chatrobot.programs.sandboxed import SandboxedProgram
 from chatrobot.wire.messages import Odometry

@@ -9,7 +9,7 @@ from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.motion.planner import Planned, drawn, driving_s
 from chatrobot.motion.programs.rehearsal import ProgramRehearsal
-from chatrobot.plan.findings import Finding
+from chatrobot.plan.context import Finding
 from chatrobot.programs.events import Died, Ended, Log, Raised
 
 LOG_LINES = 50

@@ -17,10 +17,10 @@ from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.motion.programs.rehearsal_environment import RehearsalEnvironment, limited_reason
 from chatrobot.motion.remembered_obstacles import RememberedObstacles, with_seen
-from chatrobot.plan.findings import Finding, Severity
+from chatrobot.plan.context import Finding, Severity
 from chatrobot.plan.known_world import Contact, Floats
 from chatrobot.plan.rehearsal import MARGIN_M
-from chatrobot.plan.sweep import area_clearance, first_contact
+from chatrobot.plan.swept_path import area_clearance, first_contact
 from chatrobot.programs.events import Died, Ended, Log, Output, Raised, TopicNoticed, raised_reason
 from chatrobot.programs.lock_step import Played, play
 from chatrobot.programs.sandboxed import Launcher, SandboxedProgram

@@ -8,11 +8,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
-from chatrobot.core.clock import VirtualClock
+from chatrobot.core.clock import TICK_S, VirtualClock
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 from chatrobot.core.governed import StopEpoch
 from chatrobot.core.reason import Reason
-from chatrobot.governor.governor import TICK_S, Governor, Verdict
+from chatrobot.governor.governor import Governor, Verdict
 from chatrobot.governor.rule import Sensed
 from chatrobot.motion.governed_motion import decelerated, is_cut_short
 from chatrobot.motion.programs.execution import HeldTwist

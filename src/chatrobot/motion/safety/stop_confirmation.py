@@ -7,8 +7,7 @@ from collections.abc import Callable
 from typing import Literal
 
 from chatrobot.core.reason import Reason
-from chatrobot.execution.health import FRESH_S, STANDS_LATE_S, is_seen_moving, is_seen_standing
-from chatrobot.execution.sensors import Sensors
+from chatrobot.execution.sensors import FRESH_S, STANDS_LATE_S, Sensors, is_seen_moving, is_seen_standing
 
 PATIENCE_S = STANDS_LATE_S
 """So long zeros are sent where nobody can see whether they help; a robot that moves on meanwhile does not obey."""

@@ -8,10 +8,9 @@ from collections import deque
 from collections.abc import Callable
 from typing import Protocol
 
-from chatrobot.core.clock import Clock
+from chatrobot.core.clock import TICK_S, Clock
 from chatrobot.core.process import is_machine_busy
 from chatrobot.core.reason import Reason
-from chatrobot.governor.tick import TICK_S
 from chatrobot.guard.watch import BEAT, ECHO_LOST_S, GOODBYE, HANDSHAKE, MISSED_S, TRIPPED, Watch
 from chatrobot.link.processes import spawn_with_line
 from chatrobot.robots.profile import Wiring

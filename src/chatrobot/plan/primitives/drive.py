@@ -1,4 +1,4 @@
-"""drive: straight, keeping the heading, for a distance or a time and/or until something is near."""
+"""Ways along the floor: `drive` straight, keeping the heading, and `go` to a point around what is known."""
 
 from __future__ import annotations
 
@@ -6,30 +6,31 @@ import math
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from chatrobot.core.geometry import Twist
+from chatrobot.core.geometry import Pose, Twist, wrap_angle
 from chatrobot.core.reason import Reason
 from chatrobot.plan.base import (
     Condition,
+    Frame,
     ObstacleWithin,
     Step,
     divide_extent,
     require,
     require_finite,
     require_positive,
+    rounded_angle,
 )
-from chatrobot.plan.context import Impossible, Lowered, LoweringContext
-from chatrobot.plan.core_motion import RampedTwist
+from chatrobot.plan.context import Impossible, Lowered, LoweringContext, choose_speed
+from chatrobot.plan.legs import go_to
 from chatrobot.plan.primitive import Primitive, StepParts, step_parts
-from chatrobot.plan.reader import LineReader
-from chatrobot.plan.speeds import choose_speed
-from chatrobot.plan.units import angle_text, number_text
+from chatrobot.plan.reader import LineReader, angle_text, number_text, quote
+from chatrobot.plan.trajectory import RampedTwist
 
 UNTIL_AT_MOST_M = 20.0
 """How far a drive that has only a condition goes when the condition never comes true."""
 
 _DIRECTIONS = {"forward": 0.0, "left": math.pi / 2, "right": -math.pi / 2, "back": math.pi}
 _SPELLINGS = {**_DIRECTIONS, "forwards": 0.0, "ahead": 0.0, "backward": math.pi, "backwards": math.pi}
-_ALLOWED = "forward, back, left, right, 'toward 45 deg', 'at 0.2 m/s' or 'until obstacle within 0.5 m'"
+_DRIVE_ALLOWED = "forward, back, left, right, 'toward 45 deg', 'at 0.2 m/s' or 'until obstacle within 0.5 m'"
 
 
 @dataclass(frozen=True)
@@ -63,7 +64,7 @@ class Drive(Step):
         )
 
 
-class DrivePrimitive(Primitive[Drive]):
+class _DrivePrimitive(Primitive[Drive]):
     kind = verb = "drive"
     step_type = Drive
     usage = (
@@ -86,7 +87,7 @@ class DrivePrimitive(Primitive[Drive]):
         speed: float | None = None
         until: ObstacleWithin | None = None
         if line.at_end():
-            line.fail_here(f"a distance such as 1 m, a time such as 2 s, {_ALLOWED}")
+            line.fail_here(f"a distance such as 1 m, a time such as 2 s, {_DRIVE_ALLOWED}")
         while not line.at_end():
             line.accept("for")
             if line.number_follows and distance is None and duration is None:
@@ -102,7 +103,7 @@ class DrivePrimitive(Primitive[Drive]):
             elif word := line.accept(*_SPELLINGS):
                 direction = _SPELLINGS[word]
             else:
-                line.fail_here(_ALLOWED)
+                line.fail_here(_DRIVE_ALLOWED)
         return Drive(distance, duration, direction, speed, until)
 
     def format(self, step: Drive) -> str:
@@ -155,4 +156,108 @@ def straight_twist(speed_mps: float, direction_rad: float) -> Twist:
     return Twist(vx if abs(vx) > tiny else 0.0, vy if abs(vy) > tiny else 0.0, 0.0)
 
 
-PRIMITIVE = DrivePrimitive()
+MAX_PLACE_CHARS = 80
+_GO_ALLOWED = "'from start', 'facing 90 deg', 'named \"kitchen\"', 'at 0.2 m/s' or the end of the line"
+
+
+@dataclass(frozen=True)
+class Go(Step):
+    """Go to a point, around what is known, and look along `yaw_rad` there if it is given.
+
+    `place` is the name it was resolved from, for people to read; coordinates decide.
+    """
+
+    x_m: float
+    y_m: float
+    yaw_rad: float | None = None
+    frame: Frame = "odom"
+    place: str = ""
+    speed_mps: float | None = None
+    kind: Literal["go"] = "go"
+
+    def __post_init__(self) -> None:
+        require_finite("x_m", self.x_m)
+        require_finite("y_m", self.y_m)
+        if self.yaw_rad is not None:
+            require_finite("yaw_rad", self.yaw_rad)
+        require_positive("speed_mps", self.speed_mps)
+        require(
+            self.place.isprintable() and len(self.place) <= MAX_PLACE_CHARS,
+            f"the name of a place is printable text of at most {MAX_PLACE_CHARS} characters",
+        )
+
+    @classmethod
+    def to_pose(cls, pose: Pose) -> Go:
+        """Back to a measured pose of `odom`: to a tenth of a millimetre and a hundredth of a degree."""
+        return cls(round(pose.x_m, 4), round(pose.y_m, 4), rounded_angle(wrap_angle(pose.yaw_rad), 2))
+
+
+class _GoPrimitive(Primitive[Go]):
+    kind = verb = "go"
+    step_type = Go
+    needs_pose = True
+    usage = 'go to X Y [from start] [facing ANGLE] [named "PLACE"] [at SPEED]'
+    help = "Go to a point of the map (metres), or ('from start') counted from where this plan began, around obstacles."
+    examples = ("go to 1.2 -0.4", "go to 0 0 from start facing 0 deg", 'go to 3 1 named "kitchen"')
+
+    def parse(self, line: LineReader) -> Go:
+        line.accept("to")
+        x = line.length_m()
+        y = line.length_m()
+        frame: Frame = "odom"
+        yaw: float | None = None
+        place = ""
+        speed: float | None = None
+        while not line.at_end():
+            if line.accept("from"):
+                line.expect("start")
+                frame = "start"
+            elif line.accept("facing"):
+                yaw = line.angle_rad()
+            elif line.accept("named"):
+                place = line.text('the name of the place, as in named "kitchen"')
+            elif line.accept("at"):
+                speed = line.speed_mps()
+            else:
+                line.fail_here(_GO_ALLOWED)
+        return Go(x, y, yaw, frame, place, speed)
+
+    def format(self, step: Go) -> str:
+        words = [f"go to {number_text(step.x_m)} {number_text(step.y_m)}"]
+        if step.frame == "start":
+            words.append("from start")
+        if step.yaw_rad is not None:
+            words.append(f"facing {angle_text(step.yaw_rad)}")
+        if step.place:
+            words.append(f"named {quote(step.place)}")
+        if step.speed_mps is not None:
+            words.append(f"at {number_text(step.speed_mps)} m/s")
+        return " ".join(words)
+
+    def lower(self, step: Go, context: LoweringContext) -> Lowered:
+        frame = context.frame_pose(step.frame)
+        target = frame.compose(Pose(step.x_m, step.y_m, step.yaw_rad or 0.0))
+        heading = None if step.yaw_rad is None else target.yaw_rad
+        lowered = go_to(
+            context, (target.x_m, target.y_m), heading, speed_mps=step.speed_mps, named_place=bool(step.place)
+        )
+        if isinstance(lowered, Impossible) and "nearest_x_m" in lowered.reason.values:
+            at = lowered.reason.values
+            nearest = Go(float(at["nearest_x_m"]), float(at["nearest_y_m"]), speed_mps=step.speed_mps)
+            return replace(lowered, instead=nearest)
+        return lowered
+
+    def divide(self, step: Go, share: float, context: LoweringContext) -> StepParts:  # noqa: ARG002
+        return Go.to_pose(context.pose), step
+
+    def resolve(self, step: Go, plan_start: Pose) -> Go:
+        if step.frame == "odom":
+            return step
+        target = plan_start.compose(Pose(step.x_m, step.y_m, step.yaw_rad or 0.0))
+        yaw_rad = None if step.yaw_rad is None else rounded_angle(wrap_angle(target.yaw_rad), 6)
+        return replace(
+            step, x_m=round(target.x_m, 6), y_m=round(target.y_m, 6), yaw_rad=yaw_rad, frame="odom"
+        )
+
+
+PRIMITIVES = (_DrivePrimitive(), _GoPrimitive())

@@ -1,4 +1,4 @@
-"""twist: a raw velocity for a time, the tutorial's form. Limits scale it, direction kept; they never refuse it."""
+"""`twist`: a raw velocity for a time, the tutorial's form. Limits scale it, direction kept; they never refuse it."""
 
 from __future__ import annotations
 
@@ -8,12 +8,16 @@ from typing import Literal
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
 from chatrobot.plan.base import Step, divide_extent, require_finite, require_positive
-from chatrobot.plan.context import Impossible, Lowered, LoweringContext
-from chatrobot.plan.core_motion import Pause, RampedTwist
+from chatrobot.plan.context import (
+    Impossible,
+    Lowered,
+    LoweringContext,
+    refuse_turn_on_the_spot,
+    scale_into_limits,
+)
 from chatrobot.plan.primitive import Primitive, StepParts, step_parts
-from chatrobot.plan.reader import LineReader
-from chatrobot.plan.speeds import refuse_turn_on_the_spot, scale_into_limits
-from chatrobot.plan.units import number_text
+from chatrobot.plan.reader import LineReader, number_text
+from chatrobot.plan.trajectory import Pause, RampedTwist
 from chatrobot.robots.profile import RobotProfile
 
 
@@ -34,7 +38,7 @@ class RawTwist(Step):
         require_positive("duration_s", self.duration_s)
 
 
-class TwistPrimitive(Primitive[RawTwist]):
+class _TwistPrimitive(Primitive[RawTwist]):
     kind = verb = "twist"
     step_type = RawTwist
     usage = "twist VX VY WZ [for TIME]"
@@ -90,4 +94,4 @@ def _refuse_shape(profile: RobotProfile, twist: Twist) -> Impossible | None:
     return Impossible(Reason("turning_radius_too_small", {"radius_m": radius_m, "min_radius_m": least_m}))
 
 
-PRIMITIVE = TwistPrimitive()
+PRIMITIVES = (_TwistPrimitive(),)

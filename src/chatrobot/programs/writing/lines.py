@@ -7,11 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from chatrobot.core.geometry import Twist
-from chatrobot.plan.context import Impossible, LoweringContext
-from chatrobot.plan.core_motion import RampedTwist
+from chatrobot.plan.context import Impossible, LoweringContext, choose_arc_speed, choose_rate, choose_speed
 from chatrobot.plan.lowering import CoreWalk, PlannedMotion, iterate_core
 from chatrobot.plan.primitives.drive import UNTIL_AT_MOST_M, straight_twist
-from chatrobot.plan.speeds import choose_arc_speed, choose_rate, choose_speed
 from chatrobot.plan.steps import (
     Arc,
     Drive,
@@ -26,6 +24,7 @@ from chatrobot.plan.steps import (
     Turn,
     Wait,
 )
+from chatrobot.plan.trajectory import RampedTwist
 from chatrobot.robots.profile import Point
 
 _BY_ODOMETRY = {"go_to", "face"}

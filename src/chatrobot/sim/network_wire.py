@@ -1,16 +1,56 @@
-"""The simulated robot's transforms for RViz and Nav2 (REP-105): `odom` → `base_link` on `/tf`, and `base_link` →
-`laser`, which is fixed, once on `/tf_static`, where who comes later finds it, too."""
+"""A wire whose callbacks come on the physics thread, for wires that deliver on threads of their own."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import contextlib
+import queue
+from collections.abc import Callable, Mapping
 from typing import Any, Protocol, runtime_checkable
 
+from chatrobot.core.errors import WireError
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.messages import Message, Odometry
 from chatrobot.wire.ros_messages import BASE_FRAME, LASER_FRAME, ODOM_FRAME, transform
 from chatrobot.wire.stamps import to_wall_s
-from chatrobot.wire.wire import Wire
+from chatrobot.wire.wire import M, Wire
+
+
+class MarshalledWire:
+    """One end of `wire` that delivers in `poll` alone, as a `LocalHub` does.
+
+    Args:
+        after_publishing: called with each message that has been published.
+    """
+
+    def __init__(
+        self, wire: Wire, after_publishing: Callable[[str, Message], None] = lambda _topic, _message: None
+    ) -> None:
+        self._wire = wire
+        self._after_publishing = after_publishing
+        # Not a SimpleQueue: where a signal comes in the last moment of its timeout, it waits for ever.
+        self._waiting: queue.Queue[tuple[Callable[[Any], None], Any]] = queue.Queue()
+
+    def publish(self, topic: str, message: Message) -> None:
+        with contextlib.suppress(WireError):  # a robot lives on while its network is gone
+            self._wire.publish(topic, message)
+            self._after_publishing(topic, message)
+
+    def subscribe(self, topic: str, kind: type[M], callback: Callable[[M], None]) -> None:
+        self._wire.subscribe(topic, kind, lambda message: self._waiting.put((callback, message)))
+
+    def poll(self, timeout_s: float) -> None:
+        """Wait up to `timeout_s` for a message and deliver all that are there."""
+        try:
+            callback, message = self._waiting.get(timeout=max(0.0, timeout_s))
+            while True:
+                callback(message)
+                callback, message = self._waiting.get_nowait()
+        except queue.Empty:
+            return
+
+    def close(self) -> None:
+        self._wire.close()
+
 
 TF_TOPIC = "/tf"
 TF_STATIC_TOPIC = "/tf_static"
