@@ -19,15 +19,19 @@ def require(condition: bool, problem: str) -> None:
         raise ValueError(problem)
 
 
-def require_positive(name: str, value: float | None) -> None:
-    """Raise ValueError for what is not above zero, or infinite. None passes: the field was left out."""
-    ok = value is None or (math.isfinite(value) and value > 0.0)
-    require(ok, f"{name} must be a finite number above zero, not {value}")
+def require_positive(step: object, *names: str) -> None:
+    """Raise ValueError for a field that is not above zero, or infinite. None passes: it was left out."""
+    for name in names:
+        value = getattr(step, name)
+        ok = value is None or (math.isfinite(value) and value > 0.0)
+        require(ok, f"{name} must be a finite number above zero, not {value}")
 
 
-def require_finite(name: str, value: float) -> None:
-    """Raise ValueError for NaN and infinity."""
-    require(math.isfinite(value), f"{name} must be a finite number, not {value}")
+def require_finite(step: object, *names: str) -> None:
+    """Raise ValueError for a field that is NaN or infinite. None passes."""
+    for name in names:
+        value = getattr(step, name)
+        require(value is None or math.isfinite(value), f"{name} must be a finite number, not {value}")
 
 
 _SHORTEST = 1e-3
@@ -112,7 +116,7 @@ class ObstacleWithin:
     __pydantic_config__: ClassVar[dict[str, Any]] = _FORBID
 
     def __post_init__(self) -> None:
-        require_positive("distance_m", self.distance_m)
+        require_positive(self, "distance_m")
 
 
 Condition = ObstacleWithin

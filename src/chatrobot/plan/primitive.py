@@ -12,6 +12,7 @@ import importlib
 import pkgutil
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any, ClassVar, Generic, TypeVar, Union
 
 from chatrobot.core.errors import UsageError
@@ -28,10 +29,10 @@ StepParts = tuple[Union[Step, None], Union[Step, None]]
 """The part of a step that was done and the part that is left; None for a part that is nothing."""
 
 
-def step_parts(extents: tuple[float, float], make: Callable[[float], Step]) -> StepParts:
-    """Return the two parts of a step that `make` makes of an extent."""
-    done, rest = extents
-    return make(done) if done else None, make(rest) if rest else None
+def divided(step: Any, field: str, parts: tuple[float, float]) -> StepParts:
+    """Return the two parts of a step, `field` of which has been divided into `parts`."""
+    done, rest = (replace(step, **{field: part}) if part else None for part in parts)
+    return done, rest
 
 
 class PrimitiveInfo:
@@ -56,7 +57,7 @@ class Primitive(PrimitiveInfo, ABC, Generic[StepT]):
 
     @abstractmethod
     def parse(self, line: LineReader) -> StepT:
-        """Read what follows the verb, to the end of the line. Raises PlanTextError (through `line`)."""
+        """Read what follows the verb; nothing may be left on the line then. Raises PlanTextError (through `line`)."""
 
     @abstractmethod
     def format(self, step: StepT) -> str:

@@ -89,6 +89,16 @@ def angle_text(angle_rad: float, *, suffix: str = "", prefer_degrees: bool = Tru
     return f"{in_degrees} deg{suffix}" if use_degrees else f"{in_radians} rad{suffix}"
 
 
+def at_speed(speed_mps: float | None) -> str:
+    """Return what a line ends with for a speed; nothing for None."""
+    return "" if speed_mps is None else f" at {number_text(speed_mps)} m/s"
+
+
+def at_rate(rate_radps: float | None) -> str:
+    """Return what a line ends with for a rate of turn; nothing for None."""
+    return "" if rate_radps is None else f" at {angle_text(rate_radps, suffix='/s', prefer_degrees=False)}"
+
+
 _TOKEN = re.compile(
     r"""\s*(?:
       (?P<comment>\#.*)

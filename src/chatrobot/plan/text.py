@@ -162,7 +162,9 @@ class StreamParser:
             self._open_block(primitive, reader)
             return None
         try:
-            return self._place(primitive.parse(reader))
+            step = primitive.parse(reader)
+            reader.finish("the end of the line")
+            return self._place(step)
         except ValueError as error:
             reader.fail(str(error), primitive.usage)
 
@@ -171,6 +173,7 @@ class StreamParser:
         if len(self._open) >= MAX_NESTING:
             reader.fail(f"blocks are nested at most {MAX_NESTING} deep")
         header = primitive.parse_header(reader)
+        reader.finish("the end of the line")
         self._open.append(_OpenBlock(primitive, header, self._line_number, reader.line))
 
     def _close_block(self, reader: LineReader) -> Step | None:

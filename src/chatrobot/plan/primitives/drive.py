@@ -21,8 +21,8 @@ from chatrobot.plan.base import (
 )
 from chatrobot.plan.context import Impossible, Lowered, LoweringContext, choose_speed
 from chatrobot.plan.legs import go_to
-from chatrobot.plan.primitive import Primitive, StepParts, step_parts
-from chatrobot.plan.reader import LineReader, angle_text, number_text, quote
+from chatrobot.plan.primitive import Primitive, StepParts, divided
+from chatrobot.plan.reader import LineReader, angle_text, at_speed, number_text, quote
 from chatrobot.plan.trajectory import RampedTwist
 
 UNTIL_AT_MOST_M = 20.0
@@ -50,18 +50,12 @@ class Drive(Step):
     kind: Literal["drive"] = "drive"
 
     def __post_init__(self) -> None:
-        require_positive("distance_m", self.distance_m)
-        require_positive("duration_s", self.duration_s)
-        require_positive("speed_mps", self.speed_mps)
-        require_finite("direction_rad", self.direction_rad)
-        require(
-            not (self.distance_m is None and self.duration_s is None and self.until is None),
-            "a drive needs a distance, a duration or a condition",
-        )
-        require(
-            self.distance_m is None or self.duration_s is None,
-            "a drive has a distance or a duration, not both (say the speed instead)",
-        )
+        require_positive(self, "distance_m", "duration_s", "speed_mps")
+        require_finite(self, "direction_rad")
+        is_measured = self.distance_m is not None or self.duration_s is not None
+        require(is_measured or self.until is not None, "a drive needs a distance, a duration or a condition")
+        is_both = self.distance_m is not None and self.duration_s is not None
+        require(not is_both, "a drive has a distance or a duration, not both (say the speed instead)")
 
 
 class _DrivePrimitive(Primitive[Drive]):
@@ -117,11 +111,8 @@ class _DrivePrimitive(Primitive[Drive]):
             words.append(f"toward {angle_text(step.direction_rad)}")
         elif step.direction_rad != 0.0 or len(words) == 1:
             words.append(named[step.direction_rad])
-        if step.speed_mps is not None:
-            words.append(f"at {number_text(step.speed_mps)} m/s")
-        if step.until is not None:
-            words.append(f"until obstacle within {number_text(step.until.distance_m)} m")
-        return " ".join(words)
+        until = f" until obstacle within {number_text(step.until.distance_m)} m" if step.until else ""
+        return " ".join(words) + at_speed(step.speed_mps) + until
 
     def lower(self, step: Drive, context: LoweringContext) -> Lowered:
         profile = context.profile
@@ -131,21 +122,16 @@ class _DrivePrimitive(Primitive[Drive]):
         if isinstance(speed, Impossible):
             return speed
         twist = straight_twist(speed, step.direction_rad)
-        if step.duration_s is not None:
-            hold_s = step.duration_s
-        else:
-            hold_s = (step.distance_m if step.distance_m is not None else UNTIL_AT_MOST_M) / speed
         is_timed = step.duration_s is not None
+        hold_s = step.duration_s or (step.distance_m or UNTIL_AT_MOST_M) / speed
         return [RampedTwist.within(profile.limits, twist, hold_s, until=step.until, is_timed=is_timed)]
 
     def divide(self, step: Drive, share: float, context: LoweringContext) -> StepParts:  # noqa: ARG002
-        timed = step.duration_s
-        if timed is not None:
-            extents = divide_extent(timed, share)
-            done, rest = step_parts(extents, lambda part: replace(step, duration_s=part))
+        if step.duration_s is not None:
+            done, rest = divided(step, "duration_s", divide_extent(step.duration_s, share))
         else:
             extents = divide_extent(step.distance_m or UNTIL_AT_MOST_M, share)
-            done, rest = step_parts(extents, lambda part: replace(step, distance_m=part))
+            done, rest = divided(step, "distance_m", extents)
         return replace(done, until=None) if isinstance(done, Drive) else None, rest
 
 
@@ -176,11 +162,8 @@ class Go(Step):
     kind: Literal["go"] = "go"
 
     def __post_init__(self) -> None:
-        require_finite("x_m", self.x_m)
-        require_finite("y_m", self.y_m)
-        if self.yaw_rad is not None:
-            require_finite("yaw_rad", self.yaw_rad)
-        require_positive("speed_mps", self.speed_mps)
+        require_finite(self, "x_m", "y_m", "yaw_rad")
+        require_positive(self, "speed_mps")
         require(
             self.place.isprintable() and len(self.place) <= MAX_PLACE_CHARS,
             f"the name of a place is printable text of at most {MAX_PLACE_CHARS} characters",
@@ -223,16 +206,11 @@ class _GoPrimitive(Primitive[Go]):
         return Go(x, y, yaw, frame, place, speed)
 
     def format(self, step: Go) -> str:
-        words = [f"go to {number_text(step.x_m)} {number_text(step.y_m)}"]
-        if step.frame == "start":
-            words.append("from start")
-        if step.yaw_rad is not None:
-            words.append(f"facing {angle_text(step.yaw_rad)}")
-        if step.place:
-            words.append(f"named {quote(step.place)}")
-        if step.speed_mps is not None:
-            words.append(f"at {number_text(step.speed_mps)} m/s")
-        return " ".join(words)
+        start = " from start" if step.frame == "start" else ""
+        facing = "" if step.yaw_rad is None else f" facing {angle_text(step.yaw_rad)}"
+        named = f" named {quote(step.place)}" if step.place else ""
+        point = f"{number_text(step.x_m)} {number_text(step.y_m)}"
+        return f"go to {point}{start}{facing}{named}{at_speed(step.speed_mps)}"
 
     def lower(self, step: Go, context: LoweringContext) -> Lowered:
         frame = context.frame_pose(step.frame)

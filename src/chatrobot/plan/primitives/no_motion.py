@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 from chatrobot.plan.base import Block, Step, divide_extent, require, require_positive
 from chatrobot.plan.context import Lowered, LoweringContext
-from chatrobot.plan.primitive import BlockPrimitive, Primitive, StepParts, step_parts
+from chatrobot.plan.primitive import BlockPrimitive, Primitive, StepParts, divided
 from chatrobot.plan.primitives.drive import MAX_PLACE_CHARS
 from chatrobot.plan.reader import LineReader, number_text, quote
 from chatrobot.plan.trajectory import Emit, Pause
@@ -23,7 +23,7 @@ class Wait(Step):
     kind: Literal["wait"] = "wait"
 
     def __post_init__(self) -> None:
-        require_positive("duration_s", self.duration_s)
+        require_positive(self, "duration_s")
         require(self.duration_s <= MAX_WAIT_S, f"a wait is at most {MAX_WAIT_S:g} s, not {self.duration_s:g}")
 
 
@@ -36,9 +36,7 @@ class _WaitPrimitive(Primitive[Wait]):
 
     def parse(self, line: LineReader) -> Wait:
         line.accept("for")
-        duration = line.duration_s()
-        line.finish("the end of the line")
-        return Wait(duration)
+        return Wait(line.duration_s())
 
     def format(self, step: Wait) -> str:
         return f"wait {number_text(step.duration_s)} s"
@@ -47,8 +45,7 @@ class _WaitPrimitive(Primitive[Wait]):
         return [Pause(step.duration_s)]
 
     def divide(self, step: Wait, share: float, context: LoweringContext) -> StepParts:  # noqa: ARG002
-        times = divide_extent(step.duration_s, share)
-        return step_parts(times, lambda part: replace(step, duration_s=part))
+        return divided(step, "duration_s", divide_extent(step.duration_s, share))
 
 
 MAX_SAY_CHARS = 380
@@ -63,10 +60,8 @@ class Say(Step):
 
     def __post_init__(self) -> None:
         require(self.text.isprintable() and bool(self.text.strip()), "say needs one line of printable text")
-        require(
-            len(quote(self.text)) <= MAX_SAY_CHARS,
-            f"say takes at most {MAX_SAY_CHARS} characters with its quotes",
-        )
+        fits = len(quote(self.text)) <= MAX_SAY_CHARS
+        require(fits, f"say takes at most {MAX_SAY_CHARS} characters with its quotes")
 
 
 class _SayPrimitive(Primitive[Say]):
@@ -77,9 +72,7 @@ class _SayPrimitive(Primitive[Say]):
     examples = ('say "hello"',)
 
     def parse(self, line: LineReader) -> Say:
-        text = line.text('a text such as "hello"')
-        line.finish("the end of the line")
-        return Say(text)
+        return Say(line.text('a text such as "hello"'))
 
     def format(self, step: Say) -> str:
         return f"say {quote(step.text)}"
@@ -96,10 +89,8 @@ class Remember(Step):
     kind: Literal["remember"] = "remember"
 
     def __post_init__(self) -> None:
-        require(
-            self.place.isprintable() and bool(self.place.strip()) and len(self.place) <= MAX_PLACE_CHARS,
-            f"a place needs a printable name of at most {MAX_PLACE_CHARS} characters",
-        )
+        fits = self.place.isprintable() and bool(self.place.strip()) and len(self.place) <= MAX_PLACE_CHARS
+        require(fits, f"a place needs a printable name of at most {MAX_PLACE_CHARS} characters")
 
 
 class _RememberPrimitive(Primitive[Remember]):
@@ -111,9 +102,7 @@ class _RememberPrimitive(Primitive[Remember]):
     examples = ('remember "dock"',)
 
     def parse(self, line: LineReader) -> Remember:
-        place = line.text('the name of the place, as in "dock"')
-        line.finish("the end of the line")
-        return Remember(place)
+        return Remember(line.text('the name of the place, as in "dock"'))
 
     def format(self, step: Remember) -> str:
         return f"remember {quote(step.place)}"
@@ -139,6 +128,7 @@ class Repeat(Block):
 
     @property
     def times(self) -> int:
+        """Return `count`."""
         return self.count
 
 
@@ -150,11 +140,11 @@ class _RepeatPrimitive(BlockPrimitive[Repeat, int]):
     examples = ("repeat 4\n  drive 1 m\n  turn left 90 deg\nend",)
 
     def parse_header(self, line: LineReader) -> int:
-        count = line.whole_number(f"a whole number from 1 to {MAX_REPEAT}")
+        allowed = f"a whole number from 1 to {MAX_REPEAT}"
+        count = line.whole_number(allowed)
         if not 1 <= count <= MAX_REPEAT:
-            line.fail(f"{count} is no count to repeat", f"a whole number from 1 to {MAX_REPEAT}")
+            line.fail(f"{count} is no count to repeat", allowed)
         line.accept("times")
-        line.finish("the end of the line")
         return count
 
     def close(self, header: int, steps: tuple[Step, ...]) -> Repeat:

@@ -25,8 +25,8 @@ from chatrobot.plan.context import (
     refuse_turn_on_the_spot,
 )
 from chatrobot.plan.legs import turn_to
-from chatrobot.plan.primitive import Primitive, StepParts, step_parts
-from chatrobot.plan.reader import LineReader, angle_text, number_text
+from chatrobot.plan.primitive import Primitive, StepParts, divided
+from chatrobot.plan.reader import LineReader, angle_text, at_rate, at_speed, number_text
 from chatrobot.plan.trajectory import RampedTwist
 
 
@@ -41,9 +41,7 @@ class Turn(Step):
     kind: Literal["turn"] = "turn"
 
     def __post_init__(self) -> None:
-        require_positive("angle_rad", self.angle_rad)
-        require_positive("duration_s", self.duration_s)
-        require_positive("rate_radps", self.rate_radps)
+        require_positive(self, "angle_rad", "duration_s", "rate_radps")
         require(
             (self.angle_rad is None) != (self.duration_s is None),
             "a turn needs an angle or a duration, and not both (say the rate instead)",
@@ -66,14 +64,8 @@ class _TurnPrimitive(Primitive[Turn]):
         return Turn(angle, duration, left, rate)
 
     def format(self, step: Turn) -> str:
-        words = ["turn", "left" if step.left else "right"]
-        if step.angle_rad is not None:
-            words.append(angle_text(step.angle_rad))
-        if step.duration_s is not None:
-            words.append(f"{number_text(step.duration_s)} s")
-        if step.rate_radps is not None:
-            words.append(f"at {angle_text(step.rate_radps, suffix='/s', prefer_degrees=False)}")
-        return " ".join(words)
+        extent = f"{number_text(step.duration_s)} s" if step.duration_s else angle_text(step.angle_rad or 0.0)
+        return f"turn {'left' if step.left else 'right'} {extent}{at_rate(step.rate_radps)}"
 
     def lower(self, step: Turn, context: LoweringContext) -> Lowered:
         sign = 1.0 if step.left else -1.0
@@ -89,10 +81,8 @@ class _TurnPrimitive(Primitive[Turn]):
 
     def divide(self, step: Turn, share: float, context: LoweringContext) -> StepParts:  # noqa: ARG002
         if step.angle_rad is not None:
-            angles = divide_angle(step.angle_rad, share)
-            return step_parts(angles, lambda part: replace(step, angle_rad=part))
-        times = divide_extent(step.duration_s or 0.0, share)
-        return step_parts(times, lambda part: replace(step, duration_s=part))
+            return divided(step, "angle_rad", divide_angle(step.angle_rad, share))
+        return divided(step, "duration_s", divide_extent(step.duration_s or 0.0, share))
 
 
 @dataclass(frozen=True)
@@ -105,8 +95,8 @@ class Face(Step):
     kind: Literal["face"] = "face"
 
     def __post_init__(self) -> None:
-        require_finite("yaw_rad", self.yaw_rad)
-        require_positive("rate_radps", self.rate_radps)
+        require_finite(self, "yaw_rad")
+        require_positive(self, "rate_radps")
 
 
 class _FacePrimitive(Primitive[Face]):
@@ -128,12 +118,8 @@ class _FacePrimitive(Primitive[Face]):
         return Face(yaw, frame, rate)
 
     def format(self, step: Face) -> str:
-        words = ["face", angle_text(step.yaw_rad)]
-        if step.frame == "start":
-            words.append("from start")
-        if step.rate_radps is not None:
-            words.append(f"at {angle_text(step.rate_radps, suffix='/s', prefer_degrees=False)}")
-        return " ".join(words)
+        start = " from start" if step.frame == "start" else ""
+        return f"face {angle_text(step.yaw_rad)}{start}{at_rate(step.rate_radps)}"
 
     def lower(self, step: Face, context: LoweringContext) -> Lowered:
         heading = context.frame_pose(step.frame).yaw_rad + step.yaw_rad
@@ -165,9 +151,7 @@ class Arc(Step):
     kind: Literal["arc"] = "arc"
 
     def __post_init__(self) -> None:
-        require_positive("radius_m", self.radius_m)
-        require_positive("angle_rad", self.angle_rad)
-        require_positive("speed_mps", self.speed_mps)
+        require_positive(self, "radius_m", "angle_rad", "speed_mps")
 
 
 class _ArcPrimitive(Primitive[Arc]):
@@ -190,11 +174,9 @@ class _ArcPrimitive(Primitive[Arc]):
         return Arc(radius, angle, left, backward, speed)
 
     def format(self, step: Arc) -> str:
-        words = ["arc back" if step.backward else "arc", "left" if step.left else "right"]
-        words += [angle_text(step.angle_rad), f"radius {number_text(step.radius_m)} m"]
-        if step.speed_mps is not None:
-            words.append(f"at {number_text(step.speed_mps)} m/s")
-        return " ".join(words)
+        side = f"{'back ' if step.backward else ''}{'left' if step.left else 'right'}"
+        way = f"{angle_text(step.angle_rad)} radius {number_text(step.radius_m)} m"
+        return f"arc {side} {way}{at_speed(step.speed_mps)}"
 
     def lower(self, step: Arc, context: LoweringContext) -> Lowered:
         speed = choose_arc_speed(context.profile, step.speed_mps, step.radius_m)
@@ -202,15 +184,11 @@ class _ArcPrimitive(Primitive[Arc]):
             return speed
         vx = -speed if step.backward else speed
         wz = vx / step.radius_m if step.left else -vx / step.radius_m
-        return [
-            RampedTwist.within(
-                context.profile.limits, Twist(vx, 0.0, wz), step.angle_rad * step.radius_m / speed
-            )
-        ]
+        hold_s = step.angle_rad * step.radius_m / speed
+        return [RampedTwist.within(context.profile.limits, Twist(vx, 0.0, wz), hold_s)]
 
     def divide(self, step: Arc, share: float, context: LoweringContext) -> StepParts:  # noqa: ARG002
-        angles = divide_angle(step.angle_rad, share)
-        return step_parts(angles, lambda part: replace(step, angle_rad=part))
+        return divided(step, "angle_rad", divide_angle(step.angle_rad, share))
 
 
 PRIMITIVES = (_TurnPrimitive(), _FacePrimitive(), _ArcPrimitive())

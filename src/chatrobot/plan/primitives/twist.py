@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 from chatrobot.core.geometry import Twist
@@ -15,7 +15,7 @@ from chatrobot.plan.context import (
     refuse_turn_on_the_spot,
     scale_into_limits,
 )
-from chatrobot.plan.primitive import Primitive, StepParts, step_parts
+from chatrobot.plan.primitive import Primitive, StepParts, divided
 from chatrobot.plan.reader import LineReader, number_text
 from chatrobot.plan.trajectory import Pause, RampedTwist
 from chatrobot.robots.profile import RobotProfile
@@ -32,10 +32,8 @@ class RawTwist(Step):
     kind: Literal["twist"] = "twist"
 
     def __post_init__(self) -> None:
-        require_finite("vx_mps", self.vx_mps)
-        require_finite("vy_mps", self.vy_mps)
-        require_finite("wz_radps", self.wz_radps)
-        require_positive("duration_s", self.duration_s)
+        require_finite(self, "vx_mps", "vy_mps", "wz_radps")
+        require_positive(self, "duration_s")
 
 
 class _TwistPrimitive(Primitive[RawTwist]):
@@ -70,8 +68,7 @@ class _TwistPrimitive(Primitive[RawTwist]):
         return [RampedTwist.within(limits, twist, step.duration_s, asked=scaled, is_timed=True)]
 
     def divide(self, step: RawTwist, share: float, context: LoweringContext) -> StepParts:  # noqa: ARG002
-        times = divide_extent(step.duration_s, share)
-        return step_parts(times, lambda part: replace(step, duration_s=part))
+        return divided(step, "duration_s", divide_extent(step.duration_s, share))
 
 
 def _velocity(line: LineReader, unit: str, direction: str) -> float:
