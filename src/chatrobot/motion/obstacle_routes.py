@@ -10,9 +10,10 @@ import numpy as np
 from chatrobot.core.geometry import Pose
 from chatrobot.motion.remembered_obstacles import POINT_RADIUS_M
 from chatrobot.plan.context import NoRoute, Route, RoutePlanner
-from chatrobot.plan.known_world import Area, Floats
+from chatrobot.plan.known_world import Floats
 from chatrobot.plan.route import GridRoutePlanner
 from chatrobot.robots.profile import Point, RobotProfile
+from chatrobot.sim.shapes import Polygon
 from chatrobot.sim.world import Bounds, World
 
 CELL_M = 0.02
@@ -66,7 +67,7 @@ class _KnownAndSeen:
         self._field = _Field.of(points)
 
     @property
-    def allowed_area(self) -> Area | None:
+    def allowed_area(self) -> Polygon | None:
         return self._world.allowed_area
 
     @property

@@ -1,13 +1,12 @@
-"""The JSON form of a plan: for tools, MCP and models with structured output. pydantic is imported only on reading.
+"""Read the JSON form of a plan, for tools and models with structured output. pydantic is imported only on reading.
 
     {"version": "chatrobot-plan/1", "steps": [{"kind": "drive", "distance_m": 1.0}, …]}
 
-Fields are those of the steps' dataclasses; a field that has its default may be left out, and is left out on writing.
+Fields are those of the steps' dataclasses; a field that has its default may be left out.
 """
 
 from __future__ import annotations
 
-import dataclasses
 import json
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -18,22 +17,6 @@ from chatrobot.plan.primitive import for_kind, primitives
 
 VERSION = "chatrobot-plan/1"
 _STEPS_SCHEMA = {"type": "array", "items": {"$ref": "#/$defs/Step"}, "minItems": 1, "maxItems": MAX_LINES}
-
-
-def plan_to_json(plan: Plan) -> dict[str, Any]:
-    """JSON's own types, ready for `json.dumps`."""
-    return {"version": VERSION, "steps": [_to_json(step) for step in plan.steps]}
-
-
-def _to_json(value: Any) -> Any:
-    if isinstance(value, tuple):
-        return [_to_json(item) for item in value]
-    if not dataclasses.is_dataclass(value):
-        return value
-    fields = {f.name: getattr(value, f.name) for f in dataclasses.fields(value)}
-    defaults = {f.name: f.default for f in dataclasses.fields(value)}
-    left = {name: item for name, item in fields.items() if name != "kind" and item != defaults[name]}
-    return {"kind": fields["kind"], **{name: _to_json(item) for name, item in left.items()}}
 
 
 def plan_from_json(data: str | bytes | Mapping[str, Any]) -> Plan:

@@ -13,24 +13,26 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from chatrobot.core.clock import TICK_S
-from chatrobot.core.geometry import Pose, Twist
+from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.plan.base import Plan
 from chatrobot.plan.context import (
     MAX_DURATION_S,
     MAX_EXTENT_M,
     Finding,
+    Findings,
     Impossible,
     LoweringContext,
     RoutePlanner,
     Severity,
+    limited,
     too_far,
     too_long,
 )
 from chatrobot.plan.free_part import Leg, leg_at, nearest_part, part_up_to
 from chatrobot.plan.known_world import Contact, Floats, GovernorKernel, KnownWorld, SeenWorld
-from chatrobot.plan.lowering import CoreWalk, PlannedMotion, iterate_core
-from chatrobot.plan.rounding import round_corners
+from chatrobot.plan.lowering import CoreWalk, PlannedMotion
+from chatrobot.plan.rounding import Rounded, round_corners
 from chatrobot.plan.swept_path import (
     ANY_WAY,
     GovernorCheck,
@@ -64,7 +66,7 @@ class StepEnd:
 
 
 @dataclass(frozen=True, eq=False)
-class Rehearsal:
+class Rehearsal(Findings):
     """What a plan would do.
 
     `plan` is the one to run (corners may have been rounded for a base that steers). `path` is [n, 4] of t_s, x_m,
@@ -82,26 +84,18 @@ class Rehearsal:
     possible: Plan | None = None
 
     @property
-    def ok(self) -> bool:
-        """Nothing was found that refuses it."""
-        return self.refusal is None
-
-    @property
-    def refusal(self) -> Finding | None:
-        """The first finding that refuses it."""
-        return next((finding for finding in self.findings if finding.severity == "refuse"), None)
-
-    @property
     def duration_s(self) -> float:
+        """Return how long it takes, seconds."""
         return float(self.path[-1, 0])
 
     @property
     def end_pose(self) -> Pose:
+        """Return the predicted pose at the end, in the odom frame."""
         return pose_of(self.path[-1])
 
     def walk(self) -> CoreWalk:
-        """The very motions that were rehearsed, for the executor."""
-        return iterate_core(self.plan, self.context)
+        """Walk the very motions that were rehearsed, for the executor."""
+        return CoreWalk(self.plan, self.context)
 
 
 def rehearse(
@@ -134,11 +128,9 @@ def rehearse(
     context = LoweringContext(
         profile, start_pose, plan_start if plan_start is not None else start_pose, planner
     )
-    rounded = round_corners(plan, profile)
+    rounded = Rounded(plan) if profile.can_turn_on_the_spot else round_corners(plan, profile)
     run = _Run(rounded.plan, context, world, governor, seen, most)
-    run.findings += [
-        Finding(note.severity, note.reason, note.index, 0.0, start_pose) for note in rounded.notes
-    ]
+    run.findings += [replace(finding, where=start_pose) for finding in rounded.findings]
     if not any(finding.severity == "refuse" for finding in run.findings):
         run.drive()
     return run.result()
@@ -171,7 +163,7 @@ class _Run:
         self._blocked_row = math.inf
 
     def drive(self) -> None:
-        walk = iterate_core(self.plan, self.context)
+        walk = CoreWalk(self.plan, self.context)
         for item in walk:
             if isinstance(item, Impossible):
                 self._find("refuse", item.reason, item.index, walk.pose)
@@ -231,11 +223,11 @@ class _Run:
             walk.ended_at(segment.end_pose)
         segment = self._slowed(segment)
         if motion.asked is not None:
-            self._find("note", _limited(motion.asked, motion.twist), item.index, item.start)
+            self._find("note", limited(motion.asked, motion.twist), item.index, item.start)
         changed = self.governor.changed(segment)
         if changed is not None:
             sent, rows = changed
-            self._find("note", _limited(motion.twist, sent), item.index, item.start)
+            self._find("note", limited(motion.twist, sent), item.index, item.start)
             walk.ended_at(pose_of(rows[-1]))
         else:
             times = tick_times(segment.total_s, TICK_S)
@@ -326,13 +318,3 @@ class _Run:
             return ""
         is_known = self.world.clearance_m(np.array([[contact.x_m, contact.y_m]]))[0] < KNOWN_WITHIN_M
         return self.world.obstacle_name_at(contact.x_m, contact.y_m) if is_known else ""
-
-
-def _limited(asked: Twist, possible: Twist) -> Reason:
-    values: dict[str, float | int | str] = {
-        "asked_mps": asked.speed_mps,
-        "possible_mps": possible.speed_mps,
-        "asked_radps": abs(asked.wz_radps),
-        "possible_radps": abs(possible.wz_radps),
-    }
-    return Reason("limited", values)

@@ -137,19 +137,6 @@ class Ramp:
         rate = self.k * left_s
         return self.hold_s - 0.5 * rate * left_s, rate
 
-    def time_at(self, s: float) -> float:
-        """When s is first reached, clamped to [0, total_s]: the inverse of `at`."""
-        if s <= 0.0:
-            return 0.0
-        if s >= self.hold_s:
-            return self.total_s
-        if s < 0.5 * self.peak * self.up_end_s:
-            return math.sqrt(2.0 * s / self.k)
-        left = self.hold_s - s
-        if left < 0.5 * self.peak * self.up_end_s:
-            return self.total_s - math.sqrt(2.0 * left / self.k)
-        return s / self.peak + 0.5 * self.up_end_s
-
     def stop_early(self, t_s: float) -> Ramp:
         """The same ramp up to `t_s`, and from there down with slope k: a controlled stop."""
         if t_s >= self.down_start_s:

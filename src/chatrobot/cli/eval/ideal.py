@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from chatrobot.core.geometry import ORIGIN, Twist
 from chatrobot.plan.base import Step, expanded
 from chatrobot.plan.context import Impossible, LoweringContext
-from chatrobot.plan.lowering import PlannedMotion, iterate_core
+from chatrobot.plan.lowering import CoreWalk, PlannedMotion
 from chatrobot.plan.steps import Arc, Drive, Go, Plan, Turn
 from chatrobot.plan.trajectory import Pause, Ramp, RampedTwist
 from chatrobot.robots.profile import RobotProfile
@@ -40,7 +40,7 @@ def ideal(steps: Sequence[Step], profile: RobotProfile) -> Ideal | None:
     if not steps:
         return Ideal()
     items: list[PlannedMotion] = []
-    for item in iterate_core(Plan(tuple(steps)), LoweringContext(profile, ORIGIN, ORIGIN, None)):
+    for item in CoreWalk(Plan(tuple(steps)), LoweringContext(profile, ORIGIN, ORIGIN, None)):
         if isinstance(item, Impossible):
             return None
         items.append(item)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from chatrobot.core.geometry import Twist
 from chatrobot.plan.context import Impossible, LoweringContext, choose_arc_speed, choose_rate, choose_speed
-from chatrobot.plan.lowering import CoreWalk, PlannedMotion, iterate_core
+from chatrobot.plan.lowering import CoreWalk, PlannedMotion
 from chatrobot.plan.primitives.drive import UNTIL_AT_MOST_M, straight_twist
 from chatrobot.plan.steps import (
     Arc,
@@ -62,7 +62,7 @@ Walked = dict[tuple[int, ...], list[PlannedMotion]]
 
 def _walked(plan: Plan, context: LoweringContext) -> Walked | Impossible:
     """What each step comes to the first time it is done."""
-    walk: CoreWalk = iterate_core(plan, context)
+    walk: CoreWalk = CoreWalk(plan, context)
     motions: Walked = {}
     closed: set[tuple[int, ...]] = set()
     for item in walk:
