@@ -33,7 +33,7 @@ LATEST_S = 0.15
 
 
 class _Debt:
-    """What was told and not yet done, of either the way or the turn."""
+    """Sums up what was told and not yet done, of either the way (m) or the turn (rad)."""
 
     def __init__(self, least: float) -> None:
         self._least = least
@@ -49,14 +49,14 @@ class _Debt:
         self.is_measured = False
 
     def tell(self, speed: float, now_s: float, held_s: float) -> None:
-        """From now on it is to do `speed`; what it was told before has been held for `held_s`."""
+        """Tell it to do `speed` from now on; what it was told before has been held for `held_s`."""
         self._told += self._speed * held_s
         if abs(speed - self._speed) > STEADY_SHARE * abs(speed):
             self._steady_since_s = now_s
         self._speed = speed
 
     def late_s(self, done: float, stamp_s: float, told_s: float, *, guesses: bool) -> float | None:
-        """How late it is, once that shows.
+        """Return how late it is, once that shows.
 
         Args:
             told_s: since when it is told what it is told now.
@@ -75,7 +75,10 @@ class _Debt:
 
 
 class Response:
-    """Belongs to the thread that sends; `lag_s` is what it has measured last."""
+    """Measures how late the robot does what it is told, whenever it sets out; `lag_s` is the last result.
+
+    It belongs to the thread that sends.
+    """
 
     def __init__(self) -> None:
         self.lag_s = 0.0
@@ -85,7 +88,7 @@ class Response:
         self._told_s = 0.0
 
     def tell(self, twist: Twist, now_s: float, path_m: float, turned_rad: float) -> None:
-        """The robot is told `twist` from now on; its wheels have rolled and turned so far in all."""
+        """Tell the robot `twist` from now on; its wheels have rolled and turned so far in all."""
         if self._twist.is_zero and not twist.is_zero:
             self._way.begin(path_m, now_s)
             self._turn.begin(turned_rad, now_s)
@@ -96,7 +99,7 @@ class Response:
         self._twist, self._told_s = twist, now_s
 
     def see(self, stamp_s: float, path_m: float, turned_rad: float) -> None:
-        """How far its wheels had rolled and turned by `stamp_s`."""
+        """Take how far its wheels had rolled and turned by `stamp_s`."""
         for debt, done in ((self._way, path_m), (self._turn, turned_rad)):
             late_s = debt.late_s(done, stamp_s, self._told_s, guesses=self._is_guess)
             if late_s is not None:
@@ -142,25 +145,26 @@ class Sensors:
         subscribe_sensors(wire, self._profile.wiring, hear)
 
     def awaits_first_scan(self, due_s: float) -> bool:
-        """No scan has come yet, nor would it have to: it has listened for less than `due_s`."""
+        """Return True where no scan has come yet, nor would it have to: it has listened for less than `due_s`."""
         return not self._has_scanned and self._clock.now_s() - self._attached_at_s <= due_s
 
     @property
     def has_odometry(self) -> bool:
-        """True where the profile says that the robot measures its motion."""
+        """Return True where the profile says that the robot measures its motion."""
         return bool(self._profile.wiring.odom_topic)
 
     @property
     def estimate(self) -> Estimate | None:
+        """Return the newest estimate; None before the first odometry."""
         return self.estimator.estimate
 
     def odometry_age_s(self) -> float:
-        """How old the newest odometry is, seconds; infinite before the first."""
+        """Return how old the newest odometry is, seconds; infinite before the first."""
         made_s = self.estimate.stamp_s if self.estimate is not None else -math.inf
         return self._age_s(self._odometry_at_s, made_s)
 
     def ages_s(self) -> dict[str, float]:
-        """How old the newest word of each sensor is, seconds, by name; infinite before the first word."""
+        """Return how old the newest word of each sensor is, seconds, by name; infinite before the first word."""
         made_s = self.scan.stamp_s if self.scan is not None else -math.inf
         return {
             "odom": self.odometry_age_s(),
@@ -169,12 +173,12 @@ class Sensors:
         }
 
     def _age_s(self, came_s: float, made_s: float) -> float:
-        """Since it came; but fresh mail with old news (a wire that is late, a clock that was set back) is no news."""
+        """Return its age; fresh mail with old news (a late wire, a clock that was set back) is as old as the news."""
         now_s = self._clock.now_s()
         return now_s - (came_s if now_s - made_s <= OLD_NEWS_S else min(came_s, made_s))
 
     def pose_now(self) -> Pose | None:
-        """Where the robot is by now, if it went on as odometry last saw it; None before the first."""
+        """Return where the robot is by now, if it went on as odometry last saw it; None before the first."""
         estimate = self.estimate
         if estimate is None:
             return None
@@ -182,7 +186,7 @@ class Sensors:
         return estimate.pose.moved(estimate.twist, late_s)
 
     def note_sent(self, twist: Twist) -> None:
-        """The robot has been sent `twist`, or is about to be."""
+        """Note that the robot has been sent `twist`, or is about to be."""
         now_s, estimate = self._clock.now_s(), self.estimate
         self.estimator.rest.note_command(is_zero=twist.is_zero, now_s=now_s)
         if estimate is not None:
@@ -214,8 +218,10 @@ class Sensors:
 
 
 def _usable(scan: LaserScan) -> LaserScan | None:
-    """The scan, or None where no beam shows anything: a lidar that is covered or broken, a driver that fills in none
-    of its limits. Plus infinity does show something: that nothing is there (REP-117)."""
+    """Return the scan; None where no beam shows anything: a covered lidar, a driver that fills in none of its limits.
+
+    Plus infinity does show something: that nothing is there (REP-117).
+    """
     near_m, far_m = max(scan.range_min_m, NO_RETURN_M), scan.range_max_m
     shows = near_m < far_m and any(
         near_m <= range_m <= far_m or range_m == math.inf for range_m in scan.ranges_m
@@ -240,7 +246,7 @@ STANDS_LATE_S = 2.0
 
 
 def sensor_fault(sensors: Sensors) -> Reason | None:
-    """Odometry that is silent or says what cannot be."""
+    """Return the reason where odometry is silent or says what cannot be."""
     if not sensors.has_odometry:
         return None
     age_s = sensors.odometry_age_s()
@@ -251,13 +257,12 @@ def sensor_fault(sensors: Sensors) -> Reason | None:
 
 
 def silence(sensors: Sensors) -> Reason:
-    """How long odometry has been silent."""
+    """Return how long odometry has been silent, as a reason."""
     return Reason("odometry_silent", {"age_s": round(min(sensors.odometry_age_s(), 999.0), 2)})
 
 
 def freshness(sensors: Sensors) -> float:
-    """What share of its speed a robot may go with odometry as old as it is now: 1, less where it is late, 0 where
-    it is silent."""
+    """Return the share of its speed, 0 to 1, for odometry as old as now: less where it is late, 0 where silent."""
     if not sensors.has_odometry:
         return 1.0
     left_s = ODOMETRY_SILENT_S - sensors.odometry_age_s()
@@ -265,7 +270,7 @@ def freshness(sensors: Sensors) -> float:
 
 
 def is_seen_moving(sensors: Sensors) -> bool:
-    """Odometry shows clearly, and just now, that it moves."""
+    """Return True where odometry shows clearly, and just now, that it moves."""
     estimate = sensors.estimate
     if estimate is None or sensors.odometry_age_s() >= FRESH_S:
         return False
@@ -273,7 +278,7 @@ def is_seen_moving(sensors: Sensors) -> bool:
 
 
 def is_seen_standing(sensors: Sensors, since_s: float = -math.inf) -> bool:
-    """It is told to stand, and odometry of after that (and after `since_s`) shows, just now, that it does."""
+    """Return True where it is told to stand, and odometry of after that (and of `since_s`) shows that it does."""
     estimate = sensors.estimate
     if estimate is None or not estimate.is_standing or sensors.odometry_age_s() >= FRESH_S:
         return False

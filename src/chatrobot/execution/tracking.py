@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.plan.trajectory import RampedTwist, Segment
@@ -13,12 +14,12 @@ from chatrobot.wire.messages import LaserScan
 
 POSITION_GAIN_PER_S = 2.0
 HEADING_GAIN_PER_S = 4.0
-CROSS_TRACK_GAIN = 6.0
+CROSS_TRACK_GAIN_RADPM2 = 6.0
 """rad/s of turn per metre aside and m/s of speed: how a base that cannot slide sideways returns to its line.
 The law is Kanayama's (A Stable Tracking Control Method for an Autonomous Mobile Robot, ICRA 1990)."""
 
-SHARE = 0.05
-"""Feedback never adds more than this share of the asked speed."""
+FEEDBACK_SHARE = 0.05
+"""Feedback never adds more than this share of the asked speed, dimensionless."""
 
 LEAST_SPEED_MPS = 0.008
 LEAST_RATE_RADPS = 0.03
@@ -27,15 +28,17 @@ HEADING_HOLD_RADPS = 0.12
 
 
 def corrected(profile: RobotProfile, segment: Segment, twist: Twist, error: Pose) -> Twist:
-    """The reference's `twist` with feedback, in the robot's frame. Near the end of a ramp, where the reference hardly
-    moves any more, feedback may bring a robot that is ahead to stand; it never drives it back."""
+    """Return the reference's `twist` with feedback, in the robot's frame.
+
+    Near the end of a ramp feedback may bring a robot that is ahead to stand; it never drives it back.
+    """
     more = feedback(profile, segment, error)
     total = Twist(twist.vx_mps + more.vx_mps, twist.vy_mps + more.vy_mps, twist.wz_radps + more.wz_radps)
     return Twist(*without_reverse(total, segment.motion.twist))
 
 
 def without_reverse(motion: tuple[float, float, float], driven: Twist) -> tuple[float, float, float]:
-    """`motion` (forward, to the left, counter-clockwise) without what goes against `driven`."""
+    """Return `motion` (forward, to the left, counter-clockwise) without what goes against `driven`."""
     x, y, turn = motion
     speed = driven.speed_mps
     along = (x * driven.vx_mps + y * driven.vy_mps) / speed if speed > 0.0 else 0.0
@@ -45,21 +48,21 @@ def without_reverse(motion: tuple[float, float, float], driven: Twist) -> tuple[
 
 
 def feedback(profile: RobotProfile, segment: Segment, error: Pose) -> Twist:
-    """The twist to add, in the robot's frame.
+    """Return the twist to add, in the robot's frame.
 
     Args:
         segment: what is being driven; its full twist sets how much feedback may add.
         error: the reference pose as seen from the robot.
     """
     asked = segment.motion.twist
-    speed_cap = max(LEAST_SPEED_MPS, SHARE * asked.speed_mps)
+    speed_cap = max(LEAST_SPEED_MPS, FEEDBACK_SHARE * asked.speed_mps)
     turning = abs(asked.wz_radps) > 1e-6
-    rate_cap = max(LEAST_RATE_RADPS, SHARE * abs(asked.wz_radps)) if turning else HEADING_HOLD_RADPS
+    rate_cap = max(LEAST_RATE_RADPS, FEEDBACK_SHARE * abs(asked.wz_radps)) if turning else HEADING_HOLD_RADPS
     vx = POSITION_GAIN_PER_S * error.x_m
     vy = POSITION_GAIN_PER_S * error.y_m if profile.can_go_sideways else 0.0
     wz = HEADING_GAIN_PER_S * error.yaw_rad
     if not profile.can_go_sideways:
-        wz += CROSS_TRACK_GAIN * asked.vx_mps * error.y_m
+        wz += CROSS_TRACK_GAIN_RADPM2 * asked.vx_mps * error.y_m
     if not profile.can_turn_on_the_spot and asked.speed_mps == 0.0:
         wz = 0.0
     speed = math.hypot(vx, vy)
@@ -76,7 +79,7 @@ SLIP_SHARE = 0.5
 
 
 def tracking_fault(begin: Pose, reference: Pose, seen: Pose, wheel_turn_rad: float) -> Reason | None:
-    """What is wrong where the robot parts too far from its reference.
+    """Return what is wrong where the robot parts too far from its reference; None where it does not.
 
     Args:
         begin: pose at the start of the motion.
@@ -115,7 +118,7 @@ def _degrees(angle_rad: float) -> float:
 
 
 def free_ahead_m(profile: RobotProfile, scan: LaserScan, direction_rad: float) -> float:
-    """Metres the footprint could go along `direction_rad` (robot's frame) before something the lidar sees.
+    """Return how far the footprint could go along `direction_rad` (robot's frame) before something the lidar sees.
 
     Looks at the strip the footprint sweeps. Infinite where nothing is in it; zeros and NaN are "no return" on
     cheap lidars and are passed over.
@@ -140,10 +143,8 @@ def free_ahead_m(profile: RobotProfile, scan: LaserScan, direction_rad: float) -
     return nearest
 
 
-def must_brake(
-    profile: RobotProfile, scan: LaserScan | None, segment: Segment, t_s: float, tick_s: float
-) -> bool:
-    """Whether `t_s` into `segment` it is time to brake, so that its condition holds where the robot then stands.
+def must_brake(profile: RobotProfile, scan: LaserScan | None, segment: Segment, t_s: float) -> bool:
+    """Return True where it is time to brake, `t_s` into `segment`, so that its condition holds where the robot stops.
 
     Braking distance: what is driven until the robot hears of it, and v²/2a. False where there is no condition, or
     no scan to see it by.
@@ -154,14 +155,14 @@ def must_brake(
     speed_mps = segment.at(t_s)[1].speed_mps
     limits = profile.limits
     braking_mps2 = min(limits.acceleration_mps2, limits.deceleration_mps2)
-    braking_m = speed_mps * (tick_s + limits.latency_s) + speed_mps * speed_mps / (2.0 * braking_mps2)
+    braking_m = speed_mps * (TICK_S + limits.latency_s) + speed_mps * speed_mps / (2.0 * braking_mps2)
     full = segment.motion.twist
     direction_rad = math.atan2(full.vy_mps, full.vx_mps)
     return free_ahead_m(profile, scan, direction_rad) - braking_m <= condition.distance_m
 
 
 def nearest_m(scan: LaserScan) -> float | None:
-    """The nearest valid return, in metres from the lidar; None where there is none."""
+    """Return the nearest valid range, in metres from the lidar; None where there is none."""
     valid = [d for d in scan.ranges_m if scan.range_min_m <= d <= scan.range_max_m]
     return min(valid) if valid else None
 
@@ -187,7 +188,7 @@ BETWEEN_STEPS = Tolerance(0.04, math.radians(2.5))
 
 
 def correction(profile: RobotProfile, rest: Pose, tolerance: Tolerance) -> RampedTwist | None:
-    """The motion that takes the robot to its reference; None where it is near enough.
+    """Return the motion that takes the robot to its reference; None where it is near enough.
 
     Args:
         rest: the reference pose as seen from the robot. What the base cannot do is left out.

@@ -1,4 +1,4 @@
-"""What can be done of a plan where one of its motions is blocked: all before it, and the free part of that one."""
+"""The part of a plan that can be done where one of its motions is blocked: all before it, and the free part of that."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Leg:
 
 
 def leg_at(legs: Sequence[Leg], row: int) -> tuple[Leg, int]:
-    """The leg that this row of the whole path belongs to, and the first row of it."""
+    """Return the leg that this row of the whole path belongs to, and the first row of it."""
     ends = np.cumsum([len(leg.rows) for leg in legs])
     number = int(np.searchsorted(ends, row, side="right"))
     return legs[number], int(ends[number]) - len(legs[number].rows)
@@ -47,7 +47,7 @@ def leg_at(legs: Sequence[Leg], row: int) -> tuple[Leg, int]:
 def part_up_to(
     plan: Plan, context: LoweringContext, legs: Sequence[Leg], row: int, most_m: float = math.inf
 ) -> tuple[Plan | None, dict[str, float]]:
-    """What can be done of `plan` up to a row of its path, and how much of the motion there; `most_m`: of the whole."""
+    """Return the part of `plan` up to a row of its path, and how much of the motion there; `most_m`: of the whole."""
     leg, first_row = leg_at(legs, row)
     rows = np.concatenate([leg.rows for leg in legs])[: row + 1]
     driven_m = float(np.hypot(*np.diff(rows[: first_row + 1, 1:3], axis=0).T).sum())
@@ -82,7 +82,7 @@ def free_part(
 
 
 def nearest_part(plan: Plan, context: LoweringContext, impossible: Impossible) -> Plan | None:
-    """All that comes before an impossible step, and what can be done instead of it; None where nothing can."""
+    """Return all that comes before an impossible step, and what can be done instead of it; None where nothing can."""
     if impossible.instead is None:
         return None
     before = split(plan.steps, Reached(impossible.number - 1), context).executed

@@ -110,7 +110,7 @@ def _adapter(step_type: type[Step]) -> Any:
 
 
 def plan_schema() -> dict[str, Any]:
-    """The JSON schema (draft 2020-12) of the JSON form, with every primitive that is registered."""
+    """Return the JSON schema (draft 2020-12) of the JSON form, with every primitive that is registered."""
     defs: dict[str, Any] = {}
     kinds = {}
     for primitive in primitives():

@@ -1,9 +1,9 @@
-"""Shortest forward curves of bounded curvature made of an arc, a straight line and, to a pose, another arc.
+"""Getting to a point: turn to each leg and drive it, reverse where that is shorter, or steer there on a curve.
 
-Source: L. E. Dubins, On curves of minimal length with a constraint on average curvature (1957); the four words
+A curve is the shortest of bounded curvature, forward: an arc, a straight line and, to a pose, another arc. Source:
+L. E. Dubins, On curves of minimal length with a constraint on average curvature (1957); the four words
 circle-straight-circle, which always suffice when start and goal are more than four radii apart. To a point with a
-free final heading circle-straight is enough unless the point lies inside the turning circle; then the other circle
-is used.
+free final heading circle-straight is enough unless the point lies inside one turning circle; then the other is used.
 """
 
 from __future__ import annotations
@@ -37,27 +37,21 @@ Curve = tuple[Piece, ...]
 _TINY = 1e-9
 
 
-def length_m(curve: Curve) -> float:
+def _length_m(curve: Curve) -> float:
     return sum(length for _, length in curve)
 
 
 def curve_to_point(start: Pose, goal: Point, radius_m: float) -> Curve | None:
-    """The shorter of left-straight and right-straight from `start` to `goal`, or None if neither exists."""
-    curves = [
-        curve
-        for side in (1.0, -1.0)
-        if (curve := _bend_then_straight(start, goal, radius_m, side)) is not None
-    ]
-    return min(curves, key=length_m, default=None)
+    """Return the shorter of left-straight and right-straight from `start` to `goal`, or None if neither exists."""
+    curves = (_bend_then_straight(start, goal, radius_m, side) for side in (1.0, -1.0))
+    return min((curve for curve in curves if curve is not None), key=_length_m, default=None)
 
 
 def curve_to_pose(start: Pose, goal: Pose, radius_m: float) -> Curve | None:
-    """The shortest of the four words circle-straight-circle."""
-    sides = [(a, b) for a in (1.0, -1.0) for b in (1.0, -1.0)]
-    curves = [
-        curve for a, b in sides if (curve := _bend_straight_bend(start, goal, radius_m, a, b)) is not None
-    ]
-    return min(curves, key=length_m, default=None)
+    """Return the shortest of the four words circle-straight-circle."""
+    sides = ((a, b) for a in (1.0, -1.0) for b in (1.0, -1.0))
+    curves = (_bend_straight_bend(start, goal, radius_m, *pair) for pair in sides)
+    return min((curve for curve in curves if curve is not None), key=_length_m, default=None)
 
 
 def _center(pose: Pose, radius_m: float, side: float) -> Point:
@@ -120,7 +114,7 @@ _ALIGNED_RAD = 1e-6
 def turn_to(
     profile: RobotProfile, pose: Pose, heading_rad: float, rate_radps: float | None = None
 ) -> Lowered:
-    """The short way round from `pose` to a heading of the same frame. Nothing if it looks there already."""
+    """Turn the short way round from `pose` to a heading of the same frame. Nothing if it looks there already."""
     angle = wrap_angle(heading_rad - pose.yaw_rad)
     rate = choose_rate(profile, rate_radps)
     if isinstance(rate, Impossible):
@@ -142,7 +136,7 @@ def go_to(
     speed_mps: float | None,
     named_place: bool,
 ) -> Lowered:
-    """From `context.pose` to `goal` (odom frame), at the end looking along `heading_rad` if that is given."""
+    """Lead from `context.pose` to `goal` (odom frame), at the end looking along `heading_rad` if that is given."""
     speed = choose_speed(context.profile, speed_mps)
     if isinstance(speed, Impossible):
         return speed

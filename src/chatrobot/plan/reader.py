@@ -1,4 +1,4 @@
-"""The units plan text understands, and the shortest text for a number that reads back as exactly that number."""
+"""One line of plan text, token by token: its units, its numbers, and on a mistake what is allowed at that place."""
 
 from __future__ import annotations
 
@@ -61,14 +61,14 @@ RATES: dict[str, Convert] = {
 
 
 def number_text(value: float) -> str:
-    """The shortest decimal that reads back as `value`; whole numbers without a point."""
+    """Return the shortest decimal that reads back as `value`; whole numbers without a point."""
     if value == int(value) and abs(value) < 1e15:
         return str(int(value))
     return repr(float(value))
 
 
 def _degrees_text(angle_rad: float) -> str | None:
-    """The shortest decimal of degrees that reads back as exactly `angle_rad`, if there is one."""
+    """Return the shortest decimal of degrees that reads back as exactly `angle_rad`, if there is one."""
     degrees = math.degrees(angle_rad)
     if abs(degrees) > 1e15:
         return None
@@ -80,7 +80,7 @@ def _degrees_text(angle_rad: float) -> str | None:
 
 
 def angle_text(angle_rad: float, *, suffix: str = "", prefer_degrees: bool = True) -> str:
-    """Degrees or radians (`suffix` "/s" for rates), whichever reads back exactly and is shorter to read."""
+    """Return degrees or radians (`suffix` "/s" for rates), whichever reads back exactly and is shorter to read."""
     in_radians, in_degrees = number_text(angle_rad), _degrees_text(angle_rad)
     if in_degrees is None:
         return f"{in_radians} rad{suffix}"
@@ -114,7 +114,7 @@ _ESCAPE = re.compile(r"\\(.)")
 
 
 def quote(text: str) -> str:
-    """`text` as a quoted token. The text must be printable."""
+    """Return `text` as a quoted token. The text must be printable."""
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')
     return f'"{escaped}"'
 
@@ -138,24 +138,26 @@ class LineReader:
                 self._tokens.append((kind, match.group(kind), match.start(kind)))
 
     def at_end(self) -> bool:
+        """Return True where no token is left."""
         return self._next >= len(self._tokens)
 
     def fail(self, problem: str, allowed: str = "") -> NoReturn:
+        """Raise PlanTextError with the line, the problem and what is allowed."""
         raise PlanTextError(problem, line_number=self.line_number, line=self.line, allowed=allowed)
 
     def fail_here(self, allowed: str) -> NoReturn:
-        """The next token (or the end of the line) is not what may stand here."""
+        """Fail: the next token (or the end of the line) is not what may stand here."""
         if self.at_end():
             self.fail("something is missing at the end", allowed)
         self.fail(f"{self._tokens[self._next][1]!r} is not understood here", allowed)
 
     def finish(self, allowed: str) -> None:
-        """Nothing may be left. `allowed` names what else could have stood here."""
+        """Fail where a token is left. `allowed` names what else could have stood here."""
         if not self.at_end():
             self.fail_here(allowed)
 
     def peek_word(self) -> str:
-        """The next token in lower case if it is a word, else ""."""
+        """Return the next token in lower case if it is a word, else ""."""
         if self.at_end():
             return ""
         kind, text, _ = self._tokens[self._next]
@@ -170,14 +172,16 @@ class LineReader:
         return ""
 
     def expect(self, *words: str) -> str:
+        """Take the next token, which must be one of these words, and say which."""
         return self.accept(*words) or self.fail_here(" or ".join(repr(word) for word in words))
 
     @property
     def number_follows(self) -> bool:
+        """Return True where the next token is a number."""
         return not self.at_end() and self._tokens[self._next][0] == "number"
 
     def number(self, allowed: str = "a number") -> float:
-        """A finite number."""
+        """Take a finite number."""
         if not self.number_follows:
             self.fail_here(allowed)
         value = float(self._tokens[self._next][1])
@@ -187,6 +191,7 @@ class LineReader:
         return value
 
     def whole_number(self, allowed: str) -> int:
+        """Take a whole number."""
         value = self.number(allowed)
         if value != int(value):
             self._next -= 1
@@ -208,26 +213,31 @@ class LineReader:
         return converted
 
     def length_m(self) -> float:
+        """Take a length; metres where no unit is given."""
         return self._quantity(LENGTHS, "m", "a length such as 0.5 m")
 
     def duration_s(self) -> float:
+        """Take a time; seconds where no unit is given."""
         return self._quantity(TIMES, "s", "a time such as 3 s")
 
     def angle_rad(self) -> float:
+        """Take an angle with its unit."""
         return self._quantity(ANGLES, "", "an angle such as 90 deg or 0.5 rad")
 
     def speed_mps(self) -> float:
+        """Take a speed; m/s where no unit is given."""
         return self._quantity(SPEEDS, "m/s", "a speed such as 0.2 m/s")
 
     def rate_radps(self) -> float:
+        """Take a rate of turn with its unit."""
         return self._quantity(RATES, "", "a rate such as 0.5 rad/s or 30 deg/s")
 
     def length_or_duration(self) -> tuple[float | None, float | None]:
-        """(metres, None) or (None, seconds), by the unit."""
+        """Take (metres, None) or (None, seconds), by the unit."""
         return self._either(LENGTHS, TIMES, "a distance such as 1 m or a time such as 2 s")
 
     def angle_or_duration(self) -> tuple[float | None, float | None]:
-        """(radians, None) or (None, seconds), by the unit."""
+        """Take (radians, None) or (None, seconds), by the unit."""
         return self._either(ANGLES, TIMES, "an angle such as 90 deg or a time such as 2 s")
 
     def _either(
@@ -242,7 +252,7 @@ class LineReader:
         return self._quantity(first, "", allowed), None
 
     def text(self, allowed: str) -> str:
-        """A quoted text, or everything up to the end of the line (a comment apart)."""
+        """Take a quoted text, or everything up to the end of the line (a comment apart)."""
         if self.at_end():
             self.fail_here(allowed)
         kind, text, start = self._tokens[self._next]

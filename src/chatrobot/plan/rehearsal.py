@@ -236,7 +236,7 @@ class _Run:
         self._add(item, rows)
 
     def _slowed(self, segment: Segment) -> Segment:
-        """The segment as slowly as the governor will let the robot go where its lidar does not see; the same path."""
+        """Return the segment as slowly as the governor lets the robot go where its lidar does not see."""
         motion, share = segment.motion, 1.0
         if self.seen is not None:
             share = self.seen.allowed_share(motion.twist, segment.start)
@@ -247,7 +247,7 @@ class _Run:
         return Segment(slower, segment.start)
 
     def _until(self, segment: Segment, distance_m: float, item: PlannedMotion) -> Segment:
-        """The segment as it will be if the lidar sees what is known and what it saw, and nothing else."""
+        """Return the segment as it will be if the lidar sees what is known and what it saw, and nothing else."""
         twist, lidar = segment.motion.twist, self.context.profile.lidar
         if lidar is not None:
             distance_m = min(distance_m, lidar.max_range_m)
@@ -313,7 +313,7 @@ class _Run:
         self._find("refuse", Reason(code, values), leg.item.index, pose_of(row), float(row[0]))
 
     def _name_of(self, contact: Contact) -> str:
-        """What stands there, if it is known."""
+        """Return the name of what stands there, if it is known."""
         if self.world is None:
             return ""
         is_known = self.world.clearance_m(np.array([[contact.x_m, contact.y_m]]))[0] < KNOWN_WITHIN_M

@@ -1,4 +1,7 @@
-"""Plan text as it is shown to people. What runs, travels or is edited is the exact text, never this one."""
+"""Plan text as it is shown to people: rounded, and folded where something comes several times in a row.
+
+`54 × drive 0.5 m`, `4 × (drive 1 m, turn left 90 deg)`. What runs, travels or is edited is the exact text, never this.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +19,7 @@ _QUOTED_OR_NUMBER = re.compile(
 
 
 def shown_plan(plan_text: str) -> str:
-    """The plan with numbers to the millimetre and the tenth of a degree; names and what is said stay as they are."""
+    """Return the plan with numbers to the millimetre and the tenth of a degree; quoted texts stay as they are."""
     return _QUOTED_OR_NUMBER.sub(_shown, plan_text)
 
 
@@ -48,7 +51,7 @@ class FoldedLine(NamedTuple):
 
 
 def runs(items: Sequence[Item]) -> Iterator[tuple[int, Sequence[Item]]]:
-    """`items` in order as groups, each with how often it comes in a row."""
+    """Yield `items` in order as groups, each with how often it comes in a row."""
     at = 0
     while at < len(items):
         best = (1, items[at : at + 1])
@@ -64,7 +67,7 @@ def runs(items: Sequence[Item]) -> Iterator[tuple[int, Sequence[Item]]]:
 
 
 def repeated(count: int, texts: Sequence[str], join: str) -> str:
-    """A group in one text; what comes several times within it is counted, too."""
+    """Return a group in one text; what comes several times within it is counted, too."""
     parts = [repeated(times, group, join) for times, group in runs(texts)] if len(texts) > 1 else [*texts]
     text = join.join(parts)
     if count == 1:
@@ -73,7 +76,7 @@ def repeated(count: int, texts: Sequence[str], join: str) -> str:
 
 
 def folded_plan(plan_text: str) -> list[FoldedLine]:
-    """The lines of a plan as they are shown to people."""
+    """Return the lines of a plan as they are shown to people."""
     return list(_folded(shown_plan(plan_text).splitlines(), 1, ""))
 
 

@@ -2,6 +2,8 @@
 
 `format_plan` writes one canonical form; `parse_plan(format_plan(plan)) == plan` for every valid plan. Reading is
 more tolerant than writing. The grammar lies with the primitives (`plan/primitives`); docs/plan-language.md shows it.
+The tutorial's form of a velocity, `linear.x = 1,linear.y = 0,…,angular.z = 0`, is read here, too: it counts only where
+a line consists wholly of its assignments, never inside prose.
 """
 
 from __future__ import annotations
@@ -35,12 +37,12 @@ def parse_plan(text: str) -> Plan:
 
 
 def format_plan(plan: Plan) -> str:
-    """The canonical text: a line a step, no newline at the end."""
+    """Return the canonical text: a line a step, no newline at the end."""
     return "\n".join(_lines(plan.steps, ""))
 
 
 def format_step(step: Step) -> str:
-    """The canonical text of one step, with all its lines if it is a block."""
+    """Return the canonical text of one step, with all its lines if it is a block."""
     return "\n".join(_lines((step,), ""))
 
 
@@ -81,11 +83,11 @@ class StreamParser:
 
     @property
     def in_block(self) -> bool:
-        """A block is open: its `end` has not been read."""
+        """Return True where a block is open: its `end` has not been read."""
         return bool(self._open)
 
     def feed(self, chunk: str) -> list[Step]:
-        """The top-level steps that this piece of text completed.
+        """Return the top-level steps that this piece of text completed.
 
         Raises:
             PlanTextError: a line cannot be read, or the plan is too large.
@@ -97,7 +99,7 @@ class StreamParser:
         return self._deliver(done)
 
     def finish(self) -> list[Step]:
-        """The text is over: read a last line without a newline.
+        """End the text: read a last line without a newline.
 
         Raises:
             PlanTextError: as `feed`, or a block was not closed.
@@ -143,7 +145,7 @@ class StreamParser:
         raise PlanTextError(problem, line_number=self._line_number, line=line, allowed=allowed)
 
     def _read_line(self, line: str) -> Step | None:
-        """The top-level step that this line completes, if it does."""
+        """Return the top-level step that this line completes, if it does."""
         if len(line.strip()) > MAX_LINE_CHARS:
             raise _too_long(self._line_number, line)
         if self._line_number > MAX_LINES:
@@ -189,7 +191,7 @@ class StreamParser:
         return self._place(step)
 
     def _place(self, step: Step) -> Step | None:
-        """Into the open block, or out as a top-level step."""
+        """Put a step into the open block, or return it as a top-level one."""
         if not self._open:
             return step
         self._open[-1].steps.append(step)
@@ -214,7 +216,7 @@ _LINE = re.compile(rf"\s*[\"'“]?\s*{_ASSIGNMENT}(?:\s*[,，;]\s*{_ASSIGNMENT})
 
 
 class ImpossibleTwistError(ValueError):
-    """A velocity that cannot be. `code`: `bad_number` (not finite) or `not_planar`."""
+    """Raised for a velocity that cannot be. `code`: `bad_number` (not finite) or `not_planar`."""
 
     def __init__(self, code: str) -> None:
         super().__init__(code)
@@ -222,7 +224,7 @@ class ImpossibleTwistError(ValueError):
 
 
 def read_tutorial_line(line: str) -> RawTwist | None:
-    """The velocity that `line` assigns, None where it is anything else.
+    """Return the velocity that `line` assigns, None where it is anything else.
 
     Raises:
         ImpossibleTwistError: it is of that form, and no planar robot can do it.
@@ -235,7 +237,7 @@ def read_tutorial_line(line: str) -> RawTwist | None:
 
 
 def twist_from(values: dict[str, float], duration_s: float) -> RawTwist:
-    """The raw velocity of assignments by name (`linear.x`, m/s; `angular.z`, rad/s); what is missing is zero.
+    """Return the raw velocity of assignments by name (`linear.x`, m/s; `angular.z`, rad/s); what is missing is zero.
 
     Raises:
         ImpossibleTwistError: see there.

@@ -1,4 +1,10 @@
-"""The tiny core that every primitive lowers to: a ramped twist, a pause, an event. Executors know nothing else."""
+"""The tiny core that every primitive lowers to, and the one trajectory generator for it.
+
+A motion is a constant twist scaled by one progress variable s(t), in seconds of that twist. Its rate ds/dt rises
+from 0 to 1 with slope k, stays, and falls again, so that s ends at exactly `hold_s`: the path is twist * hold_s, and
+linear and angular velocity keep their ratio (the curvature) at every moment. Source of the trapezoid with equal
+area: Lynch and Park, Modern Robotics (2017), section 9.2.2.2.
+"""
 
 from __future__ import annotations
 
@@ -12,8 +18,8 @@ from chatrobot.robots.profile import Limits
 
 NEAR_LIMIT = 0.7
 RAMP_SHARE = 0.9
-"""Beyond `NEAR_LIMIT` of the top speed feedback has little room above the reference; ramps then use only this share of
-the accelerations, so that it can still brake more than the reference does. The governor holds the sum to all of it."""
+"""Dimensionless. Beyond `NEAR_LIMIT` of the top speed feedback has little room above the reference; ramps then use only
+this share of the accelerations, so that it can still brake more than the reference. The governor holds the sum."""
 
 
 @dataclass(frozen=True)
@@ -21,7 +27,7 @@ class RampedTwist:
     """A constant twist, held for `hold_s` and ramped at both ends so that the path is exactly twist * hold_s.
 
     All three components share one ramp, so the curvature is the same from the first tick to the last.
-    `ramp_per_s` is how much of the twist a second of ramp adds (see `trajectory.Ramp`). `until` ends it early.
+    `ramp_per_s` is how much of the twist a second of ramp adds (k of `Ramp`). `until` ends it early.
     `asked` is what the plan said where the limits scaled it down, else None. `is_timed`: the plan said how long, not
     how far.
     """
@@ -44,11 +50,11 @@ class RampedTwist:
         asked: Twist | None = None,
         is_timed: bool = False,
     ) -> RampedTwist:
-        """With the steepest ramp that keeps to both accelerations of `limits`. The twist must not be zero."""
+        """Make one with the steepest ramp that keeps to both accelerations of `limits`. The twist must not be zero."""
         return cls(twist, hold_s, ramp_rate(limits, twist), until, asked, is_timed)
 
     def end(self, start: Pose) -> Pose:
-        """The ideal pose at the end, in the frame of `start`."""
+        """Return the ideal pose at the end, in the frame of `start`."""
         return start.moved(self.twist, self.hold_s)
 
 
@@ -59,6 +65,7 @@ class Pause:
     duration_s: float
 
     def end(self, start: Pose) -> Pose:
+        """Return `start`."""
         return start
 
 
@@ -70,6 +77,7 @@ class Emit:
     text: str
 
     def end(self, start: Pose) -> Pose:
+        """Return `start`."""
         return start
 
 
@@ -79,7 +87,7 @@ CoreMotion = Union[RampedTwist, Pause, Emit]
 
 
 def ramp_rate(limits: Limits, twist: Twist) -> float:
-    """Share of `twist` that one second of ramp may add, 1/s, so that neither acceleration is exceeded.
+    """Return the share of `twist` that one second of ramp may add, 1/s, so that neither acceleration is exceeded.
 
     Ramps are symmetric; where the base brakes more weakly than it accelerates, braking decides.
     """
@@ -123,7 +131,7 @@ class Ramp:
         self.total_s = self.down_start_s + self.up_end_s
 
     def at(self, t_s: float) -> tuple[float, float]:
-        """(s, ds/dt) at `t_s` after the start; before it (0, 0), after the end (hold_s, 0)."""
+        """Return (s, ds/dt) at `t_s` after the start; before it (0, 0), after the end (hold_s, 0)."""
         if t_s <= 0.0:
             return 0.0, 0.0
         if t_s < self.up_end_s:
@@ -138,7 +146,7 @@ class Ramp:
         return self.hold_s - 0.5 * rate * left_s, rate
 
     def stop_early(self, t_s: float) -> Ramp:
-        """The same ramp up to `t_s`, and from there down with slope k: a controlled stop."""
+        """Return the same ramp up to `t_s`, and from there down with slope k: a controlled stop."""
         if t_s >= self.down_start_s:
             return self
         s, rate = self.at(t_s)
@@ -153,7 +161,7 @@ class Ramp:
 
 
 class Segment:
-    """A ramped twist that starts at a pose: where the robot should be, and how fast, at every moment.
+    """A ramped twist that starts at a pose. Says where the robot should be, and how fast, at every moment.
 
     Args:
         motion: what to do.
@@ -175,14 +183,16 @@ class Segment:
 
     @property
     def total_s(self) -> float:
+        """Return how long it lasts, seconds."""
         return self.ramp.total_s
 
     @property
     def end_pose(self) -> Pose:
+        """Return the reference pose at the end."""
         return self.start.moved(self.motion.twist, self.ramp.hold_s)
 
     def pose_at_progress(self, s: float) -> Pose:
-        """The reference pose after `s` seconds of the full twist."""
+        """Return the reference pose after `s` seconds of the full twist."""
         vx, vy, wz = self.motion.twist
         start = self.start
         if abs(wz) < STRAIGHT_RADPS:
@@ -199,7 +209,7 @@ class Segment:
         )
 
     def progress_at(self, pose: Pose) -> float:
-        """The progress whose reference pose is nearest to `pose`; it may lie before the start or after the end.
+        """Return the progress whose reference pose is nearest to `pose`; it may lie before the start or after the end.
 
         On a curve it is measured about the curve's centre, on a tight one and on the spot by the heading.
         """
@@ -215,11 +225,11 @@ class Segment:
         return (moved.yaw_rad + math.remainder(about - moved.yaw_rad, 2.0 * math.pi)) / twist.wz_radps
 
     def at(self, t_s: float) -> tuple[Pose, Twist]:
-        """Reference pose and reference twist (robot's frame) at `t_s` after the start."""
+        """Return reference pose and reference twist (robot's frame) at `t_s` after the start."""
         s, rate = self.ramp.at(t_s)
         twist = self.motion.twist.scaled(rate) if rate else ZERO_TWIST
         return self.pose_at_progress(s), twist
 
     def stop_early(self, t_s: float) -> Segment:
-        """The same motion with a controlled stop that begins at `t_s`."""
+        """Return the same motion with a controlled stop that begins at `t_s`."""
         return Segment(self.motion, self.start, self.ramp.stop_early(t_s))

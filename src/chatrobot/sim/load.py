@@ -1,4 +1,5 @@
-"""Worlds by name or path."""
+"""Worlds by name or path: YAML files in a frame of their own, checked field by field, re-expressed in the frame of the
+start."""
 
 from __future__ import annotations
 
@@ -20,14 +21,13 @@ _BUILT_IN = Path(__file__).with_name("worlds")
 
 
 def load_world(name_or_path: str) -> World:
-    """The world of that name, or in that YAML file (anything with a slash, or ending in .yaml or .yml).
+    """Return the world of that name, or in that YAML file (anything with a slash, or ending in .yaml or .yml).
 
     Raises:
         WorldError: there is none, or it cannot be used; names file, line, field and what is allowed.
     """
     if name_or_path == EMPTY_WORLD.name:
         return EMPTY_WORLD
-
     if "/" in name_or_path or name_or_path.endswith((".yaml", ".yml")):
         return read_world(Path(name_or_path))
     path = _BUILT_IN / f"{name_or_path}.yaml"
@@ -38,7 +38,7 @@ def load_world(name_or_path: str) -> World:
 
 
 def world_names() -> list[str]:
-    """The worlds that have a name, the empty one first."""
+    """Return the names of worlds, the empty one first."""
     return [EMPTY_WORLD.name, *sorted(file.stem for file in _BUILT_IN.glob("*.yaml"))]
 
 
@@ -47,7 +47,7 @@ _SHAPES = ("rectangle", "polygon", "circle", "wall")
 
 
 def read_world(path: Path) -> World:
-    """The world in a YAML file.
+    """Return the world in a YAML file.
 
     Raises:
         WorldError: names file, line, field, what is wrong and what is allowed.
@@ -62,7 +62,7 @@ def read_world(path: Path) -> World:
 
 
 def parse_world(text: str, source: str, default_name: str = "world") -> World:
-    """The same from text; `source` is what errors call it."""
+    """Read the same from text; `source` is what errors call it."""
     root = _Field(_compose(text, source), source, "")
     fields = root.mapping("start", "name", "obstacles", "places", "allowed_area")
     start = _start(fields["start"]) if "start" in fields else Pose()

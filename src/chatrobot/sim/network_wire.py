@@ -1,4 +1,8 @@
-"""A wire whose callbacks come on the physics thread, for wires that deliver on threads of their own."""
+"""The simulated robot on a network: callbacks on the physics thread, and transforms for RViz and Nav2.
+
+Transforms (REP-105): `odom` → `base_link` on `/tf`, and `base_link` → `laser`, which is fixed, once on `/tf_static`,
+where who comes later finds it, too.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +20,7 @@ from chatrobot.wire.wire import M, Wire
 
 
 class MarshalledWire:
-    """One end of `wire` that delivers in `poll` alone, as a `LocalHub` does.
+    """Wraps an end of a wire that delivers on its own threads: this one delivers in `poll` alone, as a `LocalHub` does.
 
     Args:
         after_publishing: called with each message that has been published.
@@ -31,11 +35,13 @@ class MarshalledWire:
         self._waiting: queue.Queue[tuple[Callable[[Any], None], Any]] = queue.Queue()
 
     def publish(self, topic: str, message: Message) -> None:
+        """Publish as `Wire` does; a message that cannot be sent is dropped."""
         with contextlib.suppress(WireError):  # a robot lives on while its network is gone
             self._wire.publish(topic, message)
             self._after_publishing(topic, message)
 
     def subscribe(self, topic: str, kind: type[M], callback: Callable[[M], None]) -> None:
+        """Subscribe as `Wire` does; `callback` comes in `poll`."""
         self._wire.subscribe(topic, kind, lambda message: self._waiting.put((callback, message)))
 
     def poll(self, timeout_s: float) -> None:
@@ -49,6 +55,7 @@ class MarshalledWire:
             return
 
     def close(self) -> None:
+        """Close the wire."""
         self._wire.close()
 
 
@@ -65,11 +72,12 @@ class FieldsPublisher(Wire, Protocol):
 
     def publish_fields(
         self, topic: str, type_name: str, fields: Mapping[str, Any], *, is_kept: bool = False
-    ) -> None: ...
+    ) -> None:
+        """Publish a message of any ROS type, its fields by name."""
 
 
 class TransformPublisher:
-    """Says with the odometry where the frames are."""
+    """Publishes with the odometry where the frames are."""
 
     def __init__(self, wire: FieldsPublisher, profile: RobotProfile) -> None:
         self._wire = wire
@@ -78,7 +86,7 @@ class TransformPublisher:
         self._count = 0
 
     def after(self, topic: str, message: Message) -> None:
-        """To be called after each message the robot has published."""
+        """Publish what is due; call it after each message the robot has published."""
         if topic != self._odom_topic or not isinstance(message, Odometry):
             return
         self._count += 1
@@ -90,7 +98,7 @@ class TransformPublisher:
         self._wire.publish_fields(TF_TOPIC, TF_TYPE, {"transforms": [moving]})
 
     def _publish_fixed(self, at_s: float) -> None:
-        """Once."""
+        """Publish the lidar's mounting, once."""
         mount = self._lidar
         if mount is not None:
             fixed = transform(BASE_FRAME, LASER_FRAME, at_s, mount.x_m, mount.y_m, mount.yaw_rad)

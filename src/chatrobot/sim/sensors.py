@@ -1,4 +1,4 @@
-"""What the simulated robot's encoders and gyro report of what its wheels and its body do."""
+"""The simulated robot's sensors: encoders, gyro and a planar lidar."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class WheelOdometry:
-    """A pose summed up from encoders alone: heading too comes from the wheels."""
+    """Sums up a pose from encoders alone: heading too comes from the wheels."""
 
     def __init__(self, faults: FaultInjection) -> None:
         self._faults = faults
@@ -37,7 +37,7 @@ class WheelOdometry:
         self.pose = Pose()
 
     def roll(self, wheels: Twist, duration_s: float) -> None:
-        """The wheels turn at a constant `wheels` for `duration_s`."""
+        """Let the wheels turn at a constant `wheels` for `duration_s`."""
         if not wheels.is_zero:
             if self._noise is not None:
                 gauss = self._noise.gauss
@@ -53,8 +53,7 @@ class WheelOdometry:
         self._velocity = wheels
 
     def read(self, stamp_s: float, elapsed_s: float) -> Odometry | None:
-        """The message of this moment, its heading in [-pi, pi] as a quaternion gives it; None if it is
-        lost."""
+        """Return the message of this moment, its heading in [-pi, pi] as a quaternion gives it; None if it is lost."""
         faults = self._faults
         if elapsed_s >= faults.odom_silent_after_s:
             return None
@@ -72,14 +71,14 @@ class WheelOdometry:
 
 
 class Gyro:
-    """The rate of turn of the body, with a bias and noise: blind to what the wheels do."""
+    """Measures the rate of turn of the body, with a bias and noise: blind to what the wheels do."""
 
     def __init__(self, faults: FaultInjection) -> None:
         self._bias_radps = faults.bias_radps
         self._noise = random.Random(f"gyro {faults.seed}") if faults.noise else None
 
     def read(self, stamp_s: float, true_rate_radps: float) -> Imu:
-        """The message of this moment."""
+        """Return the message of this moment."""
         rate_radps = true_rate_radps + self._bias_radps
         if self._noise is not None:
             rate_radps += self._noise.gauss(0.0, GYRO_NOISE_RADPS)
@@ -103,7 +102,7 @@ class SimLidar:
         self.period_ticks = max(1, round(100.0 / lidar.rate_hz))
 
     def scan(self, stamp_s: float, robot: Pose, surroundings: Surroundings) -> LaserScan:
-        """What it sees from a robot at `robot`; ranges in whole millimetres."""
+        """Return what it sees from a robot at `robot`; ranges in whole millimetres."""
         if surroundings.is_empty:
             ranges_m = [math.inf] * self._lidar.beams
         else:

@@ -1,4 +1,5 @@
-"""The simulated robot in real time, on a local wire whose hub it runs, or as a ROS node of any other wire."""
+"""The simulated robot in real time, on a local wire whose hub it runs, or as a ROS node; and obstacles that come and go
+by messages."""
 
 from __future__ import annotations
 
@@ -6,9 +7,10 @@ import json
 import math
 import signal
 from types import FrameType
-from typing import Any, Protocol
+from typing import Any
 
 from chatrobot.core.clock import Clock
+from chatrobot.sim.network_wire import MarshalledWire
 from chatrobot.sim.robot import TICK_S, SimRobot
 from chatrobot.sim.shapes import Circle, Shape, polygon
 from chatrobot.wire.local import LocalHub
@@ -24,19 +26,11 @@ GAP_S = 0.5
 one was a busy machine: physics catches up."""
 
 
-class Polled(Protocol):
-    """An end of a wire that delivers when it is polled."""
-
-    def poll(self, timeout_s: float) -> None: ...
-
-    def close(self) -> None: ...
-
-
 class SimServer:
     """Lets a simulated robot live in real time: on a hub as long as somebody is there, on another wire until it is
     told to end, by Ctrl-C too."""
 
-    def __init__(self, robot: SimRobot, hub: Polled, clock: Clock) -> None:
+    def __init__(self, robot: SimRobot, hub: LocalHub | MarshalledWire, clock: Clock) -> None:
         self._robot = robot
         self._hub = hub
         self._clock = clock
@@ -53,16 +47,19 @@ class SimServer:
             self._robot.step(behind_s)
 
     def run(self) -> None:
-        """Until everybody has left, nobody came or SIGTERM; the hub is closed then.
+        """Run until everybody has left, nobody came or SIGTERM; the hub is closed then.
 
         A terminal's signals are for whoever talks to a person: the robot goes on, as a real one would. Only where
         nobody has to be there, it is a person who ends it.
         """
         for ignored in (signal.SIGINT, signal.SIGTSTP, signal.SIGHUP):
             signal.signal(ignored, signal.SIG_IGN)
-        for ending in (
-            (signal.SIGTERM,) if self._serves_clients else (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
-        ):
+        ends_by = (
+            [signal.SIGTERM]
+            if isinstance(self._hub, LocalHub)
+            else [signal.SIGTERM, signal.SIGINT, signal.SIGHUP]
+        )
+        for ending in ends_by:
             signal.signal(ending, self._on_terminate)
         try:
             while not self._terminated and not self._deserted():
@@ -75,14 +72,10 @@ class SimServer:
         elapsed_s = self._clock.now_s() - self._robot.start_s
         return (math.floor(elapsed_s / TICK_S) + 1) * TICK_S - elapsed_s
 
-    @property
-    def _serves_clients(self) -> bool:
-        return isinstance(self._hub, LocalHub)
-
     def _deserted(self) -> bool:
-        now_s = self._clock.now_s()
         if not isinstance(self._hub, LocalHub):
             return False
+        now_s = self._clock.now_s()
         if self._hub.client_count:
             self._alone_since_s = now_s
             return False
@@ -101,7 +94,7 @@ REPLY_TOPIC = "chatrobot/sim/control_reply"
 
 
 class SimControl:
-    """Listens on `CONTROL_TOPIC` and does what it says to the robot's surroundings."""
+    """Lets obstacles come and go in a running simulation, as messages on `CONTROL_TOPIC` say."""
 
     def __init__(self, robot: SimRobot, wire: Wire) -> None:
         self._robot = robot

@@ -1,4 +1,4 @@
-"""What stands around the robot and what places are called.
+"""Worlds: what stands around the robot, what places are called, and whether a run can begin there.
 
 A world is expressed in the frame the robot starts in: the robot begins every run at (0, 0, 0), so that here
 the frame of the world and `odom` are the same.
@@ -63,35 +63,34 @@ class World:
 
     @property
     def is_empty(self) -> bool:
-        """Nothing stands here."""
+        """Return True where nothing stands."""
         return not self.obstacles
 
     def place(self, name: str) -> Pose | None:
-        """The pose of a place by any of its names; None where nobody knows it."""
+        """Return the pose of a place by any of its names; None where nobody knows it."""
         main_name = self.aliases.get(name.strip().casefold(), name.strip())
         return self.places.get(main_name)
 
     def names_of(self, name: str) -> tuple[str, ...]:
-        """The main name of a place, as it is written, and its other names."""
+        """Return the main name of a place, as it is written, and its other names."""
         return (
             name,
             *(alias for alias, main in self.aliases.items() if main == name and alias != name.casefold()),
         )
 
     def obstacle_name_at(self, x_m: float, y_m: float) -> str:
-        """The name of the obstacle that is there, or nearest to there; empty in an empty world."""
+        """Return the name of the obstacle that is there, or nearest to there; empty in an empty world."""
         if not self.obstacles:
             return ""
         return min(self.obstacles, key=lambda obstacle: obstacle.shape.distance_m(x_m, y_m)).name
 
     def outline(self) -> list[tuple[str, tuple[Point, ...]]]:
-        """Every obstacle as a named polygon, for drawing a map."""
+        """Return every obstacle as a named polygon, for drawing a map."""
         return [(obstacle.name, obstacle.shape.outline()) for obstacle in self.obstacles]
 
     @cached_property
     def bounds(self) -> Bounds | None:
-        """The box that holds all obstacles, places, the allowed area and the start; None in an empty
-        world."""
+        """Return the box that holds all obstacles, places, the allowed area and the start; None in an empty world."""
         points = [point for _, outline in self.outline() for point in outline]
         points += [(pose.x_m, pose.y_m) for pose in self.places.values()]
         points += self.allowed_area.points if self.allowed_area else ()
@@ -102,13 +101,13 @@ class World:
 
     @cached_property
     def distance_field(self) -> DistanceField:
-        """How far it is to the nearest obstacle, on a grid; computed once, at the first look."""
+        """Return how far it is to the nearest obstacle, on a grid; computed once, at the first look."""
         from chatrobot.sim.distance_field import build_distance_field
 
         return build_distance_field(tuple(obstacle.shape for obstacle in self.obstacles))
 
     def clearance_m(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Metres from each point to the nearest obstacle, never more than it is (see `DistanceField`).
+        """Return metres from each point to the nearest obstacle, never more than it is (see `DistanceField`).
 
         Args:
             points: [n, 2], metres, in the world's frame.
