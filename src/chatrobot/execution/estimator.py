@@ -1,4 +1,4 @@
-"""Where the robot is, from wheel odometry and, where there is one, a gyro.
+"""Pose estimation from wheel odometry and, where there is one, a gyro.
 
 Wheels that slip overstate both how far and how much the robot turned; a gyro only has a bias, and that can be
 measured while the robot is at rest. So distances come from the wheels and headings from the gyro.

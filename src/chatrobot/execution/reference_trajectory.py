@@ -1,4 +1,4 @@
-"""Where the robot should be at every moment of a plan, and how far the plan has been driven."""
+"""The reference trajectory: where the robot should be at every moment of a plan, and how far it has been driven."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the robot tells: the newest of each sensor, how old it is, and how the robot does what it is told.
+"""The robot's sensors: the newest of each sensor, how old it is, and how the robot does what it is told.
 
 A base that follows late makes good at the end of a motion what it owed at the start. Where feedback takes that debt
 for an error and drives it, the robot goes too far by just as much; so feedback has to know how late the base is.

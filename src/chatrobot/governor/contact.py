@@ -1,4 +1,4 @@
-"""When would this twist touch something? In seconds of the twist itself, so that one rule serves every direction.
+"""Time to contact: in seconds of the twist itself, so that one rule serves every direction.
 
 A robot that follows a constant twist sweeps its footprint along a screw motion. For points that the lidar saw, the
 clearance of the footprint is sampled along that motion; where it falls below the margin, there is contact. Forward,

@@ -49,7 +49,7 @@ VOID_EPOCH = -1
 
 @dataclass(frozen=True)
 class Verdict:
-    """What the governor made of a request. `asked` and `sent` differ where `action` is not `passed`.
+    """Tells what the governor made of a request. `asked` and `sent` differ where `action` is not `passed`.
 
     `allowed` is what the rules leave of `asked`; `sent` is on its way there as fast as the ramps allow. A refusal
     carries a zero to send, but for `outranked`: another drives, and nothing is to be sent.

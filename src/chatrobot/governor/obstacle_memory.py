@@ -1,4 +1,8 @@
-"""What the lidar has seen around the robot, in `odom`, and what it can no longer see but that is still there."""
+"""Obstacle memory and scan coverage: what the lidar has seen, in `odom`, and where it has looked.
+
+A point that it can no longer see may still be there. A robot whose lidar does not look all around knows what it comes
+by from a moment ago.
+"""
 
 from __future__ import annotations
 
@@ -103,7 +107,7 @@ SCANS_VALID = 50
 
 @dataclass(frozen=True)
 class LidarView:
-    """What one scan covers: `beams` beams, each `step_rad` on from the first, of a lidar at `lidar` (in `odom`)."""
+    """The sector of one scan: `beams` beams, each `step_rad` on from the first, of a lidar at `lidar` (in `odom`)."""
 
     lidar: Pose
     first_rad: float

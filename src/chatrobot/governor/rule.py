@@ -18,7 +18,7 @@ from chatrobot.robots.profile import RobotProfile
 
 @dataclass(frozen=True)
 class Ruling:
-    """What a rule makes of a request: the twist may be sent times `factor` (0..1).
+    """A rule's answer to a request: the twist may be sent times `factor` (0..1).
 
     `urgent` means that a ramp that would come too late is skipped: zero at once. A rule that only wants the robot
     slower, but has no distance to keep, leaves it to the ramp.
@@ -34,7 +34,7 @@ FREE = Ruling(1.0)
 
 @dataclass(frozen=True)
 class Sensed:
-    """What the robot's sensors say of themselves.
+    """Tells how old the robot's sensor data is.
 
     `ages_s` tells by name (`odom`, `scan`, `imu`) how long ago each was last heard; a name that is missing was
     never heard. `battery_percent` is None where nobody told.
@@ -49,7 +49,7 @@ NOTHING_SENSED = Sensed()
 
 @dataclass(frozen=True)
 class Situation:
-    """What a rule may know: `pose` in `odom`, None where it is unknown; `begins` where a new motion asks to begin."""
+    """All that a rule may know: `pose` in `odom`, None where unknown; `begins` where a new motion asks to begin."""
 
     pose: Pose | None
     sensed: Sensed = NOTHING_SENSED

@@ -129,7 +129,7 @@ MAX_EXPANDED_STEPS = 10_000
 
 @dataclass(frozen=True)
 class Plan:
-    """What the robot is to do, in order: at most 1000 lines, 8 blocks deep, 10 000 steps with repeats done."""
+    """A plan: what the robot is to do, in order. At most 1000 lines, 8 blocks deep, 10 000 steps with repeats done."""
 
     steps: tuple[Step, ...]
 

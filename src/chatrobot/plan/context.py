@@ -1,4 +1,4 @@
-"""What a primitive may know when it is lowered to core motions, the speed it gets, and why it may be impossible.
+"""The context in which a primitive is lowered to core motions: the speed it gets, and why it may be impossible.
 
 A speed that somebody asked for in words is refused when it is beyond the limits, with the number that is possible.
 """

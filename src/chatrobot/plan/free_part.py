@@ -47,37 +47,25 @@ def leg_at(legs: Sequence[Leg], row: int) -> tuple[Leg, int]:
 def part_up_to(
     plan: Plan, context: LoweringContext, legs: Sequence[Leg], row: int, most_m: float = math.inf
 ) -> tuple[Plan | None, dict[str, float]]:
-    """Return the part of `plan` up to a row of its path, and how much of the motion there; `most_m`: of the whole."""
+    """Return the part of `plan` up to a row of its path, and how much of the motion there is free.
+
+    Args:
+        context: from where the plan begins.
+        most_m: nothing is in the way, but the whole path may lead no farther.
+
+    Returns:
+        None where nothing is worth a question; and `free_m` or `free_deg`, where there is some.
+    """
     leg, first_row = leg_at(legs, row)
     rows = np.concatenate([leg.rows for leg in legs])[: row + 1]
     driven_m = float(np.hypot(*np.diff(rows[: first_row + 1, 1:3], axis=0).T).sum())
     of_step = [found.item for found in legs if found.item.number == leg.item.number]
-    done = of_step.index(leg.item)
-    return free_part(plan, context, leg.item, done, of_step[0].start, rows[first_row:], most_m - driven_m)
-
-
-def free_part(
-    plan: Plan,
-    context: LoweringContext,
-    blocked: PlannedMotion,
-    motions_done: int,
-    step_start: Pose,
-    way: Floats,
-    most_m: float = math.inf,
-) -> tuple[Plan | None, dict[str, float]]:
-    """What can be done of `plan`, None where nothing is worth a question; and what is free of the blocked motion.
-
-    Args:
-        context: from where the plan begins.
-        motions_done: how many motions of the blocked step come before; the step begins at `step_start`.
-        way: [n, 4] of t_s, x_m, y_m, yaw_rad, from where the motion begins to where it is blocked.
-        most_m: nothing is in the way, but this motion may go no farther.
-    """
-    share, row, free = _free_share(blocked.motion, way, most_m)
-    here = Pose(*(float(value) for value in way[row, 1:]))
+    way = rows[first_row:]
+    share, end_row, free = _free_share(leg.item.motion, way, most_m - driven_m)
+    here = Pose(*(float(value) for value in way[end_row, 1:]))
     if not free and here.distance_to(context.pose) < LEAST_M:
         return None, {}
-    reached = Reached(blocked.number - 1, True, motions_done, share, step_start)
+    reached = Reached(leg.item.number - 1, True, of_step.index(leg.item), share, of_step[0].start)
     return split(plan.steps, reached, replace(context, pose=here)).executed, free
 
 
@@ -93,7 +81,7 @@ def nearest_part(plan: Plan, context: LoweringContext, impossible: Impossible) -
 
 
 def _free_share(motion: CoreMotion | None, way: Floats, most_m: float) -> tuple[float, int, dict[str, float]]:
-    """The share of the motion that is free, the row of `way` where it ends, and the amount; 0 where it is too small."""
+    """Return the share of the motion that is free, the row of `way` where it ends, and the amount; 0 for too little."""
     if isinstance(motion, RampedTwist) and motion.twist.speed_mps > 0.0:
         driven_m = np.append(0.0, np.cumsum(np.hypot(*np.diff(way[:, 1:3], axis=0).T)))
         until_m = min(driven_m[-1] - SPARE_M if math.isinf(most_m) else driven_m[-1], most_m)

@@ -1,4 +1,4 @@
-"""What rehearsal and route planning ask of a world and of a governor: protocols, so that neither is imported here."""
+"""Protocols: what rehearsal and route planning ask of a world and of a governor, so that neither is imported here."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ GovernorKernel = Callable[[Twist, Twist, float], Twist]
 
 
 class SeenWorld(Protocol):
-    """What the lidar has seen around the robot, as the governor knows it, in the odom frame."""
+    """Knows what the lidar has seen around the robot, as the governor does, in the odom frame."""
 
     def allowed_share(self, twist: Twist, pose: Pose) -> float:
         """Return the share of a twist, 0 to 1, allowed at that pose where the lidar sees as much as it does now."""
@@ -50,7 +50,7 @@ class SeenWorld(Protocol):
 
 
 class KnownWorld(Protocol):
-    """What is known to stand around the robot, in the odom frame."""
+    """Knows what stands around the robot, in the odom frame."""
 
     @property
     def is_empty(self) -> bool:

@@ -57,7 +57,7 @@ KNOWN_WITHIN_M = 0.15
 
 @dataclass(frozen=True)
 class StepEnd:
-    """Where and when one step (repeats counted out) is predicted to end."""
+    """Predicts where and when one step (repeats counted out) ends."""
 
     index: tuple[int, ...]
     number: int
@@ -67,7 +67,7 @@ class StepEnd:
 
 @dataclass(frozen=True, eq=False)
 class Rehearsal(Findings):
-    """What a plan would do.
+    """Predicts what a plan would do.
 
     `plan` is the one to run (corners may have been rounded for a base that steers). `path` is [n, 4] of t_s, x_m,
     y_m, yaw_rad in the odom frame, at most 50 ms apart, up to the end or to the first step that cannot be done.
@@ -120,14 +120,11 @@ def rehearse(
         seen: what the lidar has seen; None where there is none.
         most: how far and how long a plan may drive; what is `possible` of one that drives more is told.
     """
-    planner = route_planner
-    if planner is None and world is not None and not world.is_empty:
+    if route_planner is None and world is not None and not world.is_empty:
         from chatrobot.plan.route import GridRoutePlanner
 
-        planner = GridRoutePlanner(world, profile)
-    context = LoweringContext(
-        profile, start_pose, plan_start if plan_start is not None else start_pose, planner
-    )
+        route_planner = GridRoutePlanner(world, profile)
+    context = LoweringContext(profile, start_pose, plan_start or start_pose, route_planner)
     rounded = Rounded(plan) if profile.can_turn_on_the_spot else round_corners(plan, profile)
     run = _Run(rounded.plan, context, world, governor, seen, most)
     run.findings += [replace(finding, where=start_pose) for finding in rounded.findings]
@@ -187,16 +184,8 @@ class _Run:
         findings = tuple(sorted(self.findings, key=lambda finding: finding.t_s))
         return Rehearsal(self.plan, self.context, path, length_m, findings, tuple(self.steps), self.possible)
 
-    def _find(
-        self,
-        severity: Severity,
-        reason: Reason,
-        index: tuple[int, ...],
-        where: Pose,
-        t_s: float | None = None,
-    ) -> None:
-        at_s = self.t_s if t_s is None else t_s
-        self.findings.append(Finding(severity, reason, index, at_s, where))
+    def _find(self, severity: Severity, reason: Reason, index: tuple[int, ...], where: Pose) -> None:
+        self.findings.append(Finding(severity, reason, index, self.t_s, where))
 
     def _is_within_bounds(self, item: PlannedMotion) -> bool:
         if isinstance(item.motion, RampedTwist):
@@ -231,7 +220,7 @@ class _Run:
             walk.ended_at(pose_of(rows[-1]))
         else:
             times = tick_times(segment.total_s, TICK_S)
-            rows = np.column_stack((times, sample_poses(segment, sample_ramp(segment.ramp, times)[0])))
+            rows = np.column_stack((times, sample_poses(segment, sample_ramp(segment.ramp, times))))
         rows[:, 0] += self.t_s
         self._add(item, rows)
 
@@ -264,9 +253,8 @@ class _Run:
             self._find("note", Reason("no_obstacle_known", {"distance_m": most_m}), item.index, item.start)
             return segment
         hold_s = max(0.0, free_m - distance_m) / twist.speed_mps
-        return Segment(
-            RampedTwist(twist, min(hold_s, segment.ramp.hold_s), segment.motion.ramp_per_s), segment.start
-        )
+        cut = RampedTwist(twist, min(hold_s, segment.ramp.hold_s), segment.motion.ramp_per_s)
+        return Segment(cut, segment.start)
 
     def _sweep(self) -> None:
         """Find where the footprint first comes too close to what is known, to what was seen, or leaves its area."""
@@ -310,7 +298,9 @@ class _Run:
             name = self._name_of(contact)
             values.update({"obstacle": name} if name else {})
         row = rows[contact.row]
-        self._find("refuse", Reason(code, values), leg.item.index, pose_of(row), float(row[0]))
+        self.findings.append(
+            Finding("refuse", Reason(code, values), leg.item.index, float(row[0]), pose_of(row))
+        )
 
     def _name_of(self, contact: Contact) -> str:
         """Return the name of what stands there, if it is known."""

@@ -23,7 +23,7 @@ from chatrobot.plan.trajectory import CoreMotion, Emit, Pause, RampedTwist
 
 @dataclass(frozen=True)
 class Reached:
-    """How far a plan was driven.
+    """Tells how far a plan was driven.
 
     Steps are numbered as in `PlannedMotion`: from 1, repeats counted each time.
 

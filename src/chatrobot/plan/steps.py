@@ -22,27 +22,8 @@ from chatrobot.plan.primitives.no_motion import MAX_REPEAT, MAX_WAIT_S, Remember
 from chatrobot.plan.primitives.turn import Arc, Face, Turn
 from chatrobot.plan.primitives.twist import RawTwist
 
-__all__ = [
-    "MAX_EXPANDED_STEPS",
-    "MAX_LINES",
-    "MAX_NESTING",
-    "MAX_REPEAT",
-    "MAX_WAIT_S",
-    "Arc",
-    "Block",
-    "Condition",
-    "Drive",
-    "Face",
-    "Frame",
-    "Go",
-    "ObstacleWithin",
-    "Plan",
-    "RawTwist",
-    "Remember",
-    "Repeat",
-    "Say",
-    "Step",
-    "Turn",
-    "Wait",
+__all__ = (
+    "MAX_EXPANDED_STEPS", "MAX_LINES", "MAX_NESTING", "MAX_REPEAT", "MAX_WAIT_S", "Arc", "Block", "Condition", "Drive",
+    "Face", "Frame", "Go", "ObstacleWithin", "Plan", "RawTwist", "Remember", "Repeat", "Say", "Step", "Turn", "Wait",
     "count_steps",
-]
+)  # fmt: skip

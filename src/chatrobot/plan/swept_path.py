@@ -15,17 +15,14 @@ from chatrobot.plan.trajectory import STRAIGHT_RADPS, Ramp, Segment
 from chatrobot.robots.profile import Circle, Point
 
 
-def sample_ramp(ramp: Ramp, t_s: Floats) -> tuple[Floats, Floats]:
-    """Return (s, ds/dt), each [n], at times [n] in ascending order."""
+def sample_ramp(ramp: Ramp, t_s: Floats) -> Floats:
+    """Return the progress s [n], seconds of the full twist, at times [n] in ascending order."""
     up, down = np.searchsorted(t_s, (ramp.up_end_s, ramp.down_start_s))
     left_s = np.maximum(ramp.total_s - t_s[down:], 0.0)
-    rate = np.full(len(t_s), ramp.peak)
-    rate[:up] = ramp.k * t_s[:up]
-    rate[down:] = ramp.k * left_s
-    s = ramp.peak * (t_s - 0.5 * ramp.up_end_s)
-    s[:up] = 0.5 * rate[:up] * t_s[:up]
-    s[down:] = ramp.hold_s - 0.5 * rate[down:] * left_s
-    return s, rate
+    s: Floats = ramp.peak * (t_s - 0.5 * ramp.up_end_s)
+    s[:up] = 0.5 * (ramp.k * t_s[:up]) * t_s[:up]
+    s[down:] = ramp.hold_s - 0.5 * (ramp.k * left_s) * left_s
+    return s
 
 
 def sample_poses(segment: Segment, s: Floats) -> Floats:
@@ -133,11 +130,11 @@ Clearance = Callable[[Floats], Floats]
 """Signed metres to spare at points [n, 2]."""
 
 
-def outline_points(footprint: Sequence[Point], spacing_m: float = SPACING_M) -> Floats:
-    """Return the outline of a polygon as points [n, 2], at most `spacing_m` apart, corners included, and its centre."""
+def outline_points(footprint: Sequence[Point]) -> Floats:
+    """Return the outline of a polygon as points [n, 2], at most `SPACING_M` apart, corners included, and its centre."""
     points: list[Point] = [(0.0, 0.0)]
     for (ax, ay), (bx, by) in zip(footprint, [*footprint[1:], footprint[0]]):
-        count = max(1, math.ceil(math.hypot(bx - ax, by - ay) / spacing_m))
+        count = max(1, math.ceil(math.hypot(bx - ax, by - ay) / SPACING_M))
         points += [(ax + (bx - ax) * i / count, ay + (by - ay) * i / count) for i in range(count)]
     return np.array(points)
 

@@ -141,8 +141,8 @@ class StreamParser:
         if self._steps_done > MAX_EXPANDED_STEPS:
             self._fail(f"the plan would do more than {MAX_EXPANDED_STEPS} steps", line)
 
-    def _fail(self, problem: str, line: str, allowed: str = "") -> None:
-        raise PlanTextError(problem, line_number=self._line_number, line=line, allowed=allowed)
+    def _fail(self, problem: str, line: str) -> None:
+        raise PlanTextError(problem, line_number=self._line_number, line=line)
 
     def _read_line(self, line: str) -> Step | None:
         """Return the top-level step that this line completes, if it does."""
