@@ -143,9 +143,9 @@ def _between(previous: Twist, wanted: Twist) -> tuple[float, float, float]:
 
 
 def _most(acceleration: float, left: float, jerk: float, dt_s: float) -> float:
-    """The most that one step may add: more acceleration by the jerk, but only as much as can be eased out again.
+    """Return the most that one step may add: more acceleration by the jerk, but only what can be eased out again.
 
-    Out again over `left`: a^2 / (2 j) + a dt / 2 <= left, solved for a.
+    All in metres or all in radians. Out again over `left`: a^2 / (2 j) + a dt / 2 <= left, solved for a.
     """
     half = 0.5 * jerk * dt_s
     return min(max(0.0, acceleration) + jerk * dt_s, math.sqrt(half * half + 2.0 * jerk * left) - half) * dt_s

@@ -29,7 +29,7 @@ def plan_from_json(data: str | bytes | Mapping[str, Any]) -> Plan:
         try:
             data = json.loads(data)
         except (ValueError, RecursionError) as error:
-            raise PlanTextError(f"this is no JSON: {error}") from error
+            raise PlanTextError(f"not valid JSON: {error}") from error
     if not isinstance(data, Mapping):
         raise PlanTextError("a plan is a JSON object", allowed='{"version": …, "steps": […]}')
     unknown = sorted(set(data) - {"version", "steps", "$schema"})
@@ -59,7 +59,7 @@ def _read_step(data: Any, path: str, depth: int) -> Step:
     primitive = for_kind(kind) if isinstance(kind, str) else None
     if primitive is None:
         kinds = ", ".join(known.kind for known in primitives())
-        raise PlanTextError(f"{path}.kind: {kind!r} is no kind of step", allowed=kinds)
+        raise PlanTextError(f"{path}.kind: {kind!r} is not a kind of step", allowed=kinds)
     values = dict(data)
     if issubclass(primitive.step_type, Block):
         values["steps"] = _read_steps(data.get("steps"), f"{path}.steps", depth + 1)

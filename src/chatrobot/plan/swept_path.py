@@ -20,8 +20,8 @@ def sample_ramp(ramp: Ramp, t_s: Floats) -> Floats:
     up, down = np.searchsorted(t_s, (ramp.up_end_s, ramp.down_start_s))
     left_s = np.maximum(ramp.total_s - t_s[down:], 0.0)
     s: Floats = ramp.peak * (t_s - 0.5 * ramp.up_end_s)
-    s[:up] = 0.5 * (ramp.k * t_s[:up]) * t_s[:up]
-    s[down:] = ramp.hold_s - 0.5 * (ramp.k * left_s) * left_s
+    s[:up] = 0.5 * (ramp.slope_per_s * t_s[:up]) * t_s[:up]
+    s[down:] = ramp.hold_s - 0.5 * (ramp.slope_per_s * left_s) * left_s
     return s
 
 
@@ -67,7 +67,7 @@ class GovernorCheck:
         Otherwise the slowest share of it that got through at full speed, and the integrated rows [n, 4] (t_s from
         0, x_m, y_m, yaw_rad) of what the governor would really send.
         """
-        key = (segment.motion.twist, segment.ramp.hold_s, segment.ramp.k)
+        key = (segment.motion.twist, segment.ramp.hold_s, segment.ramp.slope_per_s)
         if key in self._passed:
             return None
         if self._passes(segment):

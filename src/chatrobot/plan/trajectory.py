@@ -27,7 +27,7 @@ class RampedTwist:
     """A constant twist, held for `hold_s` and ramped at both ends so that the path is exactly twist * hold_s.
 
     All three components share one ramp, so the curvature is the same from the first tick to the last.
-    `ramp_per_s` is how much of the twist a second of ramp adds (k of `Ramp`). `until` ends it early.
+    `ramp_per_s` is how much of the twist a second of ramp adds (the slope of `Ramp`). `until` ends it early.
     `asked` is what the plan said where the limits scaled it down, else None. `is_timed`: the plan said how long, not
     how far.
     """
@@ -115,18 +115,18 @@ class Ramp:
 
     Args:
         hold_s: how long the full twist would have to be held for the same path; s at the end.
-        k: slope of ds/dt, 1/s. Where hold_s < 1/k the level part vanishes and the peak stays below 1.
+        slope_per_s: k, the slope of ds/dt. Where hold_s < 1/k the level part vanishes and the peak stays below 1.
     """
 
-    __slots__ = ("down_start_s", "hold_s", "k", "peak", "total_s", "up_end_s")
+    __slots__ = ("down_start_s", "hold_s", "peak", "slope_per_s", "total_s", "up_end_s")
 
-    def __init__(self, hold_s: float, k: float) -> None:
-        if not (hold_s >= 0.0 and k > 0.0):
-            raise ValueError(f"a ramp needs hold_s >= 0 and k > 0, not {hold_s} and {k}")
+    def __init__(self, hold_s: float, slope_per_s: float) -> None:
+        if not (hold_s >= 0.0 and slope_per_s > 0.0):
+            raise ValueError(f"a ramp needs hold_s >= 0 and slope_per_s > 0, not {hold_s} and {slope_per_s}")
         self.hold_s = hold_s
-        self.k = k
-        self.peak = min(1.0, math.sqrt(hold_s * k))
-        self.up_end_s = self.peak / k
+        self.slope_per_s = slope_per_s
+        self.peak = min(1.0, math.sqrt(hold_s * slope_per_s))
+        self.up_end_s = self.peak / slope_per_s
         self.down_start_s = hold_s if self.peak == 1.0 else self.up_end_s
         self.total_s = self.down_start_s + self.up_end_s
 
@@ -135,14 +135,14 @@ class Ramp:
         if t_s <= 0.0:
             return 0.0, 0.0
         if t_s < self.up_end_s:
-            rate = self.k * t_s
+            rate = self.slope_per_s * t_s
             return 0.5 * rate * t_s, rate
         if t_s <= self.down_start_s:
             return self.peak * (t_s - 0.5 * self.up_end_s), self.peak
         left_s = self.total_s - t_s
         if left_s <= 0.0:
             return self.hold_s, 0.0
-        rate = self.k * left_s
+        rate = self.slope_per_s * left_s
         return self.hold_s - 0.5 * rate * left_s, rate
 
     def stop_early(self, t_s: float) -> Ramp:
@@ -151,10 +151,10 @@ class Ramp:
             return self
         s, rate = self.at(t_s)
         stopped = Ramp.__new__(Ramp)
-        stopped.k = self.k
+        stopped.slope_per_s = self.slope_per_s
         stopped.peak = rate
-        stopped.hold_s = s + 0.5 * rate * rate / self.k
-        stopped.up_end_s = rate / self.k
+        stopped.hold_s = s + 0.5 * rate * rate / self.slope_per_s
+        stopped.up_end_s = rate / self.slope_per_s
         stopped.down_start_s = max(0.0, t_s)
         stopped.total_s = stopped.down_start_s + stopped.up_end_s
         return stopped

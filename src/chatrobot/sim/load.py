@@ -43,7 +43,6 @@ def world_names() -> list[str]:
 
 
 MAX_COORDINATE_M = 1000.0
-_SHAPES = ("rectangle", "polygon", "circle", "wall")
 
 
 def read_world(path: Path) -> World:
@@ -175,21 +174,6 @@ def _yaw(fields: dict[str, _Field]) -> float:
     return math.radians(fields["yaw_deg"].number(-360.0, 360.0)) if "yaw_deg" in fields else 0.0
 
 
-def _obstacle(field: _Field, start: Pose) -> Obstacle:
-    fields = field.mapping("name", *_SHAPES, required=("name",))
-    kinds = [kind for kind in _SHAPES if kind in fields]
-    if len(kinds) != 1:
-        raise field.error("needs exactly one shape", f"one of {', '.join(_SHAPES)}")
-    read: dict[str, Callable[[_Field], Shape]] = {
-        "rectangle": _rectangle,
-        "polygon": _polygon,
-        "circle": _circle,
-        "wall": _wall,
-    }
-    shape = read[kinds[0]](fields[kinds[0]])
-    return Obstacle(fields["name"].text(), shape.seen_from(start))
-
-
 def _rectangle(field: _Field) -> Polygon:
     required = ("x_m", "y_m", "length_m", "width_m")
     fields = field.mapping(*required, "yaw_deg", required=required)
@@ -225,6 +209,23 @@ def _wall(field: _Field) -> Polygon:
         raise field.error("both ends of a wall are the same point")
     length_m = math.hypot(bx - ax, by - ay) + thickness_m
     return rectangle((ax + bx) / 2, (ay + by) / 2, length_m, thickness_m, math.atan2(by - ay, bx - ax))
+
+
+_SHAPES: dict[str, Callable[[_Field], Shape]] = {
+    "rectangle": _rectangle,
+    "polygon": _polygon,
+    "circle": _circle,
+    "wall": _wall,
+}
+
+
+def _obstacle(field: _Field, start: Pose) -> Obstacle:
+    fields = field.mapping("name", *_SHAPES, required=("name",))
+    kinds = [kind for kind in _SHAPES if kind in fields]
+    if len(kinds) != 1:
+        raise field.error("needs exactly one shape", f"one of {', '.join(_SHAPES)}")
+    shape = _SHAPES[kinds[0]](fields[kinds[0]])
+    return Obstacle(fields["name"].text(), shape.seen_from(start))
 
 
 def _places(field: _Field | None, start: Pose) -> tuple[dict[str, Pose], dict[str, str], frozenset[str]]:

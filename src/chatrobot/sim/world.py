@@ -133,7 +133,7 @@ def check_known(world: World, profile: RobotProfile) -> None:
     """
     if profile.open_loop and not (world.is_empty and world.allowed_area is None):
         raise UsageError(
-            "without odometry nobody knows where in it the robot is",
+            "without odometry the place of the robot in it is unknown",
             where=f"world {world.name}",
             allowed="empty",
         )

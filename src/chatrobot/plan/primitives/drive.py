@@ -75,30 +75,30 @@ class _DrivePrimitive(Primitive[Drive]):
     )
 
     def parse(self, line: LineReader) -> Drive:
-        distance: float | None = None
-        duration: float | None = None
-        direction = 0.0
-        speed: float | None = None
+        distance_m: float | None = None
+        duration_s: float | None = None
+        direction_rad = 0.0
+        speed_mps: float | None = None
         until: ObstacleWithin | None = None
         if line.at_end():
             line.fail_here(f"a distance such as 1 m, a time such as 2 s, {_DRIVE_ALLOWED}")
         while not line.at_end():
             line.accept("for")
-            if line.number_follows and distance is None and duration is None:
-                distance, duration = line.length_or_duration()
+            if line.number_follows and distance_m is None and duration_s is None:
+                distance_m, duration_s = line.length_or_duration()
             elif line.accept("toward", "towards"):
-                direction = line.angle_rad()
+                direction_rad = line.angle_rad()
             elif line.accept("at"):
-                speed = line.speed_mps()
+                speed_mps = line.speed_mps()
             elif line.accept("until"):
                 line.expect("obstacle")
                 line.expect("within")
                 until = ObstacleWithin(line.length_m())
             elif word := line.accept(*_SPELLINGS):
-                direction = _SPELLINGS[word]
+                direction_rad = _SPELLINGS[word]
             else:
                 line.fail_here(_DRIVE_ALLOWED)
-        return Drive(distance, duration, direction, speed, until)
+        return Drive(distance_m, duration_s, direction_rad, speed_mps, until)
 
     def format(self, step: Drive) -> str:
         words = ["drive"]
@@ -164,10 +164,8 @@ class Go(Step):
     def __post_init__(self) -> None:
         require_finite(self, "x_m", "y_m", "yaw_rad")
         require_positive(self, "speed_mps")
-        require(
-            self.place.isprintable() and len(self.place) <= MAX_PLACE_CHARS,
-            f"the name of a place is printable text of at most {MAX_PLACE_CHARS} characters",
-        )
+        fits = self.place.isprintable() and len(self.place) <= MAX_PLACE_CHARS
+        require(fits, f"the name of a place is printable text of at most {MAX_PLACE_CHARS} characters")
 
     @classmethod
     def to_pose(cls, pose: Pose) -> Go:
@@ -185,25 +183,24 @@ class _GoPrimitive(Primitive[Go]):
 
     def parse(self, line: LineReader) -> Go:
         line.accept("to")
-        x = line.length_m()
-        y = line.length_m()
+        x_m, y_m = line.length_m(), line.length_m()
         frame: Frame = "odom"
-        yaw: float | None = None
+        yaw_rad: float | None = None
         place = ""
-        speed: float | None = None
+        speed_mps: float | None = None
         while not line.at_end():
             if line.accept("from"):
                 line.expect("start")
                 frame = "start"
             elif line.accept("facing"):
-                yaw = line.angle_rad()
+                yaw_rad = line.angle_rad()
             elif line.accept("named"):
                 place = line.text('the name of the place, as in named "kitchen"')
             elif line.accept("at"):
-                speed = line.speed_mps()
+                speed_mps = line.speed_mps()
             else:
                 line.fail_here(_GO_ALLOWED)
-        return Go(x, y, yaw, frame, place, speed)
+        return Go(x_m, y_m, yaw_rad, frame, place, speed_mps)
 
     def format(self, step: Go) -> str:
         start = " from start" if step.frame == "start" else ""

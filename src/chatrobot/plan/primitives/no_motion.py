@@ -143,7 +143,7 @@ class _RepeatPrimitive(BlockPrimitive[Repeat, int]):
         allowed = f"a whole number from 1 to {MAX_REPEAT}"
         count = line.whole_number(allowed)
         if not 1 <= count <= MAX_REPEAT:
-            line.fail(f"{count} is no count to repeat", allowed)
+            line.fail(f"{count} is not a number of repeats", allowed)
         line.accept("times")
         return count
 
