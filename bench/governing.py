@@ -24,7 +24,7 @@ import time
 from pathlib import Path
 
 from scripts.fuzz_robots import with_everything
-from tests.realtime import RunningRobot
+from tests.processes import RunningRobot
 
 from bench.latency import percentile
 from chatrobot.core.clock import TICK_S
@@ -99,8 +99,8 @@ def intervals_s(folder: Path) -> tuple[list[float], list[float]]:
     robot = RunningRobot(folder)
     busy = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(BUSY)]
     try:
-        robot.ear.wait_for_motion(robot.say("forward 100 m at 0.3 m/s"))
-        robot.ear.close()
+        robot.velocities.wait_for_motion(robot.say("forward 100 m at 0.3 m/s"))
+        robot.wire.close()
         time.sleep(1.0)
         arrivals = Arrivals(robot.wire_path)
         time.sleep(DRIVE_S)

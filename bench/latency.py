@@ -13,7 +13,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from tests.realtime import RunningRobot
+from tests.processes import RunningRobot
 
 from chatrobot.wire.local import LocalWire
 from chatrobot.wire.messages import TwistMessage
@@ -60,13 +60,13 @@ def motion_and_stop(robot: RunningRobot) -> tuple[list[float], list[float]]:
     starts, stops = [], []
     for turn in range(1, 2 * REPETITIONS, 2):
         said_s = robot.say("forward 1 m")
-        starts.append(robot.ear.wait_for_motion(said_s) - said_s)
+        starts.append(robot.velocities.wait_for_motion(said_s) - said_s)
         said_s = robot.say("stop")
-        stops.append(robot.ear.wait_for(lambda message: not any(message), said_s) - said_s)
+        stops.append(robot.velocities.wait_for_zero(said_s) - said_s)
         ended = {robot.wait_for_event("result")["turn"] for _ in range(2)}
         assert ended == {turn, turn + 1}
         time.sleep(0.3)  # the robot rolls out: new motion waits until it has been seen standing
-        robot.ear.velocities.clear()
+        robot.velocities.all.clear()
     return starts, stops
 
 

@@ -15,7 +15,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from tests.realtime import RunningRobot
+from tests.processes import RunningRobot
 
 from bench.latency import percentile
 from chatrobot.dialogue.llm.call import ModelCall
@@ -72,11 +72,11 @@ def first_wheel_commands(folder: Path) -> list[float]:
         ask_once(robot)
         for _ in range(STREAMS):
             said_s = robot.say("please do something nice")
-            moved_s = robot.ear.wait_for_motion(said_s)
+            moved_s = robot.velocities.wait_for_motion(said_s)
             robot.wait_for_event("result")
             took.append(moved_s - line_left_s(fake, "turn left 20 deg\n"))
             time.sleep(0.2)
-            robot.ear.velocities.clear()
+            robot.velocities.all.clear()
     return took
 
 
@@ -102,10 +102,10 @@ def time_to_motion(folder: Path, *more: str) -> list[float]:
             if more:
                 robot.wait_for_event("rehearsed")
                 robot.say('{"approve": true}')
-            took.append(robot.ear.wait_for_motion(said_s) - said_s)
+            took.append(robot.velocities.wait_for_motion(said_s) - said_s)
             robot.wait_for_event("result")
             time.sleep(0.2)
-            robot.ear.velocities.clear()
+            robot.velocities.all.clear()
     return took
 
 
@@ -146,11 +146,11 @@ def stops(folder: Path, answer: dict[str, Any], wait: Callable[[RunningRobot, fl
             said_s = robot.say("please do something nice")
             wait(robot, said_s)
             said_s = robot.say("stop")
-            took.append(robot.ear.wait_for(lambda message: not any(message), said_s) - said_s)
+            took.append(robot.velocities.wait_for_zero(said_s) - said_s)
             for _ in range(2):
                 robot.wait_for_event("result")
             time.sleep(0.25)
-            robot.ear.velocities.clear()
+            robot.velocities.all.clear()
     return took
 
 
@@ -198,12 +198,12 @@ def main() -> None:
         slow = {"text": "drive 0.1 m\ndrive 0.1 m back\n" * 20, "tokens_per_s": 30}
         told(
             "typed stop while a model streams -> zero",
-            stops(folder / "d", slow, lambda robot, said_s: robot.ear.wait_for_motion(said_s)),
+            stops(folder / "d", slow, lambda robot, said_s: robot.velocities.wait_for_motion(said_s)),
         )
         hung = {"text": "turn left 45 deg\nturn", "hang_after": 6}
         told(
             "typed stop while a model hangs -> zero",
-            stops(folder / "e", hung, lambda robot, said_s: robot.ear.wait_for_motion(said_s)),
+            stops(folder / "e", hung, lambda robot, said_s: robot.velocities.wait_for_motion(said_s)),
         )
 
 

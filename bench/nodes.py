@@ -54,9 +54,9 @@ def latencies(rig: NodeRig, repetitions: int) -> tuple[list[float], list[float]]
     starts, stops = [], []
     for _ in range(repetitions):
         said_s = rig.publish("user_input", Text("forward 1 m"))
-        starts.append(rig.wait_for_motion(said_s) - said_s)
+        starts.append(rig.velocities.wait_for_motion(said_s) - said_s)
         said_s = rig.publish("user_input", Text("stop"))
-        stops.append(rig.velocities.wait_for(lambda twist: not any(twist), said_s)[0] - said_s)
+        stops.append(rig.velocities.wait_for_zero(said_s) - said_s)
         rig.result(said_s, "Stopped.")
         rig.truth.wait_for(lambda odometry: abs(odometry.vx_mps) < 0.005, said_s)
         time.sleep(0.4)  # new motion waits until the robot has been seen standing
@@ -75,7 +75,7 @@ def ours(rig: NodeRig) -> dict[str, list[psutil.Process]]:
 def load(rig: NodeRig) -> None:
     """CPU and memory of the nodes while the robot moves."""
     said_s = rig.publish("user_input", Text("forward 100 m at 0.3 m/s"))
-    rig.wait_for_motion(said_s)
+    rig.velocities.wait_for_motion(said_s)
     groups = ours(rig)
     before = {process.pid: sum(process.cpu_times()[:2]) for group in groups.values() for process in group}
     time.sleep(LOAD_S)

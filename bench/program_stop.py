@@ -11,7 +11,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from tests.realtime import RunningRobot
+from tests.processes import RunningRobot
 
 from bench.latency import percentile
 from chatrobot.programs.library import KeptProgram, Library
@@ -51,9 +51,9 @@ def main() -> None:
                 robot.say("run the bench program")
                 robot.wait_for_event("rehearsed", needs_approval=True)
                 said_s = robot.say('{"approve": true}')
-                starts.append(robot.ear.wait_for_motion(said_s) - said_s)
+                starts.append(robot.velocities.wait_for_motion(said_s) - said_s)
                 said_s = robot.say("stop")
-                stops.append(robot.ear.wait_for(lambda twist: not any(twist), said_s) - said_s)
+                stops.append(robot.velocities.wait_for_zero(said_s) - said_s)
                 robot.wait_for_event("result", outcome="stopped")
                 time.sleep(0.5)  # new motion waits until the robot has been seen standing
         finally:

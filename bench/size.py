@@ -11,7 +11,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from tests.realtime import RunningRobot
+from tests.processes import RunningRobot
 
 ROOT = Path(__file__).parent.parent
 
@@ -50,8 +50,8 @@ def processes(folder: Path) -> dict[str, float]:
     try:
         robot.say("forward 10 cm")
         robot.wait_for_event("result")
-        wire = next((robot.folder / "chatrobot").glob("sim-*.wire"))
-        found = {"console": resident_mb(robot.console.pid), "Motion": resident_mb(robot.motion_pid)}
+        wire = robot.wire_path
+        found = {"console": resident_mb(robot.process.pid), "Motion": resident_mb(robot.motion_pid)}
         for entry in os.listdir("/proc"):
             if entry.isdigit():
                 words = (Path("/proc") / entry / "cmdline").read_bytes().split(b"\0")

@@ -29,7 +29,7 @@ MEDIAN_S, P99_S = 0.020, 0.050
 _FLOOD = """
 import sys, time
 from chatrobot.core.wiring import Wiring
-from chatrobot.wire.dds.discovery import Discovery
+from chatrobot.wire.discovery import Discovery
 from chatrobot.wire.dds.wire import DdsWire
 from chatrobot.wire.messages import Text
 wire = DdsWire(Wiring(), "flood", discovery=Discovery(domain_id=int(sys.argv[1])))
@@ -65,7 +65,7 @@ def once(rig: NodeRig, word: str, freeze: bool) -> float:
     if freeze:
         os.kill(base, signal.SIGSTOP)
     said_s = rig.nodes["input"].say(word)
-    took_s = rig.velocities.wait_for(lambda twist: not any(twist), said_s)[0] - said_s
+    took_s = rig.velocities.wait_for_zero(said_s) - said_s
     if freeze:
         time.sleep(0.05)
         os.kill(base, signal.SIGCONT)
@@ -81,7 +81,7 @@ def flooded_once(rig: NodeRig, word: str) -> float:
     said_s = rig.publish("chatgpt_node", Text("drive forward 1 m"))
     rig.velocities.wait_for(lambda twist: twist.vx_mps > 0.15, said_s)
     said_s = rig.nodes["input"].say(word)
-    took_s = rig.velocities.wait_for(lambda twist: not any(twist), said_s)[0] - said_s
+    took_s = rig.velocities.wait_for_zero(said_s) - said_s
     rig.truth.wait_for(lambda odometry: abs(odometry.vx_mps) < 0.005, said_s)
     time.sleep(0.4)
     return took_s

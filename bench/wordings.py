@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import yaml
-from tests.realtime import RunningRobot
+from tests.processes import RunningRobot
 
 from bench.latency import percentile
 from chatrobot.reflex import is_emergency_stop, is_pause
@@ -43,19 +43,19 @@ def ends(robot: RunningRobot, turns: set[int]) -> None:
     while turns:
         turns.discard(robot.wait_for_event("result")["turn"])
     time.sleep(0.3)
-    robot.ear.velocities.clear()
+    robot.velocities.all.clear()
 
 
 def zero_s(robot: RunningRobot, word: str) -> float:
     """From the word to the zero."""
     said_s = robot.say(word)
-    return robot.ear.wait_for(lambda twist: not any(twist), said_s) - said_s
+    return robot.velocities.wait_for_zero(said_s) - said_s
 
 
 def drive(robot: RunningRobot, text: str) -> float:
     """Until it moves: when it began to."""
     said_s = robot.say(text)
-    return robot.ear.wait_for(lambda twist: twist.vx_mps > 0.1, said_s) - said_s
+    return robot.velocities.wait_for(lambda twist: twist.vx_mps > 0.1, said_s)[0] - said_s
 
 
 def stopped(robot: RunningRobot, turns: Iterator[int], word: str) -> float:
@@ -71,7 +71,7 @@ def paused(robot: RunningRobot, turns: Iterator[int], word: str, resume: str) ->
     pause_s = zero_s(robot, word)
     robot.wait_for_event("paused")
     first, _, _, last = itertools.islice(turns, 4)
-    robot.ear.velocities.clear()
+    robot.velocities.all.clear()
     resume_s = drive(robot, resume)
     stop_s = zero_s(robot, "stop")
     ends(robot, {first, last})

@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import Protocol
 
 import psutil
-from tests.realtime import RunningRobot
+from tests.processes import RunningRobot
 
 TIMES = 20
 PROMISE_S = 0.25
@@ -58,29 +58,29 @@ class LocalRig:
     def drive(self) -> None:
         for _ in range(TRIES):
             said_s = self.robot.say("forward 100 m at 0.3 m/s")
-            self.robot.ear.wait_for_motion(said_s)
+            self.robot.velocities.wait_for_motion(said_s)
             time.sleep(UNDER_WAY_S)
-            if any(self.robot.ear.velocities[-1][1]):
+            if any(self.robot.velocities.all[-1][1]):
                 return
         raise AssertionError("it does not keep on driving: this machine is too busy to measure anything")
 
     def pids(self, whom: str) -> list[int]:
         if whom == "console":
-            return [self.robot.console.pid]
+            return [self.robot.process.pid]
         if whom == "Motion":
             return [self.robot.motion_pid]
         module, parent = {
             "guard": ("chatrobot.guard", self.robot.motion_pid),
-            "robot's end": ("chatrobot.sim", self.robot.console.pid),
+            "robot's end": ("chatrobot.sim", self.robot.process.pid),
         }[whom]
         return descendants(parent, module)
 
     def seconds_to_zero(self, since_s: float) -> float:
-        return self.robot.ear.seconds_to_zero(since_s)
+        return self.robot.velocities.seconds_to_zero(since_s)
 
     def moving_since(self, since_s: float) -> list[float]:
         """When velocities that are none were heard after that."""
-        return [at_s for at_s, message in self.robot.ear.velocities if at_s > since_s and any(message)]
+        return [at_s for at_s, message in self.robot.velocities.since(since_s) if any(message)]
 
 
 class DdsRig:
@@ -95,7 +95,7 @@ class DdsRig:
         for _ in range(TRIES):
             said_s = self.rig.nodes["input"].say("forward 100 m at 0.3 m/s")
             with contextlib.suppress(AssertionError):
-                self.rig.velocities.wait_for(lambda twist: any(twist), said_s, PATIENCE_S)
+                self.rig.velocities.wait_for(any, said_s, PATIENCE_S)
                 time.sleep(UNDER_WAY_S)
                 if any(self.rig.velocities.all[-1][1]):
                     return
@@ -109,7 +109,7 @@ class DdsRig:
         return [self.rig.nodes[whom].process.pid]
 
     def seconds_to_zero(self, since_s: float) -> float:
-        return self.rig.seconds_to_zero(since_s)
+        return self.rig.velocities.seconds_to_zero(since_s)
 
 
 def has_ended(process: psutil.Process) -> bool:
@@ -197,8 +197,8 @@ def break_pipe(rig: LocalRig) -> float:
     """Whoever reads the console's output is gone."""
     rig.drive()
     struck_s = time.monotonic()
-    assert rig.robot.console.stdout is not None
-    os.close(rig.robot.console.stdout.fileno())
+    assert rig.robot.process.stdout is not None
+    os.close(rig.robot.process.stdout.fileno())
     return rig.seconds_to_zero(struck_s)
 
 

@@ -1,7 +1,11 @@
 """The figures of the house: how far a reader has to go, and how long the pieces are.
 
 python -m scripts.house            print them, beside what tests/house.json holds
+python -m scripts.house --files    also the files entered from say to the first velocity
+python -m scripts.house --units    also the numbers whose name has no unit, the most frequent first
 python -m scripts.house --write    hold them from now on (tests/test_house.py refuses what is worse)
+
+Everything that is shipped is source, chatrobot.testing too; the language is left out but for cycles.
 """
 
 from __future__ import annotations
@@ -9,6 +13,7 @@ from __future__ import annotations
 import ast
 import json
 import os
+import re
 import statistics
 import subprocess
 import sys
@@ -19,8 +24,19 @@ ROOT = Path(__file__).parent.parent
 SOURCE = ROOT / "src" / "chatrobot"
 HELD = ROOT / "tests" / "house.json"
 LONGEST_FILE, LONGEST_FUNCTION, TINY = 350, 40, 45
-MORE_IS_BETTER = {"public docstrings, percent", "median lines of a file"}
+MORE_IS_BETTER = {
+    "public docstrings, percent",
+    "median lines of a file",
+    "numbers with a unit or without a dimension, percent",
+}
 """All other figures are better when they are smaller."""
+UNITS = "s ms us ns sec hz m mm m2 mps mps2 mps3 rad radps radps2 radps3 deg degps px percent bytes kb mb usd"
+DIMENSIONLESS = """
+turn number index i j k id pid pidfd fd descriptor port signal code status version sequence epoch seed line column row
+position mask flags opcode count depth steps times tokens rows columns cells beams calls rounds motions chars threads
+tasks descriptors decimals ratio share fraction factor divisor scale weight
+"""
+"""What numbers a thing, counts things, or is a part of one; the last word of a name decides."""
 
 WALK = """
 import sys, threading
@@ -66,6 +82,10 @@ def figures() -> dict[str, float]:
         bool(d) for file, tree in trees.items() if not _is_language(file) for d in _public(file, tree)
     ]
     files, calls = walk()[:2]
+    numbers = list(_numbers(trees))
+    excepts = [
+        has_reason for file in outside for has_reason in broad_excepts(file.read_text(encoding="utf-8"))
+    ]
     return {
         "import cycles": len(cycles(trees)),
         "late imports that would close a cycle": late_imports(trees),
@@ -77,8 +97,57 @@ def figures() -> dict[str, float]:
         "files": len(pieces),
         f"functions over {LONGEST_FUNCTION} lines": sum(_length(f) > LONGEST_FUNCTION for f in functions),
         "public docstrings, percent": round(100.0 * sum(documented) / len(documented), 1),
+        "numbers with a unit or without a dimension, percent": round(
+            100.0 * sum(says_unit(name) for name, _ in numbers) / len(numbers), 1
+        ),
+        "broad excepts per 1000 lines": round(1000.0 * len(excepts) / sum(outside.values()), 2),
+        "broad excepts without a reason": excepts.count(False),
         "source lines": sum(outside.values()),
     }
+
+
+def says_unit(name: str) -> bool:
+    """Return whether the name of a number has its unit, or says that it has none."""
+    last = name.lower().strip("_").rpartition("_")[2]
+    return last in UNITS.split() or last in DIMENSIONLESS.split()
+
+
+def _numbers(trees: dict[Path, ast.Module]) -> Iterator[tuple[str, str]]:
+    """The fields and parameters that are annotated as numbers, each with its place. ROS's own names are not ours."""
+    for file, tree in trees.items():
+        if _is_language(file) or _is_of_ros(file):
+            continue
+        for node in ast.walk(tree):
+            if isinstance(node, ast.arg) and _is_number(node.annotation):
+                yield node.arg, f"{file.relative_to(SOURCE)}:{node.lineno}"
+            elif isinstance(node, ast.AnnAssign) and _is_number(node.annotation):
+                target = node.target
+                if isinstance(target, ast.Attribute):
+                    yield target.attr, f"{file.relative_to(SOURCE)}:{node.lineno}"
+            elif isinstance(node, ast.ClassDef):
+                for field in node.body:
+                    if isinstance(field, ast.AnnAssign) and _is_number(field.annotation):
+                        yield ast.unparse(field.target), f"{file.relative_to(SOURCE)}:{field.lineno}"
+
+
+def _is_number(annotation: ast.expr | None) -> bool:
+    """`float`, `int`, either or none, and these as class variables."""
+    written = ast.unparse(annotation) if annotation else ""
+    kinds = set(re.sub(r"^(?:ClassVar|Final)\[(.*)\]$", r"\1", written).split(" | "))
+    return bool(kinds & {"float", "int"}) and kinds <= {"float", "int", "None"}
+
+
+def broad_excepts(source: str) -> Iterator[bool]:
+    """Yield for each except that catches everything whether a comment on its line or above says why."""
+    lines = source.splitlines()
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.ExceptHandler):
+            caught = node.type.elts if isinstance(node.type, ast.Tuple) else [node.type]
+            if any(kind is None or ast.unparse(kind) in ("Exception", "BaseException") for kind in caught):
+                comment = lines[node.lineno - 1].partition("#")[2]
+                above = lines[node.lineno - 2].strip()
+                said = re.sub(r"noqa(: \w+)?|\W", "", comment) or above.startswith("#")
+                yield bool(said)
 
 
 def walk() -> tuple[int, int, list[str]]:
@@ -124,6 +193,11 @@ def _module(file: Path) -> str:
 
 def _is_language(file: Path) -> bool:
     return SOURCE / "language" in file.parents
+
+
+def _is_of_ros(file: Path) -> bool:
+    """Whether it bears the names of ROS's own, which are documented there."""
+    return SOURCE / "programs" / "names" in file.parents
 
 
 def _loaded(tree: ast.Module) -> Iterator[str]:
@@ -174,10 +248,10 @@ def _length(function: ast.FunctionDef | ast.AsyncFunctionDef) -> int:
 def _public(file: Path, tree: ast.Module) -> Iterator[str | None]:
     """The docstrings of what others may use: the module, its public classes and functions, their public methods.
 
-    A module that bears the names of ROS's own is documented there. A method that does what its base class or
-    protocol says needs no second docstring; such a one cannot be told apart here, and counts.
+    A module that bears the names of ROS's own is documented there; a test's name says what it asks. A method that does
+    what its base class or protocol says needs no second docstring; such a one cannot be told apart here, and counts.
     """
-    if "names" in file.parts and "programs" in file.parts:
+    if _is_of_ros(file):
         return
     if tree.body:
         yield ast.get_docstring(tree)
@@ -185,7 +259,7 @@ def _public(file: Path, tree: ast.Module) -> Iterator[str | None]:
         if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and not node.name.startswith("_"):
             yield ast.get_docstring(node)
             for inner in node.body if isinstance(node, ast.ClassDef) else ():
-                if isinstance(inner, ast.FunctionDef) and not inner.name.startswith("_"):
+                if isinstance(inner, ast.FunctionDef) and not inner.name.startswith(("_", "test_")):
                     yield ast.get_docstring(inner)
 
 
@@ -198,6 +272,16 @@ def worse(now: dict[str, float], held: dict[str, float]) -> list[str]:
     ]
 
 
+def _print_units() -> None:
+    trees = {file: ast.parse(file.read_text(encoding="utf-8")) for file in sorted(SOURCE.rglob("*.py"))}
+    places: dict[str, list[str]] = {}
+    for name, place in _numbers(trees):
+        if not says_unit(name):
+            places.setdefault(name, []).append(place)
+    for name, found in sorted(places.items(), key=lambda item: -len(item[1])):
+        print(f"{len(found):4d} {name:24s} {' '.join(found[:4])}")
+
+
 def main() -> None:
     now = figures()
     held = json.loads(HELD.read_text(encoding="utf-8")) if HELD.is_file() else {}
@@ -205,6 +289,8 @@ def main() -> None:
         print(f"{name:52s} {value:>8g}   {'' if name not in held else f'held: {held[name]:g}'}")
     if "--files" in sys.argv:
         print(*walk()[2], sep="\n")
+    if "--units" in sys.argv:
+        _print_units()
     if "--write" in sys.argv:
         HELD.write_text(json.dumps(now, indent=2) + "\n", encoding="utf-8")
 

@@ -19,7 +19,8 @@ if sys.version_info >= (3, 11):
 else:
     import tomli as tomllib
 
-from chatrobot.cli import arguments, entry, json_lines, options
+from chatrobot import options
+from chatrobot.cli import arguments, entry, json_lines
 from chatrobot.cli.console.commands import COMMANDS
 from chatrobot.core import events
 from chatrobot.core.event import Event
@@ -29,7 +30,7 @@ from chatrobot.language.data_files import load_table
 ROOT = Path(__file__).resolve().parents[1]
 MEANINGS = ROOT / "scripts" / "events.toml"
 MADE = "<!-- Made by `python -m scripts.make_reference` from the code: do not edit. -->\n"
-SETS = {"understanding": options._UNDERSTAND, "planning": options._PLAN, "driving": options._DRIVE}
+SETS = {"understanding": options.UNDERSTAND, "planning": options.PLAN, "driving": options.DRIVE}
 """Commands that take the same options, the larger set first."""
 _GROUPS = {options.COMMON: "Common"}
 UNITS = (

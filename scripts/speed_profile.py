@@ -7,10 +7,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tests.rig import Rig
-
 from chatrobot.core.clock import TICK_S
 from chatrobot.plan.text import parse_plan
+from chatrobot.testing.rig import Rig
 
 FILE = Path(__file__).resolve().parents[1] / "docs" / "images" / "speed-profile.svg"
 SPEED_MPS, HOLD_S = 0.5, 1.0

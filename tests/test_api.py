@@ -71,7 +71,7 @@ def test_every_option_is_checked() -> None:
         ({"fast": "yes"}, "fast: 'yes' cannot be used (it takes True or False)"),
         ({"interpreter": "best"}, "it takes 'auto' or 'offline' or 'model'"),
         ({"interpreter": "model"}, "interpreter: no language model is given"),
-        ({"model": "clippy:95"}, "model: “clippy:95” is no model I know."),
+        ({"model": "clippy:95"}, "model: I do not know the model “clippy:95”."),
         ({"model": 3}, "model: 3 cannot be used"),
         ({"camera": 3}, "camera: 3 cannot be used"),
         ({"config_dir": __file__}, "it takes a folder"),

@@ -29,3 +29,31 @@ def test_a_figure_that_got_worse_is_named() -> None:
     held = {"import cycles": 0, "public docstrings, percent": 84.0, "files": 400}
     now = {"import cycles": 1, "public docstrings, percent": 83.9, "files": 399}
     assert house.worse(now, held) == ["import cycles: 1, was 0", "public docstrings, percent: 83.9, was 84.0"]
+
+
+@pytest.mark.parametrize(
+    "name", ["speed_mps", "x_m", "_ends_s", "s", "step_count", "turn", "RATE_HZ", "slip_share"]
+)
+def test_a_number_says_its_unit_or_that_it_has_none(name: str) -> None:
+    assert house.says_unit(name)
+
+
+@pytest.mark.parametrize("name", ["speed", "x", "duration", "turn_rate", "timeout", "m_speed", "counted"])
+def test_a_number_that_says_neither_is_found(name: str) -> None:
+    assert not house.says_unit(name)
+
+
+@pytest.mark.parametrize(
+    ("line", "found"),
+    [
+        ("except Exception:", [False]),
+        ("except:  # noqa: BLE001", [False]),
+        ("except (ValueError, BaseException):", [False]),
+        ("except Exception:  # noqa: BLE001 - a stranger's code", [True]),
+        ("except Exception:  # the outermost boundary", [True]),
+        ("# the outermost boundary\nexcept Exception:", [True]),
+        ("except (ValueError, OSError):", []),
+    ],
+)
+def test_an_except_that_catches_everything_is_found_with_its_reason(line: str, found: list[bool]) -> None:
+    assert list(house.broad_excepts(f"try:\n    run()\n{line}\n    pass\n")) == found

@@ -12,7 +12,7 @@ import pytest
 
 SOURCE = Path(__file__).parent.parent / "src"
 LEVELS = {
-    "core": 0, "reflex": 0,
+    "core": 0, "reflex": 0, "options": 0,
     "robots": 1, "wire": 1,
     "sim": 2,
     "plan": 3, "sandbox": 3,
@@ -20,9 +20,11 @@ LEVELS = {
     "link": 5,
     "motion": 6, "dialogue": 6,
     "link.in_process": 7,
-    "compose": 8, "nodes": 8,
-    "cli": 9, "api": 9,
-    "__init__": 10, "__main__": 10,
+    "compose": 8,
+    "nodes": 9,
+    "cli": 10, "api": 10,
+    "__init__": 11, "__main__": 11,
+    "testing": 11,
 }  # fmt: skip
 BESIDE = {"guard": {"core", "wire"}}
 """Packages that stand beside the levels: what each may import. Of the levels, motion alone knows them."""
@@ -171,6 +173,12 @@ def test_only_the_governor_mints_velocities() -> None:
             )
 
 
+def test_only_the_test_kit_knows_pytest() -> None:
+    assert {package(found.importer) for found in imports() if found.module.startswith("pytest")} == {
+        "testing"
+    }
+
+
 @pytest.mark.parametrize("secret", ["TRUTH_TOPIC", "chatrobot/sim/truth"])
 def test_only_the_simulation_and_those_who_show_it_know_the_truth(secret: str) -> None:
     for file in sorted((SOURCE / "chatrobot").rglob("*.py")):
@@ -179,7 +187,7 @@ def test_only_the_simulation_and_those_who_show_it_know_the_truth(secret: str) -
             assert secret not in file.read_text(encoding="utf-8"), file.name
 
 
-EXTRAS = ("chatrobot.wire.dds.", "chatrobot.wire.ros.", "chatrobot.wire.rosbridge")
+EXTRAS = ("chatrobot.wire.dds.", "chatrobot.wire.ros.", "chatrobot.wire.rosbridge.")
 """Backends that are installed apart, and loaded only by who names them in a wire's address."""
 
 

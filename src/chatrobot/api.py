@@ -12,7 +12,6 @@ import threading
 from collections.abc import Callable
 from pathlib import Path
 from types import TracebackType
-from typing import get_args
 
 from chatrobot.compose import Connection, Setup
 from chatrobot.compose import connect as compose_connect
@@ -22,15 +21,14 @@ from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.dialogue.llm.requests import Interpreter
 from chatrobot.dialogue.llm.setup import chosen_model
 from chatrobot.dialogue.options import Options
+from chatrobot.dialogue.pump import PUMP_S, Pump
 from chatrobot.dialogue.session import Session
 from chatrobot.language.phrases import render_reason
 from chatrobot.models.seam import Model, ModelError
+from chatrobot.options import DEFAULT_ROBOT, INTERPRETERS, NO_ODOMETRY
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
-from chatrobot.robots.load import DEFAULT_PROFILE
-from chatrobot.robots.open_loop import NO_ODOMETRY
 
-PUMP_S = 0.1
 Listener = Callable[[Event], None]
 
 
@@ -51,45 +49,48 @@ def connect(
     """Connect to a robot; by default to the simulated one, in a furnished flat. The options of the command line.
 
     Args:
-        on: `sim`, `dds…`, `ros…` or `rosbridge…`, as for `--on`.
-        robot: a robot profile, by name or as the path of a .toml file; "" is the one of the command line.
-        world: `empty`, `home` or the path of a world file; "" is what fits the robot.
-        sim: how the simulated robot lies, such as `slip=0.03,noise=on`.
-        fast: simulated time, as quick as it goes; otherwise real time.
-        trace: the simulated robot's true poses come as events too.
+        sim: faults injected into the simulated robot, such as `slip=0.03,noise=on`.
         open_loop: drive a robot that has no odometry, slowly and for at most 10 s a text; nothing of its motion is
             measured (`Result.measured` is False), and `pose` and distances mean nothing.
-        model: the language model that is asked what is not understood without one: `PROVIDER:NAME`, or anything
-            with the methods of `chatrobot.models.seam.Model`. None: no model.
-        interpreter: `auto`, `offline`, or `model` to ask it about everything.
+        config_dir: where remembered places and the user's own profiles live; None keeps nothing.
+        model: `PROVIDER:NAME`, or anything with the methods of `chatrobot.models.seam.Model`. None: no model.
         camera: takes a picture, as JPEG or PNG, for a model that asks to see one; None where there is none just now.
             Without it, a robot on a wire uses the camera that its profile names.
-        config_dir: where remembered places and the user's own profiles live; None keeps nothing.
 
     Raises:
         InputError: an option cannot be used; it says what is allowed.
         LinkError: the robot's processes do not start.
     """
-    on, robot = (
-        _text_of("on", on, "'sim', 'dds', 'ros' or 'rosbridge'"),
-        _text_of("robot", robot, "a name or a file"),
-    )
-    world, sim = _text_of("world", world, "'empty', 'home' or a file"), _text_of("sim", sim, "'KEY=VALUE,…'")
-    for name, value in {"fast": fast, "trace": trace}.items():
-        _refuse_unless(isinstance(value, bool), name, value, "True or False")
-    _refuse_unless(interpreter in get_args(Interpreter), "interpreter", interpreter, _listed(Interpreter))
+    _check_kinds(on=on, robot=robot, world=world, sim=sim, fast=fast, trace=trace, open_loop=open_loop)
+    interpreters = " or ".join(map(repr, INTERPRETERS))
+    _refuse_unless(interpreter in INTERPRETERS, "interpreter", interpreter, interpreters)
     _refuse_unless(camera is None or callable(camera), "camera", camera, "a function that returns a picture")
     folder = _folder_of(config_dir)
     chosen = _model_of(model, folder)
     if interpreter == "model" and chosen is None:
         raise UsageError("no language model is given", where="interpreter", allowed="model='PROVIDER:NAME'")
-    options = Options(interpreter=interpreter)
-    return Robot(
-        Setup(
-            on=on, robot=robot or (NO_ODOMETRY if open_loop else DEFAULT_PROFILE), world=world, sim=sim, fast=fast,
-            trace=trace, folder=folder, model=chosen, options=options, camera=camera, open_loop=open_loop,
-        )
+    profile = str(robot) or (NO_ODOMETRY if open_loop else DEFAULT_ROBOT)
+    setup = Setup(
+        on=on, robot=profile, world=str(world), sim=sim, fast=fast, trace=trace, open_loop=open_loop, folder=folder,
+        model=chosen, camera=camera, options=Options(interpreter=interpreter),
     )  # fmt: skip
+    return Robot(setup)
+
+
+_SWITCH = ((bool,), "True or False")
+_KINDS: dict[str, tuple[tuple[type, ...], str]] = {
+    "on": ((str,), "'sim', 'dds', 'ros' or 'rosbridge'"),
+    "robot": ((str, Path), "a name or a file"),
+    "world": ((str, Path), "'empty', 'home' or a file"),
+    "sim": ((str,), "'KEY=VALUE,…'"),
+    **dict.fromkeys(("fast", "trace", "open_loop"), _SWITCH),
+}
+
+
+def _check_kinds(**given: object) -> None:
+    for name, value in given.items():
+        kinds, allowed = _KINDS[name]
+        _refuse_unless(isinstance(value, kinds), name, value, allowed)
 
 
 def _refuse_unless(is_right: bool, name: str, value: object, allowed: str) -> None:
@@ -102,20 +103,12 @@ def _refuse_unless(is_right: bool, name: str, value: object, allowed: str) -> No
         raise UsageError(f"{value!r} cannot be used", where=name, allowed=f"it takes {allowed}")
 
 
-def _listed(choices: object) -> str:
-    return " or ".join(map(repr, get_args(choices)))
-
-
-def _text_of(name: str, value: object, allowed: str) -> str:
-    _refuse_unless(isinstance(value, (str, Path)), name, value, allowed)
-    return str(value)
-
-
 def _folder_of(config_dir: Path | str | None) -> Path | None:
     if config_dir is None:
         return None
     allowed = "a folder, made if need be"
-    folder = Path(_text_of("config_dir", config_dir, allowed)).expanduser()
+    _refuse_unless(isinstance(config_dir, (str, Path)), "config_dir", config_dir, allowed)
+    folder = Path(config_dir).expanduser()
     _refuse_unless(folder.is_dir() or not folder.exists(), "config_dir", config_dir, allowed)
     return folder
 
@@ -147,9 +140,9 @@ class Robot:
         self._lost: Exception | None = None
         self._closing = False
         self._connection: Connection = compose_connect(setup, self._hear)
-        self._pump: threading.Thread | None = None
+        self._pump: Pump | None = None
         if not setup.fast:
-            self._pump = threading.Thread(target=self._pump_on, name="chatrobot", daemon=True)
+            self._pump = Pump(self._connection.session, self._lose, self._tell_waiting)
             self._pump.start()
 
     def do(self, text: str) -> Result:
@@ -203,8 +196,8 @@ class Robot:
         if self._closing:
             return
         self._closing = True
-        if self._pump is not None and self._pump is not threading.current_thread():
-            self._pump.join()
+        if self._pump is not None:
+            self._pump.stop()
         self._connection.close()
 
     def __enter__(self) -> Robot:
@@ -230,7 +223,7 @@ class Robot:
         for listener in tuple(self._listeners):
             try:
                 listener(event)
-            except Exception as error:  # noqa: BLE001  # a stranger's code: the robot stops, who waits is told
+            except Exception as error:  # noqa: BLE001  # a stranger's code may raise anything: the robot stops, who waits is told
                 self._listener_error = error
                 self._connection.session.stop("a listener broke")
 
@@ -256,13 +249,9 @@ class Robot:
         if self._lost is not None:
             raise self._lost
 
-    def _pump_on(self) -> None:
-        """The pumping thread. Whatever ends it is told to who waits."""
-        session = self._connection.session
-        try:
-            while not self._closing:
-                session.pump(PUMP_S)
-                with self._news:
-                    self._news.notify_all()
-        except Exception as error:  # noqa: BLE001  # the outermost boundary of a thread
-            self._lost = error
+    def _tell_waiting(self) -> None:
+        with self._news:
+            self._news.notify_all()
+
+    def _lose(self, error: Exception) -> None:
+        self._lost = error

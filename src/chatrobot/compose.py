@@ -1,6 +1,6 @@
 """The one composition root: which robot, which world, which clock, put together into a session.
 
-Console, web, MCP and the Python API all begin here; nothing below knows how it is put together.
+Console, nodes and the Python API all begin here; nothing below knows how it is put together.
 """
 
 from __future__ import annotations
@@ -21,10 +21,12 @@ from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring
 from chatrobot.dialogue.session import Session
 from chatrobot.dialogue.understanding import Understanding
+from chatrobot.language.interpretation import LanguageCode
+from chatrobot.language.phrases import say
 from chatrobot.link.in_process import InProcessLink
+from chatrobot.link.motion_link import MotionLink
 from chatrobot.link.processes import SIMULATED, MotionProcess, Processes
 from chatrobot.models.seam import Model
-from chatrobot.plan.context import RoutePlanner
 from chatrobot.programs.library import Library
 from chatrobot.robots.cautious import drives_on_alone, slowed
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile, profile_argument
@@ -46,15 +48,19 @@ SETTLE_S = 0.5
 class Setup:
     """What a person chose on the command line or in `connect`.
 
-    `on` is auto, sim, or a robot's wire (`wire_address`). `world`: "" is what fits, the furnished home for the
-    simulated robot and nothing known for any other. `sim` holds the faults of the simulated robot (`slip=0.03,…`).
-    `yes`: plans of a real robot need no approval. `programs`: who asks for a program gets one written, rehearsed and
-    run; else its motion is driven as a plan. `budget` is the motion budget, as far as it is not the profile's.
-    `open_loop`: drive a robot that has no odometry (`chatrobot.robots.open_loop`).
-    `folder` is where places, programs and history live; None keeps
-    nothing. `model` is the language model to ask, None for none, `model_options` how it is used, and `camera` takes
-    pictures for it, as JPEG or PNG, in place of the robot's own camera. `processes` are those of a simulated robot in
-    real time that have been started ahead; `on_ready` is called once the robot is.
+    Attributes:
+        on: auto, sim, or a robot's wire (`wire_address`).
+        world: "" is what fits: the furnished home for the simulated robot, nothing known for any other.
+        sim: the faults of the simulated robot (`slip=0.03,…`).
+        yes: plans of a real robot need no approval.
+        programs: who asks for a program gets one written, rehearsed and run; else its motion is driven as a plan.
+        budget: the motion budget, as far as it is not the profile's.
+        open_loop: drive a robot that has no odometry (`chatrobot.robots.open_loop`).
+        folder: where places, programs and history live; None keeps nothing.
+        model: the language model to ask, None for none; `model_options`: how it is used.
+        camera: takes pictures for it, as JPEG or PNG, in place of the robot's own camera.
+        processes: those of a simulated robot in real time that have been started ahead.
+        on_ready: called once the robot is ready.
     """
 
     on: str = "sim"
@@ -75,6 +81,16 @@ class Setup:
     processes: Processes | None = None
     on_ready: Callable[[], None] = lambda: None
 
+    @property
+    def profile(self) -> RobotProfile:
+        """The robot with what a person chose for it.
+
+        Raises:
+            InputError: there is no such profile, or it cannot be driven as chosen.
+        """
+        loaded = load_profile(self.robot, profile_dirs(self.folder))
+        return as_chosen(loaded, self.budget, open_loop=self.open_loop)
+
 
 @dataclass
 class Connection:
@@ -86,6 +102,59 @@ class Connection:
     close: Callable[[], None]
 
 
+class Prepared:
+    """What is known before a robot is met: all that a session needs but the link.
+
+    Raises:
+        InputError: the world is wrong, or does not fit the robot.
+    """
+
+    def __init__(self, setup: Setup, profile: RobotProfile) -> None:
+        self.setup, self.profile = setup, profile
+        self.world = load_world(setup.world)
+        check_known(self.world, profile)
+        self.understanding = Understanding(profile, self.world, setup.folder)
+
+    def session(self, link: MotionLink, on_event: OnEvent) -> Session:
+        """Build the session that talks over `link`."""
+        setup = self.setup
+        return Session(
+            link, self.understanding, on_event, setup.options, self._authoring(), self._model_setup()
+        )
+
+    def _authoring(self) -> Authoring | None:
+        """Make what writes programs and keeps them; None where requests for them are driven as plans."""
+        setup = self.setup
+        if not setup.programs:
+            return None
+        from chatrobot.plan.route import GridRoutePlanner
+
+        return Authoring(
+            self.profile,
+            Library(setup.folder),
+            self.understanding.interpret,
+            model=setup.model,
+            prefers_model=setup.options.interpreter == "model",
+            routes=lambda: None if self.world.is_empty else GridRoutePlanner(self.world, self.profile),
+        )
+
+    def _model_setup(self) -> ModelSetup | None:
+        """Return the model and how it drives this robot.
+
+        Its steps run as they come where the profile allows that; on a base that steers like a car a plan comes whole,
+        because corners can be rounded only where both legs are known.
+        """
+        setup, profile = self.setup, self.profile
+        if setup.model is None:
+            return None
+        streams = (
+            setup.model_options.streams and profile.approval == "stream" and profile.can_turn_on_the_spot
+        )
+        return ModelSetup(
+            setup.model, replace(setup.model_options, streams=streams), profile, _camera(setup, profile)
+        )
+
+
 def connect(setup: Setup, on_event: OnEvent) -> Connection:
     """Start everything and wait until the robot has been heard.
 
@@ -94,93 +163,58 @@ def connect(setup: Setup, on_event: OnEvent) -> Connection:
         WireError: nobody answers where the robot should be.
         LinkError: Motion or the simulated robot does not start.
     """
-    on_wire = setup.on not in SIMULATED
-    profile = load_profile(setup.robot, profile_dirs(setup.folder))
-    profile = as_chosen(profile, setup.budget, open_loop=setup.open_loop)
-    if not on_wire:
+    is_simulated = setup.on in SIMULATED
+    profile = setup.profile
+    if is_simulated:
         profile = replace(profile, approval="stream")
     elif drives_on_alone(profile) and not is_on_this_machine(wire_address(setup.on)):
         profile = slowed(profile)  # as Motion does: what is said of speeds must be true
     setup = replace(setup, world=setup.world or default_world(setup.on, open_loop=setup.open_loop))
-    world = load_world(setup.world)
-    check_known(world, profile)
+    prepared = Prepared(setup, profile)
     FaultInjection.parse(setup.sim)
-    if not on_wire:
-        check_start(world, profile, f"--world {setup.world}")
-    understanding = Understanding(profile, world, setup.folder)
+    if is_simulated:
+        check_start(prepared.world, profile, f"--world {setup.world}")
     if not setup.fast and setup.options.interpreter != "offline":
         warm_up(setup.model)
-    if on_wire:
-        return _connect_wire(setup, profile, world, understanding, on_event)
-    if setup.fast:
-        return _connect_simulated(setup, profile, world, understanding, on_event)
-    return _connect_real_time(setup, profile, world, understanding, on_event)
+    how = _connect_wire if not is_simulated else _connect_simulated if setup.fast else _connect_real_time
+    return how(prepared, on_event)
 
 
 def default_world(on: str, *, open_loop: bool = False) -> str:
-    """What is known of the surroundings where nobody says: of a robot that is not ours, or lost in them, nothing."""
+    """Return the world where nobody chose one: of a robot that is not ours, or lost in it, nothing is known."""
     return "home" if on in SIMULATED and not open_loop else "empty"
 
 
-def model_setup_of(setup: Setup, profile: RobotProfile) -> ModelSetup | None:
-    """The model and how it drives this robot.
-
-    Its steps run as they come where the profile allows that; on a base that steers like a car a plan comes whole,
-    because corners can be rounded only where both legs are known.
-    """
-    if setup.model is None:
-        return None
-    streams = setup.model_options.streams and profile.approval == "stream" and profile.can_turn_on_the_spot
-    return ModelSetup(
-        setup.model, replace(setup.model_options, streams=streams), profile, _camera(setup, profile)
-    )
-
-
 def _camera(setup: Setup, profile: RobotProfile) -> Camera | None:
-    """What was passed goes before what the robot has; the simulated robot has none."""
+    """Return the camera that was passed, else the robot's; the simulated robot has none."""
     if setup.camera is not None:
         return PassedCamera(setup.camera)
     return None if setup.on in SIMULATED else wire_camera(wire_address(setup.on), profile.wiring)
 
 
+def explain_server_held(model: Model | None, language: LanguageCode) -> str:
+    """Say what has become of the tutorial's parameter revChatGPT."""
+    if model is None:
+        return say(language, "revchatgpt_no_model")
+    return say(language, "revchatgpt_gone", model=model.name)
+
+
 def profile_dirs(folder: Path | None) -> tuple[Path, ...]:
-    """Where a person's own robot profiles live."""
+    """Return where a person's own robot profiles live."""
     return (folder / "robots",) if folder is not None else ()
-
-
-def _authoring(
-    setup: Setup, profile: RobotProfile, world: World, understanding: Understanding
-) -> Authoring | None:
-    """Who writes programs and keeps them; nobody where requests for them are driven as plans."""
-    if not setup.programs:
-        return None
-    from chatrobot.plan.route import GridRoutePlanner
-
-    def routes() -> RoutePlanner | None:
-        return None if world.is_empty else GridRoutePlanner(world, profile)
-
-    return Authoring(
-        profile,
-        Library(setup.folder),
-        understanding.interpret,
-        model=setup.model,
-        prefers_model=setup.options.interpreter == "model",
-        routes=routes,
-    )
 
 
 # --- simulated time: one process, one thread ---
 
 
-def _connect_simulated(
-    setup: Setup, profile: RobotProfile, world: World, understanding: Understanding, on_event: OnEvent
-) -> Connection:
+def _connect_simulated(prepared: Prepared, on_event: OnEvent) -> Connection:
     from chatrobot.motion.motion import Motion
     from chatrobot.motion.planner import Planner
     from chatrobot.motion.programs.host import ProgramHost
     from chatrobot.motion.safety.watchdog import SimulatedGuard
     from chatrobot.wire.memory import MemoryHub
 
+    setup, profile, world = prepared.setup, prepared.profile, prepared.world
     clock = VirtualClock()
     hub = MemoryHub()
     robot = SimRobot(profile, world, FaultInjection.parse(setup.sim), wire=hub.connect(), clock=clock)
@@ -197,36 +231,26 @@ def _connect_simulated(
     if setup.trace:
         hub.connect().subscribe(TRUTH_TOPIC, Odometry, _tracer(on_event))
         link.step()  # the trace begins before anything moves
-    authoring = _authoring(setup, profile, world, understanding)
-    session = Session(link, understanding, on_event, setup.options, authoring, model_setup_of(setup, profile))
-
-    def close() -> None:
-        session.close()
-        programs.close()
-
-    return Connection(session, profile, world, close)
+    session = prepared.session(link, on_event)
+    return Connection(session, profile, world, _in_turn(session.close, programs.close))
 
 
 # --- real time: the simulated robot, Motion and the guard are processes ---
 
 
-def _connect_real_time(
-    setup: Setup, profile: RobotProfile, world: World, understanding: Understanding, on_event: OnEvent
-) -> Connection:
+def _connect_real_time(prepared: Prepared, on_event: OnEvent) -> Connection:
     from chatrobot.link.socket_link import SocketLink
     from chatrobot.wire.local import LocalWire
 
+    setup = prepared.setup
+    profile_file = profile_argument(setup.robot, profile_dirs(setup.folder))
     processes = setup.processes or Processes.start(
-        profile_argument(setup.robot, profile_dirs(setup.folder)),
-        setup.world,
-        setup.sim,
-        setup.budget,
-        open_loop=setup.open_loop,
+        profile_file, setup.world, setup.sim, setup.budget, open_loop=setup.open_loop
     )
     processes.is_taken = True
     link = SocketLink(processes.motion)
     try:
-        understanding.warm()
+        prepared.understanding.warm()
         link.wait_until_ready()
     except LinkError:
         processes.robot.terminate()
@@ -238,47 +262,45 @@ def _connect_real_time(
         with lock:
             on_event(event)
 
-    trace = LocalWire(processes.wire_path) if setup.trace else None
-    if trace is not None:
+    session = prepared.session(link, one_at_a_time)
+    close = session.close
+    if setup.trace:
+        trace = LocalWire(processes.wire_path)
         trace.subscribe(TRUTH_TOPIC, Odometry, _tracer(one_at_a_time))
-    authoring = _authoring(setup, profile, world, understanding)
-    model_setup = model_setup_of(setup, profile)
-    session = Session(link, understanding, one_at_a_time, setup.options, authoring, model_setup)
-
-    def close() -> None:
-        session.close()
-        if trace is not None:
-            trace.close()
-
-    return Connection(session, profile, world, close)
+        close = _in_turn(session.close, trace.close)
+    return Connection(session, prepared.profile, prepared.world, close)
 
 
 # --- a robot on a wire: Motion and the guard are processes ---
 
 
-def _connect_wire(
-    setup: Setup, profile: RobotProfile, world: World, understanding: Understanding, on_event: OnEvent
-) -> Connection:
+def _connect_wire(prepared: Prepared, on_event: OnEvent) -> Connection:
     from chatrobot.link.socket_link import SocketLink
 
+    setup, profile = prepared.setup, prepared.profile
     address = wire_address(setup.on)
     for chosen, option in ((setup.fast, "--fast"), (setup.trace, "--trace"), (setup.sim, "--sim")):
         if chosen:
             raise UsageError("only the simulated robot of --on sim can do that", where=option)
     approve = setup.options.approve or (profile.approval == "plan" and not setup.yes)
-    if address.startswith(("rosbridge:", "local:")):
-        connect_wire(
-            address, profile.wiring, "chatrobot"
-        ).close()  # Motion would wait, and could not say for what
+    prepared.setup = replace(setup, options=replace(setup.options, approve=approve))
+    if address.startswith(("rosbridge:", "local:")):  # Motion would wait, and could not say for what
+        connect_wire(address, profile.wiring, "chatrobot").close()
     profile_file = profile_argument(setup.robot, profile_dirs(setup.folder))
     motion = MotionProcess.start(address, profile_file, setup.world, setup.budget, open_loop=setup.open_loop)
     link = SocketLink(motion)
     link.wait_until_ready()
     setup.on_ready()
-    authoring = _authoring(setup, profile, world, understanding)
-    options = replace(setup.options, approve=approve)
-    session = Session(link, understanding, on_event, options, authoring, model_setup_of(setup, profile))
-    return Connection(session, profile, world, session.close)
+    session = prepared.session(link, on_event)
+    return Connection(session, profile, prepared.world, session.close)
+
+
+def _in_turn(*closes: Callable[[], None]) -> Callable[[], None]:
+    def close_all() -> None:
+        for close in closes:
+            close()
+
+    return close_all
 
 
 def _tracer(on_event: OnEvent) -> Callable[[Odometry], None]:

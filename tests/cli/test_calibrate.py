@@ -36,7 +36,7 @@ def seen(child: pexpect.spawn[str], pattern: str) -> float:
 
 def test_a_simulated_robot_is_measured_by_the_simulation(terminal: Terminal, tmp_path: Path) -> None:
     child = terminal("calibrate", *SLIPS)
-    child.expect("there is no tape")
+    child.expect("This is a simulated robot")
     child.expect("Drive one metre.*leave")
     child.sendline("y")
     assert seen(child, r"It really went ([\d.]+) m") == pytest.approx(0.95, abs=0.005)
@@ -58,10 +58,10 @@ def test_a_correction_is_taken_back_and_the_built_in_profile_counts_again(tmp_pa
     assert "Saved in" in chatrobot("calibrate", *SLIPS, stdin="y\nskip\n").out
     assert (tmp_path / PROFILE).exists()
     reset = chatrobot("calibrate", "--reset")
-    assert (reset.code, "is taken back (distances 0.9" in reset.out) == (0, True)
+    assert (reset.code, "is removed (distances 0.9" in reset.out) == (0, True)
     assert not (tmp_path / PROFILE).exists()
     again = chatrobot("calibrate", "--reset")
-    assert (again.code, "There is no correction of wheeltec_mini_mec to take back." in again.out) == (0, True)
+    assert (again.code, "There is no correction of wheeltec_mini_mec to remove." in again.out) == (0, True)
 
 
 @pytest.fixture

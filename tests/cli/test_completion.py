@@ -14,7 +14,7 @@ import pytest
 from chatrobot.cli.arguments import COMMANDS, SHELLS, parse
 from chatrobot.cli.completion import FILES, FOLDERS, offers_for
 from chatrobot.cli.entry import main
-from chatrobot.cli.options import OPTIONS
+from chatrobot.options import OPTIONS
 from chatrobot.robots.load import list_profiles
 
 PATIENCE_S = 30.0

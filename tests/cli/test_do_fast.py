@@ -278,7 +278,7 @@ def test_a_folder_that_is_none_is_told_in_a_sentence(chatrobot: Command, tmp_pat
     file.write_text("", encoding="utf-8")
     done = chatrobot("do", "remember this place as home", "--config-dir", str(file), *FAST)
     assert done.code == 2
-    assert "is no folder" in done.err
+    assert "is not a folder" in done.err
 
 
 def test_a_goodbye_ends_a_dialogue_and_a_session(chatrobot: Command) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from chatrobot.cli.editor import edited_text
+from chatrobot.cli.editing import edited_text
 from chatrobot.core.errors import UsageError
 
 
@@ -17,7 +17,7 @@ from chatrobot.core.errors import UsageError
         ("no-such-editor", "'no-such-editor' cannot be started"),
         ("", "'vi' cannot be started"),
         ("'unclosed", "cannot be read"),
-        ("sed -i 's/drive/\\xff/'", "left no text in UTF-8"),
+        ("sed -i 's/drive/\\xff/'", "left a file that is not UTF-8 text"),
     ],
 )
 def test_an_editor_that_fails_is_told_in_a_sentence(

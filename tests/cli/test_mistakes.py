@@ -21,11 +21,11 @@ from chatrobot.core.errors import UsageError
         (["do", " \t\n\u200b"], 'chatrobot do "forward 1 m"'),
         (["do", "forward 1 m", "", "--fast"], 'chatrobot do "forward 1 m"'),
         (["plan", "　"], 'chatrobot plan "forward 1 m"'),
-        (["do", "hi", "--budget-s", "abc"], "'abc' is no number"),
-        (["do", "hi", "--rounds", "1.5"], "'1.5' is no whole number"),
+        (["do", "hi", "--budget-s", "abc"], "'abc' is not a number"),
+        (["do", "hi", "--rounds", "1.5"], "'1.5' is not a whole number"),
         (["fake-model", "x.yaml", "--port", "99999"], "0 to 65535"),
         (["model", "key"], "the key of which provider?"),
-        (["program", "run", "no-such.py"], "no-such.py: it cannot be read"),
+        (["program", "run", "no-such.py"], "no-such.py: cannot be read"),
     ],
 )
 def test_wrong_usage_is_told(

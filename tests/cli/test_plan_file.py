@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from chatrobot.cli.plan_file import MOST_BYTES, read_plan_file
+from chatrobot.cli.plan import MOST_BYTES, read_plan_file
 from chatrobot.core.errors import UsageError
 from tests.cli.running import Command
 
@@ -55,9 +55,9 @@ def test_a_broken_file_says_which_line_and_what_is_allowed(chatrobot: Command, t
     ("content", "problem"),
     [
         (b"", "there is no step in this plan"),
-        (b"\x89PNG\xff", "this is no text"),
-        (b"drive 1 m\n" * MOST_BYTES, "this is too long for a plan"),
-        ("drive 1 m\nend\n".encode("utf-16"), "this is no text"),
+        (b"\x89PNG\xff", "not a text file"),
+        (b"drive 1 m\n" * MOST_BYTES, "too long for a plan"),
+        ("drive 1 m\nend\n".encode("utf-16"), "not a text file"),
     ],
 )
 def test_what_is_no_plan_is_refused(tmp_path: Path, content: bytes, problem: str) -> None:

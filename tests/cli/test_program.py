@@ -69,7 +69,7 @@ def test_listed_shown_edited_renamed_exported_and_removed(
     assert chatrobot("program", "edit", "square dance", "--file", str(new)).code == 0
     assert "self.drive(0.1" in Library(tmp_path / "config" / "chatrobot").get("square dance").source
     renamed = chatrobot("program", "rename", "Square dance", "../waltz")
-    assert (renamed.code, renamed.out) == (0, "“square dance” is now “waltz”.\n")
+    assert (renamed.code, renamed.out) == (0, "Renamed “square dance” to “waltz”.\n")
     folder = tmp_path / "ws"
     assert chatrobot("program", "export", "waltz", str(folder)).code == 0
     assert (folder / "src" / "waltz" / "package.xml").exists()

@@ -69,7 +69,7 @@ def test_chatrobot_stop_stops_what_runs_elsewhere(chatrobot: Command) -> None:
         moving(robot)
         done = chatrobot.apart("stop")
         assert done.code == 0
-        assert "stopped: it was moving" in done.out
+        assert "Stopped. It was moving" in done.out
         assert robot.event("result")["outcome"] == "stopped"
         assert robot.end() == 5
 
@@ -81,12 +81,12 @@ def test_chatrobot_stop_says_of_a_robot_that_stood_that_it_stood(chatrobot: Comm
         done = chatrobot.apart("stop")
         assert (done.code, done.out.partition(": ")[2]) == (
             0,
-            "it was standing already; zeros were sent all the same\n",
+            "It was already standing. Zero velocities were sent all the same.\n",
         )
         robot.say("wait 60 s")
         robot.event("started")
         done = chatrobot.apart("stop")
-        assert "it was standing; what it was told to do is not done any more" in done.out
+        assert "It was standing. Queued instructions are dropped" in done.out
         assert robot.event("result")["outcome"] == "stopped"
 
 

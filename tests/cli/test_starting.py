@@ -24,8 +24,8 @@ def test_a_stop_typed_while_the_robot_starts_begins_nothing_and_says_so(tmp_path
         terminal.wait_for("starting Wheeltec")
         terminal.enter("stop")
         assert terminal.wait_for_end() == 5
-        assert "“forward 2 m” was waiting and has been dropped by the stop." in terminal.text
-        assert "“turn left” was waiting and has been dropped by the stop." in terminal.text
+        assert "“forward 2 m” was waiting, and the stop dropped it." in terminal.text
+        assert "“turn left” was waiting, and the stop dropped it." in terminal.text
         assert "drove" not in terminal.text
 
 

@@ -9,15 +9,15 @@ from collections.abc import Iterator
 
 import pytest
 
-from chatrobot.cli import typed_ahead
-from chatrobot.cli.typed_ahead import AT_ONCE_S, TypedAhead
+from chatrobot.cli import lines
+from chatrobot.cli.lines import AT_ONCE_S, TypedAhead
 from tests.cli.running import Command
 
 
 @pytest.fixture
 def keys(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
     ours, theirs = pty.openpty()
-    monkeypatch.setattr(typed_ahead, "STDIN", theirs)
+    monkeypatch.setattr(lines, "STDIN", theirs)
     yield ours
     os.close(ours)
     os.close(theirs)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from chatrobot.cli.arguments import COMMANDS, parse
-from chatrobot.cli.options import DEFAULT_ROBOT
 from chatrobot.core.errors import UsageError
+from chatrobot.options import DEFAULT_ROBOT
 from chatrobot.robots.load import DEFAULT_PROFILE
 from tests.cli.running import Command
 

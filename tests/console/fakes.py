@@ -2,6 +2,7 @@
 
 from rich.text import Text
 
+from chatrobot.cli.drawing.map_text import MapText
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import Interpreted, Rehearsed
 from chatrobot.core.geometry import Pose
@@ -84,3 +85,8 @@ def ask(controller):
     controller.hear(
         Rehearsed(1, True, 3.6, 1.0, Pose(1.0), (), ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0)), needs_approval=True)
     )
+
+
+def draw_map_text(world, extent, *, trail=(), pose=None, **how):
+    """One map, drawn at once."""
+    return MapText(world, extent, **how).lines(trail=trail, pose=pose)

@@ -108,7 +108,7 @@ def test_the_commands_show_robot_world_and_plan(chat, tmp_path):
     chat.enter("turn left 20 degrees")
     chat.wait_for(DONE)
     chat.enter(f"/save-plan {tmp_path / 'mine.plan'}")
-    chat.wait_for("The plan is in")
+    chat.wait_for("The plan is saved in")
     assert (tmp_path / "mine.plan").read_text() == "turn left 20 deg\n"
     chat.enter(f"/run-plan {tmp_path / 'mine.plan'}")
     chat.wait_for(r"now at .* (39|4[01])°")
@@ -144,7 +144,7 @@ def test_who_speaks_chinese_is_answered_in_chinese(chat):
     chat.wait_for("行驶中")
     chat.wait_for(r"现在在 \(0\.[34]\d, ")
     chat.enter("/mapp")
-    chat.wait_for("你是不是想用 /map")
+    chat.wait_for("您是不是想用 /map")
 
 
 def test_what_was_said_is_remembered_for_the_next_time(tmp_path):
@@ -272,7 +272,7 @@ def test_ctrl_z_stops_the_robot_and_really_suspends(tmp_path):
         ]
         assert len(suspended) == 1
         shell.enter("fg")
-        shell.wait_for("The robot was stopped when we went to sleep.")
+        shell.wait_for("The robot was stopped before ChatRobot was suspended.")
         shell.wait_for(STOPPED)
         shell.wait_for(STANDING)
         shell.enter("turn left 20 degrees")
@@ -324,7 +324,7 @@ def test_who_wants_no_colour_gets_plain_lines(tmp_path):
 
 def test_fast_is_refused_because_a_talk_is_in_real_time():
     from chatrobot.cli.console.app import run_console
-    from chatrobot.cli.typed_ahead import TypedAhead
+    from chatrobot.cli.lines import TypedAhead
     from chatrobot.compose import Setup
     from chatrobot.core.errors import UsageError
 

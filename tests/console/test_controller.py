@@ -197,7 +197,7 @@ def test_a_refused_release_is_said_and_the_alarm_stays(controller, log):
     controller.enter("/estop")
     controller.enter("/release")
     controller.hear(Notice(1, Reason("release_refused", {"source": "console"})))
-    assert "The emergency stop stays" in shown(log)
+    assert "Emergency stop still active" in shown(log)
     assert controller.latched
 
 
@@ -225,7 +225,7 @@ def test_a_saved_plan_is_told_to_the_session_and_a_broken_one_is_not(controller,
     act(controller, f"{tmp_path / 'bad'}")
     act(controller, f"{tmp_path / 'none'}")
     assert len(told(log)) == 1
-    assert "The plan is not driven: " in shown(log)
+    assert "The plan was not run: " in shown(log)
     assert "bad: line 2: 'fly 2 m': no step begins like this (one of: arc, drive, " in shown(log)
     assert "none: No such file or directory" in shown(log)
 
@@ -235,7 +235,7 @@ def test_a_map_of_a_size_that_there_is_not_says_which_there_are(controller, log)
     assert "There is no map 'huge'. /map shows or hides the small one, /map big draws the big one." in shown(
         log
     )
-    assert controller.strip.shows_map
+    assert controller.status_bar.shows_map
 
 
 @pytest.mark.parametrize(("typed", "word"), [("/stop it now", "stop"), ("/estop now", "emergency_stop")])

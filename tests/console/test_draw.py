@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 from chatrobot.cli.draw import END, OBSTACLE, PAPER, RED, draw_plan
-from chatrobot.cli.drawing import fonts
+from chatrobot.cli.drawing.canvas import font_for, is_latin
 from chatrobot.cli.drawing.ways import progress_colour, standing_points, where_found
 from chatrobot.core.events import FindingSeen, Rehearsed
 from chatrobot.core.geometry import Pose
@@ -93,5 +93,5 @@ def test_a_finding_is_where_it_says_or_else_where_its_time_is():
 
 
 def test_chinese_needs_a_font_that_has_it():
-    assert fonts.for_text("kitchen, 90°", 12) is not None
-    assert not fonts.is_latin("厨房")
+    assert font_for("kitchen, 90°", 12) is not None
+    assert not is_latin("厨房")

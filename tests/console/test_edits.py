@@ -34,7 +34,7 @@ def test_an_edit_that_leaves_nothing_says_so(controller, log):
     ask(controller)
     controller.enter("e")
     controller.take_edited("\n")
-    assert "Nothing is left of it" in shown(log)
+    assert "Nothing is left after the edit" in shown(log)
 
 
 def test_what_was_driven_before_the_edit_is_told(controller, log):
@@ -61,7 +61,7 @@ def test_a_second_pause_says_what_is_left_and_a_stop_is_told_once(controller, lo
 
 def test_the_strip_says_that_a_plan_is_paused(controller):
     def strip():
-        return "".join(text for _, text in controller.strip.fragments(100))
+        return "".join(text for _, text in controller.status_bar.fragments(100))
 
     assert "standing" in strip()
     controller.hear(Started(1, Pose()))

@@ -7,11 +7,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from chatrobot.cli.drawing.extent import Extent, extent_around, extent_of_world
-from chatrobot.cli.drawing.map_text import ARROWS, arrow, draw_map_text
+from chatrobot.cli.drawing.map_text import ARROWS, arrow
 from chatrobot.core.geometry import Pose
 from chatrobot.sim.load import load_world
 from chatrobot.sim.shapes import rectangle
 from chatrobot.sim.world import EMPTY_WORLD, Obstacle, World
+from tests.console.fakes import draw_map_text
 
 TEN = Extent(0.0, 0.0, 10.0, 10.0)
 

@@ -6,18 +6,19 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from chatrobot.cli.console.maps import big_map, way_map
 from chatrobot.cli.console.motion_view import MotionView
 from chatrobot.cli.console.status_bar import StatusBar
+from chatrobot.cli.console.tables import big_map, way_map
 from chatrobot.cli.console.words import Words
 from chatrobot.cli.draw import draw_plan
 from chatrobot.cli.drawing.extent import extent_of_world
-from chatrobot.cli.drawing.map_text import draw_map_text, furniture, thickness_m
+from chatrobot.cli.drawing.map_text import furniture, thickness_m
 from chatrobot.core.events import Started, Telemetry
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.sim.load import load_world, parse_world
 from chatrobot.sim.shapes import Circle, rectangle
 from chatrobot.sim.world import Obstacle, World
+from tests.console.fakes import draw_map_text
 from tests.console.test_draw import OBSTACLE, PROFILE, rehearsed
 from tests.console.test_map_text import plain
 
@@ -82,7 +83,12 @@ def test_the_picture_has_the_same_orientation(tmp_path: Path, yaw_deg):
     """The box stands to the west of the start: left of the way, whichever way the robot starts."""
     way = tuple((*point, 0.0) for point in turned(yaw_deg, *WAY))
     draw_plan(
-        tmp_path / "a.png", world=world(yaw_deg), profile=PROFILE, rehearsed=rehearsed(way=way), title="t"
+        tmp_path / "a.png",
+        world=world(yaw_deg),
+        profile=PROFILE,
+        rehearsed=rehearsed(way=way),
+        title="t",
+        words=lambda _: "hits it",
     )
     image = Image.open(tmp_path / "a.png").convert("RGB")
     size = (image.width // 4, image.height // 4)

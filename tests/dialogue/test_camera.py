@@ -312,7 +312,7 @@ def test_pictures_come_over_rosbridge(wiring: Wiring) -> None:
     pytest.importorskip("websockets")
     from fake_rosbridge import FakeRosbridge
 
-    from chatrobot.wire.rosbridge import RosbridgeWire
+    from chatrobot.wire.rosbridge.wire import RosbridgeWire
 
     server = FakeRosbridge()
     driver = RosbridgeWire(server.url, wiring)

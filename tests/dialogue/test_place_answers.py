@@ -7,7 +7,7 @@ import math
 import pytest
 
 from chatrobot.core.geometry import Pose
-from chatrobot.dialogue.map_ways import MapWays
+from chatrobot.dialogue.places import MapWays
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.context import RobotState
 from chatrobot.language.interpretation import Interpretation
@@ -70,11 +70,22 @@ def test_the_nearest_is_that_by_the_way(text: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("text", "near"), [("where is the televisn?", "TV"), ("how far is the charging dok?", "charging dock")]
+)
+def test_a_place_that_is_meant_is_shown_as_it_is_written_and_once(text: str, near: str) -> None:
+    assert asked(text).reply.endswith(f"Did you mean one of these: {near}?")
+
+
+@pytest.mark.parametrize(
     ("text", "told"),
     [("厨房在哪里", "厨房在我的正前方"), ("厨房在左边吗？", "不是。"), ("离厨房还有多远", "按我会走的路"),
      ("你知道哪些地方", "冰箱"),
      ("where is the kichen?", "Did you mean one of these: kitchen?"), ("where is the moon?", "Places I know: kitchen"),
-     ("how far are you from the start?", "this is the start"), ("which places do you know?", "fridge")],
+     ("how far are you from the start?", "this is the start"), ("which places do you know?", "fridge"),
+     ("could you show me where the fridge is", "The fridge is"),
+     ("what is near the fridge?", "Nearest to the fridge: kitchen"),
+     ("is it far?", "Which place do you mean?"), ("how far is it", "Which place do you mean?"),
+     ("冰箱旁边有什么", "离冰箱最近的"), ("远吗", "你问的是哪个地方")],
 )  # fmt: skip
 def test_what_is_asked_is_answered(text: str, told: str) -> None:
     meant = asked(text)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Iterator
+import threading
+import time
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -27,7 +29,8 @@ from chatrobot.core.events import (
     TruePose,
 )
 from chatrobot.dialogue.options import Options
-from chatrobot.models.usage_log import totals
+from chatrobot.models.seam import CallLimits, Message, Usage
+from chatrobot.models.usage import totals
 from chatrobot.programs.library import KeptProgram
 
 ASKED = "Write a ROS 2 Python program that makes the robot dance as you like"
@@ -180,7 +183,7 @@ def test_with_a_model_what_the_offline_language_does_not_understand_is_written(h
 
 
 BROKEN = {
-    "a syntax error": (DANCE.replace("def run(self):", "def run(self)"), "is no Python"),
+    "a syntax error": (DANCE.replace("def run(self):", "def run(self)"), "is not valid Python"),
     "an exception": (
         DANCE.replace("self.drive(0.2, 0.0, 1.0)", "self.drvie(0.2, 0.0, 1.0)"),
         "AttributeError",
@@ -500,3 +503,82 @@ def test_a_model_mends_its_program_that_fails_after_its_last_zero(house: House) 
     house.model(fenced(SHUT_DOWN_TWICE), fenced(DANCE))
     assert house.do(ASKED).outcome == "completed"
     assert [written.version for written in house.all(ProgramWritten)] == [1, 2]
+
+
+class WritesSlowly:
+    """A model that writes once it is allowed to, and takes no notice of being cancelled."""
+
+    name = "slow:test"
+
+    def __init__(self, text: str = "") -> None:
+        self.text = text
+        self.may_write = threading.Event()
+        self.usage: Usage | None = None
+
+    def ask(self, messages: Sequence[Message], limits: CallLimits) -> WritesSlowly:
+        del messages, limits
+        return self
+
+    def __iter__(self) -> Iterator[str]:
+        self.may_write.wait(30.0)
+        yield self.text
+
+    def cancel(self) -> None:
+        """It does not hear of it."""
+
+    def forget(self) -> None:
+        """It holds no conversation."""
+
+
+def test_while_a_model_writes_the_session_goes_on_and_what_is_said_comes_after_it(house: House) -> None:
+    model = house.authoring.model = WritesSlowly(fenced(DANCE + "# slowly\n"))
+    house.events.clear()
+    session = house.session
+    turn = session.say(ASKED)
+    session.pump(0.0)
+    began_s, later = time.monotonic(), session.say("where are you?")
+    for _ in range(3):
+        session.pump(0.02)
+    assert time.monotonic() - began_s < 5.0, "nothing waits for the model"
+    assert session.model_wait_s is not None
+    assert not session.is_idle
+    assert not house.all(Result), "what was said after it keeps its place"
+    model.may_write.set()
+    while later not in session.results:
+        session.pump(0.1)
+    assert [result.turn for result in house.all(Result)] == [turn, later]
+    assert session.results[turn].outcome == "completed"
+    assert session.model_wait_s is None
+
+
+@pytest.mark.parametrize("word", ["stop", "停", "pause"])
+def test_a_stop_ends_the_writing_even_where_the_model_takes_no_notice(house: House, word: str) -> None:
+    house.authoring.model = WritesSlowly()
+    house.events.clear()
+    session = house.session
+    turn = session.say(ASKED)
+    session.pump(0.0)
+    stop = session.say(word)
+    for _ in range(3):
+        session.pump(0.02)
+    assert [session.results[number].outcome for number in (turn, stop)] == ["stopped", "stopped"]
+    (called,) = house.all(ModelCalled)
+    assert (called.model, called.counted) == ("slow:test", False)
+    assert house.do("where are you?").outcome == "answered"
+
+
+def test_a_stop_ends_the_mending_and_what_was_wrong_is_said(house: House) -> None:
+    house.model(fenced(BROKEN["an exception"][0]))
+    house.on_event = lambda event: (
+        setattr(house.authoring, "model", WritesSlowly()) if isinstance(event, ProgramWritten) else None
+    )
+    session = house.session
+    turn = session.say(ASKED)
+    while session.model_wait_s is None or isinstance(house.authoring.model, ScriptedModel):
+        session.pump(0.02)
+    stop = session.say("stop")
+    while stop not in session.results:
+        session.pump(0.02)
+    assert session.results[turn].outcome == "refused"
+    assert "AttributeError" in session.results[turn].reply
+    assert session.is_idle

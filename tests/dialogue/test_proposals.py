@@ -13,7 +13,7 @@ from chatrobot.cli.console.narrator import Narrator
 from chatrobot.cli.console.words import Words
 from chatrobot.core.events import Interpreted, Rehearsed, Result, event_from_json
 from chatrobot.core.proposal import Proposal
-from chatrobot.dialogue import proposals
+from chatrobot.dialogue import question
 from chatrobot.dialogue.options import Options
 
 ASKING = "go to the kichen"
@@ -137,7 +137,7 @@ def test_a_robot_that_was_moved_has_to_be_asked_again(monkeypatch: pytest.Monkey
 
 def test_a_yes_that_comes_late_has_to_be_said_again(monkeypatch: pytest.MonkeyPatch) -> None:
     talk = asked()
-    began_s = proposals.time.monotonic()
+    began_s = question.time.monotonic()
     monkeypatch.setattr("chatrobot.dialogue.utterances.time.monotonic", lambda: began_s + 31.0)
     late = talk.session.do("yes")
     assert (late.outcome, late.path_m) == ("refused", 0.0)

@@ -201,7 +201,7 @@ def test_no_place_is_remembered_where_nobody_knows_which() -> None:
     [
         ("forward 1 m", "stuck_after_m=0.3", "completed", "drove 1.00 m"),
         ("turn left 90 degrees", "stuck_after_m=0", "failed", "the wheels turn and the robot does not"),
-        ("forward 1 m", "stuck_after_m=0.3,blocked=stall", "failed", "it does not follow"),
+        ("forward 1 m", "stuck_after_m=0.3,blocked=stall", "failed", "the robot does not follow"),
     ],
 )
 def test_wheels_that_spin_are_noticed_as_far_as_the_docs_say(

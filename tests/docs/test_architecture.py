@@ -13,7 +13,7 @@ PAGE = (Path(__file__).resolve().parents[2] / "docs" / "architecture.md").read_t
 def test_the_table_of_levels_is_what_is_enforced() -> None:
     there = {path.stem for path in (SOURCE / "chatrobot").iterdir() if not path.name.startswith("__")}
     told: dict[str, str] = {}
-    for level, packages in re.findall(r"^\| (\d|beside) \| (.+) \|$", PAGE, re.MULTILINE):
+    for level, packages in re.findall(r"^\| (\d+|beside) \| (.+) \|$", PAGE, re.MULTILINE):
         names = re.findall(r"`(\w+)`", packages)
         told |= dict.fromkeys(names[:1] if level == "beside" else names, level)
     enforced = {name: str(level) for name, level in LEVELS.items()} | dict.fromkeys(BESIDE, "beside")

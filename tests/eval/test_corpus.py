@@ -80,7 +80,7 @@ def test_the_everyday_sets_are_valid() -> None:
         ("{id: a, category: nonsense, say: hi, expect: {x: 1}}", "category is 'nonsense' (primitive, metric"),
         ("{id: a, category: metric, expect: {x: 1}}", "needs either say or turns"),
         ("{id: a, category: metric, say: hi, turns: [hi], expect: {x: 1}}", "needs either say or turns"),
-        ("{id: a, category: metric, say: no, expect: {x: 1}}", "False is no text (put it in quotes)"),
+        ("{id: a, category: metric, say: no, expect: {x: 1}}", "False is not text (put it in quotes)"),
         ("{id: a, category: metric, say: hi, expect: {}}", "expect is empty"),
         ("{id: a, category: metric, say: hi, expect: {z: 1}}", "unknown field 'z' (x, y, yaw_deg"),
         ("{id: a, category: metric, say: hi, expect: {x: one}}", "x is 'one' (a number)"),

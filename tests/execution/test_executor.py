@@ -7,11 +7,11 @@ from collections import deque
 from collections.abc import Callable
 
 import pytest
-from tests.rig import Rig
 
 from chatrobot.core.clock import TICK_S
 from chatrobot.plan.steps import Drive, ObstacleWithin, Plan, RawTwist, Repeat, Turn, Wait
 from chatrobot.sim.shapes import rectangle
+from chatrobot.testing.rig import Rig
 from chatrobot.wire.messages import Message
 from chatrobot.wire.wire import M, Wire
 

@@ -7,13 +7,13 @@ import random
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.rig import Rig
 
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.execution.executor import Executor
 from chatrobot.execution.tracking import LEAST_SPEED_MPS, without_reverse
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import parse_plan
+from chatrobot.testing.rig import Rig
 
 FEEDBACK_MPS = LEAST_SPEED_MPS * 1.01
 """What holding its place asks of a robot that turns on the spot."""

@@ -6,7 +6,6 @@ import math
 from dataclasses import replace
 
 import pytest
-from tests.rig import Rig
 
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
@@ -18,6 +17,7 @@ from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.open_loop import driven_open_loop
 from chatrobot.sim.shapes import rectangle
+from chatrobot.testing.rig import Rig
 
 PLANS = [
     "drive 2 m",

@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from tests.governor.situations import MECANUM, at, with_safety
-from tests.rig import Rig
 
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 from chatrobot.governor.contact import seconds_until_below
@@ -16,6 +15,7 @@ from chatrobot.governor.rule import FREE
 from chatrobot.governor.space_rules import FenceRule
 from chatrobot.plan.steps import Drive, Plan, Turn
 from chatrobot.robots.profile import Circle, Safety
+from chatrobot.testing.rig import Rig
 
 CIRCLE = Circle(0.0, 0.0, 1.0)
 SQUARE = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))

@@ -6,10 +6,10 @@ import math
 
 import pytest
 from tests.governor.situations import smooth
-from tests.rig import Rig
 
 from chatrobot.plan.steps import Drive, Plan, Turn
 from chatrobot.sim.shapes import rectangle
+from chatrobot.testing.rig import Rig
 
 
 @pytest.mark.parametrize("speed", [0.3, 1.0])

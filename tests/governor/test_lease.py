@@ -6,7 +6,8 @@ import math
 
 import pytest
 
-from chatrobot.governor.lease import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S, Leases, Priority
+from chatrobot.core.clock import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S
+from chatrobot.governor.lease import Leases, Priority
 
 
 def opened(source: str = "console", term_s: float = 0.25) -> Leases:

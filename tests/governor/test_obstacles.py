@@ -6,13 +6,13 @@ import math
 from dataclasses import replace
 
 import pytest
-from tests.rig import Rig
 
 from chatrobot.core.geometry import ORIGIN
 from chatrobot.plan.steps import Arc, Drive, Plan, Step, Turn
 from chatrobot.robots.load import list_profiles, load_profile
 from chatrobot.robots.profile import RobotProfile, Safety
 from chatrobot.sim.shapes import Circle, Shape, rectangle
+from chatrobot.testing.rig import Rig
 
 FAR_M = 2.0
 

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import pytest
 from tests.governor.situations import MECANUM, at, with_safety
-from tests.rig import Rig
 
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Twist
 from chatrobot.governor.rule import SensorRule, silent_after_s
 from chatrobot.plan.steps import Drive, Plan
 from chatrobot.robots.profile import Safety
+from chatrobot.testing.rig import Rig
 
 ALL = with_safety(Safety(requires=("odom", "scan", "imu")))
 SLOW = Twist(0.1, 0.0, 0.0)

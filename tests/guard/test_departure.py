@@ -12,9 +12,8 @@ import pytest
 from chatrobot.guard.__main__ import Guard
 from chatrobot.guard.departure import Departure
 from chatrobot.guard.watch import HANDSHAKE
-from chatrobot.wire.connect import Endpoint
 from chatrobot.wire.messages import Message
-from chatrobot.wire.wire import M
+from chatrobot.wire.wire import Endpoint, M, Wire
 
 TWIST, ODOMETRY = "geometry_msgs/msg/Twist", "nav_msgs/msg/Odometry"
 BASE, DRIVER = Endpoint("/cmd_vel", TWIST, "listens"), Endpoint("/odom", ODOMETRY, "publishes")
@@ -22,8 +21,10 @@ OTHERS = [Endpoint("/cmd_vel", TWIST, "publishes"), Endpoint("/odom", ODOMETRY, 
 """Of Motion, which has been killed but is listed still."""
 
 
-class Domain:
+class Domain(Wire):
     """A wire that discovers the others by itself."""
+
+    knows_others = sees_others_leave = True
 
     def __init__(self, *ends: Endpoint) -> None:
         self.ends = ends
@@ -36,18 +37,12 @@ class Domain:
 
     def subscribe(self, topic: str, kind: type[M], callback: Callable[[M], None]) -> None: ...
     def close(self) -> None: ...
-    def advertise(self, topic: str, kind: type[Message]) -> None: ...
-
-    def wait_for_listener(self, topic: str, kind: type[Message], timeout_s: float, count: int = 1) -> bool:  # noqa: ARG002
-        return True
 
     def survey(self) -> list[Endpoint]:
         return [*self.ends, *OTHERS]
 
     def resolve(self, topic: str) -> str:
         return f"/{topic}"
-
-    def rewire(self, wiring: object) -> None: ...
 
 
 @contextmanager

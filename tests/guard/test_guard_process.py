@@ -12,16 +12,18 @@ from chatrobot.core.errors import WireError
 from chatrobot.guard.__main__ import Guard
 from chatrobot.guard.watch import BEAT, GOODBYE, HANDSHAKE, TRIPPED
 from chatrobot.wire.messages import Message
-from chatrobot.wire.wire import M
+from chatrobot.wire.wire import M, Wire
 
 PATIENCE_S = 5.0
 
 
-class Connection:
+class Connection(Wire):
     """A wire whose other end may be gone for a while."""
 
+    comes_back = True
+    is_connected = True
+
     def __init__(self) -> None:
-        self.is_connected = True
         self.halted = threading.Event()
 
     def publish(self, topic: str, message: Message) -> None:  # noqa: ARG002 - the protocol's

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from chatrobot.guard.watch import BEAT, BEAT_S, HANDSHAKE, MISSED_S, Watch
+from chatrobot.core.clock import TICK_S
+from chatrobot.guard.watch import BEAT, HANDSHAKE, MISSED_S, Watch
 
 
 def test_an_idle_guard_sends_nothing() -> None:
@@ -30,8 +31,8 @@ def test_steady_beats_never_trip() -> None:
     watch = Watch()
     watch.hear(HANDSHAKE, 0.0)
     for beat in range(1, 500):
-        assert not watch.must_halt(beat * BEAT_S)
-        watch.hear(BEAT, beat * BEAT_S)
+        assert not watch.must_halt(beat * TICK_S)
+        watch.hear(BEAT, beat * TICK_S)
 
 
 def test_losing_motion_without_a_goodbye_trips_at_once() -> None:
@@ -63,4 +64,4 @@ def test_how_long_it_may_sleep_depends_on_its_state() -> None:
     watch.hear(HANDSHAKE, 5.0)
     assert watch.seconds_left(5.1) == 5.0 + MISSED_S - 5.1
     watch.lose()
-    assert watch.seconds_left(5.1) == BEAT_S
+    assert watch.seconds_left(5.1) == TICK_S

@@ -17,9 +17,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from chatrobot.cli.eval.corpus import Item, load_corpus
-from chatrobot.cli.eval.ideal import ideal
-from chatrobot.cli.eval.judge_plan import misfit
-from chatrobot.cli.eval.measure import Measured
+from chatrobot.cli.eval.judge import misfit
+from chatrobot.cli.eval.measure import Measured, ideal
 from chatrobot.plan.base import Step
 from chatrobot.plan.steps import Plan, Say, Wait
 from chatrobot.plan.text import format_plan

@@ -37,3 +37,8 @@ def test_the_way_that_is_denied_is_not_driven(said: str) -> None:
 @pytest.mark.parametrize("said", ["左转，不是右转，90度", "往左，不是往右，转90度", "左转90度，不是右转"])
 def test_a_way_that_may_be_denied_or_put_right_is_asked_about(said: str) -> None:
     assert Conversation().say(said).outcome == "unclear"
+
+
+def test_a_question_that_denies_forbids_nothing() -> None:
+    assert Conversation().say("don't you turn left?").code == "nothing_to_do"
+    assert Conversation().say("don't turn left").code == "only_forbidden"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import pytest
@@ -11,7 +12,7 @@ from chatrobot.language.heeded import check_heeded
 from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Drive, Step
+from chatrobot.plan.steps import Drive, Step, Turn
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
 
 METRE, SECONDS = quantity("length", 1.0, "1 m"), quantity("time", 3.0, "3 s")
@@ -89,3 +90,29 @@ def test_a_clause_that_is_passed_over_only_after_a_certain_one_is_found_in_a_lon
     atoms = [*clauses, SECONDS, COMMA, quantity("length", 2.0, "2 m"), COMMA, *clauses]
     with pytest.raises(Unclear, match="2 m"):
         check_heeded(atoms, lost_after_a_second(atoms), lost_after_a_second)
+
+
+@pytest.mark.parametrize(
+    ("said", "last"), [("draw a triangle and turn around", 180), ("画个三角形，然后掉头", 180)]
+)
+def test_a_motion_beside_a_shape_is_done_after_it(said: str, last: int) -> None:
+    plan = OfflineInterpreter(load_profile(DEFAULT_PROFILE)).interpret(said, Context()).plan
+    assert plan is not None
+    assert len(plan.steps) == 7
+    assert plan.steps[-1] == Turn(math.radians(last))
+
+
+def test_a_motion_before_a_shape_is_done_before_it() -> None:
+    plan = (
+        OfflineInterpreter(load_profile(DEFAULT_PROFILE))
+        .interpret("turn around and draw a triangle", Context())
+        .plan
+    )
+    assert plan is not None
+    assert plan.steps[0] == Turn(math.pi)
+
+
+def test_a_clause_that_the_rules_pass_over_is_asked_about() -> None:
+    atoms = [METRE, Atom("sep", "weak", ","), Atom("verb", "uturn", "turn around")]
+    with pytest.raises(Unclear, match="turn around"):
+        check_heeded(atoms, drives_by_length(atoms), drives_by_length)

@@ -42,6 +42,10 @@ def test_a_strange_word_beside_a_whole_order_is_asked_about_with_the_plan(text: 
     assert done(text) == f"unclear: {plan}"
 
 
+def test_a_side_that_is_told_of_is_no_turn_before_an_order() -> None:
+    assert done("左边太近了，往右平移二十厘米") == "unclear: drive 0.2 m right"
+
+
 @pytest.mark.parametrize(
     "text",
     [

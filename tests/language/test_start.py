@@ -33,6 +33,12 @@ def test_a_start_in_chinese_after_a_turn_that_was_not_done_drives_nothing(before
     assert conversation(before).say(start).outcome == "unclear"
 
 
+def test_praise_after_a_turn_that_was_not_done_starts_nothing_and_names_nothing() -> None:
+    meant = conversation("blarg the fnord").say("nice moves")
+    assert meant.outcome == "unclear"
+    assert "blarg" not in meant.reply
+
+
 def test_the_question_names_what_was_not_done() -> None:
     assert "blarg the fnord" in conversation("blarg the fnord").say("go").reply
     assert "呱唧呱唧三下" in conversation("呱唧呱唧三下").say("走").reply

@@ -1,38 +1,34 @@
 """Envelopes of one source come from several threads: what may overtake what."""
 
+from __future__ import annotations
+
 from pathlib import Path
 
+import pytest
 from tests.link.link_rigs import SimulatedRig, finished
 
-from chatrobot.link.envelope import Envelope
+from chatrobot.link.envelope import PROTOCOL, Envelope
 from chatrobot.link.in_process import InProcessLink
 
 
-def test_a_plan_that_a_heartbeat_has_overtaken_is_still_done(tmp_path: Path) -> None:
+@pytest.mark.parametrize(("overtaking", "outcome"), [("beat", "completed"), ("stop", "stopped")])
+def test_a_heartbeat_may_overtake_a_plan_and_a_stop_that_does_ends_it(
+    tmp_path: Path, overtaking: str, outcome: str
+) -> None:
     rig = SimulatedRig(tmp_path)
     link = rig.link
     assert isinstance(link, InProcessLink)
     plan = link._sender.envelope("plan", 1, plan_text="drive 0.1 m")
-    link.send("beat")
+    link.send(overtaking)  # type: ignore[arg-type]
     link._motion.receive(plan)
-    assert finished(rig, 1).outcome == "completed"
-
-
-def test_a_plan_that_a_stop_has_overtaken_ends_as_stopped(tmp_path: Path) -> None:
-    rig = SimulatedRig(tmp_path)
-    link = rig.link
-    assert isinstance(link, InProcessLink)
-    plan = link._sender.envelope("plan", 1, plan_text="drive 0.1 m")
-    link.send("stop")
-    link._motion.receive(plan)
-    assert finished(rig, 1).outcome == "stopped"
-    assert not any(any(velocity) for velocity in rig.velocities)
+    assert finished(rig, 1).outcome == outcome
+    assert any(any(velocity) for velocity in rig.velocities) == (outcome == "completed")
 
 
 def test_a_first_word_that_names_its_term_opens_the_lease_and_is_done(tmp_path: Path) -> None:
     rig = SimulatedRig(tmp_path)
     link = rig.link
     assert isinstance(link, InProcessLink)
-    payload = {"plan_text": "drive 0.05 m", "term_s": 1.0}
+    payload = {"plan_text": "drive 0.05 m", "term_s": 1.0, "protocol": PROTOCOL}
     link._motion.receive(Envelope("plan", "base", "spoke before we listened", 1, 7, payload))
     assert finished(rig, 7).outcome == "completed"

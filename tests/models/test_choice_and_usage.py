@@ -8,15 +8,13 @@ from pathlib import Path
 import pytest
 
 from chatrobot.core.errors import InputError
-from chatrobot.models.choice import FILE, resolve, store_choice
-from chatrobot.models.config import ModelConfig
+from chatrobot.models.config import FILE, ModelConfig, resolve, store_choice
 from chatrobot.models.discovery import find_local, listed_models
-from chatrobot.models.prices import check_prices, priced, prices_date
+from chatrobot.models.make import problem_with
 from chatrobot.models.providers import providers
 from chatrobot.models.seam import CallLimits, Usage
 from chatrobot.models.secret import Secret
-from chatrobot.models.state import problem_with
-from chatrobot.models.usage_log import lines, totals
+from chatrobot.models.usage import check_prices, lines, priced, totals
 from tests.models.rig import KEY, Got, model_at, serving
 
 
@@ -125,31 +123,48 @@ def test_a_line_that_was_cut_off_is_left_out(tmp_path: Path) -> None:
     assert [line["model"] for line in lines(tmp_path)] == ["a:b"]
 
 
-def test_prices_are_of_the_longest_name_that_fits_and_unknown_otherwise(tmp_path: Path) -> None:
-    usage = Usage(prompt_tokens=1_000_000, cached_tokens=400_000, reply_tokens=100_000)
+def cost_usd(provider: str, model: str, folder: Path | None = None) -> float | None:
+    usage = Usage(prompt_tokens=10_000, cached_tokens=4_000, reply_tokens=1_000)
+    return priced(usage, provider, model, folder).cost_usd
 
-    def cost(provider: str, model: str, folder: Path | None = None) -> float | None:
-        return priced(usage, provider, model, folder).cost_usd
 
-    assert cost("openai", "gpt-5-mini-2025-08-07") == pytest.approx(0.6 * 0.25 + 0.4 * 0.025 + 0.1 * 2.0)
-    assert cost("openai-responses", "gpt-5-mini") == cost("openai", "gpt-5-mini")
-    assert cost("google", "gemini-2.5-flash-lite") != cost("google", "gemini-2.5-flash")
-    assert cost("ollama", "anything") == 0.0
-    assert cost("openai", "gpt-99") is None
-    (tmp_path / "prices.toml").write_text(
-        '[openai]\n"gpt-99" = { prompt = 1.0, reply = 10.0 }\n', encoding="utf-8"
-    )
-    assert cost("openai", "gpt-99", tmp_path) == pytest.approx(2.0)
-    assert cost("openai", "gpt-5-mini", tmp_path) == cost("openai", "gpt-5-mini")
-    assert len(prices_date()) == 10
+def test_a_call_costs_what_the_price_list_says(tmp_path: Path) -> None:
+    pytest.importorskip("genai_prices")
+    # OpenAI, gpt-5-mini: $ 0.25, 0.025 and 2.00 for a million tokens in, in from the cache, and out
+    usual = pytest.approx((6_000 * 0.25 + 4_000 * 0.025 + 1_000 * 2.00) / 1e6)
+    assert cost_usd("openai", "gpt-5-mini", tmp_path) == usual
+    assert cost_usd("openai", "gpt-5-mini-2025-08-07") == usual
+    assert cost_usd("openai-responses", "gpt-5-mini") == usual
+    # Anthropic, claude-haiku-4-5: $ 1.00, 0.10 and 5.00
+    assert cost_usd("anthropic", "claude-haiku-4-5") == pytest.approx((6_000 + 400 + 5_000) / 1e6)
+    assert cost_usd("google", "gemini-2.5-flash-lite") != cost_usd("google", "gemini-2.5-flash")
+
+
+def test_what_runs_here_costs_nothing_and_what_nobody_knows_is_unknown() -> None:
+    assert cost_usd("ollama", "anything") == cost_usd("llamacpp", "default") == 0.0
+    assert cost_usd("openai", "gpt-99") is None
+    assert cost_usd("openai-compatible", "gpt-5-mini") is None, "it may be anybody's server"
+
+
+def test_ones_own_prices_come_first_and_the_longest_name_that_fits_counts(tmp_path: Path) -> None:
+    rows = '"gpt-99" = { prompt = 1.0, reply = 10.0 }\n"gpt-99-nano" = { prompt = 0.0, reply = 1.0 }\n'
+    (tmp_path / "prices.toml").write_text(f"[openai]\n{rows}", encoding="utf-8")
+    assert cost_usd("openai", "gpt-99-big", tmp_path) == pytest.approx(0.02)
+    assert cost_usd("openai-responses", "gpt-99-nano-1", tmp_path) == pytest.approx(0.001)
+    assert cost_usd("openai", "gpt-98", tmp_path) is None
 
 
 def test_a_broken_price_list_is_told_and_stops_no_call(tmp_path: Path) -> None:
     check_prices(tmp_path)
-    (tmp_path / "prices.toml").write_text("[openai", encoding="utf-8")
-    with pytest.raises(InputError, match=r"prices\.toml"):
-        check_prices(tmp_path)
-    assert priced(Usage(1, 0, 1), "openai", "gpt-5-mini", tmp_path).cost_usd is None
+    for number, text in enumerate(
+        ("[openai", '[openai]\n"gpt-5-mini" = 1.0', "[openai]\nx = { reply = 1.0 }")
+    ):
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        (folder / "prices.toml").write_text(text, encoding="utf-8")
+        with pytest.raises(InputError, match=r"prices\.toml"):
+            check_prices(folder)
+        assert cost_usd("openai", "gpt-5-mini", folder) is None
 
 
 def test_the_record_is_json_lines(tmp_path: Path) -> None:

@@ -45,7 +45,7 @@ class Network:
             deliver()
 
 
-class FarWire:
+class FarWire(Wire):
     """An end of the wire on the other side of that network; translates stamps as every network's backend does."""
 
     def __init__(self, inner: Wire, network: Network) -> None:

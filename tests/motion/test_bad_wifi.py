@@ -19,7 +19,7 @@ RESEND_S = 0.2
 """After which TCP sends again what was lost (the least that Linux waits, tcp(7))."""
 
 
-class BadWifi:
+class BadWifi(Wire):
     """An end of the wire beyond a network that delays every message by chance and loses some.
 
     `in_order`: nothing is lost for good, but what was lost holds up all that comes after it, as TCP does.

@@ -128,10 +128,10 @@ def test_a_program_whose_fence_was_closed_before_the_cut_is_whole() -> None:
     ("why", "told"),
     [
         ("nobody reads", "nobody reads the output any more"),
-        ("operator lost", "the input that gave the order is silent"),
+        ("operator lost", "no heartbeat comes from the input that gave the order"),
         ("Ctrl-C", "Ctrl-C"),
         ("halt!", "you said “halt!”"),
-        ("", "a stop came"),
+        ("", "a stop was requested"),
     ],
 )
 def test_a_stop_while_a_model_thinks_is_told_with_its_cause(why: str, told: str) -> None:

@@ -16,7 +16,7 @@ from chatrobot.motion.topic_discovery import (
     fit,
     is_complete,
 )
-from chatrobot.wire.connect import Endpoint
+from chatrobot.wire.wire import Endpoint
 
 AS_SAID = Wiring()
 LISTENS = Endpoint("/cmd_vel", TWIST, "listens")

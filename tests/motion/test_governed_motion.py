@@ -16,9 +16,8 @@ from chatrobot.core.governed import StopEpoch
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
 from chatrobot.motion.goal import Goal
-from chatrobot.motion.goal_execution import GoalExecution
-from chatrobot.motion.governed_motion import Stopwatch
-from chatrobot.motion.governed_robot import GovernedRobot
+from chatrobot.motion.governed_robot import GovernedRobot, Stopwatch
+from chatrobot.motion.plan_executor import GoalExecution
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.execution import ProgramExecution
 from chatrobot.motion.programs.goal import ProgramGoal

@@ -10,7 +10,7 @@ from chatrobot.language.phrases import render_reason
 from chatrobot.language.typed import as_ros_args
 from chatrobot.motion.topic_discovery import ODOMETRY, TURTLE_POSE, fit, hints, why_unheard
 from chatrobot.robots.load import load_profile
-from chatrobot.wire.connect import Endpoint
+from chatrobot.wire.wire import Endpoint
 
 TWIST = "geometry_msgs/msg/Twist"
 POSE = Endpoint("/turtle1/pose", TURTLE_POSE, "publishes")

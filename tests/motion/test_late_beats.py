@@ -12,13 +12,14 @@ import pytest
 from tests.link.link_rigs import SimulatedRig, events_until
 
 from chatrobot.core import process
+from chatrobot.core.clock import LOCAL_TERM_S, TERM_S
 from chatrobot.core.events import Event, Finished, Limited
 from chatrobot.core.process import own_identity, watch_process
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.replies import describe_end
-from chatrobot.governor.lease import LOCAL_TERM_S, LONGEST_S, OVER_S, TERM_S
+from chatrobot.governor.lease import LONGEST_S, OVER_S
 from chatrobot.link.in_process import InProcessLink
-from chatrobot.motion.safety import interlock, watchdog
+from chatrobot.motion.safety import watchdog
 
 TICK_S = 0.02
 LATE_S, ZERO_S = 0.13, 0.18
@@ -79,8 +80,7 @@ def robot(tmp_path: Path) -> Robot:
 
 @pytest.fixture(autouse=True)
 def busy(monkeypatch: pytest.MonkeyPatch) -> None:
-    for module in (interlock, watchdog):
-        monkeypatch.setattr(module, "is_machine_busy", lambda: True)
+    monkeypatch.setattr(watchdog, "is_machine_busy", lambda: True)
 
 
 @pytest.fixture
@@ -172,7 +172,7 @@ def test_after_450_ms_it_is_over_and_the_reply_says_how_late_the_beat_was(robot:
 def test_on_a_machine_that_is_not_busy_silence_is_called_silence(
     robot: Robot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(interlock, "is_machine_busy", lambda: False)
+    monkeypatch.setattr(watchdog, "is_machine_busy", lambda: False)
     robot.drive()
     robot.silence(0.6)
     robot.live(1.0)

@@ -13,9 +13,15 @@ from tests.dialogue.test_session import Talk
 from chatrobot.core.events import Rehearsed, Result
 from chatrobot.core.geometry import ORIGIN
 from chatrobot.motion import planner
-from chatrobot.motion.obstacle_routes import ENOUGH_M, RoutesAroundObstacles, _Field
 from chatrobot.motion.planner import Planner
-from chatrobot.motion.remembered_obstacles import POINT_RADIUS_M, RememberedObstacles, with_seen
+from chatrobot.motion.remembered_obstacles import (
+    ENOUGH_M,
+    POINT_RADIUS_M,
+    RememberedObstacles,
+    RoutesAroundObstacles,
+    _Field,
+    with_seen,
+)
 from chatrobot.plan.context import Route
 from chatrobot.robots.load import load_profile
 from chatrobot.sim.load import load_world

@@ -1,4 +1,4 @@
-"""The stage of a rehearsal: a velocity is held as its robot would hold it, and governed as it would be."""
+"""Where a program is rehearsed: a velocity is held as its robot would hold it, and governed as it would be."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ def test_a_base_without_one_holds_on() -> None:
 
 
 def test_long_strides_lead_to_the_same_place_as_short_ones() -> None:
-    """Where somebody listens, the stage goes tick by tick."""
+    """Where somebody listens, it goes tick by tick."""
     ways = []
     for sensor in ("", "odom"):
         environment = RehearsalEnvironment(load_profile("wheeltec_mini_mec"), start=Pose(1.0, 2.0, 0.5))
         if sensor:
-            environment.listen(sensor, 10)
+            environment.sensors.listen(sensor, 10)
         for t_s, twist in ((0.0, Twist(0.3, 0.0, 0.4)), (2.51, Twist(0.0, 0.2, -0.4)), (4.007, ZERO_TWIST)):
             environment.advance(t_s)
             environment.ask(twist)
@@ -47,20 +47,21 @@ def test_long_strides_lead_to_the_same_place_as_short_ones() -> None:
 
 def test_messages_come_as_often_as_the_control_loop_and_only_what_was_asked_for() -> None:
     environment = RehearsalEnvironment(load_profile("wheeltec_mini_mec"))
-    environment.listen("odom", 100)
+    environment.sensors.listen("odom", 100)
     environment.advance(1.0)
-    messages = environment.take_messages()
+    messages = environment.sensors.take()
     assert {message[0] for message in messages} == {"odom"}
     assert len(messages) == pytest.approx(50, abs=1)
-    assert environment.take_messages() == []
+    assert environment.sensors.take() == []
 
 
-def test_waiting_with_waking_ends_at_the_first_message() -> None:
+def test_the_newest_message_of_a_tick_comes_with_the_programs_own_time() -> None:
     environment = RehearsalEnvironment(load_profile("wheeltec_mini_mec"))
-    environment.listen("scan", 10)
-    environment.advance(5.0, wakes=True)
-    assert environment.now_s == pytest.approx(0.1)
-    assert [message[0] for message in environment.take_messages()] == ["scan"]
+    environment.sensors.listen("scan", 10)
+    environment.advance(0.09)
+    assert not environment.sensors.take()
+    environment.advance(0.1)
+    assert [message[:2] for message in environment.sensors.take()] == [["scan", pytest.approx(0.1)]]
 
 
 def test_a_velocity_that_is_none_moves_nothing_and_is_noted() -> None:

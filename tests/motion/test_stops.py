@@ -8,8 +8,7 @@ from chatrobot.core.clock import VirtualClock
 from chatrobot.core.governed import GovernedTwist, StopEpoch
 from chatrobot.core.reason import Reason
 from chatrobot.execution.sensors import Sensors
-from chatrobot.motion.safety.stop import Stops
-from chatrobot.motion.safety.stop_confirmation import StopConfirmation
+from chatrobot.motion.safety.stop import StopConfirmation, Stops
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
 
 PERSON = Reason("stopped_by", {"source": "console", "why": "stop"})

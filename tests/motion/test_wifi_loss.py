@@ -22,7 +22,7 @@ from chatrobot.robots.load import load_profile
 from chatrobot.sim.robot import SimRobot
 from chatrobot.wire.messages import Message, TwistMessage
 from chatrobot.wire.ros_messages import ros_form
-from chatrobot.wire.wire import M
+from chatrobot.wire.wire import M, Wire
 
 pytestmark = [pytest.mark.realtime, pytest.mark.alone]
 
@@ -30,7 +30,7 @@ PATIENCE_S = 20.0
 PROFILE = load_profile("wheeltec_mini_mec")
 
 
-class OnBoard:
+class OnBoard(Wire):
     """The robot's own end, on the robot: no network lies between it and its rosbridge."""
 
     def __init__(self, bridge: FakeRosbridge, topics: tuple[str, ...] = ("odom", "imu")) -> None:

@@ -26,10 +26,10 @@ pytest.importorskip(
 )
 
 from chatrobot.core.wiring import Wiring
-from chatrobot.wire.dds.discovery import Discovery
 from chatrobot.wire.dds.wire import DdsWire
+from chatrobot.wire.discovery import Discovery
 from chatrobot.wire.messages import Flag, Odometry, Text, TwistMessage
-from tests.talking import PATIENCE_S, Heard, TalkingProcess
+from tests.processes import PATIENCE_S, Heard, TalkingProcess
 
 _STRANGER = Path(__file__).with_name("stranger.py")
 _WORKER = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
@@ -159,9 +159,6 @@ class NodeRig:
         _, event = self.events.wait_for(lambda event: event["event"] == name, since_s)
         return dict(event)
 
-    def wait_for_motion(self, since_s: float) -> float:
-        return self.velocities.wait_for(lambda twist: any(twist), since_s)[0]
-
     def pose(self) -> tuple[float, float, float]:
         """Where the robot really is now."""
         now_s = time.monotonic()
@@ -183,16 +180,6 @@ class NodeRig:
                     process.send_signal(signal.SIGINT)
             time.sleep(LAUNCH_REPEATS_S)
         return struck_s
-
-    def seconds_to_zero(self, since_s: float, watch_s: float = 0.5) -> float:
-        """Seconds from `since_s` to the zero after which nothing moves any more for `watch_s`."""
-        first_s, _ = self.velocities.wait_for(lambda twist: not any(twist), since_s)
-        while True:
-            try:
-                moved_s, _ = self.velocities.wait_for(lambda twist: any(twist), first_s, watch_s)
-            except AssertionError:
-                return first_s - since_s
-            first_s, _ = self.velocities.wait_for(lambda twist: not any(twist), moved_s)
 
     def close(self) -> None:
         for node in reversed(self._all):

@@ -19,7 +19,7 @@ from chatrobot.cli.arguments import parse
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.wiring import Wiring
 from chatrobot.motion import runner
-from chatrobot.motion.safety import connection_monitor, stop_confirmation
+from chatrobot.motion.safety import connection_monitor, stop
 from chatrobot.motion.safety.watchdog import SimulatedGuard
 from chatrobot.wire.connect import connect_wire
 
@@ -50,7 +50,7 @@ class Guard(SimulatedGuard):
 def guards(monkeypatch: pytest.MonkeyPatch) -> list[Guard]:
     """Of each control, as it starts. No robot is there: it is not looked for long, nor waited for until it stands."""
     monkeypatch.setattr(connection_monitor, "SURVEY_S", 0.05)
-    monkeypatch.setattr(stop_confirmation, "PATIENCE_S", 0.2)
+    monkeypatch.setattr(stop, "PATIENCE_S", 0.2)
     made: list[Guard] = []
 
     def make(address: str, wiring: Any, clock: Any, *, is_near: bool) -> Guard:

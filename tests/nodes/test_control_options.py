@@ -31,7 +31,7 @@ def test_its_motion_budget_is_the_one_it_was_started_with(rig: NodeRig, control:
         '{"word":"limit","source":"console","lease":"me","sequence":1,"payload":{"max_distance_m":"none"}}'
     )
     rig.publish("chatgpt_node", Text(limit))
-    control.wait_for_line("The limit of distance and time stays")
+    control.wait_for_line("The limits of distance and time are unchanged")
     assert rig.do("forward 1 m")["outcome"] == "refused"
     ended = rig.do("drive forward until a wall is within 50 cm")
     assert (ended["outcome"], ended["reason"]["code"]) == ("stopped", "max_distance_reached")
@@ -49,7 +49,7 @@ def test_a_person_releases_an_emergency_stop_over_ros_where_control_was_told_so(
     rig.result(said_s, "Emergency stop")
     assert rig.do("forward")["outcome"] == "refused"
     rig.publish("chatgpt_node", Text('{"word":"release","source":"me","lease":"me","sequence":1}'))
-    control.wait_for_line("The emergency stop stays: the me may not release it")
+    control.wait_for_line("Emergency stop still active: the me may not release it")
     rig.nodes["input"].say("release the emergency stop")
     control.wait_for_line("The emergency stop is released")
     assert rig.do("turn left 5 degrees")["outcome"] == "completed"

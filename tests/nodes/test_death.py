@@ -43,7 +43,7 @@ def test_a_second_control_is_named_and_nothing_moves_until_it_is_gone(rig: NodeR
 @pytest.mark.parametrize("whom", NODES)
 def test_when_one_freezes_the_robot_stands_within_250_ms(rig: NodeRig, whom: str) -> None:
     rig.drive()
-    took_s = rig.seconds_to_zero(rig.nodes[whom].strike("SIGSTOP"))
+    took_s = rig.velocities.seconds_to_zero(rig.nodes[whom].strike("SIGSTOP"))
     rig.nodes[whom].strike("SIGCONT")
     rig.rest()
     print(f"SIGSTOP {whom}: {took_s * 1e3:.0f} ms")
@@ -52,7 +52,7 @@ def test_when_one_freezes_the_robot_stands_within_250_ms(rig: NodeRig, whom: str
 
 def test_a_base_that_thaws_drives_again_when_told_and_not_before(rig: NodeRig) -> None:
     rig.drive()
-    rig.seconds_to_zero(rig.nodes["base"].strike("SIGSTOP"))
+    rig.velocities.seconds_to_zero(rig.nodes["base"].strike("SIGSTOP"))
     thawed_s = rig.nodes["base"].strike("SIGCONT")
     assert rig.result(thawed_s)["outcome"] == "stopped"
     assert not any(any(twist) for at_s, twist in rig.velocities.all if at_s > thawed_s)
@@ -63,7 +63,7 @@ def test_a_base_that_thaws_drives_again_when_told_and_not_before(rig: NodeRig) -
 def test_when_one_is_killed_the_robot_stands_within_250_ms(rig: NodeRig, whom: str) -> None:
     rig.drive()
     struck_s = rig.nodes[whom].strike("SIGKILL")
-    took_s = rig.seconds_to_zero(struck_s)
+    took_s = rig.velocities.seconds_to_zero(struck_s)
     if whom == "control":
         assert rig.result(struck_s)["reason"]["code"] == "control_silent"
     rig.replace(whom, *REPLACEMENT.get(whom, ()))
@@ -77,7 +77,7 @@ def test_when_one_is_killed_the_robot_stands_within_250_ms(rig: NodeRig, whom: s
 def test_ctrl_c_stops_the_robot_first(rig: NodeRig, whom: str) -> None:
     """Of control, which stops it itself, test_leaving.py says the same."""
     rig.drive()
-    took_s = rig.seconds_to_zero(rig.nodes[whom].strike("SIGINT"))
+    took_s = rig.velocities.seconds_to_zero(rig.nodes[whom].strike("SIGINT"))
     exit_code = rig.nodes[whom].process.wait(10.0)
     rig.replace(whom)
     rig.rest()

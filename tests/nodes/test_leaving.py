@@ -22,7 +22,7 @@ def end_the_launch(rig: NodeRig) -> float:
     """Seconds to zero."""
     guard = rig.guard()
     struck_s = rig.interrupt_all()
-    took_s = rig.seconds_to_zero(struck_s)
+    took_s = rig.velocities.seconds_to_zero(struck_s)
     codes = {name: node.process.wait(10.0) for name, node in rig.nodes.items()}
     ended_s = time.monotonic()
     assert codes == ASKED_TO_END
@@ -52,7 +52,7 @@ def test_a_guard_in_a_namespace_halts_its_robot_and_no_other(tmp_path: Path) -> 
         elsewhere: list[object] = []
         rig.ear.subscribe("/cmd_vel", TwistMessage, elsewhere.append)
         rig.drive()
-        took_s = rig.seconds_to_zero(rig.nodes["control"].strike("SIGKILL"))
+        took_s = rig.velocities.seconds_to_zero(rig.nodes["control"].strike("SIGKILL"))
         assert took_s <= PROMISE_S
         rig.truth.wait_for(lambda truth: not truth.vx_mps, time.monotonic())
         assert not elsewhere

@@ -14,13 +14,13 @@ from chatrobot.core.wiring import Wiring
 from chatrobot.link.envelope import Envelope
 from chatrobot.models.fake.server import FakeModel
 from chatrobot.robots.load import list_profiles
-from chatrobot.wire.dds.discovery import Discovery
 from chatrobot.wire.dds.wire import DdsWire
+from chatrobot.wire.discovery import Discovery
 from chatrobot.wire.messages import Picture, Text
 from tests.models.rig import KEY, serving
 from tests.nodes.node_rig import NodeRig, running
 from tests.nodes.test_tutorial_demo import FIRST_PROMPT
-from tests.talking import PATIENCE_S
+from tests.processes import PATIENCE_S
 
 pytestmark = pytest.mark.realtime
 

@@ -13,8 +13,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from chatrobot.core import process
+from chatrobot.core.clock import LOCAL_TERM_S, TERM_S
 from chatrobot.core.wiring import Wiring
-from chatrobot.governor.lease import LOCAL_TERM_S, LONGEST_S, TERM_S
+from chatrobot.governor.lease import LONGEST_S
 from chatrobot.link.topics import OPERATOR, USER_INPUT
 from chatrobot.nodes.input import InputNode
 from chatrobot.nodes.operator import CLAIMED_WITHIN_S, OperatorBeat, Operators
@@ -202,7 +203,7 @@ def test_the_consoles_commands_that_input_is_told_to_use_are_understood(typed: s
     hub = MemoryHub()
     texts: list[str] = []
     hub.connect().subscribe(USER_INPUT, Text, lambda message: texts.append(message.data))
-    node = InputNode("memory", Wiring(), print, lambda *_: hub.connect())
+    node = InputNode("local:unused", Wiring(), print, lambda *_: hub.connect())
     node.say(typed)
     node.close()
     assert texts == [heard]

@@ -26,7 +26,7 @@ def paused(rig: NodeRig) -> tuple[float, dict[str, object]]:
     rig.rest()
     rig.drive("forward 1 m at 0.3 m/s")
     typed_s = rig.nodes["input"].say("pause")
-    took_s = rig.seconds_to_zero(typed_s)
+    took_s = rig.velocities.seconds_to_zero(typed_s)
     print(f"typed pause: {took_s * 1e3:.0f} ms")
     assert took_s <= PROMISE_S
     return typed_s, rig.event("paused", typed_s)

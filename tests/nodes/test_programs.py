@@ -80,7 +80,7 @@ def test_findings_are_asked_about_on_user_input(rig: NodeRig) -> None:
 def test_a_typed_stop_ends_a_program(rig: NodeRig) -> None:
     said_s = started(rig, FOR_EVER)
     typed_s = rig.nodes["input"].say("stop")
-    took_s = rig.seconds_to_zero(typed_s)
+    took_s = rig.velocities.seconds_to_zero(typed_s)
     print(f"typed stop: {took_s * 1e3:.0f} ms")
     assert took_s <= PROMISE_S
     assert rig.result(said_s, "Stopped (")["outcome"] == "stopped"
@@ -92,13 +92,13 @@ def test_whatever_dies_the_robot_stands_within_250_ms(rig: NodeRig) -> None:
         server, running = program_processes(rig)
         struck_s = time.monotonic()
         (running if whom == "program" else server).kill()
-        took_s = rig.seconds_to_zero(struck_s)
+        took_s = rig.velocities.seconds_to_zero(struck_s)
         print(f"{whom}: {took_s * 1e3:.0f} ms")
         assert took_s <= PROMISE_S
         assert rig.result(said_s)["outcome"] == "failed"
     started(rig, FOR_EVER)  # after both of that it still works
     _, running = program_processes(rig)
-    took_s = rig.seconds_to_zero(rig.nodes["base"].strike("SIGKILL"))
+    took_s = rig.velocities.seconds_to_zero(rig.nodes["base"].strike("SIGKILL"))
     print(f"base: {took_s * 1e3:.0f} ms")
     assert took_s <= PROMISE_S
     psutil.wait_procs([running], 2.0)

@@ -19,11 +19,11 @@ import yaml
 from chatrobot.cli import node as command
 from chatrobot.cli import ros_run, sim
 from chatrobot.cli.arguments import parse, split_ros_args
-from chatrobot.cli.ros_node import open_ros_interfaces
+from chatrobot.cli.node import open_ros_interfaces
 from chatrobot.core.errors import UsageError
 from chatrobot.core.motion_budget import MotionBudget
 from chatrobot.nodes import control
-from chatrobot.nodes.parameters import PARAMETERS
+from chatrobot.options import PARAMETERS
 from tests.nodes.ros_graph import PATIENCE_S, Guard, fake_rclpy, running
 
 ROOT = Path(__file__).parents[2]
@@ -123,8 +123,8 @@ def test_control_takes_its_motion_budget_from_options_and_parameters(
 def test_open_loop_is_a_parameter_and_brings_its_robot(ros: fake_rclpy.Ros) -> None:
     def values(*ros_args: str) -> dict[str, Any]:
         args = parse(["node", "control", "--on", "ros", "--ros-args", *ros_args])
-        args.approval = "profile"
-        ros_interfaces = open_ros_interfaces(args, "ros:", args.ros_args)
+        args.approval, args.on = "profile", "ros:"
+        ros_interfaces = open_ros_interfaces(args, args.ros_args)
         ros_interfaces.node.close()
         return {name: getattr(args, name) for name in ("robot", "open_loop")}
 

@@ -194,7 +194,7 @@ def test_doctor_tells_which_ros_is_here_and_who_is_on_it(ros: fake_rclpy.Ros, ea
     check = doctor._ros(parse(["doctor"]))
     assert check.state == "ok"
     assert check.text.startswith("jazzy with rmw_fake_cpp; on domain ")
-    assert check.text.endswith("/ear tells odom")
+    assert check.text.endswith("/ear publishes odom")
     assert [node.name for node in ros.nodes] == ["ear"]
 
 

@@ -55,8 +55,8 @@ def speeds(rig: NodeRig, since_s: float) -> list[tuple[float, float]]:
 def test_a_line_of_the_tutorials_form_from_a_stranger_moves_for_a_second_and_stops(rig: NodeRig) -> None:
     x0, y0, _ = rig.pose()
     said_s = rig.stranger_says("chatgpt_node", SLOW)
-    began_s = rig.wait_for_motion(said_s)
-    ended_s = began_s + rig.seconds_to_zero(began_s)
+    began_s = rig.velocities.wait_for_motion(said_s)
+    ended_s = began_s + rig.velocities.seconds_to_zero(began_s)
     moving = [at_s for at_s, speed in speeds(rig, began_s) if speed > 0.0]
     assert ended_s - began_s == pytest.approx(1.2, abs=0.15)  # one second, and the ramp down from 0.2 m/s
     assert max(later - sooner for sooner, later in itertools.pairwise(moving)) < 0.05  # 20 Hz at least
@@ -69,9 +69,9 @@ def test_beyond_the_limits_it_is_scaled_and_said(rig: NodeRig) -> None:
     said_s = rig.stranger_says("chatgpt_node", SLOW.replace("0.2", "5"))
     limited = rig.event("limited", said_s)
     assert limited["rule"] == "speed"
-    began_s = rig.wait_for_motion(said_s)
+    began_s = rig.velocities.wait_for_motion(said_s)
     rig.publish("chatrobot/stop", Flag(True))
-    assert rig.seconds_to_zero(began_s) < 1.0
+    assert rig.velocities.seconds_to_zero(began_s) < 1.0
     assert max(speed for _, speed in speeds(rig, began_s)) <= 1.0 + 1e-6
 
 
@@ -99,7 +99,7 @@ def test_anything_else_is_ignored_with_a_notice(rig: NodeRig, text: str) -> None
 
 def test_a_stranger_never_interrupts_a_plan_of_ours(rig: NodeRig) -> None:
     said_s = rig.nodes["input"].say("forward 1 m")
-    rig.wait_for_motion(said_s)
+    rig.velocities.wait_for_motion(said_s)
     rig.publish("chatgpt_node", Text(SLOW))
     assert rig.event("notice", said_s)["reason"]["code"] == "foreign_busy"
     assert rig.result(said_s)["outcome"] == "completed"
@@ -107,7 +107,7 @@ def test_a_stranger_never_interrupts_a_plan_of_ours(rig: NodeRig) -> None:
 
 def test_a_stranger_gives_way_to_a_plan_of_ours(rig: NodeRig) -> None:
     said_s = rig.publish("chatgpt_node", Text("drive 2 m at 0.3 m/s"))
-    rig.wait_for_motion(said_s)
+    rig.velocities.wait_for_motion(said_s)
     assert rig.do("turn left 20 degrees")["outcome"] == "completed"
     stopped = rig.event("finished", said_s)
     assert (stopped["turn"], stopped["outcome"], stopped["reason"]["code"]) == (0, "stopped", "replaced")
@@ -115,9 +115,9 @@ def test_a_stranger_gives_way_to_a_plan_of_ours(rig: NodeRig) -> None:
 
 def test_a_typed_stop_stops_what_moves(rig: NodeRig) -> None:
     said_s = rig.nodes["input"].say("forward 5 m")
-    rig.wait_for_motion(said_s)
+    rig.velocities.wait_for_motion(said_s)
     stopped_s = rig.nodes["input"].say("stop")
-    assert rig.seconds_to_zero(stopped_s) < 0.25
+    assert rig.velocities.seconds_to_zero(stopped_s) < 0.25
     assert rig.event("finished", said_s)["outcome"] == "stopped"
     rig.replies.wait_for(lambda reply: "you said “stop”" in reply.data, stopped_s)
     rig.result(said_s, "Stopped.")
@@ -127,9 +127,9 @@ def test_a_typed_stop_stops_what_moves(rig: NodeRig) -> None:
 
 def test_stop_needs_no_base(rig: NodeRig) -> None:
     said_s = rig.nodes["input"].say("forward 5 m")
-    rig.wait_for_motion(said_s)
+    rig.velocities.wait_for_motion(said_s)
     stopped_s = rig.publish("chatrobot/stop", Flag(True))
-    assert rig.seconds_to_zero(stopped_s) < 0.25
+    assert rig.velocities.seconds_to_zero(stopped_s) < 0.25
     assert rig.result(said_s)["outcome"] == "stopped"
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import sys
 from pathlib import Path
 from textwrap import dedent, indent
@@ -12,6 +11,7 @@ import pytest
 
 from chatrobot.motion.programs.rehearsal import ProgramRehearsal, rehearse_program
 from chatrobot.programs.events import Ended, Raised
+from chatrobot.programs.inside.top_level import modules
 from chatrobot.robots.load import load_profile
 from chatrobot.sandbox.warm_server import WarmServer
 
@@ -54,8 +54,7 @@ API = {api.name: api for api in _read()}
 
 
 def ours(name: str) -> type:
-    module = importlib.import_module(f"chatrobot.programs.names.rclpy.{MODULES[name]}")
-    found: type = getattr(module, name)
+    found: type = getattr(modules()[f"rclpy.{MODULES[name]}"], name)
     return found
 
 

@@ -9,25 +9,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from chatrobot.programs import names
 from chatrobot.programs.check import ROBOT_MODULES
-from chatrobot.programs.inside.top_level import preload
-from chatrobot.programs.names.geometry_msgs.msg import Pose2D, PoseStamped, Quaternion, Twist, Vector3
-from chatrobot.programs.names.nav_msgs.msg import Odometry
-from chatrobot.programs.names.rclpy.clock_type import ClockType
-from chatrobot.programs.names.rclpy.duration import Duration, Infinite
-from chatrobot.programs.names.rclpy.parameter import Parameter
-from chatrobot.programs.names.rclpy.qos import (
+from chatrobot.programs.inside.interfaces import INTERFACES, kind
+from chatrobot.programs.inside.top_level import modules
+from chatrobot.programs.names.clock import ClockType, Duration, Infinite, Time
+from chatrobot.programs.names.parameter import Parameter
+from chatrobot.programs.names.qos import (
     InvalidQoSProfileException,
     QoSProfile,
     QoSReliabilityPolicy,
     ReliabilityPolicy,
     qos_profile_sensor_data,
 )
-from chatrobot.programs.names.rclpy.time import Time
-from chatrobot.programs.names.sensor_msgs.msg import LaserScan
-from chatrobot.programs.names.std_msgs.msg import Bool, Int8, String
-from chatrobot.programs.names.std_srvs.srv import SetBool
 from chatrobot.programs.names.tf_transformations import (
     euler_from_quaternion,
     quaternion_from_euler,
@@ -35,18 +28,17 @@ from chatrobot.programs.names.tf_transformations import (
     quaternion_multiply,
 )
 
+Pose2D, PoseStamped, Quaternion, Twist, Vector3 = (
+    kind(f"geometry_msgs/{name}") for name in ("Pose2D", "PoseStamped", "Quaternion", "Twist", "Vector3")
+)
+Odometry, LaserScan = kind("nav_msgs/Odometry"), kind("sensor_msgs/LaserScan")
+Bool, Int8, String = (kind(f"std_msgs/{name}") for name in ("Bool", "Int8", "String"))
+SetBool: Any = vars(INTERFACES["std_srvs.srv"])["SetBool"]
+
 
 def test_what_is_there_may_be_imported() -> None:
-    found = {name[len(names.__name__) + 1 :] for name in preload()}
-    packages = {name for name in found if "." not in name} - {"rclpy", "tf_transformations"}
-    inner = {
-        "rclpy.node_checks",
-        "rclpy.node_graph",
-        "rclpy.node_parameters",
-        "rclpy.node_entities",
-        "rclpy.arguments",
-    }
-    assert found - packages - inner == ROBOT_MODULES
+    packages = {name.split(".")[0] for name in INTERFACES}
+    assert set(modules()) - packages == ROBOT_MODULES
 
 
 # --- messages ---

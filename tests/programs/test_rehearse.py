@@ -80,8 +80,8 @@ def test_a_program_that_ends_in_motion_is_stopped_and_said(server: WarmServer) -
 def test_an_exception_has_its_line_and_its_traceback(server: WarmServer) -> None:
     rehearsal = rehearse(server, "go(0.2)\ntime.sleep(1)\nprint(1 / 0)")
     assert codes(rehearsal) == ["program_raised", "program_never_stops"]
-    assert "ZeroDivisionError: division by zero" in rehearsal.traceback
-    assert "site-packages" not in rehearsal.traceback
+    assert "ZeroDivisionError: division by zero" in rehearsal.problem
+    assert "site-packages" not in rehearsal.problem
     assert rehearsal.line == 13
     assert not rehearsal.ok
 

@@ -7,7 +7,7 @@ from typing import NoReturn
 import pytest
 
 from chatrobot.programs.inside.scheduler import FLOOD_LOOK_NS, LOOK_NS, Scheduler
-from chatrobot.programs.inside.virtual_lock import VirtualLock
+from chatrobot.programs.inside.virtual_time import VirtualLock
 
 SECOND_NS = 10**9
 

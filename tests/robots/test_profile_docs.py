@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from pathlib import Path
 
 import pytest
@@ -25,6 +26,11 @@ def test_the_list_of_profiles_has_the_numbers_of_the_files(entry: ProfileEntry) 
         f"| {limits.max_rate_radps:g} rad/s | {holds} |"
     )
     assert row in DOCS
+
+
+def test_every_profile_of_the_list_is_there() -> None:
+    table = DOCS.split("## Built-in profiles")[1].split("\n\n")[1]
+    assert set(re.findall(r"^\| `(\w+)` \|", table, re.MULTILINE)) == {entry.name for entry in BUILT_IN}
 
 
 @pytest.mark.parametrize("part", [Limits, Defaults, Lidar, Calibration, Wiring])

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.talking import Heard, TalkingProcess
+from tests.processes import Heard, TalkingProcess
 
 PACKAGES = Path(__file__).parents[2] / "ros"
 SOURCE = Path(__file__).parents[2] / "src"
@@ -142,7 +142,7 @@ class Rig:
 
     def __init__(self, workspace: Workspace, folder: Path, robot: str, ear_args: Sequence[str]) -> None:
         from chatrobot.robots.load import load_profile
-        from chatrobot.wire.connect import connect_ros
+        from chatrobot.wire.ros import connect_ros
 
         self.domain = next_domain()
         self.environment = workspace.environment_for(folder, self.domain)

@@ -11,10 +11,9 @@ from typing import Any
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "src"))
-from chatrobot.programs.inside import messages, top_level
+from chatrobot.programs.inside.interfaces import REGISTRY
 
-top_level.preload()
-KINDS = {name: kind for name, kind in messages.REGISTRY.items() if "_R" not in name}
+KINDS = {name: kind for name, kind in REGISTRY.items() if "_R" not in name}
 ODD = (
     None,
     True,

@@ -18,13 +18,13 @@ from ros_rig import SOURCE, Process, next_domain
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "wire"))
 from about import About
-from wire_contract import CAMERA, Inbox, WireContract
 
 from chatrobot.core.wiring import Wiring
 from chatrobot.motion.topic_discovery import fit
-from chatrobot.wire.connect import Endpoint
+from chatrobot.testing.wire_contract import CAMERA, Inbox, WireContract
 from chatrobot.wire.messages import Message, Number, TwistMessage
-from chatrobot.wire.rosbridge import RosbridgeWire
+from chatrobot.wire.rosbridge.wire import RosbridgeWire
+from chatrobot.wire.wire import Endpoint
 
 pytestmark = pytest.mark.realtime
 PATIENCE_S = 60.0

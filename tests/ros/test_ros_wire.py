@@ -18,13 +18,13 @@ from ros_rig import next_domain
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "wire"))
 from about import About
-from wire_contract import CAMERA, Inbox, WireContract
 
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.core.wiring import Wiring
 from chatrobot.dialogue.llm.camera import wire_camera
-from chatrobot.wire.connect import connect_ros
+from chatrobot.testing.wire_contract import CAMERA, Inbox, WireContract
 from chatrobot.wire.messages import LaserScan, Message, Number, Odometry, Text, TwistMessage
+from chatrobot.wire.ros import connect_ros
 from chatrobot.wire.ros.convert import message_class
 from chatrobot.wire.ros.node import RosNode
 from chatrobot.wire.ros.wire import RosWire

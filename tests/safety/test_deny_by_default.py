@@ -20,14 +20,15 @@ from chatrobot.plan.text import parse_plan
 from tests.link.link_rigs import SimulatedRig, finished, send_plan
 
 GOOD: dict[str, dict[str, Any]] = {
-    "hello": {"term_s": 0.3, "process": "boot pid:[1] 2 3"},
-    "beat": {"term_s": 0.3, "process": "boot pid:[1] 2 3", "age_s": 0.1},
+    "hello": {"term_s": 0.3, "process": "boot pid:[1] 2 3", "protocol": 2},
+    "beat": {"term_s": 0.3, "process": "boot pid:[1] 2 3", "protocol": 2, "age_s": 0.1},
     "plan": {
         "plan_text": "drive 1 m",
         "mode": "queue",
         "approve": False,
         "rehearse_only": False,
         "term_s": 0.3,
+        "protocol": 2,
         "longest_s": 10,
         "more": False,
         "pauses": 0,
@@ -44,6 +45,7 @@ GOOD: dict[str, dict[str, Any]] = {
         "strict": True,
         "rehearse_only": False,
         "term_s": 0.3,
+        "protocol": 2,
         "pauses": 0,
     },
     "approve": {"yes": True},
@@ -64,6 +66,7 @@ ALLOWED: dict[str, list[Any]] = {
     "longest_s": [1, 10**400, 0.5],
     "age_s": [0, 1, 10**400, 0.5],
     "process": ["", "x", "queue", "now"],
+    "protocol": [0, 1, 10**400],
     "plan_text": ["", "x", "queue", "now"],
     "code": ["", "x", "queue", "now"],
     "name": ["", "x", "queue", "now"],

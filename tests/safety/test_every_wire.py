@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import inspect
-import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -17,7 +16,7 @@ import pytest
 from chatrobot.governor.lease import PRIORITIES
 from chatrobot.robots.load import ProfileEntry, list_profiles
 from chatrobot.robots.profile import Wiring
-from chatrobot.wire.connect import ADDRESSES
+from chatrobot.wire.connect import MODULES
 from chatrobot.wire.messages import TwistMessage
 from chatrobot.wire.wire import Wire
 from tests.safety import test_every_robot as suite
@@ -81,7 +80,7 @@ def dds(wiring: Wiring, _: Path) -> Iterator[Wired]:
 @contextlib.contextmanager
 def rosbridge(wiring: Wiring, _: Path) -> Iterator[Wired]:
     pytest.importorskip("websockets", reason="pip install 'chatrobot[rosbridge]'")
-    from chatrobot.wire.rosbridge import RosbridgeWire
+    from chatrobot.wire.rosbridge.wire import RosbridgeWire
     from tests.wire.fake_rosbridge import FakeRosbridge
 
     server, wires = FakeRosbridge(), list[RosbridgeWire]()
@@ -104,8 +103,7 @@ ELSEWHERE = {"ros": "rclpy is in no package registry; tests/wire/test_wire_ros.p
 
 
 def test_every_backend_is_in_this_suite() -> None:
-    schemes = set(re.findall(r"\b([a-z]+):", ADDRESSES)) - {"ws"}
-    assert schemes - set(ELSEWHERE) == set(WIRES)
+    assert MODULES.keys() - ELSEWHERE.keys() == WIRES.keys()
 
 
 def test_the_checks_are_those_that_any_source_on_any_robot_inherits() -> None:

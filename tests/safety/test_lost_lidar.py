@@ -10,8 +10,8 @@ import pytest
 
 from chatrobot.plan.steps import Drive, Plan
 from chatrobot.sim.shapes import rectangle
+from chatrobot.testing.rig import Rig
 from chatrobot.wire.messages import LaserScan
-from tests.rig import Rig
 
 Spoil = Callable[[LaserScan], LaserScan]
 BLIND_MPS = 0.1

@@ -63,7 +63,7 @@ def driven(rig: Rig, source: str, duration_s: float) -> None:
 @pytest.mark.parametrize("change", [lambda profile: profile, blind_and_fenced], ids=["free", "fenced"])
 def test_a_robot_whose_odometry_falls_silent_is_stopped(change: Any, source: str) -> None:
     rig = Rig(change)
-    rig.motion._goals._programs = rig.motion._executor._programs = Box()  # type: ignore[assignment]
+    rig.motion.goals._programs = rig.motion._executor._programs = Box()  # type: ignore[assignment]
     if source == "plan":
         rig.begin("drive 1 m")
     elif source == "program":

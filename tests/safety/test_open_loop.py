@@ -25,7 +25,7 @@ from chatrobot.link.in_process import InProcessLink
 from chatrobot.link.topic_link import TopicLink
 from chatrobot.motion.safety.competing_controllers import CompetingControllers
 from chatrobot.motion.safety.connection_monitor import ConnectionMonitor
-from chatrobot.motion.safety.stop_confirmation import PATIENCE_S
+from chatrobot.motion.safety.stop import PATIENCE_S
 from chatrobot.robots.load import list_profiles, load_profile
 from chatrobot.robots.open_loop import (
     OPEN_LOOP_MPS,
@@ -39,6 +39,7 @@ from chatrobot.sim.load import load_world
 from chatrobot.sim.world import check_known
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import TwistMessage
+from chatrobot.wire.wire import Wire
 from tests.dialogue.undo_rig import UndoRig
 from tests.motion.far_robot import Rig
 
@@ -190,8 +191,10 @@ def test_the_end_of_a_plan_is_a_bounded_row_of_zeros(rig: Rig) -> None:
 # --- where odometry turns up ---
 
 
-class Knowing:
+class Knowing(Wire):
     """An end of a wire on which somebody may begin to tell odometry."""
+
+    knows_others = True
 
     def __init__(self, inner: Any) -> None:
         self._inner, self.odometry = inner, list[str]()

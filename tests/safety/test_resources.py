@@ -10,12 +10,11 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-import psutil
 import pytest
 
 from chatrobot.core.memory_pressure import GUARD, MOTION, prefer
 from tests.cli.running import PATIENCE_S, environment
-from tests.realtime import RunningRobot
+from tests.processes import RunningRobot
 
 FULL = Path("/dev/full")
 CHATROBOT = [sys.executable, "-m", "chatrobot"]
@@ -79,11 +78,7 @@ def score(pid: int) -> int:
 
 @pytest.mark.realtime
 def test_when_memory_runs_out_the_guard_goes_last(robot: RunningRobot) -> None:
-    (guard,) = [
-        child.pid
-        for child in psutil.Process(robot.motion_pid).children()
-        if "chatrobot.guard" in child.cmdline()
-    ]
+    (guard,) = robot.guard_pids()
     assert score(robot.motion_pid) == MOTION
     assert score(guard) in GUARD
     assert score(guard) < score(robot.motion_pid)

@@ -15,7 +15,7 @@ from chatrobot.robots.load import ProfileEntry, list_profiles
 ROOT = Path(__file__).parents[2]
 CASE = (ROOT / "docs" / "safety.md").read_text(encoding="utf-8")
 BUILT_IN = [entry for entry in list_profiles() if entry.origin == "built-in"]
-NAMED = sorted(set(re.findall(r"`(tests/[\w/]+\.py)::(\w+)`", CASE)))
+NAMED = sorted(set(re.findall(r"`((?:tests|src/chatrobot/testing)/[\w/]+\.py)::(?:\w+::)?(\w+)`", CASE)))
 
 
 @pytest.mark.parametrize(("file", "test"), NAMED, ids=[test for _, test in NAMED])

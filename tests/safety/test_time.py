@@ -17,12 +17,12 @@ from chatrobot.link.in_process import InProcessLink
 from chatrobot.plan.steps import Drive, Plan
 from chatrobot.robots.load import load_profile
 from chatrobot.sim.shapes import rectangle
+from chatrobot.testing.rig import Rig
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import Imu, LaserScan, Message, Odometry
 from chatrobot.wire.stamps import StampTranslator
 from chatrobot.wire.wire import M, Wire
 from tests.link.link_rigs import SimulatedRig, finished, moving, send_plan
-from tests.rig import Rig
 
 SOURCE = Path(chatrobot.__file__).parent
 WALL_CLOCKS = {"time", "time_ns", "now", "today", "utcnow", "localtime", "ctime"}
@@ -59,7 +59,7 @@ def test_nothing_that_moves_or_stops_a_robot_reads_the_wall_clock() -> None:
     assert found == MAY_READ_THE_WALL_CLOCK
 
 
-class SteppingWire:
+class SteppingWire(Wire):
     """A wire to a robot whose stamps are of a wall clock that somebody sets: what Cyclone and rosbridge deliver."""
 
     def __init__(self, wire: Wire, now_s: Callable[[], float]) -> None:

@@ -17,11 +17,12 @@ from chatrobot.sim.__main__ import main
 from chatrobot.sim.network_wire import MarshalledWire, TransformPublisher
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import Message, Number, Odometry
+from chatrobot.wire.wire import Wire
 
 STANDING = Odometry(1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 0.0)
 
 
-class Recorder:
+class Recorder(Wire):
     """A wire that keeps what it is told to publish."""
 
     def __init__(self) -> None:

@@ -14,8 +14,8 @@ pytest.importorskip(
     "cyclonedds", reason="cyclonedds has no wheel for this machine or Python: DDS stays untested here"
 )
 
-from chatrobot.wire.dds.discovery import Discovery
 from chatrobot.wire.dds.wire import DdsWire
+from chatrobot.wire.discovery import Discovery
 
 PATIENCE_S = 10.0
 DOMAIN_ID = random.Random(os.getpid()).randrange(100, 232)

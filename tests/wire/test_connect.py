@@ -11,7 +11,7 @@ import pytest
 
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.core.wiring import Wiring
-from chatrobot.wire.connect import advertise, comes_back, connect_wire, publishers_of, wait_for_listener
+from chatrobot.wire.connect import connect_wire
 from chatrobot.wire.local import LocalHub, LocalWire
 from chatrobot.wire.messages import TwistMessage
 
@@ -28,10 +28,10 @@ def test_a_path_is_a_local_wire(tmp_path: Path, prefix: str) -> None:
 def test_a_local_wire_finds_its_listeners_at_once(tmp_path: Path) -> None:
     hub = LocalHub(tmp_path / "wire")
     wire = connect_wire(f"local:{tmp_path}/wire", Wiring(), "test")
-    advertise(wire, "cmd_vel", TwistMessage)
-    assert wait_for_listener(wire, "cmd_vel", TwistMessage, 0.0)
-    assert publishers_of(wire, "cmd_vel") == []
-    assert not comes_back(wire)
+    wire.advertise("cmd_vel", TwistMessage)
+    assert wire.wait_for_listener("cmd_vel", TwistMessage, 0.0)
+    assert wire.publishers_of("cmd_vel") == []
+    assert not wire.comes_back
     wire.close()
     hub.close()
 
@@ -64,7 +64,7 @@ def test_what_is_no_address_is_refused(address: str) -> None:
     ("address", "module", "extra"),
     [
         ("dds:", "chatrobot.wire.dds.wire", "[dds]"),
-        ("rosbridge:ws://r", "chatrobot.wire.rosbridge", "[rosbridge]"),
+        ("rosbridge:ws://r", "chatrobot.wire.rosbridge.wire", "[rosbridge]"),
     ],
 )
 def test_what_is_not_installed_is_named_with_the_way_to_get_it(

@@ -29,13 +29,13 @@ from cyclonedds.pub import DataWriter
 from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
 from dds_rig import DOMAIN_ID, HERE, PATIENCE_S, Ends
-from wire_contract import Inbox
 
 from chatrobot.core.wiring import Wiring
-from chatrobot.wire.dds.discovery import machine_addresses
+from chatrobot.testing.wire_contract import Inbox
 from chatrobot.wire.dds.fence import fence_in
 from chatrobot.wire.dds.ros_types import RosTypes
 from chatrobot.wire.dds.wire import DdsWire
+from chatrobot.wire.discovery import machine_addresses
 from chatrobot.wire.messages import Flag, Number, Odometry, Text, TwistMessage
 
 ZERO = TwistMessage(0.0, 0.0, 0.0)

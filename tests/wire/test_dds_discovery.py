@@ -7,8 +7,8 @@ import xml.etree.ElementTree as ET
 import pytest
 
 from chatrobot.core.errors import UsageError, WireError
-from chatrobot.wire.dds.discovery import Discovery, configuration, discovery_from
-from chatrobot.wire.dds.names import dds_topic_name
+from chatrobot.wire.dds.graph import dds_topic_name
+from chatrobot.wire.discovery import Discovery, configuration, discovery_from
 
 ADDRESSES = ["192.168.1.7"]
 

@@ -11,9 +11,9 @@ import pytest
 from about import About
 from hypothesis import given
 from hypothesis import strategies as st
-from wire_contract import ONE_OF_EACH
 
 from chatrobot.core.wiring import Wiring
+from chatrobot.testing.wire_contract import ONE_OF_EACH
 from chatrobot.wire.codec import as_base64
 from chatrobot.wire.messages import Message, Number, Odometry, Text, TwistMessage
 from chatrobot.wire.ros_messages import is_sensor, ros_form, transform

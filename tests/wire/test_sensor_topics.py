@@ -7,7 +7,7 @@ from typing import Any
 from chatrobot.core.wiring import Wiring
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import Flag, Imu, Number
-from chatrobot.wire.sensor_topics import SENSOR_KINDS, subscribe_sensors
+from chatrobot.wire.wire import SENSOR_KINDS, subscribe_sensors
 
 
 def test_a_sensor_is_heard_where_the_wiring_names_it() -> None:

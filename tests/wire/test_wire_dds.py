@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator
 import pytest
 from about import About
 from dds_rig import AcquaintedWire, Ends
-from wire_contract import CAMERA, WireContract
 
+from chatrobot.testing.wire_contract import CAMERA, WireContract
 from chatrobot.wire.messages import Message
 
 

@@ -9,9 +9,9 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from wire_contract import PATIENCE_S, Inbox, WireContract
 
 from chatrobot.core.errors import WireError
+from chatrobot.testing.wire_contract import PATIENCE_S, Inbox, WireContract
 from chatrobot.wire.local import LocalHub, LocalWire
 from chatrobot.wire.messages import Number, Picture, Text, TwistMessage
 

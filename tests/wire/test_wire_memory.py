@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import pytest
-from wire_contract import WireContract
 
+from chatrobot.testing.wire_contract import WireContract
 from chatrobot.wire.memory import MemoryHub, MemoryWire
 from chatrobot.wire.messages import Number
 

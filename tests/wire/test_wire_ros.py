@@ -13,20 +13,14 @@ from typing import Any
 import fake_rclpy
 import pytest
 from about import About
-from wire_contract import CAMERA, Inbox, WireContract
 
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.core.wiring import Wiring
-from chatrobot.wire.connect import (
-    clock_of,
-    connect_ros,
-    connect_wire,
-    is_on_this_machine,
-    require_ros,
-    resolved,
-)
+from chatrobot.testing.wire_contract import CAMERA, Inbox, WireContract
+from chatrobot.wire.connect import connect_wire, is_on_this_machine
+from chatrobot.wire.discovery import ros_reaches_this_machine_alone
 from chatrobot.wire.messages import Message, Number, Odometry, Text, TwistMessage
-from chatrobot.wire.ros.environment import reaches_this_machine_alone
+from chatrobot.wire.ros import connect_ros, require_ros
 
 ZERO = TwistMessage(0.0, 0.0, 0.0)
 STANDING = Odometry(1.5, 0.5, 0.25, 1.0, 0.5, 0.0, 0.5)
@@ -88,15 +82,15 @@ def test_namespaces_and_remappings_hold_and_the_guard_is_told_the_real_name(
     connect: Callable[..., Any],
 ) -> None:
     wire = connect("-r", "__ns:=/robot1", "-r", "cmd_vel:=/base/go")
-    assert resolved(wire, "odom") == "/robot1/odom"
-    assert resolved(wire, "cmd_vel") == "/base/go"
-    inbox = Inbox(connect(), resolved(wire, "cmd_vel"), TwistMessage)
+    assert wire.resolve("odom") == "/robot1/odom"
+    assert wire.resolve("cmd_vel") == "/base/go"
+    inbox = Inbox(connect(), wire.resolve("cmd_vel"), TwistMessage)
     wire.publish("cmd_vel", ZERO)
     assert inbox.next() == ZERO
 
 
 def test_the_address_names_a_namespace(connect: Callable[..., Any]) -> None:
-    assert resolved(connect(address="ros://42/robot1"), "cmd_vel") == "/robot1/cmd_vel"
+    assert connect(address="ros://42/robot1").resolve("cmd_vel") == "/robot1/cmd_vel"
 
 
 @pytest.mark.parametrize(
@@ -206,7 +200,7 @@ def test_with_use_sim_time_the_clock_and_the_stamps_are_the_simulation_s(
 ) -> None:
     wire = connect("-p", "use_sim_time:=true")
     ros.clock_s = 12.5
-    assert clock_of(wire).now_s() == 12.5
+    assert wire.clock.now_s() == 12.5
     inbox = Inbox(wire, "odom", Odometry)
     connect("-p", "use_sim_time:=true").publish("odom", STANDING)
     assert inbox.next().stamp_s == pytest.approx(1.5)
@@ -254,7 +248,7 @@ def test_without_ros_it_says_how_to_get_it(monkeypatch: pytest.MonkeyPatch) -> N
     ],
 )
 def test_how_far_we_reach_is_ros_s_to_say(environ: dict[str, str], alone: bool) -> None:
-    assert reaches_this_machine_alone(environ) is alone
+    assert ros_reaches_this_machine_alone(environ) is alone
 
 
 def test_beats_are_quick_where_all_are_on_this_machine(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -13,10 +13,10 @@ from collections.abc import Callable, Iterator
 
 import pytest
 from about import About
-from wire_contract import CAMERA, PATIENCE_S, Inbox, WireContract
 
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.robots.profile import Wiring
+from chatrobot.testing.wire_contract import CAMERA, PATIENCE_S, Inbox, WireContract
 from chatrobot.wire.messages import (
     Flag,
     Imu,
@@ -36,7 +36,7 @@ import cbor2
 from fake_rosbridge import FakeRosbridge
 from websockets.utils import accept_key
 
-from chatrobot.wire.rosbridge import RosbridgeWire
+from chatrobot.wire.rosbridge.wire import RosbridgeWire
 
 Connect = Callable[..., RosbridgeWire]
 ZERO = TwistMessage(0.0, 0.0, 0.0)
@@ -374,10 +374,10 @@ def test_where_rosapi_runs_the_others_are_known(robot: FakeRosbridge, connect: C
 
 def test_the_guard_is_told_the_topics_with_their_namespace(robot: FakeRosbridge) -> None:
     from chatrobot.motion.safety import connection_monitor as link
-    from chatrobot.wire.connect import connect_wire, resolved
+    from chatrobot.wire.connect import connect_wire
 
     reached = link.reach(connect_wire, f"rosbridge:{robot.url}", Wiring(namespace="robot1"), "test")
-    assert resolved(reached.wire, "cmd_vel") == "/robot1/cmd_vel"
+    assert reached.wire.resolve("cmd_vel") == "/robot1/cmd_vel"
     reached.wire.close()
 
 

@@ -9,8 +9,7 @@ import threading
 from collections.abc import Callable
 
 from chatrobot.cli.console.motion_view import MotionView
-from chatrobot.cli.edited import Edited
-from chatrobot.cli.editor import edited_text
+from chatrobot.cli.editing import Edited, edited_text
 from chatrobot.core.errors import UsageError
 from chatrobot.core.events import Event, Result
 from chatrobot.dialogue.question import Question
@@ -47,7 +46,7 @@ class Approver:
         """Held while an editor has the terminal."""
 
     def attach(self, world: World) -> None:
-        """What to draw the way in."""
+        """Note the world, to draw the way in."""
         self._world = world
 
     @property
@@ -56,11 +55,12 @@ class Approver:
         return self._question.turn is not None
 
     def is_withdrawn(self, event: Event) -> bool:
-        """It only tells that a plan was not done which is being edited: that is shown, and asked about anew."""
+        """Tell whether `event` only says that a plan was not done which is being edited: that is asked about anew."""
         has_moved = isinstance(event, Result) and event.has_moved
         return event.turn in self._withdrawn and not has_moved
 
     def hear(self, event: Event) -> None:
+        """Take an event in."""
         self._motion_view.hear(event)
         self._edit_of.hear(event)
         if self._question.hear(event):
@@ -75,7 +75,7 @@ class Approver:
             self._ask(session)
         elif not self._others_answer:
             print(
-                "chatrobot: this wants a yes, and there is no terminal to ask at; --yes does it unasked",
+                "chatrobot: Approval needed, but stdin is not a terminal. Pass --yes to skip it.",
                 file=sys.stderr,
             )
             self.give(session, False)
@@ -93,7 +93,7 @@ class Approver:
             self.take(session, self._typed.get_nowait())
 
     def type(self, line: str) -> None:
-        """A line was typed: no answer where no question is shown. From any thread."""
+        """Take a typed line: no answer where no question is shown. From any thread."""
         if self._has_asked and self.is_waiting:
             self._typed.put(line)
 
@@ -103,7 +103,7 @@ class Approver:
         self._can_ask = False
 
     def take(self, session: Session, answer: str) -> None:
-        """What the person typed: anything but a yes is none."""
+        """Take what the person typed: anything but a yes is none."""
         turn, program, plan_text = self._question.turn, self._motion_view.program, self._motion_view.plan_text
         self.give(session, read_consent(answer) is True)
         if not wants_to_edit(answer) or turn is None or not (program or plan_text):
@@ -112,12 +112,12 @@ class Approver:
         self._edited = (lambda session: self._edit_of.say(session, text)) if text else None
 
     def take_edited(self) -> SayEdited | None:
-        """What is to be said next, once: the plan or program that was edited, or the same where the editor failed."""
+        """Return what says next, once, the plan or program that was edited, or the same where the editor failed."""
         say, self._edited = self._edited, None
         return say
 
     def _edit(self, text: str, suffix: str, turn: int) -> str:
-        """`text` as the person leaves it, as it was where the editor fails; "" where nothing is left."""
+        """Return `text` as the person leaves it, as it was where the editor fails; "" where nothing is left."""
         self._withdrawn.add(turn)
         with self.editing:
             try:
@@ -133,7 +133,7 @@ class Approver:
     def _draw_way(self) -> None:
         from rich.console import Console
 
-        from chatrobot.cli.console.maps import way_map
+        from chatrobot.cli.console.tables import way_map
 
         if self._world is not None and len(self._motion_view.path) > 1:
             Console(stderr=True, highlight=False).print(way_map(self._motion_view, self._world))

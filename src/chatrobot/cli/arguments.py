@@ -8,10 +8,12 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Sequence
+from typing import Any
 
 from chatrobot import __version__
-from chatrobot.cli.options import NO_ODOMETRY, OPTIONS, Parser, add_options, offer, port
+from chatrobot.cli.options import Parser, add_defaults, add_options, offer, port
 from chatrobot.core.errors import UsageError
+from chatrobot.options import NO_ODOMETRY, OF_NODES, OPTIONS
 
 COMMANDS = {
     "do": "one instruction, or a dialogue turn by turn, then exit",
@@ -58,6 +60,11 @@ Ctrl-C to stop the robot. Give it two metres of free floor. A simulated robot is
 exit codes: 0 saved, taken back, or nothing measured; 1 the measure or the robot is not right; 5 left or stopped
 """
 
+_COMPLETION = """\
+bash:  echo 'eval "$(chatrobot completion bash)"' >> ~/.bashrc
+zsh:   echo 'eval "$(chatrobot completion zsh)"' >> ~/.zshrc       (after compinit)
+fish:  chatrobot completion fish > ~/.config/fish/completions/chatrobot.fish"""
+
 _PART_OF_SPEECH = re.compile(
     r"[-+]?\d*[.,]?\d+|c?m|mm|s|deg|degrees?|met(?:er|re)s?|seconds?|an?|the|to|at|by|for|of|and|then"
 )
@@ -65,7 +72,7 @@ _PART_OF_SPEECH = re.compile(
 
 
 def parse(arguments: Sequence[str]) -> argparse.Namespace:
-    """The options and the `command` ("" for none).
+    """Read the options and the `command` ("" for none).
 
     Raises:
         UsageError: what is wrong, and what is allowed.
@@ -80,38 +87,44 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         )
     parsed = commands_parser().parse_args(list(arguments))
     parsed.command = parsed.command or ""
-    if parsed.command == "do":
+    parsed.program_args, parsed.ros_args = program_args, ros_args
+    _check_texts(parsed)
+    _check_ros_args(parsed)
+    if program_args and (parsed.command, getattr(parsed, "action", "")) != ("program", "run"):
+        raise UsageError(
+            "only a program that is run takes arguments after --", allowed="chatrobot program run …"
+        )
+    parsed.names_robot = hasattr(parsed, "robot")
+    if not parsed.names_robot and getattr(parsed, "open_loop", False):
+        parsed.robot = NO_ODOMETRY
+    add_defaults(parsed, (*OPTIONS, *OF_NODES) if parsed.command == "node" else OPTIONS)
+    return parsed
+
+
+def _check_texts(parsed: argparse.Namespace) -> None:
+    if parsed.command == "plan":
+        _expect_words([parsed.text], "plan")
+    elif parsed.command == "do":
         if not (parsed.texts or parsed.plan):
             raise UsageError(
-                "nothing to do is given", allowed='TEXT or --plan FILE, such as: chatrobot do "forward 1 m"'
+                "do has no text", allowed='TEXT or --plan FILE, such as: chatrobot do "forward 1 m"'
             )
         _expect_words(parsed.texts, "do")
         _expect_quotes(parsed.texts)
-    elif parsed.command == "plan":
-        _expect_words([parsed.text], "plan")
-    are_parameters = all(word == "-p" for word in ros_args[::2])
-    if ros_args and not (parsed.command in _NODES or (parsed.command in _TALKS and are_parameters)):
+
+
+def _check_ros_args(parsed: argparse.Namespace) -> None:
+    are_parameters = all(word == "-p" for word in parsed.ros_args[::2])
+    may_have_them = parsed.command in _NODES or (parsed.command in _TALKS and are_parameters)
+    if parsed.ros_args and not may_have_them:
         allowed = "chatrobot node … or chatrobot sim … --on ros"
         if parsed.command == "program":
             allowed = "for a program, behind --: chatrobot program run NAME -- --ros-args -p NAME:=VALUE"
         raise UsageError("--ros-args is for nodes", allowed=allowed)
-    if program_args and (parsed.command, getattr(parsed, "action", "")) != ("program", "run"):
-        raise UsageError(
-            "only a program that is run takes arguments behind --", allowed="chatrobot program run …"
-        )
-    parsed.program_args = program_args
-    parsed.ros_args = ros_args
-    parsed.names_robot = hasattr(parsed, "robot")
-    if not parsed.names_robot and getattr(parsed, "open_loop", False):
-        parsed.robot = NO_ODOMETRY
-    for option in OPTIONS:
-        if not hasattr(parsed, option.name):
-            setattr(parsed, option.name, option.default)
-    return parsed
 
 
 def _expect_words(texts: Sequence[str], command: str) -> None:
-    """An empty text would be asked of a language model.
+    """Refuse an empty text, which would be asked of a language model.
 
     Raises:
         UsageError: one of them has nothing in it that could be read.
@@ -134,7 +147,7 @@ def _expect_quotes(texts: Sequence[str]) -> None:
 
 
 def split_ros_args(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
-    """The arguments without, and those between each `--ros-args` and `--` or the end, as ROS has it."""
+    """Part what stands between each `--ros-args` and `--` or the end, as ROS has it, from the rest, which is first."""
     ours: list[str] = []
     theirs: list[str] = []
     taking = ours
@@ -149,7 +162,7 @@ def split_ros_args(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
 
 
 def _split_program_args(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
-    """The arguments before the first `--`, and those behind it, which `program` hands on to a program."""
+    """Return the arguments before the first `--`, and those behind it, which `program` hands on to a program."""
     if "--" not in arguments or _first_word(arguments) != "program":
         return list(arguments), []
     at = list(arguments).index("--")
@@ -157,7 +170,7 @@ def _split_program_args(arguments: Sequence[str]) -> tuple[list[str], list[str]]
 
 
 def _first_word(arguments: Sequence[str]) -> str | None:
-    """The first argument that is neither an option nor the value of one."""
+    """Return the first argument that is neither an option nor the value of one."""
     takes_value = {option.flag for option in OPTIONS if option.takes_value}
     rest = iter(arguments)
     for argument in rest:
@@ -169,7 +182,7 @@ def _first_word(arguments: Sequence[str]) -> str | None:
 
 
 def commands_parser() -> Parser:
-    """The parser of the whole command line."""
+    """Make the parser of the whole command line."""
     parser = Parser(
         prog="chatrobot", usage="%(prog)s [options] [COMMAND …]", description=_DESCRIPTION, epilog=_EPILOG
     )
@@ -178,115 +191,80 @@ def commands_parser() -> Parser:
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", title="commands", prog="chatrobot")
     for name, text in COMMANDS.items():
         command = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
-        _ARGUMENTS.get(name, _no_arguments)(command)
+        if name in _ARGUMENTS:
+            _ARGUMENTS[name](command)
         add_options(command, name)
     return parser
 
 
+def _add(parser: argparse.ArgumentParser, name: str, offers: str = "", **how: Any) -> None:
+    offer(parser.add_argument(name, **how), offers or ())
+
+
 def _do(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "texts", nargs="*", metavar="TEXT", help="what to do; several are turns of one dialogue"
-    )
-    plan = parser.add_argument(
-        "--plan", metavar="FILE", help="drive a saved plan, rehearsed anew; texts are the turns after it"
-    )
-    offer(plan, "files")
-    parser.add_argument(
-        "--keep-going",
-        action="store_true",
-        help="do the rest, too, after a turn that was refused, stopped, failed or not understood; "
-        "the exit code is then that of the first of these",
-    )
+    _add(parser, "texts", nargs="*", metavar="TEXT", help="what to do; several are turns of one dialogue")
+    drive = "drive a saved plan, rehearsed anew; texts are the turns after it"
+    _add(parser, "--plan", "files", metavar="FILE", help=drive)
+    keep = "do the rest, too, after a turn that was refused, stopped, failed or not understood; the exit code is then"
+    _add(parser, "--keep-going", action="store_true", help=f"{keep} that of the first of these")
 
 
 def _plan(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("text", metavar="TEXT", help="what the robot would have to do")
-    offer(
-        parser.add_argument("--png", metavar="FILE", help="draw the way it would take into a picture"),
-        "files",
-    )
+    _add(parser, "text", metavar="TEXT", help="what the robot would have to do")
+    _add(parser, "--png", "files", metavar="FILE", help="draw the way it would take into a picture")
 
 
 def _eval(parser: argparse.ArgumentParser) -> None:
-    offer(parser.add_argument("files", nargs="+", metavar="FILE", help="a corpus in YAML"), "files")
-    parser.add_argument("--only", choices=("odd", "even"), help="only the items whose running number is so")
-    parser.add_argument("--misses", action="store_true", help="list what was wrong and what was asked back")
+    _add(parser, "files", "files", nargs="+", metavar="FILE", help="a corpus in YAML")
+    _add(parser, "--only", choices=("odd", "even"), help="only the items whose running number is so")
+    _add(parser, "--misses", action="store_true", help="list what was wrong and what was asked back")
 
 
 def _calibrate(parser: argparse.ArgumentParser) -> None:
     parser.description = _CALIBRATE
-    parser.add_argument("--reset", action="store_true", help="take the saved correction back; nothing moves")
+    _add(parser, "--reset", action="store_true", help="take the saved correction back; nothing moves")
 
 
 def _sim(parser: argparse.ArgumentParser) -> None:
-    socket = parser.add_argument(
-        "--socket", metavar="PATH", help="where its wire is served (default: the runtime folder)"
-    )
-    offer(socket, "files")
+    where = "where its wire is served (default: the runtime folder)"
+    _add(parser, "--socket", "files", metavar="PATH", help=where)
     _ros_args(parser)
 
 
 def _node(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "which",
-        choices=("input", "base", "control"),
-        help="input: lines typed → user_input; base: user_input → chatgpt_node; control: chatgpt_node → cmd_vel",
+    nodes = (
+        "input: lines typed → user_input; base: user_input → chatgpt_node; control: chatgpt_node → cmd_vel"
     )
+    _add(parser, "which", choices=("input", "base", "control"), help=nodes)
     _ros_args(parser)
-    parser.add_argument(
-        "--allow-release",
-        action="store_true",
-        help="control: an emergency stop may be released over the wire",
-    )
-    parser.add_argument(
-        "--accept-others",
-        action="store_true",
-        help="control: drive though another ChatRobot is on the same robot",
-    )
-    parser.add_argument(
-        "--on-robot",
-        action="store_true",
-        help="control: this machine is the robot, so no network can part us from its base",
-    )
 
 
 def _model(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "action",
-        nargs="?",
-        default="setup",
-        choices=("setup", "list", "test", "use", "key"),
-        help="setup: with questions (the default); list: what there is; test: try one sentence; "
-        "use: keep a choice; key: put a provider's key into the keyring",
-    )
-    name = parser.add_argument(
-        "name", nargs="?", default="", metavar="PROVIDER[:NAME]", help="use none: keep that no model is used"
-    )
-    offer(name, "models")
-    parser.add_argument("--delete", action="store_true", help="key: take it out of the keyring")
+    actions = "setup: with questions (the default); list: what there is; test: try one sentence; use: keep a choice;"
+    choices = ("setup", "list", "test", "use", "key")
+    key = f"{actions} key: put a provider's key into the keyring"
+    _add(parser, "action", nargs="?", default="setup", choices=choices, help=key)
+    none = "use none: keep that no model is used"
+    _add(parser, "name", "models", nargs="?", default="", metavar="PROVIDER[:NAME]", help=none)
+    _add(parser, "--delete", action="store_true", help="key: take it out of the keyring")
 
 
 def _usage(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--by", choices=("session", "model", "day"), default="session", help="what to add up")
+    _add(parser, "--by", choices=("session", "model", "day"), default="session", help="what to add up")
 
 
 def _fake_model(parser: argparse.ArgumentParser) -> None:
-    script = parser.add_argument(
-        "script", metavar="SCRIPT.yaml", help="what it answers: docs/models.md has the form"
+    _add(
+        parser, "script", "files", metavar="SCRIPT.yaml", help="what it answers: docs/models.md has the form"
     )
-    offer(script, "files")
-    parser.add_argument("--port", type=port, default=8399, help="0: any that is free (default: 8399)")
-    parser.add_argument(
-        "--host", default="127.0.0.1", help="where to listen; beyond loopback a token is asked for"
-    )
+    _add(parser, "--port", type=port, default=8399, help="0: any that is free (default: 8399)")
+    where = "where to listen; beyond loopback a token is asked for"
+    _add(parser, "--host", default="127.0.0.1", help=where)
 
 
 def _completion(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("shell", choices=SHELLS, help="the shell whose script is printed")
-    parser.epilog = """\
-bash:  echo 'eval "$(chatrobot completion bash)"' >> ~/.bashrc
-zsh:   echo 'eval "$(chatrobot completion zsh)"' >> ~/.zshrc       (after compinit)
-fish:  chatrobot completion fish > ~/.config/fish/completions/chatrobot.fish"""
+    _add(parser, "shell", choices=SHELLS, help="the shell whose script is printed")
+    parser.epilog = _COMPLETION
 
 
 def _program(parser: argparse.ArgumentParser) -> None:
@@ -296,18 +274,16 @@ def _program(parser: argparse.ArgumentParser) -> None:
     for name, (text, takes) in PROGRAM_ACTIONS.items():
         action = actions.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
         for argument, meaning in takes.items():
-            added = action.add_argument(argument.casefold(), metavar=argument, help=meaning)
-            offer(added, _OFFERED.get((name, argument), _OFFERED.get(("", argument), ())))
+            offers = _OFFERED.get((name, argument), _OFFERED.get(("", argument), ""))
+            _add(action, argument.casefold(), offers, metavar=argument, help=meaning)
         if name == "run":
             action.usage = f"{action.prog} [options] NAME [-- ARGS]"
             action.epilog = "ARGS are the program's own: -- --ros-args -p speed:=0.35 -r velocity:=/cmd_vel"
         if name == "new":
-            action.add_argument("--name", dest="called", default="", metavar="NAME", help="what to call it")
+            _add(action, "--name", dest="called", default="", metavar="NAME", help="what to call it")
         if name == "edit":
-            file = action.add_argument(
-                "--file", default="", metavar="FILE.py", help="take this source, ask no editor"
-            )
-            offer(file, "files")
+            source = "take this source, ask no editor"
+            _add(action, "--file", "files", default="", metavar="FILE.py", help=source)
         add_options(action, f"program {name}")
 
 
@@ -327,16 +303,8 @@ PROGRAM_ACTIONS: dict[str, tuple[str, dict[str, str]]] = {
 
 def _ros_args(parser: argparse.ArgumentParser) -> None:
     """For the help text alone: `split_ros_args` has taken them."""
-    parser.add_argument(
-        "--ros-args",
-        nargs=argparse.REMAINDER,
-        metavar="…",
-        help="with --on ros what every ROS node takes: -p NAME:=VALUE, -r FROM:=TO, --params-file FILE",
-    )
-
-
-def _no_arguments(_: argparse.ArgumentParser) -> None:
-    pass
+    taken = "with --on ros what every ROS node takes: -p NAME:=VALUE, -r FROM:=TO, --params-file FILE"
+    _add(parser, "--ros-args", nargs=argparse.REMAINDER, metavar="…", help=taken)
 
 
 _ARGUMENTS = {

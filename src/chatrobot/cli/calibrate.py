@@ -8,19 +8,20 @@ from __future__ import annotations
 import argparse
 import datetime
 import math
-import os
 import queue
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 
 from chatrobot.cli.approver import Approver
 from chatrobot.cli.choices import setup_from
+from chatrobot.cli.console.words import language_of_environment
 from chatrobot.cli.conversation import Conversation
 from chatrobot.cli.entry import FAILED, STOPPED
 from chatrobot.cli.folders import profile_folders
+from chatrobot.cli.json_lines import Printer, printer_for
 from chatrobot.cli.lines import LineReader
-from chatrobot.cli.printer import Printer, printer_for
 from chatrobot.core.errors import UsageError
 from chatrobot.core.events import Event, Result, TruePose
 from chatrobot.core.geometry import wrap_angle
@@ -46,9 +47,11 @@ _SKIP = ("skip", "跳过")
 
 
 def run(args: argparse.Namespace) -> int:
-    """0 where a correction was saved, taken back or not needed, 1 where robot or measure is not right, 5 for a stop."""
+    """Return 0 for a correction saved, taken back or not needed, 1 for a wrong robot or measure, 5 for a stop."""
     if args.json:
-        raise UsageError("a person has to measure", where="--json", allowed="calibrate without it")
+        raise UsageError(
+            "calibrate asks a person to measure", where="--json", allowed="calibrate without --json"
+        )
     folders = profile_folders(args)
     profile = load_profile(args.robot, folders)
     if args.reset:
@@ -84,12 +87,15 @@ class Truth:
 
     @property
     def is_broken(self) -> bool:
+        """Nobody reads what is written."""
         return self._printer.is_broken
 
     def turn(self, text: str) -> None:
+        """Show what begins a turn."""
         self._printer.turn(text)
 
     def show(self, event: Event, language: LanguageCode) -> None:
+        """Keep a true pose; show any other event."""
         if isinstance(event, TruePose):
             self._poses.append(event)
         else:
@@ -100,12 +106,12 @@ class Truth:
         del self._poses[:-1]
 
     def gone_m(self) -> float:
-        """How far it is from where the measuring began."""
+        """Return how far it is from where the measuring began."""
         first, last = self._poses[0], self._poses[-1]
         return math.hypot(last.x_m - first.x_m, last.y_m - first.y_m)
 
     def turned_deg(self) -> float:
-        """How far it has turned since then, whole turns included."""
+        """Return how far it has turned since then, whole turns included."""
         steps = (wrap_angle(after.yaw_rad - before.yaw_rad) for before, after in pairwise(self._poses))
         return math.degrees(abs(sum(steps)))
 
@@ -129,16 +135,17 @@ class Dialogue:
     def __init__(self, conversation: Conversation, truth: Truth | None) -> None:
         self.conversation = conversation
         self.truth = truth
-        self._phrases = load_table(_language(), "calibrate")
+        self._phrases = _phrases()
         self._lines: queue.SimpleQueue[str] = queue.SimpleQueue()
         self._reader = LineReader(self._hear)
         self._reader.start()
 
     def say(self, code: str, **values: object) -> None:
+        """Print the phrase of that code."""
         print(self._phrases[code].format(**values), flush=True)
 
     def ask(self, code: str, **values: object) -> str:
-        """The answer, in lower case.
+        """Return the answer, in lower case.
 
         Raises:
             Left: there will be none.
@@ -155,13 +162,10 @@ class Dialogue:
 
     def drive(self, plan_text: str) -> Result:
         """Have it done, and see it through."""
-        session = self.conversation.session
-        turn = session.say_plan(plan_text)
-        while turn not in session.results:
-            self.conversation.step()
-        if self.conversation.is_leaving or session.results[turn].outcome == "stopped":
+        result = self.conversation.see_through(self.conversation.session.say_plan(plan_text))
+        if self.conversation.is_leaving or result.outcome == "stopped":
             raise Left
-        return session.results[turn]
+        return result
 
     def _hear(self, line: str) -> None:
         if is_stop(line):
@@ -197,7 +201,7 @@ def _calibrate(dialogue: Dialogue, profile: RobotProfile, robot: str, folder: Pa
 
 
 def _measure(dialogue: Dialogue, trial: Trial) -> Measured | None:
-    """What the person measured, and what odometry saw; None where they skip it."""
+    """Return what the person measured, and what odometry saw; None where they skip it."""
     truth = dialogue.truth
     answer = dialogue.ask(f"{trial.name}_ready" if truth is None else f"{trial.name}_ready_simulated")
     if read_consent(answer) is not True:
@@ -223,19 +227,14 @@ def _measure(dialogue: Dialogue, trial: Trial) -> Measured | None:
 
 def _reset(profile: RobotProfile, robot: str, folder: Path) -> int:
     """Take back what was saved."""
-    phrases = load_table(_language(), "calibrate")
     before = profile.calibration
     file = reset_calibration(robot, folder)
     numbers = {"distance": before.distance_scale, "turn": before.turn_scale}
-    print(
-        phrases["reset" if file is not None else "not_calibrated"].format(robot=robot, file=file, **numbers)
-    )
+    code = "reset" if file is not None else "not_calibrated"
+    print(_phrases()[code].format(robot=robot, file=file, **numbers))
     return 0
 
 
-def _language() -> str:
-    """Of the terminal: nobody has said anything yet."""
-    locale = next(
-        (os.environ[name] for name in ("LC_ALL", "LC_MESSAGES", "LANG") if os.environ.get(name)), ""
-    )
-    return "zh" if locale.startswith("zh") else "en"
+def _phrases() -> Mapping[str, str]:
+    """Load the phrases in the language of the terminal: nobody has said anything yet."""
+    return load_table(language_of_environment(), "calibrate")

@@ -9,13 +9,13 @@ from dataclasses import replace
 from chatrobot.cli.early import Early
 from chatrobot.cli.folders import config_folder
 from chatrobot.cli.parameters import parameters_in, read_parameters
-from chatrobot.compose import Setup
+from chatrobot.compose import Setup, explain_server_held
 from chatrobot.core.errors import UsageError
 from chatrobot.core.motion_budget import MotionBudget
 from chatrobot.dialogue.llm.setup import chosen_model
 from chatrobot.dialogue.llm.terms import ModelOptions
 from chatrobot.dialogue.options import Options
-from chatrobot.language.phrases import render_reason, say
+from chatrobot.language.phrases import render_reason
 from chatrobot.models.seam import Model, ModelError
 
 _SOURCES = {"option": "--model", "environment": "CHATROBOT_MODEL", "stored": "the model you chose"}
@@ -29,7 +29,7 @@ def setup_from(
     named_model: bool = False,
     programs: bool = False,
 ) -> Setup:
-    """What a person chose. `world` is the one where nothing is said; "" for the one that fits the robot.
+    """Gather what a person chose. `world` is the one where nothing is said; "" for the one that fits the robot.
 
     Args:
         named_model: only a model that is named on this very command line counts.
@@ -62,17 +62,17 @@ def setup_from(
     )
 
 
-def model_from(args: argparse.Namespace, *, named: bool = False, server_held: bool = False) -> Model | None:
-    """The model that was chosen, and a word about it where the tutorial's switch chose it.
+def model_from(args: argparse.Namespace, *, named: bool = False) -> Model | None:
+    """Return the model that was chosen, and say what became of the tutorial's switch where that chose it.
 
     Raises:
         UsageError: there is none of that name, or none where `--interpreter model` wants one.
     """
     if args.interpreter == "offline" or (named and not args.model and args.interpreter != "model"):
         return None
-    if args.command != "node":
-        given = [*args.parameters, *parameters_in(args.ros_args)]
-        server_held = read_parameters(given)["revChatGPT"]
+    is_node = args.command == "node"
+    given = [] if is_node else [*args.parameters, *parameters_in(args.ros_args)]
+    server_held = args.revChatGPT if is_node else read_parameters(given)["revChatGPT"]
     try:
         model = chosen_model(args.model, config_folder(args), server_held=server_held)
     except ModelError as error:
@@ -83,22 +83,14 @@ def model_from(args: argparse.Namespace, *, named: bool = False, server_held: bo
             where="--interpreter model",
             allowed="--model PROVIDER:NAME, CHATROBOT_MODEL, or: chatrobot model",
         )
-    if server_held and args.command != "node":
-        print(explain_server_held(model), file=sys.stderr)
+    if server_held and not is_node:
+        print(explain_server_held(model, "en"), file=sys.stderr)
     return model
 
 
 def _source_of_model(args: argparse.Namespace) -> str:
-    """Where the name of the model comes from."""
-    from chatrobot.models.choice import resolve
-    from chatrobot.models.config import ModelConfig
+    """Say where the name of the model comes from."""
+    from chatrobot.models.config import ModelConfig, resolve
 
     choice = resolve(args.model, ModelConfig(config_folder(args)))
     return _SOURCES[choice.source] if choice is not None else "--model"
-
-
-def explain_server_held(model: Model | None) -> str:
-    """What has become of revChatGPT."""
-    if model is None:
-        return say("en", "revchatgpt_no_model")
-    return say("en", "revchatgpt_gone", model=model.name)

@@ -9,13 +9,13 @@ of today.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 from chatrobot.cli.arguments import commands_parser
-from chatrobot.cli.options import OPTIONS
 from chatrobot.core.errors import ChatRobotError
+from chatrobot.options import OPTIONS
 
 _SHELLS = Path(__file__).with_name("shells")
 _DASHES = "--"
@@ -48,7 +48,7 @@ def print_words(words: Sequence[str]) -> int:
 
 
 def offers_for(words: Sequence[str]) -> list[Offer]:
-    """What the last of `words` may become; those before it are the command line up to there."""
+    """List what the last of `words` may become; those before it are the command line up to there."""
     *before, current = words or [""]
     line = _Line(commands_parser())
     for word in before:
@@ -81,7 +81,7 @@ class _Line:
         self._arguments = [action for action in parser._actions if not action.option_strings]
 
     def take(self, word: str) -> None:
-        """A word that stands before the cursor."""
+        """Take in a word that stands before the cursor."""
         if self._is_behind_dashes or word == _DASHES:
             self._is_behind_dashes = True
         elif word == "=":
@@ -112,7 +112,7 @@ class _Line:
                 yield Offer(max(action.option_strings, key=len), action.help or "")
 
     def offers(self) -> Iterator[Offer]:
-        """What the option or the argument at the cursor may be."""
+        """List what the option or the argument at the cursor may be."""
         if self._is_behind_dashes:
             yield FILES
         elif self._waits is not None:
@@ -131,10 +131,10 @@ class _Line:
 
 
 def _robots(args: argparse.Namespace) -> Iterator[Offer]:
-    from chatrobot.cli.robots import entries
+    from chatrobot.cli.lists import robot_titles
 
     yield FILES
-    yield from (Offer(entry.name, about) for entry, about in entries(args))
+    yield from (Offer(*each) for each in robot_titles(args))
 
 
 def _worlds(_: argparse.Namespace) -> Iterator[Offer]:
@@ -157,26 +157,13 @@ def _models(_: argparse.Namespace) -> Iterator[Offer]:
     yield from (Offer(f"{provider.name}:", provider.title) for provider in providers().values())
 
 
-def _files(_: argparse.Namespace) -> Iterator[Offer]:
-    yield FILES
-
-
-def _folders(_: argparse.Namespace) -> Iterator[Offer]:
-    yield FOLDERS
-
-
-def _programs_or_files(args: argparse.Namespace) -> Iterator[Offer]:
-    yield FILES
-    yield from _programs(args)
-
-
-OFFERS: dict[str, Callable[[argparse.Namespace], Iterator[Offer]]] = {
+OFFERS: dict[str, Callable[[argparse.Namespace], Iterable[Offer]]] = {
     "robots": _robots,
     "worlds": _worlds,
     "programs": _programs,
-    "programs or files": _programs_or_files,
+    "programs or files": lambda args: (FILES, *_programs(args)),
     "models": _models,
-    "files": _files,
-    "folders": _folders,
+    "files": lambda _: (FILES,),
+    "folders": lambda _: (FOLDERS,),
 }
 """What an argument's value is completed with, by the name that `options.offer` was given."""

@@ -9,7 +9,7 @@ from types import TracebackType
 
 from chatrobot.cli.approver import Approver
 from chatrobot.cli.entry import STOPPED, forget_stdout
-from chatrobot.cli.printer import Printer
+from chatrobot.cli.json_lines import Printer
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.errors import LinkError
@@ -118,7 +118,7 @@ class Conversation:
     # --- the main thread ---
 
     def do(self, text: str) -> Result:
-        """One turn, seen through: its result."""
+        """Say it, and see the turn through: its result."""
         return self.see_through_edits(self.session.say(text))
 
     def do_plan(self, plan_text: str) -> Result:
@@ -126,7 +126,7 @@ class Conversation:
         return self.see_through_edits(self.session.say_plan(plan_text))
 
     def drop_if_stopped(self, texts: Sequence[str]) -> None:
-        """Where a stop came while the robot was started: say what is not begun."""
+        """Say what is not begun, where a stop came while the robot was started."""
         for text in texts if self.is_leaving else ():
             self.show(Notice(0, Reason("dropped_by_stop", {"text": text})))
 

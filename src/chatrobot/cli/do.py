@@ -8,17 +8,17 @@ from chatrobot.cli.approver import Approver
 from chatrobot.cli.choices import setup_from
 from chatrobot.cli.console.pasted import goes_on_after, quoted
 from chatrobot.cli.conversation import Conversation
+from chatrobot.cli.json_lines import printer_for
 from chatrobot.cli.keyboard import Keyboard
 from chatrobot.cli.lines import has_keyboard
-from chatrobot.cli.plan_file import read_plan_file
-from chatrobot.cli.printer import printer_for
+from chatrobot.cli.plan import read_plan_file
 from chatrobot.core.events import EXIT_CODES, Notice, Result
 from chatrobot.core.reason import Reason
 from chatrobot.language.consent import read_consent
 
 
 def run(args: argparse.Namespace) -> int:
-    """The exit code of the last turn that was taken; with `--keep-going` of the first that was not done.
+    """Return the exit code of the last turn that was taken; with `--keep-going` of the first that was not done.
 
     Raises:
         UsageError: the plan's file cannot be used.
@@ -53,7 +53,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def may_follow(text: str, results: list[Result]) -> bool:
-    """Whether `text` is taken after turns that ended so: all was done, or it is the answer to what was asked, once."""
+    """Tell whether `text` is taken after turns that ended so: all was done, or it answers what was asked, once."""
     if not results or goes_on_after(results[-1].outcome):
         return True
     if len(results) > 1 and results[-2].is_question and not goes_on_after(results[-2].outcome):

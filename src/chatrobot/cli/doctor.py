@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING, Literal
 
 from chatrobot import __version__
 from chatrobot.cli.folders import config_folder, profile_folders
-from chatrobot.cli.options import DEFAULT_ROBOT
 from chatrobot.core.errors import ChatRobotError
-from chatrobot.core.events import Event
+from chatrobot.options import DEFAULT_ROBOT
 
 if TYPE_CHECKING:
     from chatrobot.compose import Setup
@@ -34,7 +33,7 @@ class Check:
 
 
 def run(args: argparse.Namespace) -> int:
-    """0 where the simulated robot works, 1 where something has to be mended."""
+    """Return 0 where the simulated robot works, 1 where something has to be mended."""
     checks: list[Check] = []
     for check in _checks(args):
         if args.json:
@@ -48,7 +47,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _told_once(check: Check, before: Sequence[Check]) -> str:
-    """What was found; where it is what an earlier check has found, which."""
+    """Say what was found; where it is what an earlier check has found, which."""
     same = next((each.name for each in before if each.text == check.text), "")
     return f"as above: {same}" if same else check.text
 
@@ -95,7 +94,7 @@ def _profile(args: argparse.Namespace) -> str:
 
 
 def _setup(args: argparse.Namespace, *, fast: bool) -> Setup:
-    """The simulated robot in an empty world."""
+    """Return the simulated robot in an empty world."""
     from chatrobot.compose import Setup
     from chatrobot.robots.load import profile_argument
 
@@ -108,7 +107,7 @@ def _simulated_robot(args: argparse.Namespace) -> str:
     from chatrobot.compose import connect
 
     began_s = time.monotonic()
-    connection = connect(_setup(args, fast=True), _ignore)
+    connection = connect(_setup(args, fast=True), lambda _: None)
     result = connection.session.do("forward 1 m")
     connection.close()
     if result.outcome != "completed":
@@ -121,61 +120,53 @@ def _in_real_time(args: argparse.Namespace) -> str:
     from chatrobot.compose import connect
 
     began_s = time.monotonic()
-    connection = connect(_setup(args, fast=False), _ignore)
+    connection = connect(_setup(args, fast=False), lambda _: None)
     ready_s = time.monotonic() - began_s
     connection.close()
     return f"robot, control loop and guard run {ready_s:.2f} s after they are asked to"
 
 
-def _ignore(_: Event) -> None:
-    """Only the result counts here."""
-
-
 def _ros(args: argparse.Namespace) -> Check:
-    """What is sourced here, and who is there in a moment's listening."""
+    """Look what is sourced here, and who is there in a moment's listening."""
     from importlib.util import find_spec
 
-    from chatrobot.wire.ros.environment import HOW_TO_GET_IT, reaches_this_machine_alone
+    from chatrobot.wire.discovery import ros_reaches_this_machine_alone
+    from chatrobot.wire.ros import HOW_TO_GET_IT
 
     distribution = os.environ.get("ROS_DISTRO", "")
     if find_spec("rclpy") is None:
         here = (
-            f"{distribution} is sourced, but not for this Python" if distribution else "not here, nor needed"
+            f"{distribution} is sourced, but not for this Python"
+            if distribution
+            else "not installed, and not needed for the simulated robot"
         )
         return Check("ROS 2", "later", f"{here}; for --on ros {HOW_TO_GET_IT}")
     try:
         from rclpy.utilities import get_rmw_implementation_identifier
 
-        middleware = get_rmw_implementation_identifier()
-        seen = _who_is_on("ros:", args)
+        works = f"{distribution} with {get_rmw_implementation_identifier()}"
+        found = _found("ros:", args, is_near=ros_reaches_this_machine_alone(os.environ))
     except (ChatRobotError, ImportError, RuntimeError) as error:
         return Check("ROS 2", "later", f"{distribution} does not work with this Python: {error}")
-    reach = "this machine" if reaches_this_machine_alone(os.environ) else "the whole network"
-    return Check("ROS 2", "ok", f"{distribution} with {middleware}; {_domain()}, {reach}, {seen}")
+    return Check("ROS 2", "ok", f"{works}; {found}")
 
 
 def _dds(args: argparse.Namespace) -> Check:
-    """Who is there in a moment's listening."""
+    """Look who is there in a moment's listening."""
     from chatrobot.wire.connect import is_on_this_machine
 
     try:
-        seen = _who_is_on("dds:", args)
+        return Check("DDS", "ok", f"works; {_found('dds:', args, is_near=is_on_this_machine('dds:'))}")
     except (ChatRobotError, OSError) as error:
         return Check("DDS", "later", str(error))
-    reach = "this machine" if is_on_this_machine("dds:") else "the whole network"
-    return Check("DDS", "ok", f"works; {_domain()}, {reach}, {seen}")
 
 
-def _domain() -> str:
-    return f"on domain {os.environ.get('ROS_DOMAIN_ID', '').strip() or '0'}"
-
-
-def _who_is_on(address: str, args: argparse.Namespace) -> str:
-    """Who tells the robot's odometry there, and who sends velocities."""
+def _found(address: str, args: argparse.Namespace, *, is_near: bool) -> str:
+    """Say how far that wire reaches, who publishes the robot's odometry there, and who its velocities."""
     from chatrobot.language.phrases import render_reason
     from chatrobot.motion.topic_discovery import why_unheard
     from chatrobot.robots.load import load_profile
-    from chatrobot.wire.connect import Surveying, connect_wire, publishers_of
+    from chatrobot.wire.connect import connect_wire
 
     wiring = load_profile(args.robot, profile_folders(args)).wiring
     wire = connect_wire(address, wiring, "chatrobot_doctor")
@@ -183,29 +174,22 @@ def _who_is_on(address: str, args: argparse.Namespace) -> str:
     robots: list[str] = []
     while not robots and time.monotonic() < ends_s:
         time.sleep(0.05)
-        robots = publishers_of(wire, wiring.odom_topic) if wiring.odom_topic else []
-    drivers = publishers_of(wire, wiring.cmd_vel_topic)
-    told = (
-        why_unheard(wiring, wire.survey(), wire.resolve)
-        if isinstance(wire, Surveying) and not robots
-        else None
-    )
+        robots = wire.publishers_of(wiring.odom_topic) if wiring.odom_topic else []
+    drivers = wire.publishers_of(wiring.cmd_vel_topic)
+    told = None if robots else why_unheard(wiring, wire.survey(), wire.resolve)
     wire.close()
-    text = (
-        f"{', '.join(robots)} tells {wiring.odom_topic}"
-        if robots
-        else f"nobody tells {wiring.odom_topic or 'odometry'}"
-    )
-    text += f"; {', '.join(drivers)} sends {wiring.cmd_vel_topic}" if drivers else ""
+    reach = f"on domain {os.environ.get('ROS_DOMAIN_ID', '').strip() or '0'}, "
+    reach += "this machine" if is_near else "the whole network"
+    text = f"{reach}, {', '.join(robots) or 'nobody'} publishes {wiring.odom_topic or 'odometry'}"
+    text += f"; {', '.join(drivers)} publishes {wiring.cmd_vel_topic}" if drivers else ""
     return f"{text}. {render_reason(told, 'en')}" if told is not None else text
 
 
 def _model(args: argparse.Namespace) -> Check:
-    """What would be asked; it is not asked, that may cost: `chatrobot model test` does."""
+    """Name the model that would be asked; to ask it may cost: `chatrobot model test` does."""
     from chatrobot.language.phrases import render_reason
-    from chatrobot.models.choice import resolve
-    from chatrobot.models.config import ModelConfig
-    from chatrobot.models.state import problem_with
+    from chatrobot.models.config import ModelConfig, resolve
+    from chatrobot.models.make import problem_with
 
     config = ModelConfig(folder=config_folder(args))
     try:
@@ -219,16 +203,15 @@ def _model(args: argparse.Namespace) -> Check:
     if problem is not None:
         text = render_reason(problem, "en")
         return Check("language model", "missing", text if choice.name in text else f"{choice.name}: {text}")
-    source = {"option": "--model", "environment": "CHATROBOT_MODEL", "stored": "chatrobot model use"}[
-        choice.source
-    ]
+    sources = {"option": "--model", "environment": "CHATROBOT_MODEL", "stored": "chatrobot model use"}
+    source = sources[choice.source]
     return Check("language model", "ok", f"{choice.name}, by {source}; chatrobot model test tries it")
 
 
 _MORE = {
     "landlock": "Landlock: Linux 5.13 or later with lsm=landlock among the kernel's boot options",
-    "own user": "an own user: start it as an ordinary user, or in a container that has more users than root",
-    "namespaces": "an empty world: install bubblewrap, or allow user namespaces (in a container: its seccomp profile)",
+    "own user": "a user of its own: start it as an ordinary user, or in a container that has more users than root",
+    "namespaces": "namespaces: install bubblewrap, or allow user namespaces (in a container: its seccomp profile)",
 }
 """How to get the walls that do not stand here."""
 
@@ -240,10 +223,10 @@ def _box() -> Check:
     report = probe()
     if report.refusal is not None:
         missing = report.problems.get("seccomp") or str(dict(report.refusal.values))
-        return Check("box for programs", "missing", f"none, so programs are refused: {missing}")
+        return Check("sandbox", "missing", f"none, so programs are refused: {missing}")
     walls = ", ".join(("filter", "limits", *(each for each in report.standing if each != "seccomp")))
     wanting = [each for each in _MORE if each not in report.standing]
     if "bubblewrap" in report.standing:
         wanting.remove("namespaces")
     more = "".join(f"; more with {_MORE[each]}" for each in wanting)
-    return Check("box for programs", "ok", f"{report.level}: {walls}{more}")
+    return Check("sandbox", "ok", f"{report.level}: {walls}{more}")

@@ -7,25 +7,16 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 from pathlib import Path
 
-from chatrobot.cli.drawing import fonts
-from chatrobot.cli.drawing.canvas import XY, Box, Canvas
+from chatrobot.cli.drawing.canvas import XY, Box, Canvas, font_for
 from chatrobot.cli.drawing.extent import Extent, Orientation, extent_of_world
-from chatrobot.cli.drawing.map_text import draw_map_text
 from chatrobot.cli.drawing.ways import outline_at, progress_colour, standing_points, where_found
 from chatrobot.core.events import FindingSeen, Rehearsed
 from chatrobot.core.geometry import Pose
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.world import World
 
-__all__ = ["draw_map_text", "draw_plan"]
-
-PAPER, INK, FAINT, GRID, GRID_STRONG = (
-    (252, 252, 250),
-    (38, 43, 51),
-    (112, 120, 132),
-    (234, 236, 240),
-    (214, 218, 226),
-)
+PAPER, WHITE, INK, FAINT = (252, 252, 250), (255, 255, 255), (38, 43, 51), (112, 120, 132)
+GRID, GRID_STRONG = (234, 236, 240), (214, 218, 226)
 SWEPT, SWEPT_EDGE = (232, 237, 247), (168, 180, 204)
 OBSTACLE, OBSTACLE_EDGE = (222, 226, 233), (150, 158, 172)
 PLACE, START, END, RED, AMBER = (15, 118, 110), (31, 119, 214), (226, 76, 38), (205, 24, 40), (201, 122, 0)
@@ -38,32 +29,21 @@ Words = Callable[[FindingSeen], str]
 
 
 def draw_plan(
-    path: Path,
-    *,
-    world: World,
-    profile: RobotProfile,
-    rehearsed: Rehearsed,
-    title: str,
-    words: Words | None = None,
+    path: Path, *, world: World, profile: RobotProfile, rehearsed: Rehearsed, title: str, words: Words
 ) -> None:
     """Write the picture of `rehearsed` in `world` to `path`, a PNG.
 
     Args:
-        words: puts a finding into words for the legend; English without it.
+        words: puts a finding into words for the legend.
 
     Raises:
         OSError: the file cannot be written.
     """
     way = [point[:2] for point in rehearsed.path]
-    extent = extent_of_world(
-        world, way, margin_m=0.25 + (profile.footprint_radius_m if way else 0.0), least_m=3.0
-    )
+    margin_m = 0.25 + (profile.footprint_radius_m if way else 0.0)
+    extent = extent_of_world(world, way, margin_m=margin_m, least_m=3.0)
     picture = _Picture(extent, Orientation(world), len(rehearsed.findings))
-    picture.draw(world, profile, rehearsed, title, words or _code).save(path)
-
-
-def _code(finding: FindingSeen) -> str:
-    return finding.reason.code.replace("_", " ")
+    picture.draw(world, profile, rehearsed, title, words).save(path)
 
 
 class _Picture:
@@ -84,6 +64,7 @@ class _Picture:
     def draw(
         self, world: World, profile: RobotProfile, rehearsed: Rehearsed, title: str, words: Words
     ) -> Canvas:
+        """Draw all of it, the ground first."""
         self._grid()
         self._obstacles(world)
         self._way(profile, rehearsed)
@@ -95,11 +76,11 @@ class _Picture:
         return self.canvas
 
     def _at(self, x_m: float, y_m: float) -> XY:
-        """A point in the frame of the start."""
+        """Place a point in the frame of the start."""
         return self._on_grid(*self._orientation.point(x_m, y_m))
 
     def _on_grid(self, right_m: float, up_m: float) -> XY:
-        """A point so far from the start along the axes of the picture."""
+        """Place a point so far from the start along the axes of the picture."""
         return (
             self._off_x + (right_m - self._extent.min_x_m) * self._px_per_m,
             self._off_y + (self._extent.max_y_m - up_m) * self._px_per_m,
@@ -112,23 +93,23 @@ class _Picture:
 
     def _grid(self) -> None:
         left, top, right, bottom = LEFT_PX, TOP_PX, LEFT_PX + self._map_w, TOP_PX + self._map_h
-        self.canvas.box((left, top, right, bottom), fill=(255, 255, 255))
-        step = next(
-            (s for s in (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500) if s * self._px_per_m >= 55), 1000.0
+        self.canvas.box((left, top, right, bottom), fill=WHITE)
+        wide_enough = (
+            step for step in (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500) if step * self._px_per_m >= 55
         )
+        step = next(wide_enough, 1000.0)
+        first_m = self._extent.min_x_m + (left - self._off_x) / self._px_per_m
         for i in range(
-            math.ceil((left - self._off_x) / self._px_per_m / step + self._extent.min_x_m / step), 10**6
+            math.ceil(first_m / step), math.floor((first_m + self._map_w / self._px_per_m) / step) + 1
         ):
             x, _ = self._on_grid(i * step, 0.0)
-            if x > right:
-                break
             self.canvas.line([(x, top), (x, bottom)], GRID_STRONG if i == 0 else GRID)
             self.canvas.text((x, bottom + 7), f"{i * step:g}", FAINT, 13, "ma")
-        lowest = self._extent.max_y_m - (bottom - self._off_y) / self._px_per_m
-        for i in range(math.ceil(lowest / step), 10**6):
+        first_m = self._extent.max_y_m - (bottom - self._off_y) / self._px_per_m
+        for i in range(
+            math.ceil(first_m / step), math.floor((first_m + self._map_h / self._px_per_m) / step) + 1
+        ):
             _, y = self._on_grid(0.0, i * step)
-            if y < top:
-                break
             self.canvas.line([(left, y), (right, y)], GRID_STRONG if i == 0 else GRID)
             self.canvas.text((left - 9, y), f"{i * step:g}", FAINT, 13, "rm")
         whose = "from the start along the world's " if self._orientation.is_turned else ""
@@ -163,7 +144,7 @@ class _Picture:
             heading_rad = self._orientation.heading_rad(pose.yaw_rad)
             look = (x + 11 * math.cos(heading_rad), y - 11 * math.sin(heading_rad))
             self.canvas.line([(x, y), look], PLACE, 2.0)
-            self.canvas.circle((x, y), 5, fill=PLACE, edge=(255, 255, 255), width_px=1.2)
+            self.canvas.circle((x, y), 5, fill=PLACE, edge=WHITE, width_px=1.2)
             self._label(name, (x, y), looks_right=math.cos(heading_rad) > 0.5)
 
     def _label(self, name: str, spot: XY, looks_right: bool) -> None:
@@ -174,7 +155,7 @@ class _Picture:
         inside = [b for b in boxes if b[2][0] > LEFT_PX and b[2][2] < LEFT_PX + self._map_w]
         free = [b for b in inside if self._is_free(b[2])]
         for at, anchor, box in (free or inside)[:1]:
-            self.canvas.text(at, name, PLACE, 15, anchor, halo=(255, 255, 255, 215))
+            self.canvas.text(at, name, PLACE, 15, anchor, halo=(*WHITE, 215))
             self._taken.append(box)
 
     def _is_free(self, box: Box) -> bool:
@@ -211,7 +192,7 @@ class _Picture:
             if name:
                 x, y = self._at(*point[:2])
                 below = profile.footprint_radius_m * self._px_per_m + 6
-                self.canvas.text((x, y + below), name, colour, 14, "mt", halo=(255, 255, 255, 215))
+                self.canvas.text((x, y + below), name, colour, 14, "mt", halo=(*WHITE, 215))
                 self._taken.append(self.canvas.text_box((x, y + below), name, 14, "mt"))
 
     def _arrow(
@@ -223,36 +204,33 @@ class _Picture:
         size = max(11.0, reach_px * 0.62)
         corners = ((1.0, 0.0), (-0.62, 0.62), (-0.3, 0.0), (-0.62, -0.62))
         placed = [(x + size * (cos * a - sin * b), y + size * (sin * a + cos * b)) for a, b in corners]
-        self.canvas.polygon(placed, fill=colour, edge=(255, 255, 255), width_px=1.2)
+        self.canvas.polygon(placed, fill=colour, edge=WHITE, width_px=1.2)
 
     def _findings(self, rehearsed: Rehearsed) -> None:
         for number, finding in enumerate(rehearsed.findings, 1):
             spot = where_found(rehearsed, finding)
             if spot is not None:
-                self._mark(self._at(*spot), str(number), _severity_colour(finding))
-
-    def _mark(self, at: XY, number: str, colour: tuple[int, int, int]) -> None:
-        self.canvas.circle(at, 15, edge=(*colour, 130), width_px=2.5)
-        self.canvas.circle(at, 10, fill=colour, edge=(255, 255, 255), width_px=1.5)
-        self.canvas.text(at, number, (255, 255, 255), 13, "mm")
+                at, colour = self._at(*spot), _severity_colour(finding)
+                self.canvas.circle(at, 15, edge=(*colour, 130), width_px=2.5)
+                self.canvas.circle(at, 10, fill=colour, edge=WHITE, width_px=1.5)
+                self.canvas.text(at, str(number), WHITE, 13, "mm")
 
     # --- words around the map ---
 
     def _headline(self, world: World, profile: RobotProfile, rehearsed: Rehearsed, title: str) -> None:
         self.canvas.text((LEFT_PX, 14), self._fitting(title), INK, TITLE_SIZE_PX)
         turned = rehearsed.path[-1][2] - rehearsed.path[0][2] if rehearsed.path else 0.0
-        facts = (
-            f"{rehearsed.length_m:.2f} m · {rehearsed.duration_s:.1f} s · turns {math.degrees(turned):+.0f}°"
-        )
+        length, duration = f"{rehearsed.length_m:.2f} m", f"{rehearsed.duration_s:.1f} s"
+        facts = f"{length} · {duration} · turns {math.degrees(turned):+.0f}°"
         verdict = "" if rehearsed.ok else " · refused"
         where = "in the open" if world.is_empty else f"in '{world.name}'"
         self.canvas.text((LEFT_PX, 50), facts + verdict, INK if rehearsed.ok else RED, 17)
         self.canvas.text((LEFT_PX + self._map_w, 54), f"{profile.title} {where}", FAINT, 13, "ra")
 
     def _fitting(self, title: str) -> str:
-        """The title, cut where the picture ends; "plan" where no font has its letters."""
+        """Cut the title where the picture ends; "plan" where no font has its letters."""
         shown = " ".join(title.split())
-        if not shown or fonts.for_text(shown, TITLE_SIZE_PX) is None:
+        if not shown or font_for(shown, TITLE_SIZE_PX) is None:
             return "plan"
         while self.canvas.text_box((0.0, 0.0), shown, TITLE_SIZE_PX)[2] > self._map_w:
             shown = f"{shown[:-2].rstrip()}…"
@@ -273,12 +251,9 @@ class _Picture:
             self.canvas.text((x + 250, y), "named place", INK, 14, "lm")
         for number, finding in enumerate(rehearsed.findings, 1):
             y += LINE_PX
-            self._mark_small((LEFT_PX + 9, y), str(number), _severity_colour(finding))
+            self.canvas.circle((LEFT_PX + 9, y), 9, fill=_severity_colour(finding))
+            self.canvas.text((LEFT_PX + 9, y), str(number), WHITE, 12, "mm")
             self.canvas.text((LEFT_PX + 26, y), words(finding), INK, 14, "lm")
-
-    def _mark_small(self, at: XY, number: str, colour: tuple[int, int, int]) -> None:
-        self.canvas.circle(at, 9, fill=colour)
-        self.canvas.text(at, number, (255, 255, 255), 12, "mm")
 
 
 def _severity_colour(finding: FindingSeen) -> tuple[int, int, int]:

@@ -8,8 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from chatrobot.cli.lines import has_keyboard
-from chatrobot.cli.typed_ahead import TypedAhead
+from chatrobot.cli.lines import TypedAhead, has_keyboard
 from chatrobot.core.motion_budget import MotionBudget
 from chatrobot.link.processes import SIMULATED, Processes
 
@@ -36,7 +35,7 @@ class Early:
             self._show(profile.title)
 
     def _checked(self, args: argparse.Namespace) -> RobotProfile:
-        """The robot's profile. Where all that its processes are told can be used, they are started.
+        """Check all that the robot's processes are told, start them, and return the robot's profile.
 
         Raises:
             InputError: a profile, world or option is wrong.
@@ -68,7 +67,7 @@ class Early:
         self._is_shown = True
 
     def ready(self) -> None:
-        """The robot can be told what to do: the line goes."""
+        """Clear the line: the robot can be told what to do."""
         if self._is_shown:
             self._is_shown = False
             is_plain = os.environ.get("TERM", "dumb") == "dumb" or "NO_COLOR" in os.environ

@@ -10,7 +10,9 @@ from collections.abc import Sequence
 FAILED, USAGE, STOPPED = 1, 2, 5
 
 _MODULES = {"": "talk", "eval": "eval.command", "model": "model.command", "fake-model": "fake_model"}
-"""Where a command's `run(args)` is, if not in the module of its name."""
+"""The module of a command, if not that of its name; its function is `run(args)`."""
+_LISTS = ("robots", "worlds", "usage", "schema")
+"""Commands that are functions of `lists`."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -37,7 +39,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _mend_streams() -> None:
-    """A stream that was closed (`>&-`) becomes empty, before a socket gets its number; no locale is an error."""
+    """Open a stream that was closed (`>&-`) as empty, before a socket gets its number; no locale is an error."""
     for number, (name, mode) in enumerate((("stdin", "r"), ("stdout", "w"), ("stderr", "w"))):
         if getattr(sys, name) is None:
             os.open(os.devnull, os.O_RDWR)  # takes the lowest number that is free: this one
@@ -57,11 +59,7 @@ def _run(arguments: Sequence[str]) -> int:
         from chatrobot.cli import stop
 
         return stop.run()
-    if list(arguments[:3]) == [
-        "completion",
-        "words",
-        "--",
-    ]:  # what follows is half a command line: nothing to parse
+    if list(arguments[:3]) == ["completion", "words", "--"]:  # half a command line follows: nothing to parse
         from chatrobot.cli import completion
 
         return completion.print_words(arguments[3:])
@@ -73,8 +71,9 @@ def _run(arguments: Sequence[str]) -> int:
     from chatrobot.cli.early import started_early
 
     with started_early(args):
-        command = import_module(f"chatrobot.cli.{_MODULES.get(args.command, args.command)}")
-        code: int = command.run(args)
+        is_list = args.command in _LISTS
+        name = "lists" if is_list else _MODULES.get(args.command, args.command)
+        code: int = getattr(import_module(f"chatrobot.cli.{name}"), args.command if is_list else "run")(args)
     return code
 
 
@@ -90,4 +89,4 @@ def _sentence(error: Exception) -> str:
         return render_reason(reason, "en")
     if isinstance(error, OSError) and error.strerror:
         return f"{error.filename}: {error.strerror}" if error.filename else error.strerror
-    return f"this should not happen: {type(error).__name__}: {error} (CHATROBOT_DEBUG=1 shows where)"
+    return f"unexpected error: {type(error).__name__}: {error} (set CHATROBOT_DEBUG=1 to see where)"

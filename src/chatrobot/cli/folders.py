@@ -9,7 +9,7 @@ from chatrobot.core.errors import UsageError
 
 
 def config_folder(args: argparse.Namespace) -> Path:
-    """Where places and robot profiles live: `--config-dir`, or the user's configuration folder.
+    """Return where places and robot profiles live: `--config-dir`, or the user's configuration folder.
 
     Raises:
         UsageError: it is a file.
@@ -18,7 +18,7 @@ def config_folder(args: argparse.Namespace) -> Path:
         folder = Path(args.config_dir).expanduser()
         if folder.exists() and not folder.is_dir():
             raise UsageError(
-                f"{folder} is no folder", where="--config-dir", allowed="a folder, made if need be"
+                f"{folder} is not a folder", where="--config-dir", allowed="a folder, made if need be"
             )
         return folder
     from platformdirs import user_config_path
@@ -27,5 +27,5 @@ def config_folder(args: argparse.Namespace) -> Path:
 
 
 def profile_folders(args: argparse.Namespace) -> tuple[Path, ...]:
-    """Where a person's own robot profiles live."""
+    """Return where a person's own robot profiles live."""
     return (config_folder(args) / "robots",)

@@ -5,23 +5,8 @@ from __future__ import annotations
 import math
 
 from chatrobot.cli.json_lines import Output
-from chatrobot.core.events import (
-    Event,
-    Interpreted,
-    Limited,
-    Notice,
-    ProgramLog,
-    ProgramRehearsed,
-    ProgramWritten,
-    Progress,
-    Rehearsed,
-    Remembered,
-    Result,
-    Said,
-    Started,
-    Streamed,
-    TruePose,
-)
+from chatrobot.core import events
+from chatrobot.core.events import Event
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.shown import fixed
 from chatrobot.language.interpretation import LanguageCode
@@ -43,31 +28,35 @@ class HumanPrinter:
 
     @property
     def is_broken(self) -> bool:
+        """Nobody reads what is written."""
         return self._output.is_broken
 
     def turn(self, text: str) -> None:
+        """Show what begins a turn."""
         self._line(f"> {text}")
 
     def show(self, event: Event, language: LanguageCode) -> None:
-        if isinstance(event, Streamed):
-            if self._streamed != event.turn:
-                self._streamed, self._way = event.turn, _Way()
-            self._show_plan(event.plan_text)
-        elif isinstance(event, Interpreted):
-            self._show_interpreted(event)
-        elif isinstance(event, Rehearsed):
-            self._show_rehearsed(event, language)
-        elif isinstance(event, Started):
-            self._way.start(event.pose)
-        elif isinstance(event, Progress):
-            self._show_progress(event)
-        elif isinstance(event, Result):
-            asks = f" {say(language, 'yes_or_no')}" if event.proposal is not None else ""
-            self._line(f"{event.reply}{asks}")
-        else:
-            self._show_rest(event, language)
+        """Show an event, in the language of the question."""
+        match event:
+            case events.Streamed():
+                if self._streamed != event.turn:
+                    self._streamed, self._way = event.turn, _Way()
+                self._show_plan(event.plan_text)
+            case events.Interpreted():
+                self._show_interpreted(event)
+            case events.Rehearsed():
+                self._show_rehearsed(event, language)
+            case events.Started():
+                self._way.start(event.pose)
+            case events.Progress():
+                self._show_progress(event)
+            case events.ProgramWritten() | events.ProgramRehearsed():
+                self._show_program(event, language)
+            case _:
+                if line := _line_of(event, language):
+                    self._line(line)
 
-    def _show_interpreted(self, event: Interpreted) -> None:
+    def _show_interpreted(self, event: events.Interpreted) -> None:
         if not event.plan_text or event.turn == self._streamed:
             return  # the reply comes again with the result, and a plan that streamed in is there already
         if event.reply:
@@ -78,7 +67,7 @@ class HumanPrinter:
         for line in folded_plan(plan_text):
             self._line(f"    {line.text}")
 
-    def _show_rehearsed(self, event: Rehearsed, language: LanguageCode) -> None:
+    def _show_rehearsed(self, event: events.Rehearsed, language: LanguageCode) -> None:
         if event.turn == self._streamed:
             self._way.planned_m += event.length_m
         else:
@@ -89,7 +78,7 @@ class HumanPrinter:
             if finding.severity != "refuse":  # that one is the reply
                 self._line(f"  {_MARKS[finding.severity]} {render_reason(finding.reason, language)}")
 
-    def _show_progress(self, event: Progress) -> None:
+    def _show_progress(self, event: events.Progress) -> None:
         metres = self._way.advance(event.pose)
         status = f"  {self._way.text(event.fraction)}"
         if self._output.is_terminal:
@@ -98,41 +87,47 @@ class HumanPrinter:
         elif metres:
             self._line(status)
 
-    def _show_rest(self, event: Event, language: LanguageCode) -> None:
-        if isinstance(event, Said):
-            self._line(f"  “{event.text}”")
-        elif isinstance(event, Remembered):
-            self._line(f"  {event.place}: x {fixed(event.pose.x_m, 2)} m, y {fixed(event.pose.y_m, 2)} m")
-        elif isinstance(event, Limited):
-            self._line(f"  · {_twist(event.asked)} → {_twist(event.sent)}")
-        elif isinstance(event, Notice):
-            self._line(f"  ! {event.text or render_reason(event.reason, language)}")
-        elif isinstance(event, ProgramWritten):
-            self._show_program(event, language)
-        elif isinstance(event, ProgramRehearsed):
-            self._show_program_rehearsed(event, language)
-        elif isinstance(event, ProgramLog):
-            self._line(f"  | {event.text}")
-        elif isinstance(event, TruePose):
-            x, y, yaw = fixed(event.x_m, 3), fixed(event.y_m, 3), fixed(math.degrees(event.yaw_rad), 1)
-            self._line(f"  {event.t_s:8.2f} s  x {x} m  y {y} m  {yaw}°")
-
-    def _show_program(self, event: ProgramWritten, language: LanguageCode) -> None:
+    def _show_program(
+        self, event: events.ProgramWritten | events.ProgramRehearsed, language: LanguageCode
+    ) -> None:
         from chatrobot.dialogue.programs.text import body, headline
 
-        for line in (headline(event, language), *body(event, language)):
+        if isinstance(event, events.ProgramWritten):
+            lines = [headline(event, language), *body(event, language)]
+        else:
+            values = {"speed": f"{event.top_speed_mps:.2f}", "rate": f"{event.top_rate_radps:.2f}"}
+            lines = [f"  ≈ {say(language, 'program_speeds', **values)}"]
+            lines += [f"    {line}" for line in event.problem.splitlines()]
+        for line in lines:
             self._line(line)
-
-    def _show_program_rehearsed(self, event: ProgramRehearsed, language: LanguageCode) -> None:
-        values = {"speed": f"{event.top_speed_mps:.2f}", "rate": f"{event.top_rate_radps:.2f}"}
-        self._line(f"  ≈ {say(language, 'program_speeds', **values)}")
-        for line in event.problem.splitlines():
-            self._line(f"    {line}")
 
     def _line(self, text: str) -> None:
         clear = _CLEAR_LINE if self._has_status else ""
         self._has_status = False
         self._output.write(f"{clear}{text}\n")
+
+
+def _line_of(event: Event, language: LanguageCode) -> str:
+    """Put an event into one line; "" for one that people do without."""
+    match event:
+        case events.Result():
+            return (
+                f"{event.reply} {say(language, 'yes_or_no')}" if event.proposal is not None else event.reply
+            )
+        case events.Said():
+            return f"  “{event.text}”"
+        case events.Remembered():
+            return f"  {event.place}: x {fixed(event.pose.x_m, 2)} m, y {fixed(event.pose.y_m, 2)} m"
+        case events.Limited():
+            return f"  · {_twist(event.asked)} → {_twist(event.sent)}"
+        case events.Notice():
+            return f"  ! {event.text or render_reason(event.reason, language)}"
+        case events.ProgramLog():
+            return f"  | {event.text}"
+        case events.TruePose():
+            x, y, yaw = fixed(event.x_m, 3), fixed(event.y_m, 3), fixed(math.degrees(event.yaw_rad), 1)
+            return f"  {event.t_s:8.2f} s  x {x} m  y {y} m  {yaw}°"
+    return ""
 
 
 class _Way:
@@ -145,7 +140,7 @@ class _Way:
         self._driven_m = 0.0
 
     def start(self, pose: Pose) -> None:
-        """The robot begins to move there."""
+        """Begin to measure there, where the robot begins to move."""
         self._last, self._start_yaw_rad, self._driven_m = pose, pose.yaw_rad, 0.0
 
     def advance(self, pose: Pose) -> bool:
@@ -157,7 +152,7 @@ class _Way:
         return math.floor(self._driven_m) > math.floor(before_m)
 
     def text(self, fraction: float | None) -> str:
-        """How far, and which turn; of how much, and the share, where the whole is known."""
+        """Say how far, and which turn; of how much, and the share, where the whole is known."""
         turned_deg = math.degrees(self._last.yaw_rad - self._start_yaw_rad) if self._last is not None else 0.0
         rounded = fixed(turned_deg, 0)
         turned = f"{'+' if float(rounded) > 0 else ''}{rounded}°"

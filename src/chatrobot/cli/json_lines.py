@@ -1,12 +1,14 @@
-"""What commands print: standard output as a stream that may break, and events as one JSON object a line, in UTF-8."""
+"""How commands print a session's events on standard output, which may break; JSON, one object a line, in UTF-8."""
 
 from __future__ import annotations
 
+import argparse
 import json
 import math
 import os
 import select
-from typing import Any
+import sys
+from typing import Any, Protocol
 
 from chatrobot.core.events import Event
 from chatrobot.language.interpretation import LanguageCode
@@ -23,18 +25,20 @@ class JsonPrinter:
 
     @property
     def is_broken(self) -> bool:
+        """Nobody reads what is written."""
         return self._output.is_broken
 
     def turn(self, text: str) -> None:
         """Nothing: every event carries the number of its turn."""
 
     def show(self, event: Event, language: LanguageCode) -> None:  # noqa: ARG002
+        """Print an event, unless it is for ourselves."""
         if event.name not in _NOT_SHOWN:
             self._output.write(json_line(event.to_json()))
 
 
 def json_line(data: dict[str, Any]) -> str:
-    """One line of strict JSON: a number that is none (a robot may report one) becomes null."""
+    """Write one line of strict JSON: NaN and infinity (a robot may report them) become null."""
     try:
         return json.dumps(data, ensure_ascii=False, allow_nan=False) + "\n"
     except ValueError:
@@ -61,6 +65,7 @@ class Output:
         self._poll.register(STDOUT, 0)
 
     def write(self, text: str) -> None:
+        """Write all of `text`, or note that nobody reads."""
         if self._broken:
             return
         data = memoryview(text.encode("utf-8", errors="replace"))
@@ -79,4 +84,34 @@ class Output:
 
     @property
     def is_terminal(self) -> bool:
+        """A person may look at it."""
         return os.isatty(STDOUT)
+
+
+class Printer(Protocol):
+    """Shows events as they come."""
+
+    @property
+    def is_broken(self) -> bool:
+        """Nobody reads what is written."""
+        ...
+
+    def turn(self, text: str) -> None:
+        """Show that a turn of a dialogue begins with `text`."""
+        ...
+
+    def show(self, event: Event, language: LanguageCode) -> None:
+        """Show an event, in the language of the question."""
+        ...
+
+
+def printer_for(args: argparse.Namespace) -> Printer:
+    """For machines with `--json`, else for people."""
+    sys.stdout.flush()
+    if args.json:
+        from chatrobot.cli.json_lines import JsonPrinter
+
+        return JsonPrinter(Output())
+    from chatrobot.cli.human import HumanPrinter
+
+    return HumanPrinter(Output())

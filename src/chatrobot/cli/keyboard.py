@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import select
 import signal
 import sys
@@ -10,7 +9,7 @@ import threading
 
 from chatrobot.cli.approver import Approver
 from chatrobot.cli.conversation import Conversation
-from chatrobot.cli.lines import MAX_LINE_BYTES, has_keyboard
+from chatrobot.cli.lines import has_keyboard, read_chunk
 from chatrobot.reflex import is_pause, leads_with_stop
 
 
@@ -26,6 +25,7 @@ class Keyboard:
         self._reading = approver.editing
 
     def start(self) -> None:
+        """Begin to read."""
         if has_keyboard():
             signal.signal(
                 signal.SIGTTIN, signal.SIG_IGN
@@ -39,7 +39,7 @@ class Keyboard:
             with self._reading:  # an editor has the terminal for itself
                 if not select.select([sys.stdin], [], [], 0.0)[0]:
                     continue
-                chunk = _read_chunk()
+                chunk = read_chunk()
             *lines, rest = (rest + chunk).split(b"\n")
             for line in lines:
                 self._hear(line.decode("utf-8", errors="replace").strip())
@@ -56,10 +56,3 @@ class Keyboard:
             self._conversation.halt(line)
         else:
             self._approver.type(line)
-
-
-def _read_chunk() -> bytes:
-    try:
-        return os.read(sys.stdin.fileno(), MAX_LINE_BYTES)
-    except OSError:  # the terminal has gone, or is another's now
-        return b""

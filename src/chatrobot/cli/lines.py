@@ -7,6 +7,7 @@ import re
 import select
 import sys
 import threading
+import time
 from collections.abc import Callable
 
 STDIN = 0
@@ -38,7 +39,7 @@ class Joiner:
         return bool(self._held)
 
     def take(self, line: str) -> list[str]:
-        """The texts that are complete with this line."""
+        """Return the texts that are complete with this line."""
         text = line.strip()
         if not text:
             return []
@@ -53,13 +54,13 @@ class Joiner:
         return complete
 
     def let_go(self) -> list[str]:
-        """What was held back for its list, with it."""
+        """Return what was held back for its list, with it."""
         held, self._held = self._held, []
         return ["\n".join(held)] if held else []
 
 
 def texts_in(lines: str) -> list[str]:
-    """The texts of several lines that came at once."""
+    """Return the texts of several lines that came at once."""
     joiner = Joiner()
     texts = [text for line in lines.splitlines() for text in joiner.take(line)]
     return texts + joiner.let_go()
@@ -82,10 +83,11 @@ class LineReader:
         return self._ended.is_set()
 
     def wait(self, timeout_s: float) -> None:
-        """Until the last line has been handed on, or for so long."""
+        """Wait until the last line has been handed on, or for so long."""
         self._ended.wait(timeout_s)
 
     def start(self) -> None:
+        """Begin to read."""
         threading.Thread(target=self._read, name="input", daemon=True).start()
 
     def _read(self) -> None:
@@ -93,7 +95,7 @@ class LineReader:
         while True:
             if self._joiner.is_holding and not select.select([STDIN], [], [], PASTE_S)[0]:
                 self._say(self._joiner.let_go())
-            chunk = _read_chunk()
+            chunk = read_chunk()
             if not chunk:
                 break
             *lines, rest = (rest + chunk).split(b"\n")
@@ -114,9 +116,56 @@ class LineReader:
             self._on_line(text)
 
 
-def _read_chunk() -> bytes:
-    """What is there; nothing at the end, or where a terminal has gone away."""
+def read_chunk() -> bytes:
+    """Read what is there; nothing at the end, or where a terminal has gone away."""
     try:
         return os.read(STDIN, MAX_LINE_BYTES)
     except OSError:
         return b""
+
+
+AT_ONCE_S = 0.05
+"""Nobody types a line in less; a terminal hands on what was pasted faster."""
+
+
+class TypedAhead:
+    """Reads the terminal in a thread of its own, from `start` to `stop`."""
+
+    def __init__(self) -> None:
+        self.has_ended = False
+        """The person has closed the input."""
+        self._chunks: list[tuple[float, bytes]] = []
+        self._wake_read, self._wake_write = os.pipe()
+        self._thread = threading.Thread(target=self._read, name="typed-ahead", daemon=True)
+
+    def start(self) -> None:
+        """Begin to read."""
+        self._thread.start()
+
+    def stop(self) -> list[str]:
+        """Read no more; what was typed: a line each, or several in one where they came at once."""
+        if self._thread.is_alive():
+            os.write(self._wake_write, b"\0")
+            self._thread.join()
+        texts: list[bytes] = []
+        last_s = float("-inf")
+        for at_s, chunk in self._chunks:
+            if at_s - last_s < AT_ONCE_S and texts:
+                texts[-1] += chunk
+            else:
+                texts.append(chunk)
+            last_s = at_s
+        self._chunks.clear()
+        return [text.decode("utf-8", "replace").rstrip("\n") for text in texts if text.strip()]
+
+    def _read(self) -> None:
+        while not self.has_ended:
+            ready, _, _ = select.select([STDIN, self._wake_read], [], [])
+            if STDIN not in ready:
+                return
+            try:
+                chunk = os.read(STDIN, MAX_LINE_BYTES)
+            except OSError:  # the terminal has gone: whoever reads next sees it
+                return
+            self.has_ended = not chunk
+            self._chunks.append((time.monotonic(), chunk))

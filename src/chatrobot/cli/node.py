@@ -5,15 +5,21 @@ from __future__ import annotations
 import argparse
 import contextlib
 import sys
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from chatrobot.cli.entry import STOPPED
+from chatrobot.cli.folders import profile_folders
 from chatrobot.cli.parameters import parameters_in, read_parameters
 from chatrobot.cli.signals import SignalWatch
-from chatrobot.core.errors import UsageError, WireError
-from chatrobot.core.motion_budget import MotionBudget
+from chatrobot.core.errors import UsageError
+from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.core.scheduling import wake_promptly
-from chatrobot.wire.connect import Connect, connect_wire
+from chatrobot.options import OF_NODES, OPTIONS, PARAMETERS
+from chatrobot.robots.load import profile_argument
+from chatrobot.wire.connect import Connect, connect_wire, wire_address
+from chatrobot.wire.discovery import domain_and_namespace
+from chatrobot.wire.ros import require_ros
 
 if TYPE_CHECKING:
     from chatrobot.nodes.ros_interfaces import RosInterfaces
@@ -23,100 +29,110 @@ REPEATS_S = 2.0
 
 
 def run(args: argparse.Namespace) -> int:
-    """0 where its input has ended; where it was asked to end 5, and 0 as a node of ROS, which has no other way to."""
+    """Return 0 where its input has ended; where it was asked to end 5, or 0 as a node of ROS, as those do.
+
+    Raises:
+        InputError: an option, a parameter, the profile or the world cannot be used.
+        WireError: nobody answers on that wire.
+    """
     if args.fast or args.trace or args.sim:
-        raise UsageError("a node drives a robot on a wire", allowed="leave out --fast, --trace and --sim")
+        raise UsageError(
+            "--fast, --trace and --sim are for the simulated robot, not for nodes", allowed="leave them out"
+        )
     wake_promptly()  # before there are threads, which take after this one
+    args.on = wire_address("dds" if args.on == "auto" else args.on)
     args.approval = "all" if args.approve else "none" if args.yes else "profile"
     ros_args = [*args.ros_args, *(word for given in args.parameters for word in ("-p", given))]
-    if _address(args).startswith("ros:"):
-        from chatrobot.cli.ros_node import open_ros_interfaces
-
-        ros_interfaces = open_ros_interfaces(args, _address(args), ros_args)
-        connect: Connect = ros_interfaces.connect
+    ros_interfaces: RosInterfaces | None = None
+    connect: Connect = connect_wire
+    if args.on.startswith("ros:"):
+        ros_interfaces = open_ros_interfaces(args, ros_args)
+        connect = ros_interfaces.connect
     else:
-        ros_interfaces, connect = None, connect_wire
         vars(args).update(read_parameters(parameters_in(ros_args)))
-    has_left = {"input": _run_input, "base": _run_base, "control": _run_control}[args.which](
-        args, ros_interfaces, connect
-    )
+    args.robot_file = profile_argument(args.robot, profile_folders(args))
+    has_left = _RUNS[args.which](args, ros_interfaces, connect)
     return STOPPED if has_left and ros_interfaces is None else 0
+
+
+def open_ros_interfaces(args: argparse.Namespace, ros_args: list[str]) -> RosInterfaces:
+    """Open the node under `--on ros`, its parameters written into `args`; options are their defaults.
+
+    Raises:
+        UsageError: ROS is not here, or what it was given cannot be used.
+    """
+    require_ros()
+    from chatrobot.language.typed import type_as_ros_args
+    from chatrobot.nodes.ros_interfaces import RosInterfaces
+
+    type_as_ros_args()
+    known = [(each, each.parameter) for each in (*OPTIONS, *OF_NODES) if each.parameter is not None]
+    given = {named.name: option.to_parameter(getattr(args, option.name)) for option, named in known}
+    if not args.names_robot:
+        del given["robot"]
+    domain_id, namespace = domain_and_namespace(args.on)
+    ros_interfaces = RosInterfaces(
+        f"chatrobot_{args.which}",
+        PARAMETERS[args.which],
+        {**given, "approval": args.approval},
+        ros_args,
+        namespace=namespace,
+        domain_id=domain_id,
+    )
+    vars(args).update(ros_interfaces.values)
+    for option, named in known:
+        if named.name in ros_interfaces.values:
+            setattr(args, option.name, option.from_parameter(ros_interfaces.values[named.name]))
+    return ros_interfaces
 
 
 def _run_control(args: argparse.Namespace, ros_interfaces: RosInterfaces | None, connect: Connect) -> bool:
     from chatrobot.core.events import Event, Started
     from chatrobot.link.topics import CHATGPT_NODE
-    from chatrobot.nodes.control import ControlNode, ControlOptions
+    from chatrobot.nodes.control import ControlNode
     from chatrobot.nodes.log import Log, on_stderr
     from chatrobot.nodes.told import told
 
     log = Log(on_stderr if ros_interfaces is None else ros_interfaces.log)
 
     def note(event: Event) -> None:
-        line = told(event)
-        if line is not None:
+        if (line := told(event)) is not None:
             log(*line)
 
     told(Started(1))  # reads the tables of words now, not in the middle of a motion
     node = ControlNode(
-        ControlOptions(
-            _address(args),
-            _profile(args),
-            _world(args),
-            args.allow_release,
-            args.accept_others,
-            args.on_robot,
-            MotionBudget(args.max_distance, args.max_time),
-            args.open_loop,
-        ),
-        connect,
-        note,
+        args.on,
+        args.robot_file,
+        args.world or "empty",
+        note=note,
+        release=args.allow_release,
+        accept_others=args.accept_others,
+        on_robot=args.on_robot,
+        budget=MotionBudget(args.max_distance, args.max_time),
+        open_loop=args.open_loop,
+        connect=connect,
     )
 
-    def stop(why: str) -> None:
-        with contextlib.suppress(WireError):
-            node.stop(why)
-
-    def is_leaving() -> bool:
-        if watch.is_leaving:
-            node.leave()
-        return watch.is_leaving
-
-    with contextlib.closing(log), SignalWatch(stop, repeats_s=REPEATS_S) as watch:
+    with contextlib.closing(log), SignalWatch(node.stop, repeats_s=REPEATS_S) as watch:
         if ros_interfaces is not None:
             node.introduce(ros_interfaces)
         way = f"{node.resolved(CHATGPT_NODE)} → {node.cmd_vel_topic}"
         log("info", f"control drives {args.robot} on {_place(args)}: {way}; Ctrl-C stops and ends")
-        node.run(is_leaving)
+        node.run(lambda: watch.is_leaving)
     return True
 
 
 def _run_base(args: argparse.Namespace, ros_interfaces: RosInterfaces | None, connect: Connect) -> bool:
-    from chatrobot.cli.choices import model_from
-    from chatrobot.cli.folders import config_folder
-    from chatrobot.dialogue.llm.terms import ModelOptions
+    from chatrobot.cli.choices import setup_from
+    from chatrobot.dialogue.options import Options
     from chatrobot.link.topics import CHATGPT_NODE, USER_INPUT
-    from chatrobot.nodes.base import BaseNode, BaseOptions
+    from chatrobot.nodes.base import BaseNode
     from chatrobot.nodes.log import Log
 
     log = Log((lambda _, text: _say(text)) if ros_interfaces is None else ros_interfaces.log)
-    node = BaseNode(
-        BaseOptions(
-            _address(args),
-            _profile(args),
-            _world(args),
-            config_folder(args),
-            args.generate_code,
-            args.revChatGPT,
-            args.interpreter,
-            model_from(args, server_held=args.revChatGPT),
-            ModelOptions(rounds=args.rounds, budget_tokens=args.budget_tokens, budget_s=args.budget_s),
-            args.approval,
-            args.open_loop,
-        ),
-        log,
-        connect,
-    )
+    setup = setup_from(args, options=Options(), world="empty", programs=args.generate_code)
+    setup = replace(setup, robot=args.robot_file, budget=NOT_CHOSEN)  # control keeps the budget
+    node = BaseNode(setup, log, connect, approval=args.approval, rev_chatgpt=args.revChatGPT)
     with contextlib.closing(log), SignalWatch(node.stop, repeats_s=REPEATS_S) as watch:
         if ros_interfaces is not None:
             node.introduce(ros_interfaces)
@@ -134,7 +150,7 @@ def _run_input(args: argparse.Namespace, _: RosInterfaces | None, connect: Conne
     from chatrobot.nodes.input import InputNode
     from chatrobot.robots.load import load_profile
 
-    node = InputNode(_address(args), load_profile(_profile(args)).wiring, _say, connect)
+    node = InputNode(args.on, load_profile(args.robot_file).wiring, _say, connect)
 
     def on_line(line: str) -> None:
         if not node.say(line):
@@ -150,28 +166,14 @@ def _run_input(args: argparse.Namespace, _: RosInterfaces | None, connect: Conne
     return watch.is_leaving
 
 
-def _address(args: argparse.Namespace) -> str:
-    from chatrobot.wire.connect import wire_address
-
-    return wire_address("dds" if args.on == "auto" else args.on)
-
-
 def _place(args: argparse.Namespace) -> str:
-    """The address as a person would say it."""
-    return _address(args).rstrip(":")
-
-
-def _profile(args: argparse.Namespace) -> str:
-    from chatrobot.cli.folders import profile_folders
-    from chatrobot.robots.load import profile_argument
-
-    return profile_argument(args.robot, profile_folders(args))
-
-
-def _world(args: argparse.Namespace) -> str:
-    return args.world or "empty"
+    """Return the address as a person would say it."""
+    return str(args.on).rstrip(":")
 
 
 def _say(text: str) -> None:
     with contextlib.suppress(OSError):
         print(text, file=sys.stdout, flush=True)
+
+
+_RUNS = {"input": _run_input, "base": _run_base, "control": _run_control}

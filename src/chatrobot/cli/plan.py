@@ -1,4 +1,4 @@
-"""`chatrobot plan TEXT`: understand and rehearse; nothing moves, nothing is started."""
+"""`chatrobot plan TEXT`: understand and rehearse; nothing moves, nothing is started. And plans that were saved."""
 
 from __future__ import annotations
 
@@ -8,24 +8,25 @@ from dataclasses import replace
 from pathlib import Path
 
 from chatrobot.cli.choices import setup_from
-from chatrobot.cli.printer import printer_for
+from chatrobot.cli.json_lines import printer_for
 from chatrobot.compose import connect
-from chatrobot.core.errors import UsageError
+from chatrobot.core.errors import PlanTextError, UsageError
 from chatrobot.core.events import EXIT_CODES, Event, Rehearsed
 from chatrobot.dialogue.options import Options
 from chatrobot.language.phrases import render_reason
 from chatrobot.link.processes import SIMULATED
+from chatrobot.plan.text import parse_plan
 
 
 def run(args: argparse.Namespace) -> int:
-    """The exit code of the turn: 0 where the plan could be done.
+    """Return the exit code of the turn: 0 where the plan could be done.
 
     Raises:
         UsageError: `--png` names no PNG file.
     """
     png = Path(args.png) if args.png else None
     if png is not None and png.suffix.lower() != ".png":
-        raise UsageError(f"{args.png!r} is no PNG file", where="--png", allowed="a name that ends in .png")
+        raise UsageError(f"{args.png!r} is not a PNG file", where="--png", allowed="a name that ends in .png")
     printer = printer_for(args)
     rehearsed: list[Rehearsed] = []
 
@@ -55,3 +56,31 @@ def run(args: argparse.Namespace) -> int:
         else:
             print("chatrobot: there is no plan to draw", file=sys.stderr)
     return EXIT_CODES[result.outcome]
+
+
+MOST_BYTES = 65_536
+"""A longer file was most likely meant for something else; a plan is over after half an hour at the latest."""
+
+
+def read_plan_file(name: str) -> str:
+    """Return the text of the plan in that file.
+
+    Raises:
+        UsageError: there is no such file, or a line of it cannot be read; which, and what is allowed there.
+    """
+    path = Path(name).expanduser()
+    try:
+        with path.open("rb") as file:
+            content = file.read(MOST_BYTES + 1)
+        text = content.decode("utf-8-sig")
+    except OSError as error:
+        raise UsageError(error.strerror or "cannot be read", where=str(path)) from error
+    except UnicodeDecodeError as error:
+        raise UsageError("not a text file", where=str(path), allowed="plan text, one step a line") from error
+    if len(content) > MOST_BYTES:
+        raise UsageError("too long for a plan", where=str(path), allowed=f"at most {MOST_BYTES} bytes")
+    try:
+        parse_plan(text)
+    except PlanTextError as error:
+        raise UsageError(str(error), where=str(path)) from error
+    return text

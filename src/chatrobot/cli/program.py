@@ -10,13 +10,12 @@ from pathlib import Path
 from chatrobot.cli.approver import Approver
 from chatrobot.cli.choices import setup_from
 from chatrobot.cli.conversation import Conversation
-from chatrobot.cli.editor import edited_text
+from chatrobot.cli.editing import edited_text
 from chatrobot.cli.folders import config_folder, profile_folders
-from chatrobot.cli.json_lines import json_line
+from chatrobot.cli.json_lines import json_line, printer_for
 from chatrobot.cli.keyboard import Keyboard
 from chatrobot.cli.lines import has_keyboard
-from chatrobot.cli.parameter_files import with_parameter_files
-from chatrobot.cli.printer import printer_for
+from chatrobot.cli.parameters import with_parameter_files
 from chatrobot.core.errors import UsageError
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring
@@ -28,7 +27,7 @@ _READ_BYTES = 1_000_000
 
 
 def run(args: argparse.Namespace) -> int:
-    """The exit code of the last turn, or 0 where nothing was to be driven.
+    """Return the exit code of the last turn, or 0 where nothing was to be driven.
 
     Raises:
         InputError: there is no such program, file or folder.
@@ -66,7 +65,7 @@ def _say(conversation: Conversation, draft_of: Callable[[Authoring], Draft], giv
 
 
 def _given(args: argparse.Namespace) -> list[str]:
-    """The program's own command line, its parameter files read: in the sandbox it can open none.
+    """Return the program's own command line, its parameter files read: in the sandbox it can open none.
 
     Raises:
         InputError: it cannot be given to a program.
@@ -84,11 +83,11 @@ def _read(path: Path) -> str:
         with path.open("rb") as file:
             data = file.read(_READ_BYTES)
     except OSError as error:
-        raise UsageError(f"it cannot be read ({error.strerror})", where=str(path)) from error
+        raise UsageError(f"cannot be read ({error.strerror})", where=str(path)) from error
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise UsageError("it is no text in UTF-8", where=str(path)) from error
+        raise UsageError("not UTF-8 text", where=str(path)) from error
 
 
 def _drive(args: argparse.Namespace, say: Callable[[Conversation], int]) -> int:
@@ -183,7 +182,7 @@ def _edit(args: argparse.Namespace) -> int:
         print("Nothing was changed.")
         return 0
     library.edit(program.name, source)
-    print(f"“{program.name}” is changed; it is rehearsed anew when it runs.")
+    print(f"Saved “{program.name}”. It is rehearsed again when it runs.")
     return 0
 
 
@@ -191,7 +190,7 @@ def _rename(args: argparse.Namespace) -> int:
     library = _library(args)
     old = library.get(args.name).name
     library.rename(old, args.to)
-    print(f"“{old}” is now “{clean_name(args.to)}”.")
+    print(f"Renamed “{old}” to “{clean_name(args.to)}”.")
     return 0
 
 
@@ -199,7 +198,7 @@ def _remove(args: argparse.Namespace) -> int:
     library = _library(args)
     name = library.get(args.name).name
     library.remove(name)
-    print(f"“{name}” is gone.")
+    print(f"Removed “{name}”.")
     return 0
 
 

@@ -19,7 +19,7 @@ from chatrobot.wire.runtime_dir import runtime_dir
 
 
 def run(args: argparse.Namespace) -> int:
-    """Until Ctrl-C, or until everybody who drove it has left; the exit code of its process."""
+    """Run until Ctrl-C, or until everybody who drove it has left; return the exit code of its process."""
     address, path = _wire(args)
     robot: subprocess.Popen[bytes] | None = None
     asked_to_end = False
@@ -50,18 +50,18 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _wire(args: argparse.Namespace) -> tuple[str, str]:
-    """The address of a wire that is there, or else empty; and the socket where it serves a wire of its own."""
+    """Return the address of a wire that is there, or else empty; and the socket where it serves a wire of its own."""
     path = args.socket if getattr(args, "socket", None) else str(runtime_dir() / f"sim-{os.getpid()}.wire")
     address = "" if args.on in ("auto", "sim") else wire_address(args.on)
     if address.startswith("local:"):
         path, address = address.partition(":")[2], ""
     if args.ros_args and not address.startswith("ros:"):
-        raise UsageError("only a ROS node takes these", where="--ros-args", allowed="with --on ros")
+        raise UsageError("only a ROS node takes ROS arguments", where="--ros-args", allowed="with --on ros")
     return address, path
 
 
 def _start(args: argparse.Namespace, address: str, path: str) -> subprocess.Popen[bytes]:
-    """In a session of its own: a terminal's signals come here, and this command ends it."""
+    """Start it in a session of its own: a terminal's signals come here, and this command ends it."""
     profile = profile_argument(args.robot, profile_folders(args))
     return subprocess.Popen(
         [
@@ -81,5 +81,5 @@ def _tell(robot: str, address: str, path: str) -> None:
         print(f"the simulated {robot} is on {address.rstrip(':')}; it ends with Ctrl-C", flush=True)
         return
     print(f"the simulated {robot} answers on {path}", flush=True)
-    leaves = "it ends with Ctrl-C, 15 s after now if nobody comes, or 2 s after the last one has left"
+    leaves = "it ends with Ctrl-C, after 15 s if nobody connects, or 2 s after the last one has left"
     print(leaves, flush=True)

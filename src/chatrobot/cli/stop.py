@@ -14,16 +14,16 @@ ANSWER_S = 1.0
 """Motion answers as soon as its zero is out; one that has not after this long is frozen."""
 
 _ANSWERS = {
-    b"moving": "stopped: it was moving, and zeros go on until it is seen standing",
-    b"waiting": "it was standing; what it was told to do is not done any more, and zeros were sent",
-    b"standing": "it was standing already; zeros were sent all the same",
+    b"moving": "Stopped. It was moving; zero velocities continue until odometry shows it standing.",
+    b"waiting": "It was standing. Queued instructions are dropped, and zero velocities were sent.",
+    b"standing": "It was already standing. Zero velocities were sent all the same.",
     b"unseen": "Stop sent. There is no odometry, so I cannot confirm that the robot stopped.",
 }
 """What Motion found, by odometry, when the zero was out."""
 
 
 def run(_: object = None) -> int:
-    """Exit code 0 where everything that runs has stopped, or nothing runs; 1 where something does not answer."""
+    """Return 0 where everything that runs has stopped, or nothing runs; 1 where something does not answer."""
     # To connect is to be heard: all of them stop before the first answer is waited for.
     callers = [(path, caller) for path in stop_socket_paths() if (caller := _call(path)) is not None]
     if not callers:
@@ -34,7 +34,7 @@ def run(_: object = None) -> int:
 
 
 def _call(path: Path) -> socket.socket | None:
-    """A line to the Motion behind `path`; None where it has left."""
+    """Connect to the Motion behind `path`; None where it has left."""
     caller = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
     caller.settimeout(ANSWER_S)
     try:

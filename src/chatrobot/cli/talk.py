@@ -10,15 +10,14 @@ from typing import Any
 from chatrobot.cli.approver import Approver
 from chatrobot.cli.choices import setup_from
 from chatrobot.cli.conversation import Conversation
-from chatrobot.cli.lines import LineReader
-from chatrobot.cli.printer import printer_for
-from chatrobot.cli.typed_ahead import TypedAhead
+from chatrobot.cli.json_lines import printer_for
+from chatrobot.cli.lines import LineReader, TypedAhead
 from chatrobot.core.events import Notice
 from chatrobot.core.reason import Reason
 
 
 def run(args: argparse.Namespace) -> int:
-    """The exit code of the last turn."""
+    """Return the exit code of the last turn."""
     setup = setup_from(args, programs=True)
     if sys.stdin.isatty() and not args.json:
         from chatrobot.cli.console.app import run_console

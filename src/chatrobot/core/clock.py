@@ -1,4 +1,4 @@
-"""Time as a parameter: the same code runs in real time and as fast as it goes."""
+"""Time as a parameter, and the periods that all of us keep: code runs in real time and as fast as it goes alike."""
 
 from __future__ import annotations
 
@@ -6,7 +6,18 @@ import time
 from typing import Protocol
 
 TICK_S = 0.02
-"""The control period: 50 Hz."""
+"""The control period, 50 Hz: of Motion's loop and its beats to the guard, of the governor and of rehearsal."""
+
+BEAT_HZ = 10.0
+TERM_S = 0.3
+"""A source beats at `BEAT_HZ`; after `TERM_S` without a beat the robot is told to stand."""
+
+LOCAL_BEAT_HZ = 25.0
+LOCAL_TERM_S = 0.18
+"""On one machine beats are cheap, and a frozen console must be noticed so that zeros arrive within 250 ms."""
+
+PRESENCE_S = 0.1
+"""So often every Motion says on its topic that it is there."""
 
 _BOOT_CLOCK: int = getattr(time, "CLOCK_BOOTTIME", time.CLOCK_MONOTONIC)
 

@@ -8,13 +8,12 @@ from dataclasses import replace
 from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Event, Interpreted, Notice, Paused
 from chatrobot.core.reason import Reason
-from chatrobot.dialogue.goal_client import GoalClient
+from chatrobot.dialogue.goal_client import GoalClient, RequestLog
 from chatrobot.dialogue.llm.requests import ModelRequests
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.dialogue.programs.requests import ProgramRequests
-from chatrobot.dialogue.proposals import Proposals
+from chatrobot.dialogue.question import Proposals
 from chatrobot.dialogue.replies import describe_waiting, parting
-from chatrobot.dialogue.request_log import RequestLog
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.dialogue.utterances import Utterance, UtteranceQueue

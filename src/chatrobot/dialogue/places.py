@@ -1,17 +1,28 @@
-"""Places a person has named, kept between sessions, each with the odometry epoch its coordinates belong to."""
+"""Places a person has named, each with the odometry epoch its coordinates belong to; and how far it is to a place."""
 
 from __future__ import annotations
 
+import itertools
 import json
+import math
 import os
 from collections.abc import Mapping
+from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from chatrobot.core.errors import InputError
 from chatrobot.core.geometry import Pose
 from chatrobot.core.shown import one_line
 from chatrobot.language.context import Place
+from chatrobot.plan.context import Route
 from chatrobot.plan.primitives.drive import MAX_PLACE_CHARS
+from chatrobot.robots.profile import RobotProfile
+from chatrobot.sim.world import World
+
+if TYPE_CHECKING:
+    from chatrobot.plan.context import RoutePlanner
+
 
 _FILE = "places.json"
 
@@ -81,3 +92,25 @@ class Places:
         beside = self._path.with_suffix(".new")
         beside.write_text(json.dumps(robots, ensure_ascii=False, indent=1), encoding="utf-8")
         os.replace(beside, self._path)
+
+
+class MapWays:
+    """Ways of one robot in one world. numpy is loaded with the first question, not with the console."""
+
+    def __init__(self, world: World, profile: RobotProfile) -> None:
+        self._world = world
+        self._profile = profile
+
+    @cached_property
+    def _planner(self) -> RoutePlanner:
+        from chatrobot.plan.route import GridRoutePlanner
+
+        return GridRoutePlanner(self._world, self._profile)
+
+    def __call__(self, start: Pose, goal: Pose) -> float | None:
+        """Metres; None where there is no free way."""
+        way = self._planner.route(start, (goal.x_m, goal.y_m), named_place=True)
+        if not isinstance(way, Route):
+            return None
+        points = [(start.x_m, start.y_m), *way.waypoints]
+        return sum(math.dist(one, other) for one, other in itertools.pairwise(points))

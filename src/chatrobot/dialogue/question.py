@@ -1,13 +1,25 @@
-"""The question whether to do a rehearsed plan: one piece for the console, the terminal and the nodes.
+"""Questions that wait for a yes: about a rehearsed plan, and about a plan that the last reply offered.
 
-Motion decides what a yes is worth, and how long (`approval.py`).
+Motion decides what a yes to a rehearsed plan is worth, and how long (`link/approval.py`). A yes to an offer may say how
+fast: `sure, but slowly`.
 """
 
 from __future__ import annotations
 
-from typing import Protocol
+import time
+from collections.abc import Callable
+from typing import NamedTuple, Protocol
 
-from chatrobot.core.events import Event, Finished, Paused, Rehearsed, Started
+from chatrobot.core.events import Event, Finished, Paused, Rehearsed, Result, Started
+from chatrobot.core.proposal import Proposal
+from chatrobot.dialogue.understanding import Understanding
+from chatrobot.dialogue.utterances import Utterance
+from chatrobot.language.consent import after_consent, read_consent
+from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.phrases import render_reason, say
+from chatrobot.link.approval import Approval
+from chatrobot.plan.steps import Plan
+from chatrobot.plan.text import parse_plan
 
 
 class Approving(Protocol):
@@ -48,3 +60,58 @@ class Question:
             return False
         session.approve(asked.turn, yes)
         return True
+
+
+class _Offered(NamedTuple):
+    """`turn` offered the plan; `approval` says until when, and from where, a yes counts."""
+
+    turn: int
+    proposal: Proposal
+    approval: Approval
+
+
+class Proposals:
+    """Keeps the plan that waits for an answer. Belongs to the pumping thread.
+
+    Args:
+        is_void_turn: whether a stop came after that turn was said.
+    """
+
+    def __init__(self, understanding: Understanding, is_void_turn: Callable[[int], bool]) -> None:
+        self._understanding = understanding
+        self._is_void_turn = is_void_turn
+        self._offered: _Offered | None = None
+
+    def declines_motion(self, text: str) -> bool:
+        """Whether `text` says no to what moves, and not to an offer. From any thread."""
+        return self._offered is None and read_consent(text) is False
+
+    def hear(self, event: Event) -> None:
+        """A result may offer a plan; a motion makes an earlier offer void."""
+        if isinstance(event, Result) and event.proposal is not None:
+            approval = Approval(time.monotonic(), event.pose)
+            self._offered = _Offered(event.turn, event.proposal, approval)
+        elif isinstance(event, Started):
+            self._offered = None
+
+    def answered(self, utterance: Utterance) -> Interpretation | None:
+        """What `utterance` means as the answer to the offer; None where it is none. The offer is over in any case."""
+        offered, self._offered = self._offered, None
+        if offered is None or utterance.kind != "text" or self._is_void_turn(offered.turn):
+            return None
+        yes, plan = read_consent(utterance.text), parse_plan(offered.proposal.plan_text)
+        changed = self._changed(plan, utterance.text) if yes is None else plan
+        if changed is None:
+            return None
+        language = self._understanding.language
+        if yes is False:
+            return Interpretation("answered", say(language, "offer_declined"), language)
+        lapse = offered.approval.lapsed(utterance.at_s, self._understanding.pose)
+        if lapse is not None:
+            return Interpretation("refused", render_reason(lapse, language), language)
+        return self._understanding.accept(changed)
+
+    def _changed(self, plan: Plan, text: str) -> Plan | None:
+        """The plan as a yes with a manner wants it (`sure, but slowly`); None for anything else."""
+        manner = after_consent(text)
+        return self._understanding.with_manner(plan, manner) if manner else None

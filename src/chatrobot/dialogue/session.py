@@ -15,22 +15,20 @@ from chatrobot.core.events import Event, Finished, Notice, Paused, Remembered, R
 from chatrobot.core.motion_budget import OPEN_LOOP
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.dispatch import Dispatch
-from chatrobot.dialogue.goal_client import GoalClient
+from chatrobot.dialogue.goal_client import GoalClient, RequestLog
 from chatrobot.dialogue.llm.requests import ModelRequests
 from chatrobot.dialogue.llm.setup import ModelSetup
 from chatrobot.dialogue.llm.terms import Ended
-from chatrobot.dialogue.next_utterance import EarlyAnswers, NextUtterance
 from chatrobot.dialogue.observations import measured
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.dialogue.programs.requests import ProgramRequests
-from chatrobot.dialogue.proposals import Proposals
+from chatrobot.dialogue.question import Proposals
 from chatrobot.dialogue.replies import with_offer
-from chatrobot.dialogue.request_log import RequestLog
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
-from chatrobot.dialogue.utterances import Kind, Utterance, UtteranceQueue
+from chatrobot.dialogue.utterances import EarlyAnswers, Kind, NextUtterance, Utterance, UtteranceQueue
 from chatrobot.link.motion_link import MotionLink
 from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
@@ -82,12 +80,13 @@ class Session:
             understanding,
             self._resuming,
             EarlyAnswers(understanding, self._llm, self._requests, authoring),
+            lambda: self._is_writing,
         )
         self._programs: ProgramRequests | None = None
         if authoring is not None:
             is_void = self._utterances.is_void_turn
             self._programs = ProgramRequests(
-                authoring, understanding, self._requests, self._goals, self._emit, is_void
+                authoring, understanding, self._requests, self._goals, link, self._emit, is_void, self._finish
             )
         self._dispatch = Dispatch(
             link, self._goals, self._utterances, understanding, self._requests, self._proposals, self._resuming,
@@ -160,8 +159,8 @@ class Session:
         self._utterances.hold(is_under_way=self.is_moving or self._llm.is_busy)
         self._link.send("stop", why=why, keep=True)
         self._llm.cancel_unmoved(Reason("paused_by", {"why": why}))
-        if self.authoring is not None:
-            self.authoring.cancel()
+        if self._programs is not None:
+            self._programs.cancel()
 
     def resume(self) -> int:
         """Go on with what is paused; the number of the turn that says so."""
@@ -175,8 +174,8 @@ class Session:
     def _cancel_asking(self) -> None:
         """End what models are being asked."""
         self._llm.cancel(self._utterances.stopped_by)
-        if self.authoring is not None:
-            self.authoring.cancel()
+        if self._programs is not None:
+            self._programs.cancel()
 
     def release(self) -> None:
         """Release an emergency stop. For the local console alone."""
@@ -201,7 +200,7 @@ class Session:
     @property
     def model_wait_s(self) -> float | None:
         """For how long a model has been asked by now, for a plan or a program; None where none is."""
-        writing_at_s = self.authoring.asked_at_s if self.authoring is not None else None
+        writing_at_s = self._programs.asked_at_s if self._programs is not None else None
         asked_at_s = writing_at_s if writing_at_s is not None else self._llm.asked_at_s
         return time.monotonic() - asked_at_s if asked_at_s is not None else None
 
@@ -223,19 +222,27 @@ class Session:
     @property
     def waits_for_a_word(self) -> bool:
         """A plan is paused, and nothing happens before somebody says something."""
-        return self.is_paused and not self._llm.is_calling and self._find_next() is None
+        is_asking = self._llm.is_calling or self._is_writing
+        return self.is_paused and not is_asking and self._find_next() is None
 
     @property
     def is_idle(self) -> bool:
-        return (
-            not self._requests.is_any_with_motion and not self._utterances.waiting and not self._llm.is_busy
-        )
+        """True where nothing runs, is thought about or waits."""
+        is_thinking = self._llm.is_busy or self._is_writing
+        return not (self._requests.is_any_with_motion or self._utterances.waiting or is_thinking)
+
+    @property
+    def _is_writing(self) -> bool:
+        return self._programs is not None and self._programs.is_writing
 
     # --- the pumping thread ---
 
     def do(self, text: str) -> Result:
         """Say it and see it through: the result of its turn."""
-        turn = self.say(text)
+        return self.see_through(self.say(text))
+
+    def see_through(self, turn: int) -> Result:
+        """Let things happen until that turn has its result."""
         while turn not in self.results:
             self.pump(0.1)
         return self.results[turn]
@@ -246,20 +253,34 @@ class Session:
         Raises:
             LinkError: Motion is gone.
         """
-        self._llm.pump()
+        self._hear_models()
         self._take_texts()
-        if self._llm.is_calling and self._link.is_simulated and not self._requests.is_any_with_motion:
-            self._llm.wait(timeout_s)  # a model thinks in no time at all
-            self._llm.pump()
+        if self._link.is_simulated and self._wait_for_model(timeout_s):
+            self._hear_models()
             timeout_s = 0.0
         event = self._link.next_event(0.0 if self._find_next() is not None else timeout_s)
         while event is not None:
             self._hear(event)
             event = self._link.next_event(0.0)
-        self._llm.pump()
+        self._hear_models()
         if self._link.is_lost:
             raise LinkError("Motion is gone, and its guard sends the robot zeros. Start chatrobot again.")
         self._take_texts()
+
+    def _hear_models(self) -> None:
+        self._llm.pump()
+        if self._programs is not None:
+            self._programs.pump()
+
+    def _wait_for_model(self, timeout_s: float) -> bool:
+        """Wait for a model that thinks or writes, while simulated time stands; False where none does."""
+        if self._programs is not None and self._programs.is_writing:
+            self._programs.wait(timeout_s)
+        elif self._llm.is_calling and not self._requests.is_any_with_motion:
+            self._llm.wait(timeout_s)
+        else:
+            return False
+        return True
 
     def close(self) -> None:
         """Goodbye: what runs is still done."""

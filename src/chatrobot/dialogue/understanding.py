@@ -13,16 +13,15 @@ from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Finished, Outcome, Remembered, Telemetry
 from chatrobot.core.geometry import ZERO_TWIST, Pose
 from chatrobot.core.reason import Reason
-from chatrobot.dialogue.map_ways import MapWays
-from chatrobot.dialogue.places import Places
+from chatrobot.dialogue.places import MapWays, Places
 from chatrobot.dialogue.replies import describe_end, describe_model_end
-from chatrobot.dialogue.rest_watch import UNMEASURED, RestWatch
 from chatrobot.language.context import Context, Dialogue, RobotState
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.language.ledger import Entry, TurnRecord
 from chatrobot.language.normalise import has_chinese
 from chatrobot.language.phrases import describe_steps, render_reason, say
+from chatrobot.link.approval import LAPSES_AFTER_M, LAPSES_AFTER_RAD
 from chatrobot.plan.steps import Plan, Step
 from chatrobot.plan.text import parse_plan
 from chatrobot.robots.profile import RobotProfile
@@ -30,6 +29,46 @@ from chatrobot.sim.world import World
 
 if TYPE_CHECKING:
     from chatrobot.dialogue.llm.terms import Ended
+
+
+MOVED = "cannot_undo_moved"
+ODOMETRY_ANEW = "cannot_undo_odometry_anew"
+UNMEASURED = "cannot_undo_unmeasured"
+
+
+class RestWatch:
+    """Watches whether the robot still stands where our last turn left it, and in the same odometry.
+
+    Each method returns why what was done before cannot be undone any more: a code, empty while it can.
+    """
+
+    def __init__(self) -> None:
+        self._rest: Pose | None = None
+        self._odometry_epoch: int | None = None
+
+    def hear(self, event: Telemetry, *, is_ours: bool) -> str:
+        """`is_ours`: a turn of ours moves the robot, or may."""
+        before, self._odometry_epoch = self._odometry_epoch, event.odometry_epoch
+        if before is not None and before != event.odometry_epoch:
+            return ODOMETRY_ANEW
+        return "" if is_ours else self._displaced(event.pose)
+
+    def begin(self, finished: Finished) -> str:
+        """That turn has ended: was the robot moved before it began?"""
+        return self._displaced(finished.start)
+
+    def end(self, finished: Finished) -> str:
+        """That turn has ended: does somebody else drive on?"""
+        self._rest = finished.pose
+        handed_over = finished.reason is not None and finished.reason.code == "handed_over"
+        return MOVED if handed_over else ""
+
+    def _displaced(self, pose: Pose) -> str:
+        rest = self._rest
+        if rest is None:
+            return ""
+        off_rad = abs(pose.yaw_rad - rest.yaw_rad)
+        return MOVED if pose.distance_to(rest) > LAPSES_AFTER_M or off_rad > LAPSES_AFTER_RAD else ""
 
 
 class Instruction(NamedTuple):
@@ -58,15 +97,16 @@ class Understanding:
         self._interpreter = OfflineInterpreter(profile)
         self._dialogue = Dialogue()
         self._state = RobotState(has_said_so=False, is_measured=profile.has_odometry)
-        self._world_places = {alias: world.places[main] for alias, main in world.aliases.items()}
-        self._main_places = dict(world.places)
+        self.world_places = {alias: world.places[main] for alias, main in world.aliases.items()}
+        self.main_places = dict(world.places)
+        """The places of the world, each once."""
         self._ways = MapWays(world, profile) if world.obstacles else None
         self._names = tuple(world.names_of(name) for name in world.places)
         self._without_heading = frozenset(
             alias for alias, main in world.aliases.items() if main in world.without_heading
         )
         # The simulated robot's odometry begins anew with every session, as a real one's does at power-on.
-        self._places = Places(folder, profile.name, uuid.uuid4().hex)
+        self.places = Places(folder, profile.name, uuid.uuid4().hex)
         self._rest = RestWatch()
         self._started = False
         self.language: LanguageCode = "en"
@@ -82,22 +122,9 @@ class Understanding:
         return self._state.pose if self._state.has_said_so else None
 
     @property
-    def places(self) -> Places:
-        return self._places
-
-    @property
-    def world_places(self) -> dict[str, Pose]:
-        return self._world_places
-
-    @property
-    def main_places(self) -> dict[str, Pose]:
-        """The places of the world, each once."""
-        return self._main_places
-
-    @property
     def usable_places(self) -> dict[str, Pose]:
         """The places a person has named, as far as their coordinates still hold."""
-        return {name: place.pose for name, place in self._places.all().items() if place.usable}
+        return {name: place.pose for name, place in self.places.all().items() if place.usable}
 
     def warm(self) -> None:
         """Load the words now, while somebody waits for something else anyway: the first sentence is then quick."""
@@ -107,7 +134,7 @@ class Understanding:
     def interpret(self, text: str, under_way: Sequence[Instruction] = ()) -> Interpretation:
         """What `text` means now. Instructions that are under way are read as turns before."""
         turns = (*self._dialogue.turns, *map(self._as_if_done, under_way))
-        dialogue = replace(self._dialogue, turns=turns, places=self._places.all())
+        dialogue = replace(self._dialogue, turns=turns, places=self.places.all())
         meant = self._interpreter.interpret(text, self._context(dialogue))
         self.language = meant.language
         if meant.remember_place and not self.hears_robot:  # nobody knows which place this is
@@ -117,11 +144,11 @@ class Understanding:
 
     def _context(self, dialogue: Dialogue) -> Context:
         without_heading = self._without_heading - dialogue.places.keys()
-        return Context(dialogue, self._state, self._world_places, without_heading, self._names, self._ways)
+        return Context(dialogue, self._state, self.world_places, without_heading, self._names, self._ways)
 
     def can_do(self, text: str) -> bool:
         """Whether `text` would be driven if it were said now. From any thread: nothing is noted."""
-        dialogue = replace(self._dialogue, places=self._places.all())
+        dialogue = replace(self._dialogue, places=self.places.all())
         return self._interpreter.interpret(text, self._context(dialogue)).outcome == "plan"
 
     def place_names(self) -> list[tuple[str, ...]]:
@@ -218,14 +245,14 @@ class Understanding:
             self._dialogue = replace(self._dialogue, start_pose=event.pose)
 
     def note_place(self, event: Remembered) -> None:
-        self._places.add(event.place, event.pose)
+        self.places.add(event.place, event.pose)
 
     def note_unmoved(self, text: str, meant: Interpretation) -> None:
         """A turn that ended without motion: refused, unclear or answered; it may still have taught us something."""
         if meant.outcome == "answered":
             self._learn(meant)
             if meant.remember_place:
-                self._places.add(meant.remember_place, self._state.pose)
+                self.places.add(meant.remember_place, self._state.pose)
         outcomes: dict[str, Outcome] = {"unclear": "unclear", "refused": "refused", "answered": "answered"}
         self._record(TurnRecord(text, outcomes.get(meant.outcome, "stopped")))
         pending = text if meant.outcome == "unclear" else ""

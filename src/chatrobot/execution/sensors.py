@@ -16,8 +16,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.execution.estimator import Estimate, PoseEstimator
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.messages import Flag, Imu, LaserScan, Number, Odometry
-from chatrobot.wire.sensor_topics import subscribe_sensors
-from chatrobot.wire.wire import Wire
+from chatrobot.wire.wire import Wire, subscribe_sensors
 
 STEADY_SHARE = 0.1
 STEADY_S = 0.15

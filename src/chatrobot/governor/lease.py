@@ -49,14 +49,6 @@ def priority_of(source: str) -> Priority:
     return PRIORITIES.get(source, Priority.FOREIGN)
 
 
-BEAT_HZ = 10.0
-TERM_S = 0.3
-"""A source beats at `BEAT_HZ`; after `TERM_S` without a beat the robot is told to stand."""
-
-LOCAL_BEAT_HZ = 25.0
-LOCAL_TERM_S = 0.18
-"""On one machine beats are cheap, and a frozen console must be noticed so that zeros arrive within 250 ms."""
-
 LATE_S = 0.05
 """So long before its term ends a lease's beat is late: the robot goes slower."""
 OVER_S = 0.45

@@ -14,14 +14,14 @@ import sys
 import time
 from collections.abc import Callable
 
-from chatrobot.core.clock import awake_or_not_s
+from chatrobot.core.clock import TICK_S, awake_or_not_s
 from chatrobot.core.errors import WireError
 from chatrobot.core.memory_pressure import GUARD, prefer
 from chatrobot.core.scheduling import wake_promptly
 from chatrobot.core.wiring import Wiring
 from chatrobot.guard.departure import Departure
-from chatrobot.guard.watch import BEAT_S, GOODBYE, HANDSHAKE, TRIPPED, Watch
-from chatrobot.wire.connect import Returning, advertise, comes_back, connect_wire
+from chatrobot.guard.watch import GOODBYE, HANDSHAKE, TRIPPED, Watch
+from chatrobot.wire.connect import connect_wire
 from chatrobot.wire.messages import Odometry, TwistMessage
 from chatrobot.wire.wire import Wire
 
@@ -65,7 +65,7 @@ class Guard:
         self._motion_is_gone = False
         self.on_loss: Callable[[], None] = lambda: None
         """Called once when Motion is gone without a goodbye."""
-        advertise(wire, cmd_vel_topic, TwistMessage)
+        wire.advertise(cmd_vel_topic, TwistMessage)
         self._unheard_odom_topic = odom_topic
 
     def run(self) -> None:
@@ -87,12 +87,8 @@ class Guard:
         try:
             self._wire.publish(self._topic, ZERO)
         except WireError:
-            if not comes_back(self._wire):
+            if not self._wire.comes_back:
                 raise
-
-    def _could_halt(self) -> bool:
-        """Our own end of the wire is there, as far as it can know."""
-        return self._wire.is_connected if isinstance(self._wire, Returning) else True
 
     def _may_leave(self, now_s: float, tripped_at_s: float) -> bool:
         self._hear_odometry()
@@ -112,7 +108,7 @@ class Guard:
     def _listen(self, timeout_s: float) -> bool:
         """Take in Motion's words for up to `timeout_s`; True for a goodbye."""
         if self._motion_is_gone:
-            time.sleep(BEAT_S)
+            time.sleep(TICK_S)
             return False
         readable, _, _ = select.select([self._line], [], [], timeout_s)
         if not readable:
@@ -130,7 +126,7 @@ class Guard:
             return True
         for word in words:
             self._watch.hear(bytes([word]), awake_or_not_s())
-        if not self._could_halt():
+        if not self._wire.is_connected:
             return False  # Motion takes our silence for what it is: nobody would halt the robot in its place
         echo = HANDSHAKE if HANDSHAKE in words else words[-1:]
         answer = TRIPPED if self._watch.state == "tripped" else echo

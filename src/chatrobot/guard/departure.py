@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from chatrobot.wire.connect import Discovering, Surveying
 from chatrobot.wire.wire import Wire
 
 LOOK_S = 0.05
@@ -24,9 +23,7 @@ class Departure:
     """
 
     def __init__(self, wire: Wire, cmd_vel_topic: str, odom_topic: str, *, is_near: bool) -> None:
-        self._wire: Surveying | None = None
-        if is_near and isinstance(wire, Discovering) and isinstance(wire, Surveying):
-            self._wire = wire
+        self._wire = wire if is_near and wire.sees_others_leave else None
         self._cmd_vel_topic = cmd_vel_topic
         self._odom_topic = odom_topic
         self._since_s: float | None = None
@@ -45,7 +42,7 @@ class Departure:
         elif self._since_s is None:
             self._since_s = now_s
 
-    def _is_there(self, wire: Surveying) -> bool:
+    def _is_there(self, wire: Wire) -> bool:
         ends = {(end.topic, end.role) for end in wire.survey()}
         if (wire.resolve(self._cmd_vel_topic), "listens") not in ends:
             return False

@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-BEAT_S = 0.02
-"""Motion beats with every tick of its control loop."""
+from chatrobot.core.clock import TICK_S
 
 MISSED_S = 0.17
 """This long without a beat is a trip: a tick may come 0.11 s after the last where three times as many threads as there
@@ -55,5 +54,5 @@ class Watch:
         if self.state == "idle":
             return MISSED_S
         if self.state == "tripped":
-            return BEAT_S
+            return TICK_S  # Motion beats with every tick of its control loop
         return max(0.0, self._last_beat_s + MISSED_S - now_s)

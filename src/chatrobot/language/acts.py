@@ -73,13 +73,15 @@ def orders(text: str, names: Names = ()) -> bool:
     return order_log_odds(read_acts(text, names)) >= ORDER
 
 
-def without_talk(text: str, names: Names = ()) -> str:
-    """A normalised text without the clauses that are only talk; an empty string where there is nothing to leave out."""
+def without_talk(text: str, names: Names = (), *, doubtful: bool = False) -> str:
+    """A normalised text without the clauses that are only talk; an empty string where there is nothing to leave out.
+
+    With `doubtful`, those that are rather talk than orders are left out, too.
+    """
     reads = read_acts(text, names)
-    talk = [read for read in reads if _is_talk(read)]
-    if not talk or len(talk) == len(reads) or order_log_odds(reads) < ORDER:
+    kept = [read.clause for read in reads if not _is_talk(read, MAYBE_ORDER if doubtful else TALK_OF_MOTION)]
+    if not kept or len(kept) == len(reads) or order_log_odds(reads) < ORDER:
         return ""
-    kept = [read.clause for read in reads if not _is_talk(read)]
     return " ".join(text[clause.start : clause.stop].strip() for clause in kept).strip(" ,;:")
 
 
@@ -94,9 +96,9 @@ def without_requests(text: str, names: Names = ()) -> str:
     return " ".join(parts) if found else ""
 
 
-def _is_talk(read: Read) -> bool:
+def _is_talk(read: Read, limit_of_motion: float) -> bool:
     clause = read.clause
-    limit = TALK_OF_MOTION if clause.moves else TALK
+    limit = limit_of_motion if clause.moves else TALK
     return clause.talks and not clause.binds and read.log_odds < limit
 
 

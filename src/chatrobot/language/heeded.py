@@ -9,6 +9,7 @@ else only the clauses around the change: to read all of it again for each of hun
 from __future__ import annotations
 
 import bisect
+import itertools
 from collections.abc import Callable, Sequence
 
 from chatrobot.language.tokens import Atom, quantity
@@ -33,7 +34,11 @@ _OPPOSITE = {
 _TAKEN_BACK = frozenset({"correction", "condition", "negation"})
 """Words after which what was said before may rightly count for nothing."""
 
-
+_DOINGS = frozenset({"uturn", "return", "face", "wait"})
+"""Verbs that do something by themselves, and are no manner of doing something else."""
+_RETURNING = frozenset({"undo", "trip"})
+"""What has a return in it already."""
+_LIGHT = frozenset({"filler", "glue", "sep", "conn", "reason"})
 _LONG = 40
 """So many amounts and directions are each asked about by themselves; it takes about a tenth of a second."""
 
@@ -51,6 +56,7 @@ def check_heeded(
     """
     if any(atom.kind in _TAKEN_BACK or (atom.kind, atom.value) == ("flag", "instead") for atom in atoms):
         return
+    _check_clauses(atoms, steps, read)
     asked = [(i, changed) for i, atom in enumerate(atoms) if (changed := _changed(atom, atoms)) is not None]
     asked = [(i, changed) for i, changed in asked if not _is_adverb(atoms, i)]
     if len(asked) > _LONG:
@@ -62,6 +68,28 @@ def check_heeded(
             continue  # it matters
         if list(other) == list(steps):
             raise Unclear("unclear_motion", atoms[i].text)
+
+
+def _check_clauses(
+    atoms: Sequence[Atom], steps: Sequence[Step], read: Callable[[list[Atom]], Sequence[Step]]
+) -> None:
+    """Ask back where a clause that names a motion without an amount or a way can be left out for nothing."""
+    breaks = [-1, *(i for i, a in enumerate(atoms) if a.kind in ("sep", "conn")), len(atoms)]
+    if not 3 <= len(breaks) <= _LONG:
+        return
+    for before, end in itertools.pairwise(breaks):
+        doing = {a.value for a in atoms[before + 1 : end] if a.kind == "verb"} & _DOINGS
+        others = [a for i, a in enumerate(atoms) if not before < i < end and a.kind not in _LIGHT]
+        if not doing or not others or any(_changed(a, atoms) for a in atoms[before + 1 : end]):
+            continue
+        if any((a.kind == "verb" and a.value in doing) or a.value in _RETURNING for a in others):
+            continue  # said again: `wait, wait 2 s`
+        try:
+            other = read([*atoms[: before + 1], *atoms[end:]])
+        except Unclear:
+            continue
+        if list(other) == list(steps):
+            raise Unclear("unclear_motion", " ".join(a.text for a in atoms[before + 1 : end]))
 
 
 def _not_seen_nearby(

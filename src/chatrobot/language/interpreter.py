@@ -43,7 +43,7 @@ from chatrobot.language.tokens import tokenise
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.unfinished import check_consistent
-from chatrobot.plan.steps import Plan
+from chatrobot.plan.steps import Plan, Step, Wait
 from chatrobot.plan.text import format_plan
 from chatrobot.robots.profile import RobotProfile
 
@@ -126,14 +126,23 @@ class OfflineInterpreter:
             if asked:
                 with contextlib.suppress(Unclear):
                     return self._interpreted(asked, language, context)
-            if problem.code in _OF_AN_ORDER and order_log_odds(read_acts(plain, names)) < MAYBE_ORDER:
+            reads = read_acts(plain, names)
+            asks = problem.code == "only_forbidden" and any(read.clause.asks for read in reads)
+            if (asks or problem.code in _OF_AN_ORDER) and order_log_odds(reads) < MAYBE_ORDER:
                 raise Unclear("nothing_to_do") from None
             raise
         if meant.outcome != "plan" or read_twists(plain):
             return meant
-        odds = order_log_odds(read_acts(plain, names))
+        reads = read_acts(plain, names)
+        odds = order_log_odds(reads)
         if odds < MAYBE_ORDER:
             raise Unclear("nothing_to_do")
+        rest = without_talk(plain, names, doubtful=True)
+        if rest:  # 左边太近了，往右平移: what tells of a side is hardly a turn
+            with contextlib.suppress(Unclear):
+                other = self._interpreted(rest, language, context)
+                if other.plan is not None and _moves(other.plan) != _moves(meant.plan):
+                    return proposed(other, language) or meant
         return meant if odds >= ORDER else proposed(meant, language) or meant
 
     def _interpreted(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
@@ -157,6 +166,10 @@ class OfflineInterpreter:
         if courtesy:
             return Interpretation("answered", say(language, f"answer_{courtesy}"), language, code=courtesy)
         return _in_words(plain, Reading(language, context, self._profile, facing_rad))
+
+
+def _moves(plan: Plan | None) -> list[Step]:
+    return [step for step in (plan.steps if plan is not None else ()) if not isinstance(step, Wait)]
 
 
 def _has_a_stop_line(text: str) -> bool:

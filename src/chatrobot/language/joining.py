@@ -96,6 +96,13 @@ def _is_by_the_way(turn: Frame) -> bool:
     return turn.text.split()[0].endswith("ing")
 
 
+def _is_beside_shape(frame: Frame) -> bool:
+    """`… and turn around`, `… and wait`, `… and go 1 m`: a motion of its own, not how a shape is drawn."""
+    told = frame.has_extent or (frame.sided and frame.joined == "and" and not _is_by_the_way(frame))
+    own = frame.verb in ("uturn", "return") or (frame.verb in (*GO, *TURN, *STILL) and told)
+    return own and not frame.shape
+
+
 def _belongs(last: Frame, first: Frame) -> bool:
     """Across a comma or an `and`."""
     if "count" in last.q and "length" in first.q and "each" not in first.flags and not last.shape:
@@ -105,7 +112,7 @@ def _belongs(last: Frame, first: Frame) -> bool:
     if first.shape and first.verb and last.verb == "turn" and last.sided and not _is_by_the_way(last):
         return False  # `turn left and draw a triangle`
     if last.shape or first.shape:
-        return not (last.shape and first.verb in (*GO, *TURN, *STILL, "return") and first.has_extent)
+        return not (_is_beside_shape(last) or _is_beside_shape(first))
     if first.joined == "and" and last.verb in STILL and first.moves:
         return False
     if last.verb in STILL and last.has_extent and not (set(first.q) <= MANNER and not first.moves):

@@ -24,7 +24,7 @@ _ON_SIDE_RAD = math.radians(67.5)
 _SIDES_DEG = {"ahead": 0.0, "left": 90.0, "behind": 180.0, "right": -90.0}
 _SECTORS = ("ahead", "ahead_left", "left", "behind_left", "behind", "behind_right", "right", "ahead_right")
 _FAR_OFF = 99
-_MOST_NAMED = 5
+_MOST_NAMED, _MOST_BESIDE = 5, 3
 
 
 class _Place(NamedTuple):
@@ -50,7 +50,8 @@ def answer_about_places(plain: str, language: LanguageCode, context: Context) ->
         if found is None:
             continue
         named = found.groupdict()
-        reply = _reply(kind, named.get("place") or "", named.get("side") or "", language, context)
+        place = named.get("place") or (_spoken_of(language, context) if kind == "it" else "")
+        reply = _reply(kind, place, named.get("side") or "", language, context)
         if reply:
             return Interpretation("answered", reply, language)
     return None
@@ -61,6 +62,8 @@ def _reply(kind: str, named: str, side: str, language: LanguageCode, context: Co
         return say(language, "answer_places", places=places_known(context, language))
     known = _known(context, language)
     place = known.get(_plain(named))
+    if kind == "it" and place is None:
+        return say(language, "which_place_asked", places=places_known(context, language))
     if kind != "nearest" and place is None:
         return _unknown(named, list(known), language, context) if _may_be_a_place(named, language) else ""
     unheard = unknown_pose(context)
@@ -74,10 +77,36 @@ def _reply(kind: str, named: str, side: str, language: LanguageCode, context: Co
         order = [other for other in order if _straight_m(other, context) > _HERE_M]
         return say(language, "place_nearest", text=_told(order[0], language, context)) if order else ""
     assert place is not None
+    if kind == "near":
+        return _beside(place, list(known.values()), language)
     told = _told(place, language, context)
     if not side:
         return told
     return say(language, "place_yes" if _is_on(place, side, language, context) else "place_no", text=told)
+
+
+def _beside(place: _Place, known: list[_Place], language: str) -> str:
+    """`Nearest to the sofa: table (1.20 m), door (2.00 m).`"""
+    off_m = {
+        other.name: math.hypot(other.pose.x_m - place.pose.x_m, other.pose.y_m - place.pose.y_m)
+        for other in known
+        if other.name != place.name
+    }
+    near = sorted(off_m, key=lambda name: off_m[name])[:_MOST_BESIDE]
+    if not near:
+        return say(language, "answer_places", places=place.name)
+    told = say(language, "join").join(f"{name} ({fixed(off_m[name], 2)} m)" for name in near)
+    return say(language, "place_beside", place=place.name, places=told)
+
+
+def _spoken_of(language: str, context: Context) -> str:
+    """The place that was named last: it is meant by `it`; an empty string where none was."""
+    known = sorted(_known(context, language), key=len, reverse=True)
+    for turn in reversed(context.dialogue.turns):
+        for name in known:
+            if re.search(rf"(?<![a-z]){re.escape(name)}(?![a-z])", _plain(turn.text)):
+                return name
+    return ""
 
 
 def _plain(name: str) -> str:
@@ -107,9 +136,9 @@ def _unknown(named: str, known: list[str], language: str, context: Context) -> s
     off = {name: edit_distance(_plain(named), name, _FAR_OFF) for name in known}
     near = [name for name in sorted(off, key=lambda name: off[name]) if off[name] * 2 < len(name)]
     if near:
-        return (
-            f"{reply} {say(language, 'places_near', places=say(language, 'join').join(near[:_MOST_NAMED]))}"
-        )
+        places = _known(context, language)
+        shown = list(dict.fromkeys(places[name].name for name in near))[:_MOST_NAMED]
+        return f"{reply} {say(language, 'places_near', places=say(language, 'join').join(shown))}"
     return f"{reply} {say(language, 'answer_places', places=places_known(context, language))}"
 
 

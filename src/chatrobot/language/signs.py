@@ -85,9 +85,14 @@ class Clause:
         return rest[0].start if is_request and rest and rest[0].moves else self.start
 
     @property
+    def asks(self) -> bool:
+        """`don't you …`, `did you …`: whether it begins as a question does."""
+        return self.signs[0].label == "ask"
+
+    @property
     def talks(self) -> bool:
         """Whether it has evidence of talk and no amount or shape that could be meant for what stands beside it."""
-        return not self.tells and any(sign.label in TALKING for sign in self.signs)
+        return not self.tells and any(sign.label in TALKING and not sign.moves for sign in self.signs)
 
     @property
     def tells(self) -> bool:

@@ -17,7 +17,8 @@ def check_start(frames: Sequence[Frame], dialogue: Dialogue) -> None:
     """
     last = next((turn for turn in reversed(dialogue.turns) if turn.outcome != "answered"), None)
     not_done = last is not None and last.outcome in ("unclear", "refused")
-    if last is not None and not_done and frames and all(_is_bare(frame) for frame in frames):
+    is_start = any(frame.verb for frame in frames) and all(_is_bare(frame) for frame in frames)
+    if last is not None and not_done and is_start:
         raise Unclear("not_done_before", last.text[:60])
 
 

@@ -9,11 +9,16 @@ from dataclasses import asdict, dataclass, field, replace
 from typing import Any, Literal
 
 from chatrobot.core.motion_budget import read_limit
+from chatrobot.core.reason import Reason
 from chatrobot.programs.ros_args import MOST_ARGS, MOST_CHARS
 
+PROTOCOL = 2
+"""What both halves have to agree on, in the greeting of each. Another number where one half could misunderstand the
+other; a stop is understood by all of them. Halves that say none are of release 0.1, and have number 1."""
+
 Word = Literal[
-    # {"term_s", "process"}: opens the lease. `process` (core/process.py) is who beats, so that a beat which a busy
-    # machine keeps back is told from a process that is stopped
+    # {"term_s", "process", "protocol"}: opens the lease. `process` (core/process.py) is who beats, so that a beat which
+    # a busy machine keeps back is told from a process that is stopped
     "hello",
     # {…, "age_s"}: keeps it; any word that names its term opens it for a Motion that came after the hello. `age_s`: how
     # long ago whoever gave the order was heard, where that is somebody else
@@ -107,8 +112,8 @@ def _is_args(value: object) -> bool:
 
 
 PAYLOADS: Mapping[str, Mapping[str, Callable[[object], bool]]] = {
-    "hello": {"term_s": _is_term, "process": _is_process},
-    "beat": {"term_s": _is_term, "process": _is_process, "age_s": _is_age},
+    "hello": {"term_s": _is_term, "process": _is_process, "protocol": _is_count},
+    "beat": {"term_s": _is_term, "process": _is_process, "protocol": _is_count, "age_s": _is_age},
     "plan": {
         "plan_text": _is_text,
         "mode": lambda value: value in MODES,
@@ -116,6 +121,7 @@ PAYLOADS: Mapping[str, Mapping[str, Callable[[object], bool]]] = {
         "rehearse_only": _is_flag,
         "more": _is_flag,
         "term_s": _is_term,
+        "protocol": _is_count,
         "longest_s": _is_term,
         "pauses": _is_count,
     },
@@ -132,6 +138,7 @@ PAYLOADS: Mapping[str, Mapping[str, Callable[[object], bool]]] = {
         "rehearse_only": _is_flag,
         "pauses": _is_count,
         "term_s": _is_term,
+        "protocol": _is_count,
     },
     "approve": {"yes": _is_flag},
     "stop": {"why": _is_text, "keep": _is_flag},
@@ -186,6 +193,12 @@ class Envelope:
         return replace(envelope, payload={}) if envelope.word in ("stop", "emergency_stop") else None
 
 
+def protocol_of(greeting: Mapping[str, Any]) -> int:
+    """Read the protocol of a half from what it says of itself; 1 where it says none."""
+    protocol = greeting.get("protocol", 1)
+    return protocol if type(protocol) is int else 1
+
+
 def _each_key_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """Who names a key twice means one of two things, and we would have to guess which. A stop is one in any case."""
     fields = dict(pairs)
@@ -208,5 +221,22 @@ def seconds(value: object, otherwise: float) -> float:
     return float(value) if is_number and 0.0 <= value <= _LONGEST_S else otherwise  # type: ignore[arg-type,operator]
 
 
-READY = b"ready"
-"""What Motion's process says once, when it has its robot and its guard."""
+_READY = b"ready"
+
+
+def ready() -> bytes:
+    """Make what Motion's process says once, when it has its robot and its guard."""
+    return _READY + f" {PROTOCOL}".encode()
+
+
+def read_ready(packet: bytes) -> int | None:
+    """Read the protocol of a Motion that is ready; None for anything else."""
+    if packet == _READY:
+        return 1
+    said, _, protocol = packet.partition(b" ")
+    return int(protocol) if said == _READY and protocol.isdigit() else None
+
+
+def other_protocol(*, motion: int, dialogue: int) -> Reason:
+    """Say why the halves cannot work together."""
+    return Reason("other_protocol", {"motion": motion, "dialogue": dialogue})

@@ -8,7 +8,7 @@ import uuid
 from typing import Any, Protocol
 
 from chatrobot.core.events import Event
-from chatrobot.link.envelope import Envelope, Word
+from chatrobot.link.envelope import PROTOCOL, Envelope, Word
 
 
 class MotionLink(Protocol):
@@ -60,6 +60,9 @@ class Sender:
         self._sequence = itertools.count(1)
 
     def envelope(self, word: Word, turn: int = 0, **payload: Any) -> Envelope:
+        """Make the next envelope; one that may open the lease says which protocol we speak."""
+        if word == "hello" or "term_s" in payload:
+            payload["protocol"] = PROTOCOL
         return Envelope(word, self.source, self.lease, next(self._sequence), turn, payload)
 
 

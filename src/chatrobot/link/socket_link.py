@@ -10,12 +10,12 @@ import threading
 import time
 from typing import Any
 
+from chatrobot.core.clock import LOCAL_BEAT_HZ, LOCAL_TERM_S
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import event_from_json
 from chatrobot.core.process import own_identity
 from chatrobot.core.scheduling import wake_promptly
-from chatrobot.governor.lease import LOCAL_BEAT_HZ, LOCAL_TERM_S
-from chatrobot.link.envelope import READY, Word
+from chatrobot.link.envelope import PROTOCOL, Word, read_ready
 from chatrobot.link.motion_link import EventQueue, Sender
 from chatrobot.link.processes import MotionProcess
 from chatrobot.wire.local import PACKET_BYTES
@@ -50,9 +50,15 @@ class SocketLink(EventQueue):
             ready = self._line.recv(PACKET_BYTES)
         except OSError:
             ready = b""
-        if ready != READY:
-            self.process.kill()
-            raise LinkError("Motion did not start")
+        protocol = read_ready(ready)
+        if protocol != PROTOCOL:
+            self.process.kill()  # nothing has been asked of it, so nothing moves; its guard sees to that
+            raise LinkError(
+                "Motion did not start"
+                if protocol is None
+                else f"Motion runs link protocol {protocol}, this process {PROTOCOL}:"
+                " install the same version of chatrobot on both sides"
+            )
         self._line.settimeout(None)
         self.send("hello", term_s=LOCAL_TERM_S, process=own_identity())
         threading.Thread(target=self._beat, name="beat", daemon=True).start()

@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+from chatrobot.core.clock import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S
 from chatrobot.core.errors import LinkError, WireError
 from chatrobot.core.events import (
     Finished,
@@ -26,11 +27,9 @@ from chatrobot.core.motion_budget import OPEN_LOOP
 from chatrobot.core.process import own_identity
 from chatrobot.core.reason import Reason
 from chatrobot.core.scheduling import wake_promptly
-from chatrobot.governor.lease import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S
-from chatrobot.link.envelope import Envelope, Word
+from chatrobot.link.envelope import PROTOCOL, Envelope, Word, other_protocol
 from chatrobot.link.motion_link import EventQueue, Sender
 from chatrobot.link.topics import CHATGPT_NODE, CONTROL, EVENTS, TELEMETRY, read_beat
-from chatrobot.wire.connect import advertise, comes_back
 from chatrobot.wire.messages import Text
 from chatrobot.wire.wire import Wire
 
@@ -73,6 +72,8 @@ class TopicLink(EventQueue):
         self._term_s = LOCAL_TERM_S if is_on_this_machine else TERM_S
         self._closed = threading.Event()
         self._controls: dict[str, float] = {}
+        self._strangers: dict[int, float] = {}
+        """When a control node of another protocol was last heard, by that."""
         self._control_came = threading.Condition()
         self._in_flight: dict[int, str] = {}
         self._pose: Pose = ORIGIN
@@ -81,7 +82,7 @@ class TopicLink(EventQueue):
 
     def open(self) -> None:
         """Listen, and begin to beat."""
-        advertise(self._wire, CHATGPT_NODE, Text)
+        self._wire.advertise(CHATGPT_NODE, Text)
         self._wire.subscribe(CONTROL, Text, self._hear_control)
         self._wire.subscribe(TELEMETRY, Text, self._hear_event)  # first: older than an end that comes with it
         self._wire.subscribe(EVENTS, Text, self._hear_event)
@@ -102,7 +103,7 @@ class TopicLink(EventQueue):
         if word == "program" or (word == "plan" and payload.get("mode") != "extend"):
             control = self._find_control()
             if control is None:
-                self._conclude(turn, "failed", Reason("no_control"))
+                self._conclude(turn, "failed", self._why_none())
                 return
             self._in_flight[turn] = control
         self._publish(self._sender.envelope(word, turn, **payload))
@@ -123,7 +124,10 @@ class TopicLink(EventQueue):
         about = read_beat(message.data)
         if about is not None:
             with self._control_came:
-                if self._sender.lease in about.hears:
+                if about.protocol != PROTOCOL:
+                    self._strangers[about.protocol] = time.monotonic()
+                    self._control_came.notify_all()
+                elif self._sender.lease in about.hears:
                     if about.open_loop is not None and about.id not in self._controls:
                         self._events.put(Notice(0, Reason(OPEN_LOOP, about.open_loop)))
                     self._controls[about.id] = time.monotonic()
@@ -137,8 +141,21 @@ class TopicLink(EventQueue):
     def _find_control(self) -> str | None:
         """A control node, waited for. That a wire knows it as a listener is not enough: it must have heard us."""
         with self._control_came:
-            self._control_came.wait_for(lambda: self._present() is not None, FIRST_ANSWER_S)
+            self._control_came.wait_for(
+                lambda: self._present() is not None or self._stranger() is not None, FIRST_ANSWER_S
+            )
         return self._present()
+
+    def _stranger(self) -> int | None:
+        """The protocol of a control node that beats, and is none for us."""
+        since_s = time.monotonic() - SILENT_S
+        return next((known for known, at_s in self._strangers.items() if at_s > since_s), None)
+
+    def _why_none(self) -> Reason:
+        stranger = self._stranger()
+        if stranger is None:
+            return Reason("no_control")
+        return other_protocol(motion=stranger, dialogue=PROTOCOL)
 
     def _hear_event(self, message: Text) -> None:
         try:
@@ -187,5 +204,5 @@ class TopicLink(EventQueue):
         try:
             self._wire.publish(CHATGPT_NODE, Text(envelope.to_bytes().decode()))
         except WireError as error:
-            if not comes_back(self._wire):
+            if not self._wire.comes_back:
                 raise LinkError("the wire to the robot is closed") from error

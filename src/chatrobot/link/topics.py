@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from typing import NamedTuple
 
+from chatrobot.link.envelope import PROTOCOL, protocol_of
+
 USER_INPUT = "user_input"
 """What a person says: text. Motion listens, too, for stop words."""
 
@@ -32,12 +34,13 @@ OPERATOR = "chatrobot/operator"
 
 class MotionBeat(NamedTuple):
     """What a Motion says of itself. `hears`: the leases of the sources it has heard. `open_loop`: the limits it drives
-    within where it drives open loop, else None."""
+    within where it drives open loop, else None. `protocol`: of its link."""
 
     id: str
     name: str
     hears: frozenset[str]
     open_loop: dict[str, float] | None = None
+    protocol: int = PROTOCOL
 
 
 def read_beat(text: str) -> MotionBeat | None:
@@ -51,7 +54,7 @@ def read_beat(text: str) -> MotionBeat | None:
     name = f"{data['node']} (process {data['pid']} on {data['host']})"
     hears = data.get("hears")
     leases = frozenset(map(str, hears)) if isinstance(hears, list) else frozenset[str]()
-    return MotionBeat(str(data["id"]), name[:120], leases, _numbers(data.get("open_loop")))
+    return MotionBeat(str(data["id"]), name[:120], leases, _numbers(data.get("open_loop")), protocol_of(data))
 
 
 def _numbers(values: object) -> dict[str, float] | None:

@@ -26,9 +26,9 @@ from pydantic_ai.messages import (
     UserPromptPart,
 )
 
+from chatrobot.models.failures import Place
 from chatrobot.models.providers import Provider
 from chatrobot.models.seam import CallLimits, Message, Usage
-from chatrobot.models.secret import Secret
 from chatrobot.models.web_client import allow, web_client
 
 warnings.filterwarnings("ignore", module=r"pydantic_ai\.")
@@ -61,9 +61,10 @@ class Request:
     ending: Ending = field(default_factory=Ending)
 
 
-def build(provider: Provider, name: str, address: str, secret: Secret | None) -> Any:
-    """The library's model of that provider. Touches no network; repeats no failed call by itself."""
-    key = secret.reveal() if secret else NO_KEY
+def build(place: Place) -> Any:
+    """Make the library's model for that place. Touches no network; repeats no failed call by itself."""
+    provider, name, address = place.provider, place.model, place.address
+    key = place.secret.reveal() if place.secret else NO_KEY
     client = web_client(address)
     if provider.wire == "anthropic":
         from anthropic import AsyncAnthropic
@@ -95,7 +96,7 @@ def build(provider: Provider, name: str, address: str, secret: Secret | None) ->
 
 
 def _habits(provider: Provider, client: Any) -> Any:
-    """The library's class for that provider; releases for Python 3.10 do not have all of them."""
+    """Return the library's class for that provider; releases for Python 3.10 do not have all of them."""
     module, _, class_name = provider.library.partition(":")
     try:
         kind = getattr(importlib.import_module(f"pydantic_ai.providers.{module}"), class_name)
@@ -109,7 +110,7 @@ def _habits(provider: Provider, client: Any) -> Any:
 
 
 async def stream(model: Any, provider: Provider, request: Request) -> AsyncIterator[str]:
-    """The pieces of text of one call; `request.ending` is filled in when it ends.
+    """Yield the pieces of text of one call; `request.ending` is filled in when it ends.
 
     Raises:
         Exception: whatever the library raises; `failures.reason_of` sorts it.
@@ -153,7 +154,7 @@ def _settings(provider: Provider, request: Request) -> Any:
 
 
 def _messages(messages: Sequence[Message]) -> list[ModelMessage]:
-    """Ours in the library's form. What the system says goes first, as instructions: caches of prompts hit."""
+    """Return ours in the library's form. What the system says goes first, as instructions: caches of prompts hit."""
     found: list[ModelMessage] = []
     for message in messages:
         if message.role == "assistant":
@@ -173,7 +174,7 @@ def _messages(messages: Sequence[Message]) -> list[ModelMessage]:
 
 
 def _usage(got: Any) -> Usage | None:
-    """As the provider counted it, or None."""
+    """Return it as the provider counted it, or None."""
     used = got.usage() if callable(got.usage) else got.usage
     if not (used.input_tokens or used.output_tokens):
         return None

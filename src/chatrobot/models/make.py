@@ -1,4 +1,4 @@
-"""`make_model("PROVIDER:NAME", config)`: a model behind the seam. Making one touches nothing; `warm` loads ahead."""
+"""Makes a model of a name: `make_model("PROVIDER:NAME", config)`. Making one touches nothing; `warm` loads ahead."""
 
 from __future__ import annotations
 
@@ -9,33 +9,33 @@ import sys
 import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from importlib.util import find_spec
 from typing import Any
 
 from chatrobot.core.reason import Reason
-from chatrobot.models import background
 from chatrobot.models.config import ModelConfig
 from chatrobot.models.conversation import Conversation
 from chatrobot.models.failures import Place, reason_of
 from chatrobot.models.keys import find_key
-from chatrobot.models.prices import priced
 from chatrobot.models.providers import Provider, split_name
-from chatrobot.models.reply import Sink, StreamedReply
+from chatrobot.models.reply import Sink, StreamedReply, in_background
 from chatrobot.models.seam import CallLimits, Message, Model, ModelError, Reply, Usage
-from chatrobot.models.secret import PieceScrubber, Secret
-from chatrobot.models.usage_log import record
+from chatrobot.models.secret import PieceScrubber
+from chatrobot.models.usage import priced, record
 
 EXTRA = "pip install 'chatrobot[models]'"
 SWITCH_S = 0.0005
-_LIBRARY = {
-    "openai": "pydantic_ai.models.openai",
-    "openai-responses": "pydantic_ai.models.openai",
-    "anthropic": "pydantic_ai.models.anthropic",
-    "google": "pydantic_ai.models.google",
+_LIBRARY = "pydantic_ai"
+_CLASSES = {
+    "openai": "openai",
+    "openai-responses": "openai",
+    "anthropic": "anthropic",
+    "google": "google",
 }
 
 
 def make_model(name: str, config: ModelConfig | None = None) -> Model:
-    """The model that `PROVIDER:NAME` names. The key is looked for at the first call.
+    """Make the model that `PROVIDER:NAME` names. The key is looked for at the first call.
 
     Raises:
         ModelError: `model_unknown`, where no provider has that name.
@@ -51,25 +51,55 @@ def warm(model: Model, *, wait_s: float = 0.0) -> None:
     """Begin to load what that model needs, in the background; wait so long for it. Its first call tells of errors."""
     if isinstance(model, LibraryModel):
         done = threading.Event()
-        background.start(model.get_ready(), lambda task: task.add_done_callback(lambda _: done.set()))
+        in_background(model.get_ready(), lambda task: task.add_done_callback(lambda _: done.set()))
         if wait_s:
             done.wait(wait_s)
 
 
-def _load(provider: Provider) -> Any:
-    """The file that knows the library, once the library itself has been loaded.
+def problem_with(name: str, config: ModelConfig) -> Reason | None:
+    """Return what stands in the way of asking `PROVIDER:NAME`: its name, the extra, the key, the address.
+
+    Sends nothing.
+    """
+    try:
+        provider, model = split_name(name)
+    except ModelError as error:
+        return error.reason
+    if provider.make is not None:
+        return None
+    if find_spec(_LIBRARY) is None:
+        return _missing_extra(provider)
+    return _obstacle(Place(provider, model, provider.address(config), find_key(provider, config)))
+
+
+def _missing_extra(provider: Provider) -> Reason:
+    return Reason("model_missing_extra", {"command": EXTRA, "provider": provider.name})
+
+
+def _obstacle(place: Place) -> Reason | None:
+    """Return why nothing can be sent there."""
+    if not place.secret and place.provider.needs_key:
+        return place.reason("model_no_key")
+    if place.secret is not None and place.secret.flaw is not None:
+        return place.reason(f"model_key_{place.secret.flaw}")
+    if not place.address:
+        return place.reason("model_no_address", variable=place.provider.base_url_variables[0])
+    return None
+
+
+def _load(provider: Provider, model: str) -> Any:
+    """Return the module that knows the library, with the library and its price list loaded.
 
     Raises:
         ModelError: `model_missing_extra`.
     """
     try:
         with _quiet_import():
-            importlib.import_module(_LIBRARY[provider.wire])
+            importlib.import_module(f"{_LIBRARY}.models.{_CLASSES[provider.wire]}")
+            priced(Usage(), provider.name, model)
             return importlib.import_module("chatrobot.models.library")
     except ImportError:
-        raise ModelError(
-            Reason("model_missing_extra", {"command": EXTRA, "provider": provider.name})
-        ) from None
+        raise ModelError(_missing_extra(provider)) from None
 
 
 @contextmanager
@@ -92,19 +122,20 @@ def _quiet_import() -> Iterator[None]:
 
 
 class LibraryModel:
-    """A `Model` (see `seam`) on the model library."""
+    """A `Model` (see `seam`) on the model library. What begins with `_` runs in the background thread."""
 
     def __init__(self, provider: Provider, model: str, config: ModelConfig) -> None:
         self._provider = provider
         self._model = model
         self._config = config
-        self._address = provider.address(config)
         self._conversation = Conversation(config) if provider.wire == "openai-responses" else None
-        self._secret: Secret | None = None
+        self._place: Place | None = None
+        self._library: Any = None
         self._built: Any = None
 
     @property
     def name(self) -> str:
+        """`PROVIDER:NAME`, as the person wrote it."""
         return f"{self._provider.name}:{self._model}"
 
     def ask(self, messages: Sequence[Message], limits: CallLimits) -> Reply:
@@ -119,7 +150,7 @@ class LibraryModel:
             limits,
             prompt_chars=sum(len(message.text) for message in messages),
             price=lambda usage: priced(usage, self._provider.name, self._model, self._config.folder),
-            on_end=self._record,
+            on_end=lambda usage: record(self._config, self.name, usage),
         )
 
     def forget(self) -> None:
@@ -130,32 +161,42 @@ class LibraryModel:
     async def get_ready(self) -> None:
         """Do what the first call would do before it sends anything. In the background thread."""
         try:
-            library = _load(self._provider)
-            await self._find_key()
-            if self._address and not (self._secret and self._secret.flaw):
-                self._build(library)
+            self._build(await self._find_place())
         except Exception:  # noqa: BLE001 - the first call meets the same, and tells
             return
 
+    async def _find_place(self) -> Place:
+        """Load the library and find the key.
+
+        Raises:
+            ModelError: what stands in the way of asking.
+        """
+        self._library = self._library or _load(self._provider, self._model)
+        if self._place is None:
+            # A keyring may ask its user to unlock it: not in the thread that all calls share.
+            finding = asyncio.get_running_loop().run_in_executor(None, find_key, self._provider, self._config)
+            address = self._provider.address(self._config)
+            self._place = Place(self._provider, self._model, address, await finding)
+        if (obstacle := _obstacle(self._place)) is not None:
+            self._place = None  # a key may be in the keyring at the next call
+            raise ModelError(obstacle)
+        return self._place
+
+    def _build(self, place: Place) -> None:
+        if self._built is None:
+            self._built = self._library.build(place)
+
     async def _produce(self, messages: Sequence[Message], limits: CallLimits, sink: Sink) -> None:
-        library = _load(self._provider)
-        await self._find_key()
-        place = Place(self._provider, self._model, self._address, self._secret)
-        if not self._secret and self._provider.needs_key:
-            raise ModelError(place.reason("model_no_key"))
-        if self._secret is not None and self._secret.flaw is not None:
-            raise ModelError(place.reason(f"model_key_{self._secret.flaw}"))
-        if not self._address:
-            raise ModelError(place.reason("model_no_address", variable=self._provider.base_url_variables[0]))
+        place = await self._find_place()
         try:
-            self._build(library)
+            self._build(place)
             sink.begin()
             try:
-                await self._stream(library, messages, limits, sink, place)
+                await self._stream(messages, limits, sink, place)
             except Exception as error:
                 if self._conversation is None or not self._conversation.is_lost(error):
                     raise
-                await self._stream(library, messages, limits, sink, place)
+                await self._stream(messages, limits, sink, place)
         except ModelError:
             raise
         except Exception as error:  # noqa: BLE001 - a hostile reply may make the library raise anything
@@ -164,26 +205,16 @@ class LibraryModel:
             return
         raise ModelError(reason)  # out here, so that no provider's error with its headers hangs on to it
 
-    async def _find_key(self) -> None:
-        if self._secret is None:
-            # A keyring may ask its user to unlock it: not in the thread that all calls share.
-            finding = asyncio.get_running_loop().run_in_executor(None, find_key, self._provider, self._config)
-            self._secret = await finding
-
-    def _build(self, library: Any) -> None:
-        if self._built is None:
-            self._built = library.build(self._provider, self._model, self._address, self._secret)
-
     async def _stream(
-        self, library: Any, messages: Sequence[Message], limits: CallLimits, sink: Sink, place: Place
+        self, messages: Sequence[Message], limits: CallLimits, sink: Sink, place: Place
     ) -> None:
-        request = library.Request(messages, limits)
+        request = self._library.Request(messages, limits)
         if self._conversation is not None:
             self._conversation.prepare(request, messages)
-        scrubber = PieceScrubber(self._secret)
+        scrubber = PieceScrubber(place.secret)
         has_text = False
         try:
-            async for piece in library.stream(self._built, self._provider, request):
+            async for piece in self._library.stream(self._built, self._provider, request):
                 has_text = has_text or bool(piece.strip())
                 sink.put(scrubber.feed(piece))
             sink.put(scrubber.rest())
@@ -194,12 +225,9 @@ class LibraryModel:
         if self._conversation is not None:
             self._conversation.answered(request.ending.response_id)
 
-    def _record(self, usage: Usage) -> None:
-        record(self._config, self.name, usage)
-
 
 def _judge(ending: Any, place: Place, limits: CallLimits, *, has_text: bool) -> None:
-    """Whether what came is a whole reply.
+    """Check that what came is a whole reply.
 
     Raises:
         ModelError: it is not.

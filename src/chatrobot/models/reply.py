@@ -1,52 +1,71 @@
-"""A reply under way: pieces cross from the background thread to whoever iterates; time limits and `cancel` live here.
+"""Carries a reply from the background thread to whoever iterates over it, and keeps its time limits and `cancel`.
 
-The limits are kept by the waiting side: they hold even if the background thread hangs in a name look-up.
+One thread with an event loop serves all calls of the process: no caller waits for a library. The limits are kept by the
+waiting side: they hold even if that thread hangs in a name look-up.
 """
 
 from __future__ import annotations
 
 import asyncio
 import queue
+import threading
 import time
-from collections.abc import Awaitable, Callable, Iterator
-from typing import Protocol
+from collections.abc import Callable, Coroutine, Iterator
+from typing import Any, Protocol
 
 from chatrobot.core.reason import Reason
-from chatrobot.models import background
 from chatrobot.models.seam import CallLimits, ModelError, Usage
 
 STARTUP_S = 60.0
 """What loading the library and asking the keyring may take before a call's own time begins."""
 CHARS_PER_TOKEN = 4
 
+_lock = threading.Lock()
+_loop: asyncio.AbstractEventLoop | None = None
+
+
+def in_background(work: Coroutine[Any, Any, None], started: Callable[[asyncio.Task[None]], None]) -> None:
+    """Begin `work` in the background thread; `started` is told its task there. Returns at once."""
+    _background().call_soon_threadsafe(lambda: started(asyncio.ensure_future(work)))
+
+
+def _background() -> asyncio.AbstractEventLoop:
+    """Return the loop, started at first use. It is a daemon: a call under way holds no program up that ends."""
+    global _loop
+    with _lock:
+        if _loop is None:
+            _loop = asyncio.new_event_loop()
+            threading.Thread(target=_loop.run_forever, name="models", daemon=True).start()
+        return _loop
+
 
 class Sink(Protocol):
     """Where a call puts what it gets. Used in the background thread."""
 
     def begin(self) -> None:
-        """The request goes out now: its time begins."""
+        """Begin the call's own time: the request goes out now."""
 
     def put(self, piece: str) -> None:
-        """One piece of text.
+        """Take one piece of text.
 
         Raises:
             ModelError: the reply is longer than allowed.
         """
 
     def count(self, usage: Usage) -> None:
-        """What the provider says the call has used."""
+        """Take what the provider says the call has used."""
 
 
 class StreamedReply:
     """A `Reply` (see `seam`) that `produce` fills from the background thread.
 
-    `prompt_chars` serves the estimate of
-    tokens where a provider counts none; `on_end` hears the usage once, in the background thread.
+    `prompt_chars` serves the estimate of tokens where a provider counts none; `on_end` hears the usage once, in the
+    background thread.
     """
 
     def __init__(
         self,
-        produce: Callable[[Sink], Awaitable[None]],
+        produce: Callable[[Sink], Coroutine[Any, Any, None]],
         limits: CallLimits,
         *,
         prompt_chars: int = 0,
@@ -66,15 +85,17 @@ class StreamedReply:
         self._usage: Usage | None = None
         self._ended = self._cancelled = False
         self._task: asyncio.Task[None] | None = None
-        background.start(self._run(), self._keep)
+        in_background(self._run(), self._keep)
 
     @property
     def usage(self) -> Usage | None:
-        """What the call used, once it has ended; an estimate where the provider did not count."""
-        return (self._usage or self._estimate()) if self._ended else None
+        """Return what the call used, once it has ended; an estimate where the provider did not count."""
+        if not self._ended:
+            return None
+        return self._usage or (self._estimate() if self._began_s is not None else Usage(counted=False))
 
     def __iter__(self) -> Iterator[str]:
-        """The pieces as they arrive; see `seam.Reply`."""
+        """Yield the pieces as they arrive; see `seam.Reply`."""
         try:
             while (item := self._next()) is not None:
                 if isinstance(item, ModelError):
@@ -92,7 +113,7 @@ class StreamedReply:
         self._items.put(None)
         if not self._ended:
             self._ended = True
-            background.soon(self._end_task)
+            _background().call_soon_threadsafe(self._end_task)
 
     def _next(self) -> str | ModelError | None:
         if self._cancelled:
@@ -153,11 +174,13 @@ class StreamedReply:
     # What follows is the `Sink`.
 
     def begin(self) -> None:
+        """See `Sink`; a second request of the same call changes nothing."""
         if self._began_s is None:
             self._began_s = time.monotonic()
             self._items.put("")  # wakes the waiting side, whose time limit has changed
 
     def put(self, piece: str) -> None:
+        """See `Sink`."""
         if not piece:
             return
         room = self._limits.reply_chars - self._chars
@@ -168,6 +191,7 @@ class StreamedReply:
             raise ModelError(Reason("model_too_long", {"limit_chars": self._limits.reply_chars}))
 
     def count(self, usage: Usage) -> None:
+        """See `Sink`."""
         self._usage = self._price(usage)
 
     def _estimate(self) -> Usage:

@@ -1,9 +1,14 @@
-"""A goal: one turn's plan on its way through Motion, received, rehearsed, approved, run."""
+"""A goal: one turn's plan on its way through Motion, received, rehearsed, approved, run, in one part or more.
+
+Each part is rehearsed from where those before it will end, and all are walked as one, so that the robot does not stop
+between the parts of a plan that still comes while it runs.
+"""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from collections import deque
+from dataclasses import dataclass, field, replace
 
 from chatrobot.core.events import Finished, Outcome
 from chatrobot.core.geometry import ORIGIN, Pose
@@ -12,12 +17,179 @@ from chatrobot.core.summed import gone_on
 from chatrobot.link.approval import Approval
 from chatrobot.link.envelope import Envelope, seconds
 from chatrobot.motion.budgets import Account, Extent
-from chatrobot.motion.plan_stream import Stream
 from chatrobot.motion.planner import Planned
 from chatrobot.plan.base import Step
-from chatrobot.plan.lowering import Walk
+from chatrobot.plan.context import MAX_DURATION_S
+from chatrobot.plan.lowering import NOT_YET, CoreWalk, NotYet, PlannedMotion, WalkItem
 from chatrobot.plan.rehearsal import Rehearsal
+from chatrobot.plan.steps import MAX_LINES, count_steps
 from chatrobot.plan.swept_path import Most
+
+PARTS_LIMIT = MAX_LINES
+
+
+class Stream:
+    """The parts of one goal, and the walk through those that were accepted. Belongs to the control thread.
+
+    `is_open` while more may come; `refusal` is why a part was not accepted: those after it are dropped, those before
+    it are still done. `possible` is what can be done of that part. A program is one part, without a walk.
+    """
+
+    def __init__(self, *, is_open: bool = False) -> None:
+        self.is_open = is_open
+        self._planning: str | None = None
+        self._waiting: deque[str] = deque()
+        self._count = 1
+        self.refusal: Reason | None = None
+        self.possible = ""
+        self.rewind()
+
+    def rewind(self) -> None:
+        """Begin anew with the rest of what was accepted: it comes first, and those that were not rehearsed follow."""
+        if self._planning is not None:
+            self._waiting.appendleft(self._planning)
+        self._planning = None
+        self.walk: PartedWalk | None = None
+        self.duration_s = self.length_m = 0.0
+        self.certain = Extent()
+        self.accepted: tuple[Step, ...] = ()
+        self._has_unknown_part = False
+
+    @property
+    def waiting(self) -> tuple[str, ...]:
+        """The parts that have not been rehearsed."""
+        return tuple(self._waiting)
+
+    def add(self, plan_text: str, more: bool) -> None:
+        """Take in a part, which may be empty; nothing after the last one counts."""
+        if not self.is_open:
+            return
+        self.is_open = more
+        if plan_text.strip():
+            self._count += 1
+            self._waiting.append(plan_text)
+        if self._count > PARTS_LIMIT:
+            self.refuse(Reason("plan_too_large", {"steps": self._count}))
+
+    def take(self) -> str | None:
+        """The next part to rehearse; None while one is being rehearsed, or none waits."""
+        if self._planning is not None or not self._waiting:
+            return None
+        self._planning = self._waiting.popleft()
+        return self._planning
+
+    def accept(self, planned: Planned, account: Account, longest_s: float) -> Reason | None:
+        """Append the next part as it was rehearsed; return why it is not accepted."""
+        self._planning = None
+        duration_s, certain = self.duration_s + planned.duration_s, self.certain.plus(planned.certain)
+        longest_s = min(longest_s, MAX_DURATION_S)
+        refusal = planned.refusal
+        if refusal is None and duration_s > longest_s:
+            refusal = Reason("lasts_too_long", {"duration_s": duration_s, "max_s": longest_s})
+        # The first part that is too much is refused; a later one ends what is under way.
+        refusal = refusal or (account.refusal if self.walk is None else account.end)(certain)
+        if refusal is not None:
+            self.possible = planned.possible if refusal == planned.refusal else ""
+            self.refuse(refusal)
+            return refusal
+        self.duration_s, self.certain = duration_s, certain
+        self.length_m += planned.length_m
+        self._has_unknown_part = self._has_unknown_part or planned.is_open_ended
+        if planned.rehearsal is not None:
+            self.accepted += planned.rehearsal.plan.steps
+            if self.walk is None:
+                self.walk = PartedWalk(self, planned.rehearsal)
+            else:
+                self.walk.add(planned.rehearsal)
+        return None
+
+    def refuse(self, reason: Reason) -> None:
+        """Nothing more is taken."""
+        self.refusal = self.refusal or reason
+        self.is_open = False
+        self._waiting.clear()
+
+    @property
+    def is_open_ended(self) -> bool:
+        """The whole way is not known."""
+        return self.may_go_on or self._has_unknown_part
+
+    @property
+    def may_go_on(self) -> bool:
+        """Another part may still become part of the walk."""
+        return self.is_open or self._planning is not None or bool(self._waiting)
+
+
+class PartedWalk:
+    """Walks part after part; `NOT_YET` where the next one is still to come. Made with the first part."""
+
+    def __init__(self, stream: Stream, first: Rehearsal) -> None:
+        self._stream = stream
+        self._parts: deque[Rehearsal] = deque()
+        self._walk: CoreWalk | None = None
+        self._pose = first.context.pose
+        self._end = self._pose
+        self._numbers_before = self._steps_before = 0
+        self._walked = (0, 0)
+        self._total = 0
+        self.add(first)
+
+    def add(self, part: Rehearsal) -> None:
+        """Append a part to the end of the walk."""
+        self._parts.append(part)
+        self._end = part.end_pose
+        self._total += count_steps(part.plan.steps)
+
+    @property
+    def pose(self) -> Pose:
+        """Where the last motion ends."""
+        return self._walk.pose if self._walk is not None else self._pose
+
+    @property
+    def end(self) -> Pose:
+        """Where all that was accepted will end: as predicted, or as it did where it has been walked already."""
+        return self._end if self._parts or self._walk is not None else self._pose
+
+    def ended_at(self, pose: Pose) -> None:
+        """Go on from `pose`, where the last motion ended."""
+        if self._walk is not None:
+            self._walk.ended_at(pose)
+        else:
+            self._pose = pose
+
+    def __next__(self) -> WalkItem:
+        while True:
+            item = next(self._walk, None) if self._walk is not None else None
+            if isinstance(item, PlannedMotion):
+                return self._counted(item)
+            if item is not None:
+                return item
+            if not self._begin_part():
+                return self._nothing()
+
+    def _nothing(self) -> NotYet:
+        if self._stream.may_go_on:
+            return NOT_YET
+        raise StopIteration
+
+    def _begin_part(self) -> bool:
+        if self._walk is not None:
+            self._pose, self._walk = self._walk.pose, None
+        if not self._parts:
+            return False
+        part = self._parts.popleft()
+        steps, numbers = self._walked
+        self._steps_before += steps
+        self._numbers_before += numbers
+        self._walked = (len(part.plan.steps), count_steps(part.plan.steps))
+        # From where the part before it really ended: its condition may have come true early.
+        self._walk = CoreWalk(part.plan, replace(part.context, pose=self._pose))
+        return True
+
+    def _counted(self, item: PlannedMotion) -> PlannedMotion:
+        """Numbered as a step of the whole."""
+        index = (self._steps_before + item.index[0], *item.index[1:])
+        return replace(item, index=index, number=self._numbers_before + item.number, total=self._total)
 
 
 @dataclass
@@ -25,9 +197,9 @@ class Goal:
     """`epoch` is the stop epoch it was received in: a later stop makes it void. `start` is where it begins.
 
     `longest_s` is what the source may take: a plan that rehearsal expects to last longer is refused. `stream` holds
-    what comes after `plan_text` where the plan comes in parts. `account` is what its text may drive, and has driven.
-    Where the goal is the rest of a plan that was paused, `plan_start` is where the whole began and `so_far` what was
-    measured of it.
+    its parts: one that begins with `plan_text`, and those that follow while it runs. `planned` is the first of them.
+    `account` is what its text may drive, and has driven. Where the goal is the rest of a plan that was paused,
+    `plan_start` is where the whole began and `so_far` what was measured of it.
     """
 
     turn: int
@@ -41,7 +213,7 @@ class Goal:
     start: Pose = ORIGIN
     planned: Planned | None = None
     approval: Approval | None = None
-    stream: Stream | None = None
+    stream: Stream = field(default_factory=Stream)
     pauses: int | None = None
     account: Account = field(default_factory=Account)
     plan_start: Pose | None = None
@@ -49,117 +221,63 @@ class Goal:
 
     @classmethod
     def of(cls, envelope: Envelope, epoch: int, now_s: float, account: Account | None = None) -> Goal:
-        """The goal that a `plan` envelope asks for."""
-        payload, account = envelope.payload, account or Account()
-        longest_s = seconds(payload.get("longest_s"), math.inf)
-        comes_whole = payload.get("approve") or payload.get("rehearse_only") or not payload.get("more")
+        """Make the goal that a `plan` envelope asks for."""
+        payload = envelope.payload
+        approve, rehearse_only = bool(payload.get("approve")), bool(payload.get("rehearse_only"))
         return cls(
             turn=envelope.turn,
             lease=envelope.lease,
             plan_text=str(payload.get("plan_text", "")),
-            approve=bool(payload.get("approve")),
-            rehearse_only=bool(payload.get("rehearse_only")),
+            approve=approve,
+            rehearse_only=rehearse_only,
             epoch=epoch,
             received_s=now_s,
-            longest_s=longest_s,
-            stream=None if comes_whole else Stream(longest_s, account),
+            longest_s=seconds(payload.get("longest_s"), math.inf),
+            stream=Stream(is_open=bool(payload.get("more")) and not (approve or rehearse_only)),
             pauses=payload.get("pauses"),
-            account=account,
+            account=account or Account(),
         )
 
     @property
     def refusal(self) -> Reason | None:
         """Why what was planned may not run."""
-        if self.planned is None:
-            return None
-        if self.planned.ok and self.planned.duration_s > self.longest_s:
-            return Reason("lasts_too_long", {"duration_s": self.planned.duration_s, "max_s": self.longest_s})
-        return self.planned.refusal or self.account.refusal(self.planned.certain)
+        return self.stream.refusal
 
     @property
-    def certain(self) -> Extent:
-        """What it drives at least, as far as it is there."""
-        if self.stream is not None:
-            return self.stream.certain
-        return self.planned.certain if self.planned is not None else Extent()
+    def length_m(self) -> float:
+        """The length of the whole way, as it was rehearsed."""
+        return self.stream.length_m
+
+    @property
+    def is_open_ended(self) -> bool:
+        """True where the whole way is not known."""
+        return self.stream.is_open_ended
 
     @property
     def left(self) -> Most:
         """What its budget leaves for what comes next."""
-        return self.account.left(self.stream.certain if self.stream is not None else Extent())
-
-    @property
-    def length_m(self) -> float:
-        """Of the whole way, as it was rehearsed."""
-        if self.stream is not None:
-            return self.stream.length_m
-        return self.planned.length_m if self.planned is not None else 0.0
-
-    @property
-    def is_open_ended(self) -> bool:
-        """The whole way is not known."""
-        if self.stream is not None:
-            return self.stream.is_open_ended
-        return self.planned is not None and self.planned.is_open_ended
+        return self.account.left(self.stream.certain)
 
     def take(self, planned: Planned) -> Reason | None:
-        """What it begins with, rehearsed; why it may not run."""
-        self.planned = planned
-        return self.stream.accept(planned) if self.stream is not None else self.refusal
-
-    def walk(self) -> Walk:
-        """What is to be driven; `take` has accepted its beginning."""
-        if self.stream is not None and self.stream.walk is not None:
-            return self.stream.walk
-        assert self.planned is not None
-        return self.planned.walk()
-
-    @property
-    def rehearsal(self) -> Rehearsal | None:
-        """Of what it begins with."""
-        return self.planned.rehearsal if self.planned is not None else None
-
-    @property
-    def steps(self) -> tuple[Step, ...]:
-        """What was accepted to be driven."""
-        if self.stream is not None:
-            return self.stream.accepted
-        return self.rehearsal.plan.steps if self.rehearsal is not None else ()
+        """Append the next part as it was rehearsed; return why it may not run."""
+        self.planned = self.planned or planned
+        return self.stream.accept(planned, self.account, self.longest_s)
 
     def unmoved(self, outcome: Outcome, reason: Reason | None, pose: Pose) -> Finished:
-        """Its end where nothing moved."""
-        remaining = self.unread if outcome == "stopped" and not self.rehearse_only else ""
-        is_blocked = outcome == "refused" and self.planned is not None and reason == self.planned.refusal
-        possible = self.planned.possible if is_blocked and self.planned is not None else ""
-        return self.whole(
-            Finished(
-                self.turn,
-                outcome,
-                reason,
-                pose,
-                pose,
-                0.0,
-                0.0,
-                0.0,
-                0.0,
-                planned_m=self._left_m,
-                possible=possible,
-                remaining=remaining,
-            )
-        )
-
-    @property
-    def _left_m(self) -> float:
-        """The way that was still to be driven, where a part of it was driven before a pause."""
-        so_far = self.so_far
-        return max(0.0, so_far.planned_m - so_far.path_m) if so_far is not None else 0.0
+        """Return its end where nothing moved."""
+        is_blocked = outcome == "refused" and reason == self.stream.refusal
+        # The way that was still to be driven, where a part of it was driven before a pause.
+        left_m = max(0.0, self.so_far.planned_m - self.so_far.path_m) if self.so_far is not None else 0.0
+        unmoved = Finished(self.turn, outcome, reason, pose, pose, 0.0, 0.0, 0.0, 0.0, planned_m=left_m)
+        possible = self.stream.possible if is_blocked else ""
+        remaining = self._unread if outcome == "stopped" and not self.rehearse_only else ""
+        return self.whole(replace(unmoved, possible=possible, remaining=remaining))
 
     def whole(self, finished: Finished) -> Finished:
-        """Its end, together with what was done before it was paused."""
+        """Return its end together with what was done before it was paused."""
         return gone_on(self.so_far, finished) if self.so_far is not None else finished
 
     @property
-    def unread(self) -> str:
+    def _unread(self) -> str:
         """All the plan text that came."""
-        parts = self.stream.waiting if self.stream is not None else ()
-        return "\n".join(part.strip("\n") for part in (self.plan_text, *parts))
+        return "\n".join(part.strip("\n") for part in (self.plan_text, *self.stream.waiting))

@@ -14,12 +14,17 @@ from chatrobot.link.approval import Approval
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.budgets import Budgets
 from chatrobot.motion.goal import Goal
-from chatrobot.motion.goal_queue import GoalQueue
+from chatrobot.motion.goal_queue import (
+    GoalQueue,
+    Inbox,
+    OutcomeQueue,
+    PausedGoal,
+    Pausing,
+    is_foreign,
+    why_not_kept,
+)
 from chatrobot.motion.governed_robot import GovernedRobot
-from chatrobot.motion.inbox import Inbox
-from chatrobot.motion.paused import PausedGoal, Pausing, is_foreign, why_not_kept
-from chatrobot.motion.plan_executor import OutcomeQueue, PlanExecutor
-from chatrobot.motion.plan_stream import Stream
+from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planned, Planner, refused
 from chatrobot.motion.programs.execution import ProgramSandbox
 from chatrobot.motion.programs.goal import ProgramGoal, goal_of, needs_approval
@@ -61,7 +66,7 @@ class GoalServer:
         self._pausing = pausing
         self._preparing: Goal | None = None
         self.why_unheard: Reason | None = None
-        """See `Motion.why_unheard`."""
+        """Why no odometry comes, as far as those know who look after the wire; any thread may set it."""
 
     @property
     def current(self) -> Goal | None:
@@ -207,22 +212,21 @@ class GoalServer:
     def _extend(self, envelope: Envelope) -> None:
         """The next part of a plan that came with `more`; worth nothing once that plan has ended."""
         for goal in self._all():
-            if goal.stream is not None and (goal.turn, goal.lease) == (envelope.turn, envelope.lease):
-                goal.stream.add(
-                    str(envelope.payload.get("plan_text", "")), bool(envelope.payload.get("more"))
-                )
+            if (goal.turn, goal.lease) == (envelope.turn, envelope.lease):
+                payload = envelope.payload
+                goal.stream.add(str(payload.get("plan_text", "")), bool(payload.get("more")))
                 self._rehearse_part(goal)
                 return
 
     def _rehearse_part(self, goal: Goal) -> None:
         """Rehearse the next part, if the one before it has been."""
-        stream = goal.stream
-        if not self._executor.drives(goal) or stream is None or stream.walk is None:
+        walk = goal.stream.walk
+        if not self._executor.drives(goal) or walk is None:
             return
-        plan_text, start = stream.take(), stream.walk.end
+        plan_text = goal.stream.take()
         if plan_text is not None:
-            rehearse = self._planning(goal, plan_text, start, goal.plan_start or goal.start)
-            self._inbox.fetch(rehearse, lambda planned: self._take_part(goal, stream, planned))
+            rehearse = self._planning(goal, plan_text, walk.end, goal.plan_start or goal.start)
+            self._inbox.fetch(rehearse, lambda planned: self._take_part(goal, planned))
 
     def _planning(
         self, goal: Goal, plan_text: str, start: Pose, plan_start: Pose | None
@@ -231,14 +235,14 @@ class GoalServer:
         seen, left = self._robot.seen(), goal.left
         return lambda: self._planner.plan(goal.turn, plan_text, start, plan_start, seen, left)
 
-    def _take_part(self, goal: Goal, stream: Stream, planned: Planned) -> None:
+    def _take_part(self, goal: Goal, planned: Planned) -> None:
         if not self._executor.drives(goal):
             return
-        part = planned.part_event(stream.steps)
-        refusal = stream.accept(planned)
+        part = planned.part_event(len(goal.stream.accepted))
+        refusal = goal.take(planned)
         self._emit(refused(part, refusal))
         if refusal is None:
-            self._executor.expect(stream.duration_s)
+            self._executor.expect(goal.stream.duration_s)
         self._rehearse_part(goal)
 
     # --- paused ---

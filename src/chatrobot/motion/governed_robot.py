@@ -1,18 +1,24 @@
-"""One robot as Motion has it: what its sensors tell, and the one way on which a velocity reaches it."""
+"""One robot as Motion has it: its sensors, the one way on which a velocity reaches it, and each motion measured."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
+from chatrobot.core.events import Event, Finished, Limited, Outcome, Progress, Telemetry
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 from chatrobot.core.governed import GovernedTwist
 from chatrobot.core.reason import Reason
 from chatrobot.execution.executor import RAMP_RULES
 from chatrobot.execution.sensors import Sensors, freshness, sensor_fault, silence
-from chatrobot.governor.governor import Governor, Verdict
+from chatrobot.execution.tracking import nearest_m
+from chatrobot.governor.governor import LATE_BEAT, Governor, Verdict
 from chatrobot.governor.rule import Sensed, silent_after_s
+from chatrobot.motion.budgets import Meter
+from chatrobot.motion.goal import Goal
 from chatrobot.motion.remembered_obstacles import RememberedObstacles, Sight
-from chatrobot.robots.profile import RobotProfile
+from chatrobot.robots.profile import Limits, RobotProfile
 from chatrobot.transports.transport import Transport
 from chatrobot.wire.messages import LaserScan
 
@@ -108,3 +114,222 @@ class GovernedRobot:
     def _sensed(self) -> Sensed:
         """What the governor's rules want to know of the sensors."""
         return Sensed(self.sensors.ages_s(), self.sensors.battery_percent)
+
+
+WORTH_TELLING_MPS = 0.02
+WORTH_TELLING_RADPS = 0.05
+"""What feedback asks a little too much is trimmed without a word."""
+
+
+@dataclass
+class Stopwatch:
+    """Time in motion, and time standing between two motions: the last pause counts once motion follows."""
+
+    counted_to_s: float
+    moving_s: float = 0.0
+    paused_s: float = 0.0
+    _pending_s: float = 0.0
+    _has_moved: bool = False
+
+    def count(self, standing: bool, now_s: float) -> None:
+        elapsed_s = max(0.0, now_s - self.counted_to_s)
+        self.counted_to_s += elapsed_s  # a tick that began before what it counts counts nothing twice
+        if not standing:
+            self._has_moved = True
+            self.moving_s += elapsed_s
+            self.paused_s += self._pending_s
+            self._pending_s = 0.0
+        elif self._has_moved:
+            self._pending_s += elapsed_s
+
+
+def is_cut_short(verdict: Verdict) -> bool:
+    """More than a trifle of what was asked is not allowed."""
+    lost = abs(verdict.asked.speed_mps - verdict.allowed.speed_mps)
+    lost_turn = abs(verdict.asked.wz_radps - verdict.allowed.wz_radps)
+    return lost >= WORTH_TELLING_MPS or lost_turn >= WORTH_TELLING_RADPS
+
+
+def is_worth_telling(verdict: Verdict) -> bool:
+    """Cut short by a limit: ramps are no news."""
+    return verdict.action == "limited" and verdict.rule != "acceleration" and is_cut_short(verdict)
+
+
+class GovernedMotion:
+    """The motion of `goal`: what it asks for goes through the governor; how far and how long it went is kept."""
+
+    def __init__(self, goal: Goal, robot: GovernedRobot, now_s: float) -> None:
+        self._goal = goal
+        self._robot = robot
+        self._sensors = sensors = robot.sensors
+        self._stopwatch = Stopwatch(now_s)
+        self._late_s = 0.0
+        self._start_path_m = sensors.estimate.path_m if sensors.estimate is not None else 0.0
+        is_endless = goal.planned is not None and goal.planned.is_endless
+        limits = robot.profile.limits
+        self._meter = Meter(
+            goal.account, lambda: goal.stream.certain, sensors, limits, now_s, is_endless=is_endless
+        )
+
+    def send(self, asked: Twist, now_s: float) -> Verdict:
+        """Send what the governor allows of `asked`."""
+        verdict = self._robot.govern(asked, self._goal.lease, now_s)
+        self._robot.send(verdict)
+        if verdict.rule == LATE_BEAT and verdict.reason is not None and is_cut_short(verdict):
+            self._late_s = max(self._late_s, float(verdict.reason.values["late_s"]))
+        self._stopwatch.count(verdict.sent.twist.is_zero, now_s)
+        self._meter.note(verdict.sent.twist, now_s)
+        return verdict
+
+    def over_budget(self) -> Reason | None:
+        """Why it has to brake now, so that its text stays within the motion budget; told once."""
+        return self._meter.over()
+
+    def close(self) -> None:
+        """It is over: book what it has driven."""
+        self._meter.close()
+
+    def limited(self, verdict: Verdict) -> Limited:
+        """What a person is told of a limit."""
+        return Limited(self._goal.turn, verdict.rule, verdict.asked, verdict.allowed, verdict.reason)
+
+    @property
+    def path_m(self) -> float:
+        """How far it has driven, as measured."""
+        estimate = self._sensors.estimate
+        return (estimate.path_m - self._start_path_m) if estimate is not None else 0.0
+
+    def turned_rad(self) -> float:
+        """How far it has turned since its start, as measured; radians, counter-clockwise positive."""
+        estimate = self._sensors.estimate
+        return estimate.pose.yaw_rad - self._goal.start.yaw_rad if estimate is not None else 0.0
+
+    def finished(
+        self,
+        outcome: Outcome,
+        reason: Reason | None,
+        *,
+        planned_m: float,
+        planned_turn_rad: float,
+        steps_done: int,
+        steps: int,
+        executed: str = "",
+        remaining: str = "",
+        open_ended: bool = False,
+    ) -> Finished:
+        """The end, as odometry measured it; where there is none, what was planned is what was sent."""
+        measured = self._sensors.has_odometry
+        start, estimate = self._goal.start, self._sensors.estimate
+        return Finished(
+            self._goal.turn,
+            outcome,
+            reason,
+            start=start,
+            pose=estimate.pose if estimate is not None else start,
+            turned_rad=self.turned_rad(),
+            path_m=self.path_m,
+            duration_s=self._stopwatch.moving_s or (0.0 if measured else self._meter.least_s),
+            paused_s=self._stopwatch.paused_s,
+            planned_m=planned_m if measured else self._meter.sent_m,
+            planned_turn_rad=planned_turn_rad if measured else self._meter.sent_rad,
+            steps_done=steps_done,
+            steps=steps,
+            measured=measured,
+            executed=executed,
+            remaining=remaining,
+            open_ended=open_ended,
+            late_s=self._late_s,
+        )
+
+
+# The governor ramps up what a program asks and lets every zero through at once. A program that holds 0.5 rad/s for
+# six seconds would then turn less than three radians: what the ramp took at its start is not given back at its end.
+# So the zero of a program that is well is ramped, too. Stops, and the end of a program that broke, are still zeros
+# at once.
+
+
+def decelerated(asked: Twist, sent: Twist, limits: Limits, dt_s: float) -> Twist:
+    """What to ask for where the program asks `asked` and `sent` was sent `dt_s` before."""
+    if not asked.is_zero or sent.is_zero:
+        return asked
+    share = 1.0
+    if sent.speed_mps > 0.0:
+        share = min(share, limits.acceleration_mps2 * dt_s / sent.speed_mps)
+    if sent.wz_radps:
+        share = min(share, limits.angular_acceleration_radps2 * dt_s / abs(sent.wz_radps))
+    return sent.scaled(1.0 - share) if share < 1.0 else ZERO_TWIST
+
+
+TELEMETRY_S = 0.1
+
+
+class TelemetryPublisher:
+    """Publishes how far the motion is, and where and how fast the robot goes, as it measures it itself.
+
+    Args:
+        progress: how far the motion under way is; None where nothing is.
+    """
+
+    def __init__(
+        self, sensors: Sensors, progress: Callable[[float], Progress | None], emit: Callable[[Event], None]
+    ) -> None:
+        self._sensors = sensors
+        self._progress = progress
+        self._emit = emit
+        self._next_s = 0.0
+
+    def tick(self, now_s: float) -> None:
+        """Publish it every `TELEMETRY_S`, once the robot has said where it is."""
+        if now_s < self._next_s:
+            return
+        self._next_s = now_s + TELEMETRY_S
+        estimate, scan = self._sensors.estimate, self._sensors.scan
+        if estimate is None:
+            return
+        progress = self._progress(now_s)
+        if progress is not None:
+            self._emit(progress)
+        self._emit(
+            Telemetry(
+                progress.turn if progress is not None else 0,
+                estimate.pose,
+                estimate.twist,
+                estimate.path_m,
+                self._sensors.battery_percent,
+                nearest_m(scan) if scan is not None else None,
+                progress is not None,
+                self._sensors.estimator.epoch,
+            )
+        )
+
+
+SECTORS = 8
+"""Each 45 degrees wide; the first is centred on straight ahead, the next lie to the left of it, counter-clockwise."""
+
+
+def sectors_m(profile: RobotProfile, scan: LaserScan | None) -> tuple[float | None, ...]:
+    """Return the metres from the footprint's edge to the nearest return in each sector, in the robot's frame.
+
+    None in a sector where nothing is seen; empty where there is no lidar or it has not spoken.
+    """
+    lidar = profile.lidar
+    if lidar is None or scan is None:
+        return ()
+    nearest = [math.inf] * SECTORS
+    for count, distance in enumerate(scan.ranges_m):
+        if not scan.range_min_m <= distance <= scan.range_max_m:
+            continue
+        angle = scan.angle_min_rad + count * scan.angle_increment_rad + lidar.yaw_rad
+        x, y = lidar.x_m + distance * math.cos(angle), lidar.y_m + distance * math.sin(angle)
+        sector = round(math.atan2(y, x) / (2.0 * math.pi) * SECTORS) % SECTORS
+        free_m = math.hypot(x, y) - _reach_m(profile, x, y)
+        nearest[sector] = min(nearest[sector], max(0.0, free_m))
+    return tuple(round(d, 2) if math.isfinite(d) else None for d in nearest)
+
+
+def _reach_m(profile: RobotProfile, x_m: float, y_m: float) -> float:
+    """How far the footprint reaches towards that point."""
+    distance_m = math.hypot(x_m, y_m)
+    if distance_m == 0.0:
+        return 0.0
+    return max(0.0, max((x * x_m + y * y_m) / distance_m for x, y in profile.footprint))

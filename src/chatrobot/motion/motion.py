@@ -19,21 +19,15 @@ from chatrobot.governor.governor import Governor
 from chatrobot.governor.lease import RELEASERS, Priority, priority_of
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.budgets import Budgets, open_loop_notice
-from chatrobot.motion.clients import Clients
-from chatrobot.motion.cmd_vel_input import CmdVelInput
-from chatrobot.motion.goal_queue import GoalQueue
+from chatrobot.motion.clients import Clients, CmdVelInput
+from chatrobot.motion.goal_queue import GoalQueue, Inbox, OutcomeQueue, Pausing
 from chatrobot.motion.goal_server import GoalServer
-from chatrobot.motion.governed_robot import GovernedRobot
-from chatrobot.motion.inbox import Inbox
-from chatrobot.motion.paused import Pausing
-from chatrobot.motion.plan_executor import OutcomeQueue, PlanExecutor
+from chatrobot.motion.governed_robot import GovernedRobot, TelemetryPublisher, sectors_m
+from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.execution import NoSandbox, ProgramSandbox
-from chatrobot.motion.safety.interlock import Interlock
-from chatrobot.motion.safety.stop import PAUSED, Stops
-from chatrobot.motion.safety.stop_confirmation import StopConfirmation
-from chatrobot.motion.safety.watchdog import GuardLink, StallDetector
-from chatrobot.motion.telemetry import TelemetryPublisher, sectors_m
+from chatrobot.motion.safety.stop import PAUSED, StopConfirmation, Stops
+from chatrobot.motion.safety.watchdog import GuardLink, Interlock, StallDetector
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.transports.transport import WireTransport
 from chatrobot.wire.messages import TwistMessage
@@ -81,7 +75,7 @@ class Motion:
         self.interlock = Interlock(self._governor, guard)
         self._goal_queue = GoalQueue()
         self._clients = Clients(
-            self._governor.leases, lambda lease: self._goals.is_engaged(lease), self._goal_queue.forget
+            self._governor.leases, lambda lease: self.goals.is_engaged(lease), self._goal_queue.forget
         )
         self._inbox = Inbox(background)
         self._outcomes = outcomes = OutcomeQueue(emit, measured=profile.has_odometry)
@@ -91,27 +85,24 @@ class Motion:
             robot, self._goal_queue, self.interlock, stops, clock, outcomes, emit
         )
         self._budgets = Budgets(profile.safety.budget)
-        self._goals = GoalServer(
+        self.goals = GoalServer(
             robot, self._goal_queue, self._executor, planner, programs, self._budgets, stops, inbox, clock, pausing,
             outcomes, emit,
         )  # fmt: skip
+        other_drove = Reason("other_drove", {"source": CMD_VEL_INPUT_TOPIC})
         self._cmd_vel = CmdVelInput(
+            CMD_VEL_INPUT_TOPIC,
             clock,
             robot,
+            lambda: pausing.drop(other_drove),
             self.see_it_stand,
             self._notice,
-            takes_over=lambda: pausing.drop(Reason("other_drove", {"source": CMD_VEL_INPUT_TOPIC})),
         )
         self._joystick = CmdVelInput(
-            clock,
-            robot,
-            self.see_it_stand,
-            self._notice,
-            source=JOYSTICK,
-            takes_over=lambda: self._goals.hand_over(JOYSTICK),
+            JOYSTICK, clock, robot, lambda: self.goals.hand_over(JOYSTICK), self.see_it_stand, self._notice
         )
         self._stall_detector = StallDetector(clock, guard, self.halt)
-        self._telemetry = TelemetryPublisher(self.sensors, self._executor, emit)
+        self._telemetry = TelemetryPublisher(self.sensors, self._executor.progress, emit)
         self._emergency: Envelope | None = None
 
     # --- from any thread -------------------------------------------------------------------------------------
@@ -178,12 +169,12 @@ class Motion:
         """True while anything is moving, queued, being rehearsed, awaited or zeroed."""
         is_zeroed = self.stop_confirmation.is_active and self.stop_confirmation.disobeyed is None
         is_ending = is_zeroed or not self._outcomes.are_told
-        return not self._goals.are_done or bool(self._inbox) or self._stops.is_unbooked or is_ending
+        return not self.goals.are_done or bool(self._inbox) or self._stops.is_unbooked or is_ending
 
     @property
     def has_work(self) -> bool:
         """Something is driven, prepared or queued. From any thread."""
-        return not self._goals.are_done
+        return not self.goals.are_done
 
     @property
     def stops(self) -> int:
@@ -196,15 +187,6 @@ class Motion:
         return self._governor.latched
 
     @property
-    def why_unheard(self) -> Reason | None:
-        """Why no odometry comes, as far as those know who look after the wire; any thread may set it."""
-        return self._goals.why_unheard
-
-    @why_unheard.setter
-    def why_unheard(self, reason: Reason | None) -> None:
-        self._goals.why_unheard = reason
-
-    @property
     def has_left(self) -> bool:
         """A source has gone, and all is done."""
         return self._clients.some_have_left and not self.is_busy
@@ -215,7 +197,7 @@ class Motion:
 
     def give_up(self, why: Reason) -> None:
         """The wire is closed for good, and with it the way to the robot: all that was asked for ends as failed."""
-        self._goals.fail_all(why)
+        self.goals.fail_all(why)
 
     def leave(self) -> None:
         """Goodbye to the guard; where the robot is out of sight, and may move, no word is said, so that it goes on
@@ -229,7 +211,7 @@ class Motion:
         late_s = self._stall_detector.tick(
             now_s,
             is_driven=self._executor.is_driving or self._cmd_vel.is_driving or self._joystick.is_driving,
-            is_engaged=self._goals.current is not None,
+            is_engaged=self.goals.current is not None,
         )
         self._governor.leases.note_held_up(late_s)
         self._robot.look()
@@ -241,7 +223,7 @@ class Motion:
         self._joystick.tick(now_s, self._is_clear)
         self._executor.tick(now_s)
         self._book_stop()
-        self._goals.expire_approval(now_s)
+        self.goals.expire_approval(now_s)
         if not self._executor.is_driving:
             self.stop_confirmation.tick(now_s)
             if self.stop_confirmation.is_at_rest:
@@ -261,21 +243,21 @@ class Motion:
         why = self._stops.book()
         if why is not None:
             if why.code == PAUSED:
-                self._goals.pause(why, self._clock.now_s())
+                self.goals.pause(why, self._clock.now_s())
             else:
-                self._goals.end_stopped(why)
+                self.goals.end_stopped(why)
             self._cmd_vel.stop()
             self._joystick.stop()
 
     def _begin_next(self, now_s: float) -> None:
         if self.stop_confirmation.disobeyed is not None:
-            self._goals.refuse_all(self.stop_confirmation.disobeyed)
+            self.goals.refuse_all(self.stop_confirmation.disobeyed)
         if not (self.stop_confirmation.is_active or self._cmd_vel.is_driving):
-            self._goals.begin_next(now_s)
+            self.goals.begin_next(now_s)
 
     def _is_free(self) -> bool:
         """Nothing of ours drives, waits or stops the robot, and nothing keeps it from moving."""
-        return self._goals.let_others_drive and not self._joystick.is_driving and self._is_clear()
+        return self.goals.let_others_drive and not self._joystick.is_driving and self._is_clear()
 
     def _is_clear(self) -> bool:
         """Nothing stops the robot, and nothing keeps it from moving."""
@@ -296,7 +278,7 @@ class Motion:
         self._clients.note(envelope.lease, now_s)
         if self._goal_queue.is_old(envelope):
             if envelope.word in ("plan", "program"):
-                self._goals.void(envelope, epoch)
+                self.goals.void(envelope, epoch)
             return
         self._clients.hear(envelope, came_s)
         if envelope.word in ("plan", "program"):
@@ -309,7 +291,7 @@ class Motion:
             self._begin_next(now_s)
         elif envelope.word == "approve":
             if priority_of(envelope.source) >= Priority.PLAN:  # a person's word, not an agent's
-                self._goals.approve(envelope)
+                self.goals.approve(envelope)
         elif envelope.word == "release":
             self._release(envelope, emergency)
         elif envelope.word == "limit":
@@ -320,12 +302,13 @@ class Motion:
             self._pausing.drop(Reason("source_left", {"source": envelope.source}), envelope.lease)
 
     def _accept(self, envelope: Envelope, epoch: int) -> None:
-        if self._clients.has_left(envelope.lease):
-            self._goals.refuse(envelope, epoch, Reason("lease_lapsed", {"source": envelope.source}))
+        refusal = self._clients.refusal(envelope)
+        if refusal is not None:
+            self.goals.refuse(envelope, epoch, refusal)
         elif self._joystick.is_driving:  # what waited would set out by itself once the person lets go
-            self._goals.refuse(envelope, epoch, Reason("outranked", {"source": JOYSTICK}))
+            self.goals.refuse(envelope, epoch, Reason("outranked", {"source": JOYSTICK}))
         else:
-            self._goals.accept(envelope, epoch)
+            self.goals.accept(envelope, epoch)
 
     def _release(self, envelope: Envelope, emergency: Envelope | None) -> None:
         """Release what was set when the release was said; an emergency stop that came after it holds."""

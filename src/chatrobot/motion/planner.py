@@ -14,12 +14,10 @@ from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.governor.kernel import Kernel, make_kernel
 from chatrobot.motion.budgets import Extent
-from chatrobot.motion.obstacle_routes import RoutesAroundObstacles
-from chatrobot.motion.remembered_obstacles import RememberedObstacles, seen_but_unknown
+from chatrobot.motion.remembered_obstacles import RememberedObstacles, RoutesAroundObstacles, seen_but_unknown
 from chatrobot.plan.context import RoutePlanner
 from chatrobot.plan.known_world import Floats
-from chatrobot.plan.lowering import CoreWalk
-from chatrobot.plan.rehearsal import Rehearsal, rehearse
+from chatrobot.plan.rehearsal import Rehearsal, RehearsedPath, rehearse
 from chatrobot.plan.route import GridRoutePlanner
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.swept_path import ANY_WAY, Most
@@ -68,12 +66,17 @@ class Planned:
         return format_plan(self.offer.plan) if self.offer.plan is not None else ""
 
     @property
+    def shown(self) -> RehearsedPath | None:
+        """Return what its rehearsal shows, of a plan or a program; None where it could not be read."""
+        return self.rehearsal
+
+    @property
     def duration_s(self) -> float:
-        return self.rehearsal.duration_s if self.rehearsal is not None else 0.0
+        return self.shown.duration_s if self.shown is not None else 0.0
 
     @property
     def length_m(self) -> float:
-        return self.rehearsal.length_m if self.rehearsal is not None else 0.0
+        return self.shown.length_m if self.shown is not None else 0.0
 
     @property
     def is_endless(self) -> bool:
@@ -96,7 +99,7 @@ class Planned:
     @property
     def _driving_s(self) -> float:
         """How long it drives, without its waits."""
-        return driving_s(self.rehearsal.path) if self.rehearsal is not None else 0.0
+        return driving_s(self.shown.path) if self.shown is not None else 0.0
 
     @property
     def _unknown_lengths_m(self) -> list[float]:
@@ -110,11 +113,6 @@ class Planned:
         """Something that a person should look at before it runs."""
         return False
 
-    def walk(self) -> CoreWalk:
-        """The very motions that were rehearsed."""
-        assert self.rehearsal is not None
-        return self.rehearsal.walk()
-
     def events(self, needs_approval: bool) -> tuple[Event, ...]:
         """All that is told of it."""
         return (self.event(needs_approval),)
@@ -127,21 +125,21 @@ class Planned:
 
     def event(self, needs_approval: bool) -> Rehearsed:
         """What the faces show of it."""
-        rehearsal = self.rehearsal
-        if rehearsal is None:
+        shown = self.shown
+        if shown is None:
             return Rehearsed(self.turn, False, 0.0, 0.0, Pose())
         findings = tuple(
             FindingSeen(self.turn, found.severity, found.reason, tuple(i + 1 for i in found.index), found.t_s)
-            for found in rehearsal.findings
+            for found in shown.findings
         )
         return Rehearsed(
             self.turn,
-            rehearsal.ok,
-            rehearsal.duration_s,
-            rehearsal.length_m,
-            rehearsal.end_pose,
+            self.ok,
+            shown.duration_s,
+            shown.length_m,
+            shown.end_pose,
             findings,
-            drawn(rehearsal.path),
+            drawn(shown.path),
             needs_approval,
             self.is_open_ended,
         )

@@ -16,7 +16,7 @@ from collections import deque
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Telemetry
 from chatrobot.core.motion_budget import MotionBudget, read_limit_text
-from chatrobot.link.envelope import READY, Envelope
+from chatrobot.link.envelope import Envelope, ready
 from chatrobot.motion.runner import MotionRunner
 from chatrobot.wire.local import PACKET_BYTES
 
@@ -93,7 +93,7 @@ def main(arguments: list[str]) -> int:
             open_loop=bool(options["--open-loop"]),
         )
         threading.Thread(target=SocketReader(line, runner).run, name="link", daemon=True).start()
-        line.send(READY)
+        line.send(ready())
         runner.run(lambda: runner.motion.has_left, outbox.flush)
     except WireError:
         return 1  # the robot's end is gone

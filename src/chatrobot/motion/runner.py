@@ -16,7 +16,7 @@ import time
 from collections.abc import Callable, Collection
 from dataclasses import replace
 
-from chatrobot.core.clock import TICK_S, RealClock
+from chatrobot.core.clock import PRESENCE_S, TICK_S, RealClock
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Notice
 from chatrobot.core.memory_pressure import MOTION, prefer
@@ -32,7 +32,7 @@ from chatrobot.motion.budgets import open_loop_notice
 from chatrobot.motion.motion import Motion
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.host import ProgramHost
-from chatrobot.motion.safety.competing_controllers import BEAT_S, CompetingControllers
+from chatrobot.motion.safety.competing_controllers import CompetingControllers
 from chatrobot.motion.safety.connection_monitor import ConnectionMonitor, ReconnectingWire, reach
 from chatrobot.motion.safety.stop import PAUSED, remove_stop_socket, serve_stop
 from chatrobot.motion.safety.watchdog import GuardProcess
@@ -45,12 +45,8 @@ from chatrobot.sim.load import load_world
 from chatrobot.sim.world import check_known
 from chatrobot.wire.connect import (
     Connect,
-    Knowing,
-    clock_of,
     connect_wire,
     is_on_this_machine,
-    namespace_of,
-    resolved,
 )
 from chatrobot.wire.messages import Flag, Text
 from chatrobot.wire.wire import Wire
@@ -114,7 +110,7 @@ class MotionRunner:
         self.motion = Motion(
             self.profile,
             self.wire,
-            clock_of(self.wire),
+            self.wire.clock,
             Planner(self.profile, known_world),
             self._guard,
             emit,
@@ -151,8 +147,8 @@ class MotionRunner:
         for reason in said:
             self.notice(reason)
         self._lookout.look_around()
-        if isinstance(self.wire, Knowing):  # whoever else drives is named before anything moves
-            time.sleep(BEAT_S)
+        if self.wire.knows_others:  # whoever else drives is named before anything moves
+            time.sleep(PRESENCE_S)
             self._lookout.look_around()
 
     def run(self, has_left: Callable[[], bool], each_tick: Callable[[], None]) -> None:
@@ -271,6 +267,9 @@ def _settle_memory() -> None:
 
 def _as_others_name_it(wire: Wire, wiring: Wiring) -> Wiring:
     """The guard is another end of the wire, which is told our namespace, and the topics as our remappings have them."""
-    cmd_vel_topic, odom_topic = resolved(wire, wiring.cmd_vel_topic), resolved(wire, wiring.odom_topic)
-    namespace = namespace_of(wire) or wiring.namespace
+    cmd_vel_topic, odom_topic = (
+        wire.resolve(wiring.cmd_vel_topic),
+        wiring.odom_topic and wire.resolve(wiring.odom_topic),
+    )
+    namespace = wire.namespace or wiring.namespace
     return replace(wiring, cmd_vel_topic=cmd_vel_topic, odom_topic=odom_topic, namespace=namespace)

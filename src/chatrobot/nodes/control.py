@@ -10,20 +10,18 @@ import json
 import time
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Finished, Telemetry
-from chatrobot.core.motion_budget import NOT_CHOSEN, MotionBudget
 from chatrobot.core.reason import Reason
 from chatrobot.governor.lease import RELEASERS
 from chatrobot.link.envelope import Envelope, Word
 from chatrobot.link.topics import CHATGPT_NODE, EVENTS, TELEMETRY
 from chatrobot.motion.runner import MotionRunner
-from chatrobot.motion.safety.stop_confirmation import Sight
+from chatrobot.motion.safety.stop import Sight
 from chatrobot.nodes.foreign import Foreign
-from chatrobot.wire.connect import Connect, advertise, connect_wire, resolved
 from chatrobot.wire.messages import Text
 
 if TYPE_CHECKING:
@@ -44,26 +42,13 @@ STOP_SENT: dict[Sight, str] = {
 """What the services answer, by what odometry shows at that moment."""
 
 
-@dataclass(frozen=True)
-class ControlOptions:
-    """`release`: an emergency stop may be released over ROS. The rest after it: see
-    `MotionRunner`."""
-
-    wire: str
-    profile: str
-    world: str = "empty"
-    release: bool = False
-    accept_others: bool = False
-    on_robot: bool = False
-    budget: MotionBudget = NOT_CHOSEN
-    open_loop: bool = False
-
-
 class ControlNode:
     """Motion behind topics. Any number of sources may come and go; it ends when it is told to.
 
     Args:
         note: hears every event that is published on `chatrobot/events`, after the tick; it must not block.
+        release: an emergency stop may be released over ROS.
+        options: those of `MotionRunner`.
 
     Raises:
         WireError: there is no robot, or the guard does not start.
@@ -72,41 +57,38 @@ class ControlNode:
 
     def __init__(
         self,
-        options: ControlOptions,
-        connect: Connect = connect_wire,
+        address: str,
+        profile: str,
+        world: str = "empty",
+        *,
         note: Callable[[Event], None] = lambda _event: None,
+        release: bool = False,
+        **options: Any,
     ) -> None:
-        self._options = options
+        self._may_release = release
         self._note = note
         self._ours: set[int] = set()
         self._untold: deque[Event] = deque()
         self._is_leaving = False
+        releasers = RELEASERS | {BASE} if release else RELEASERS
         self._runner = MotionRunner(
-            options.wire,
-            options.profile,
-            options.world,
-            self._tell,
-            node=NODE,
-            accept_others=options.accept_others,
-            on_robot=options.on_robot,
-            releasers=RELEASERS | {BASE} if options.release else RELEASERS,
-            budget=options.budget,
-            open_loop=options.open_loop,
-            connect=connect,
+            address, profile, world, self._tell, node=NODE, releasers=releasers, **options
         )
+        self._profile = profile
         self._foreign = Foreign(self._runner, lambda: bool(self._ours))
         for topic in (EVENTS, TELEMETRY):
-            advertise(self._runner.wire, topic, Text)
+            self._runner.wire.advertise(topic, Text)
         self._runner.wire.subscribe(CHATGPT_NODE, Text, self._hear)
 
     def run(self, is_leaving: Callable[[], bool]) -> None:
-        """Until `is_leaving`, and then until the robot stands or is gone; where time stands still not for ever."""
+        """Run until `is_leaving`, and then until the robot stands or is gone; where time stands still not for ever."""
         leaving_since_s: float | None = None
 
         def has_left() -> bool:
             nonlocal leaving_since_s
             if not is_leaving():
                 return False
+            self._is_leaving = True  # it takes no more plans
             now_s = time.monotonic()
             leaving_since_s = now_s if leaving_since_s is None else leaving_since_s
             if not self._runner.motion.is_busy or self._runner.robot_has_left:
@@ -116,8 +98,8 @@ class ControlNode:
         self._runner.run(has_left, self._each_tick)
 
     def resolved(self, topic: str) -> str:
-        """The name of that topic on the wire."""
-        return resolved(self._runner.wire, topic)
+        """Return the name of that topic on the wire."""
+        return self._runner.wire.resolve(topic)
 
     @property
     def cmd_vel_topic(self) -> str:
@@ -125,20 +107,17 @@ class ControlNode:
         return self.resolved(self._runner.profile.wiring.cmd_vel_topic)
 
     def stop(self, why: str) -> None:
-        """Zero, now, from any thread."""
-        self._runner.halt("control", why)
+        """Stop the robot now, from any thread."""
+        with contextlib.suppress(WireError):
+            self._runner.halt("control", why)
 
     def introduce(self, ros_interfaces: RosInterfaces) -> None:
         """Offer to ROS what a node of it offers."""
         ros_interfaces.serve("~/stop", self._serve_stop)
         ros_interfaces.serve("~/emergency_stop", self._serve_emergency_stop)
-        if self._options.release:
+        if self._may_release:
             ros_interfaces.serve("~/release", self._serve_release)
-        ros_interfaces.diagnose(self._options.profile, self._diagnose)
-
-    def leave(self) -> None:
-        """Take no more plans. From any thread."""
-        self._is_leaving = True
+        ros_interfaces.diagnose(self._profile, self._diagnose)
 
     # --- the wire's thread ---
 
@@ -177,7 +156,7 @@ class ControlNode:
             return Diagnosis("error" if motion.latched else "warn", barred.code, {**values, **barred.values})
         if motion.sensors.has_odometry and motion.sensors.odometry_age_s() > ODOMETRY_LATE_S:
             return Diagnosis("warn", "no_odometry", values)
-        if self._options.open_loop:
+        if self._runner.profile.open_loop:
             return Diagnosis("warn", "open_loop", values)
         return Diagnosis("ok", "driving" if motion.is_busy else "ready", values)
 
@@ -187,7 +166,7 @@ class ControlNode:
             self._foreign.hear(message.data)
         elif envelope.word in ("plan", "program"):
             self._hear_plan(envelope)
-        elif envelope.word == "release" and not self._options.release:
+        elif envelope.word == "release" and not self._may_release:
             self._runner.notice(Reason("release_refused", {"source": envelope.source}))
         elif envelope.word == "limit":  # here nobody is at a local console, whatever the source is called
             self._runner.notice(Reason("limit_refused_here", {"source": envelope.source}))

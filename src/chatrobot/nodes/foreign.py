@@ -9,10 +9,10 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 
+from chatrobot.core.clock import LOCAL_TERM_S
 from chatrobot.core.errors import PlanTextError
 from chatrobot.core.process import own_identity
 from chatrobot.core.reason import Reason
-from chatrobot.governor.lease import LOCAL_TERM_S
 from chatrobot.link.envelope import Envelope
 from chatrobot.link.motion_link import Sender
 from chatrobot.link.topics import CHATGPT_NODE
@@ -62,6 +62,7 @@ class Foreign:
         return self._sender.envelope("beat", term_s=LOCAL_TERM_S, process=self._process)
 
     def note_finished(self) -> None:
+        """Note that one plan of it has ended."""
         with self._lock:
             self._waiting = max(0, self._waiting - 1)
 
@@ -87,7 +88,7 @@ class Foreign:
 
 
 def read_foreign(text: str) -> str | None:
-    """The plan text that `text` comes to: lines of the tutorial's form alone, or plan text; None for the rest.
+    """Return the plan text that `text` comes to: lines of the tutorial's form alone, or plan text; None for the rest.
 
     Raises:
         ImpossibleTwistError: a velocity of the tutorial's form that cannot be.

@@ -9,14 +9,7 @@ from chatrobot.core.wiring import Wiring
 from chatrobot.link.topics import REPLY, STOP, USER_INPUT
 from chatrobot.nodes.operator import OperatorBeat
 from chatrobot.reflex import is_stop
-from chatrobot.wire.connect import (
-    Connect,
-    advertise,
-    connect_wire,
-    is_on_this_machine,
-    resolved,
-    wait_for_listener,
-)
+from chatrobot.wire.connect import Connect, connect_wire, is_on_this_machine
 from chatrobot.wire.messages import Flag, Text
 
 NODE = "chatrobot_input"
@@ -46,8 +39,8 @@ class InputNode:
     ) -> None:
         self._wire = connect(address, wiring, NODE)
         self._has_met = False
-        advertise(self._wire, USER_INPUT, Text)
-        advertise(self._wire, STOP, Flag)
+        self._wire.advertise(USER_INPUT, Text)
+        self._wire.advertise(STOP, Flag)
         self._operator = OperatorBeat(self._wire, is_on_this_machine=is_on_this_machine(address))
         self._operator.start()
         self._wire.subscribe(REPLY, Text, lambda message: show(message.data))
@@ -63,8 +56,8 @@ class InputNode:
             self._wire.publish(USER_INPUT, Text(text))
             return True
         if not self._has_met:
-            wait_for_listener(self._wire, USER_INPUT, Text, BOTH_S, count=2)
-        heard = wait_for_listener(self._wire, USER_INPUT, Text, LISTENER_S)
+            self._wire.wait_for_listener(USER_INPUT, Text, BOTH_S, count=2)
+        heard = self._wire.wait_for_listener(USER_INPUT, Text, LISTENER_S)
         if heard and not self._has_met:
             time.sleep(MEETING_S)
             self._has_met = True
@@ -73,14 +66,14 @@ class InputNode:
         return heard
 
     def resolved(self, topic: str) -> str:
-        """The name of that topic on the wire."""
-        return resolved(self._wire, topic)
+        """Return the name of that topic on the wire."""
+        return self._wire.resolve(topic)
 
     def stop(self) -> None:
         """Stop the robot."""
         self._wire.publish(STOP, Flag(True))
 
     def close(self) -> None:
-        """An orderly end: what was said is still done."""
+        """End in order: what was said is still done."""
         self._operator.close()
         self._wire.close()

@@ -17,7 +17,7 @@ FLUSH_S = 1.0
 
 
 def on_stderr(_severity: Severity, text: str) -> None:
-    """A `Write` for who looks at this terminal."""
+    """Write to this terminal: a `Write`."""
     with contextlib.suppress(OSError):
         print(text, file=sys.stderr, flush=True)
 

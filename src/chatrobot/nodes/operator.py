@@ -13,12 +13,12 @@ import time
 import uuid
 from collections.abc import Callable
 
+from chatrobot.core.clock import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S
 from chatrobot.core.errors import WireError
 from chatrobot.core.process import own_identity, watch_process
 from chatrobot.core.scheduling import wake_promptly
-from chatrobot.governor.lease import BEAT_HZ, LATE_S, LOCAL_BEAT_HZ, LOCAL_TERM_S, LONGEST_S, TERM_S, Lease
+from chatrobot.governor.lease import LATE_S, LONGEST_S, Lease
 from chatrobot.link.topics import OPERATOR
-from chatrobot.wire.connect import advertise
 from chatrobot.wire.messages import Text
 from chatrobot.wire.wire import Wire
 
@@ -42,9 +42,10 @@ class OperatorBeat:
         self._term_s = LOCAL_TERM_S if is_on_this_machine else TERM_S
         self._said, self._count = "", 0
         self._closed = threading.Event()
-        advertise(wire, OPERATOR, Text)
+        wire.advertise(OPERATOR, Text)
 
     def start(self) -> None:
+        """Begin to beat."""
         threading.Thread(target=self._beat, name="operator", daemon=True).start()
 
     def claim(self, text: str) -> None:
@@ -53,7 +54,7 @@ class OperatorBeat:
         self._publish(leaves=False)
 
     def close(self) -> None:
-        """An orderly end: what was said is still done."""
+        """End in order: what was said is still done."""
         self._closed.set()
         self._publish(leaves=True)
 
@@ -96,6 +97,7 @@ class Operators:
         self._looked_s = now_s()
 
     def start(self) -> None:
+        """Begin to watch."""
         threading.Thread(target=self._watch, name="operators", daemon=True).start()
 
     def hear_text(self, text: str) -> None:
@@ -113,7 +115,7 @@ class Operators:
                 self._bind(operator, said, at_s, now_s)
 
     def hear_beat(self, message: Text) -> None:
-        """A beat, or something else that somebody put on that topic."""
+        """Take in a beat; anything else that somebody put on that topic is ignored."""
         try:
             about = json.loads(message.data)
             operator, said, count = str(about["id"]), str(about["said"]), int(about["count"])
@@ -159,7 +161,7 @@ class Operators:
             self._stop()
 
     def age_s(self) -> float:
-        """How old the last beat is of those whose words are being done; 0 where it is not late. From any thread."""
+        """Return the age of the oldest last beat of those whose words are done; 0 where none is late. Any thread."""
         now_s = self._now_s()
         bound = filter(None, (self._beats.get(operator) for operator in tuple(self._bound)))
         return max((_late_age_s(beats, now_s) for beats in bound), default=0.0)

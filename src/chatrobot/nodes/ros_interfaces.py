@@ -12,7 +12,7 @@ from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValu
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.core.wiring import Wiring
 from chatrobot.nodes.log import Severity
-from chatrobot.nodes.parameters import Parameter, Value
+from chatrobot.options import Parameter, Value
 from chatrobot.wire.ros.convert import message_class
 from chatrobot.wire.ros.node import RosNode
 from chatrobot.wire.ros.wire import RosWire
@@ -64,7 +64,7 @@ class RosInterfaces:
                 default = defaults.get(known.name, known.default if instead is None else instead)
                 self.values[known.name] = self._declare(known, default)
             if self.node.has_own_time and not self.node.wait_for_time(SIMULATED_TIME_S):
-                raise WireError("use_sim_time is set, but nobody tells the time on /clock")
+                raise WireError("use_sim_time is set, but nothing is published on /clock")
         except (UsageError, WireError):
             self.node.close()
             raise
@@ -127,7 +127,9 @@ class RosInterfaces:
         except (InvalidParameterTypeException, InvalidParameterValueException) as error:
             raise UsageError(str(error), where=parameter.name, allowed=parameter.description) from error
         if parameter.choices and value not in parameter.choices:
-            raise UsageError(f"{value!r} is none", where=parameter.name, allowed=", ".join(parameter.choices))
+            raise UsageError(
+                f"{value!r} cannot be used", where=parameter.name, allowed=", ".join(parameter.choices)
+            )
         return value
 
 

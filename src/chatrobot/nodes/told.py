@@ -19,12 +19,14 @@ _ORDERED = frozenset({"stopped_by", "paused_by", "replaced", "handed_over", "ove
 
 
 class Line(NamedTuple):
+    """One line of a log."""
+
     severity: Severity
     text: str
 
 
 def told(event: Event, language: str = "en") -> Line | None:
-    """The line for that event; None for what a log does without."""
+    """Return the line for that event; None for what a log does without."""
     if isinstance(event, Started) and event.turn:
         return Line("info", say(language, "log_started", turn=event.turn))
     if isinstance(event, Finished):
@@ -40,7 +42,7 @@ def told(event: Event, language: str = "en") -> Line | None:
 
 
 def severity_of(reason: Reason) -> Severity:
-    """Of a notice."""
+    """Return the severity of a notice."""
     return "info" if reason.code in _GOOD_NEWS else "warn"
 
 
@@ -57,7 +59,7 @@ def _severity_of_program(level: str) -> Severity:
 
 
 def _sentence(text: str) -> str:
-    """A reason that begins small is half a sentence, for others to stand around it."""
+    """Complete a reason that begins small: it is half a sentence, for others to stand around it."""
     if not text[:1].islower():
         return text
     return f"{text[0].upper()}{text[1:]}{'' if text.endswith(('.', '?', '!')) else '.'}"

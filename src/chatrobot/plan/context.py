@@ -108,33 +108,6 @@ class Finding:
     where: Pose = ORIGIN
 
 
-class Findings:
-    """Base of what a rehearsal, of a plan or of a program, found."""
-
-    findings: tuple[Finding, ...]
-
-    @property
-    def refusal(self) -> Finding | None:
-        """Return the first finding that refuses it; None where none does."""
-        return next((finding for finding in self.findings if finding.severity == "refuse"), None)
-
-    @property
-    def ok(self) -> bool:
-        """Return True where nothing was found that refuses it."""
-        return self.refusal is None
-
-
-def limited(asked: Twist, possible: Twist) -> Reason:
-    """Return the reason for a twist of which only a part is possible."""
-    values: dict[str, float | int | str] = {
-        "asked_mps": asked.speed_mps,
-        "possible_mps": possible.speed_mps,
-        "asked_radps": abs(asked.wz_radps),
-        "possible_radps": abs(possible.wz_radps),
-    }
-    return Reason("limited", values)
-
-
 _SLACK = 1.0 + 1e-9  # a limit said in other units (36 km/h) must not fail by rounding
 _STRAIGHT_RAD = 1e-9
 _ABSURD = 1e6

@@ -13,19 +13,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from chatrobot.core.clock import TICK_S
-from chatrobot.core.geometry import Pose
+from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.plan.base import Plan
 from chatrobot.plan.context import (
     MAX_DURATION_S,
     MAX_EXTENT_M,
     Finding,
-    Findings,
     Impossible,
     LoweringContext,
     RoutePlanner,
     Severity,
-    limited,
     too_far,
     too_long,
 )
@@ -66,22 +64,25 @@ class StepEnd:
 
 
 @dataclass(frozen=True, eq=False)
-class Rehearsal(Findings):
-    """Predicts what a plan would do.
+class RehearsedPath:
+    """Predicts where a robot would be at every moment, and holds what was found about that.
 
-    `plan` is the one to run (corners may have been rounded for a base that steers). `path` is [n, 4] of t_s, x_m,
-    y_m, yaw_rad in the odom frame, at most 50 ms apart, up to the end or to the first step that cannot be done.
-    `possible` is what can be done of a plan that is refused, or else drives more than it may, where that is worth a
-    question.
+    `path` is [n, 4] of t_s, x_m, y_m, yaw_rad in the odom frame, at most 50 ms apart.
     """
 
-    plan: Plan
-    context: LoweringContext
     path: Floats
     length_m: float
     findings: tuple[Finding, ...]
-    steps: tuple[StepEnd, ...]
-    possible: Plan | None = None
+
+    @property
+    def ok(self) -> bool:
+        """Return True where nothing was found that refuses it."""
+        return self.refusal is None
+
+    @property
+    def refusal(self) -> Finding | None:
+        """Return the first finding that refuses it; None where none does."""
+        return next((finding for finding in self.findings if finding.severity == "refuse"), None)
 
     @property
     def duration_s(self) -> float:
@@ -92,6 +93,20 @@ class Rehearsal(Findings):
     def end_pose(self) -> Pose:
         """Return the predicted pose at the end, in the odom frame."""
         return pose_of(self.path[-1])
+
+
+@dataclass(frozen=True, eq=False)
+class Rehearsal(RehearsedPath):
+    """Predicts what a plan would do; its path ends where it ends, or at the first step that cannot be done.
+
+    `plan` is the one to run (corners may have been rounded for a base that steers). `possible` is what can be done of
+    a plan that is refused, or else drives more than it may, where that is worth a question.
+    """
+
+    plan: Plan
+    context: LoweringContext
+    steps: tuple[StepEnd, ...]
+    possible: Plan | None = None
 
     def walk(self) -> CoreWalk:
         """Walk the very motions that were rehearsed, for the executor."""
@@ -182,7 +197,7 @@ class _Run:
         path = np.concatenate(rows)
         length_m = float(np.hypot(*np.diff(path[:, 1:3], axis=0).T).sum())
         findings = tuple(sorted(self.findings, key=lambda finding: finding.t_s))
-        return Rehearsal(self.plan, self.context, path, length_m, findings, tuple(self.steps), self.possible)
+        return Rehearsal(path, length_m, findings, self.plan, self.context, tuple(self.steps), self.possible)
 
     def _find(self, severity: Severity, reason: Reason, index: tuple[int, ...], where: Pose) -> None:
         self.findings.append(Finding(severity, reason, index, self.t_s, where))
@@ -212,11 +227,11 @@ class _Run:
             walk.ended_at(segment.end_pose)
         segment = self._slowed(segment)
         if motion.asked is not None:
-            self._find("note", limited(motion.asked, motion.twist), item.index, item.start)
+            self._find("note", limited_reason(motion.asked, motion.twist), item.index, item.start)
         changed = self.governor.changed(segment)
         if changed is not None:
             sent, rows = changed
-            self._find("note", limited(motion.twist, sent), item.index, item.start)
+            self._find("note", limited_reason(motion.twist, sent), item.index, item.start)
             walk.ended_at(pose_of(rows[-1]))
         else:
             times = tick_times(segment.total_s, TICK_S)
@@ -308,3 +323,14 @@ class _Run:
             return ""
         is_known = self.world.clearance_m(np.array([[contact.x_m, contact.y_m]]))[0] < KNOWN_WITHIN_M
         return self.world.obstacle_name_at(contact.x_m, contact.y_m) if is_known else ""
+
+
+def limited_reason(asked: Twist, possible: Twist) -> Reason:
+    """Return the reason for a twist of which only a part is possible."""
+    values: dict[str, float | int | str] = {
+        "asked_mps": asked.speed_mps,
+        "possible_mps": possible.speed_mps,
+        "asked_radps": abs(asked.wz_radps),
+        "possible_radps": abs(possible.wz_radps),
+    }
+    return Reason("limited", values)

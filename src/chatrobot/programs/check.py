@@ -86,7 +86,7 @@ class Checked:
 
     @property
     def refusal(self) -> Mark | None:
-        """Why it cannot run at all."""
+        """Return why it cannot run at all."""
         return next((mark for mark in self.marks if mark.severity == "refuse"), None)
 
 

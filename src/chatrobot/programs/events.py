@@ -13,12 +13,13 @@ from typing import Any, Literal, NamedTuple, Union
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
 from chatrobot.programs.frames import PipeError
-from chatrobot.programs.settings import LATEST_S as LATEST_S
+from chatrobot.programs.settings import LATEST_S
 
 SENSORS = ("odom", "scan", "imu", "battery", "bumper")
 LEVELS = ("DEBUG", "INFO", "WARN", "ERROR", "FATAL")
 LONGEST_TEXT = 16 * 1024
 LONGEST_NAME = 512
+LONGEST_ERROR = 300
 
 
 class Ready(NamedTuple):
@@ -100,6 +101,20 @@ class Raised(NamedTuple):
     traceback: str
     line: int
 
+    @property
+    def as_reason(self) -> Reason:
+        """Return why it is over: `error` is the exception and what it says, `line` the program's own."""
+        error = f"{self.type_name}: {self.message}" if self.message else self.type_name
+        values: Mapping[str, str | int] = {"error": error[:LONGEST_ERROR], "line": self.line}
+        if self.type_name in ("SyntaxError", "IndentationError", "TabError"):
+            return Reason("program_syntax", {"problem": self.message[:LONGEST_ERROR], "line": self.line})
+        return Reason(_ERROR_CODES.get(self.type_name, "program_raised"), values)
+
+
+_ERROR_CODES = {
+    "ModuleNotFoundError": "program_import", "ImportError": "program_import", "PermissionError": "program_forbidden"
+}  # fmt: skip
+
 
 class Died(NamedTuple):
     """It is gone without a word, or it broke the protocol; `log` is the last that its process wrote."""
@@ -115,7 +130,7 @@ ENDS = (Ended, Raised, Died)
 
 
 def read_event(frame: list[Any]) -> ProgramEvent:
-    """Raises PipeError for whatever is not exactly one of the words."""
+    """Read one frame. Raises PipeError for whatever is not exactly one of the words."""
     reader = _READERS.get(frame[0])
     if reader is None:
         raise PipeError(f"an unknown word: {frame[0][:40]!r}")
@@ -195,19 +210,3 @@ _READERS: Mapping[str, tuple[Callable[..., ProgramEvent], tuple[Callable[[Any], 
     "ended": (Ended, (_seconds, _one_of("returned", "exit", "horizon", "stuck"), _code)),
     "raised": (Raised, (_seconds, _name, _text, _text, _count)),
 }
-
-
-LONGEST_ERROR = 300
-
-
-def raised_reason(end: Raised) -> Reason:
-    """`error` is the exception and what it says, `line` the program's own, 0 where it has none to show."""
-    error = f"{end.type_name}: {end.message}" if end.message else end.type_name
-    values: Mapping[str, str | int] = {"error": error[:LONGEST_ERROR], "line": end.line}
-    if end.type_name in ("ModuleNotFoundError", "ImportError"):
-        return Reason("program_import", values)
-    if end.type_name in ("SyntaxError", "IndentationError", "TabError"):
-        return Reason("program_syntax", {"problem": end.message[:LONGEST_ERROR], "line": end.line})
-    if end.type_name == "PermissionError":
-        return Reason("program_forbidden", values)
-    return Reason("program_raised", values)

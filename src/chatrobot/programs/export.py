@@ -151,7 +151,7 @@ ros2 run {package} {executable} "$@"
 
 
 def package_name(name: str) -> str:
-    """A name that colcon and ROS take: lower case letters, digits and single underscores, a letter first."""
+    """Return a name that colcon and ROS take: lower case letters, digits and single underscores, a letter first."""
     slug = re.sub(r"_+", "_", re.sub(r"[^a-z0-9]+", "_", name.casefold())).strip("_")
     if not slug or not slug[0].isalpha() or slug in _RESERVED:
         slug = f"robot_program_{slug}".rstrip("_")
@@ -175,14 +175,10 @@ def export(program: KeptProgram, folder: Path) -> Path:
 
 
 def workspace(program: KeptProgram) -> Mapping[str, str]:
-    """The files of the workspace by their paths in it."""
+    """Return the files of the workspace by their paths in it."""
     package = package_name(program.name)
     imports, call = _CALLS[_has_main(program.source)]
-    words = {
-        "package": package,
-        "executable": package,
-        "description": _description(program),
-    }
+    words = {"package": package, "executable": package, "description": _description(program)}
     remappings = [(topic, target) for topic, target in program.remap.items()]
     root = f"src/{package}"
     return {

@@ -64,7 +64,7 @@ class _Block:
 
 
 def extract(reply: str) -> Extracted | None:
-    """The program in a model's reply; None where there is none. Never raises, whatever the reply."""
+    """Return the program in a model's reply; None where there is none. Never raises, whatever the reply."""
     text = reply[:MAX_REPLY_CHARS].replace("\r\n", "\n").replace("\r", "\n").translate(_INVISIBLE)
     text = _THINKING.sub("", text)
     text = _unwrapped_json(text)

@@ -23,7 +23,7 @@ class PipeError(ChatRobotError):
 
 
 def encode(word: str, *values: Any) -> bytes:
-    """One frame."""
+    """Return one frame."""
     body = json.dumps([word, *values], separators=(",", ":")).encode()
     return _LENGTH.pack(len(body)) + body
 
@@ -40,7 +40,7 @@ class FrameReader:
         self._buffer = bytearray()
 
     def feed(self, data: bytes) -> Iterator[list[Any]]:
-        """The frames that are whole with `data`. Raises PipeError."""
+        """Yield the frames that are whole with `data`. Raises PipeError."""
         self._buffer += data
         begin = 0
         try:

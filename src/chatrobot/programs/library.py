@@ -66,15 +66,15 @@ class Library:
         self._kept: dict[str, KeptProgram] = {}
 
     def names(self) -> tuple[str, ...]:
-        """All names, sorted."""
+        """Return all names, sorted."""
         return tuple(sorted(program.name for program in self._all()))
 
     def all(self) -> tuple[KeptProgram, ...]:
-        """All programs, sorted by name."""
+        """Return all programs, sorted by name."""
         return tuple(sorted(self._all(), key=lambda program: program.name))
 
     def get(self, name: str) -> KeptProgram:
-        """The program of that name, whatever its case and spaces.
+        """Return the program of that name, whatever its case and spaces.
 
         Raises:
             InputError: there is none; the message lists those that are.
@@ -86,16 +86,16 @@ class Library:
         return found
 
     def find(self, name: str) -> KeptProgram | None:
-        """The program of that name, or None."""
+        """Return the program of that name, or None."""
         key = folder_name(name)
         return next((program for program in self._all() if folder_name(program.name) == key), None)
 
     def place(self, name: str) -> str:
-        """The file of that program's source, whether it is kept yet or not; "" where nothing is written to files."""
+        """Return the file of that program's source, kept yet or not; "" where nothing is written to files."""
         return str(self._folder / folder_name(name) / _SOURCE) if self._folder is not None else ""
 
     def free_name(self, wanted: str) -> str:
-        """`wanted`, or with the first number behind it that makes it new."""
+        """Return `wanted`, or with the first number behind it that makes it new."""
         wanted = clean_name(wanted) or "program"
         taken = {folder_name(name) for name in self.names()}
         if folder_name(wanted) not in taken:
@@ -119,7 +119,7 @@ class Library:
             self._write(self._folder / folder_name(program.name), program)
 
     def edit(self, name: str, source: str) -> KeptProgram:
-        """Another source for a program that is kept: what is known of the old one's rehearsal is forgotten."""
+        """Give a kept program another source; forget what is known of the old one's rehearsal."""
         old = self.get(name)
         provenance = replace(old.provenance, by="person", versions=old.provenance.versions + 1)
         new = replace(old, source=source, provenance=provenance, rehearsal={}, remap={})
@@ -127,7 +127,7 @@ class Library:
         return new
 
     def rename(self, old: str, new: str) -> None:
-        """Raises InputError where there is no `old`, or a `new` already."""
+        """Rename a program. Raises InputError where there is no `old`, or a `new` already."""
         program, new = self.get(old), clean_name(new)
         taken = self.find(new)
         if not new or (taken is not None and taken.name != program.name):
@@ -136,20 +136,20 @@ class Library:
         self.keep(replace(program, name=new))
 
     def remove(self, name: str) -> None:
-        """Raises InputError where there is none."""
+        """Remove a program. Raises InputError where there is none."""
         program = self.get(name)
         self._kept.pop(folder_name(program.name), None)
         if self._folder is not None:
             shutil.rmtree(self._folder / folder_name(program.name))
 
     def note_rehearsal(self, name: str, rehearsal: Mapping[str, Any]) -> None:
-        """What its last rehearsal showed. Nothing where it is not kept."""
+        """Keep what its last rehearsal showed, where the program itself is kept."""
         program = self.find(name)
         if program is not None:
             self.keep(replace(program, rehearsal=rehearsal))
 
     def note_run(self, name: str, run: RunRecord) -> None:
-        """How a run of it went. Nothing where it is not kept."""
+        """Keep how a run of it went, where the program itself is kept."""
         program = self.find(name)
         if program is not None:
             self.keep(replace(program, runs=(*program.runs, run)[-KEPT_RUNS:]))
@@ -178,9 +178,7 @@ class Library:
             )
         except (OSError, ValueError, KeyError, TypeError) as error:
             raise InputError(
-                f"it cannot be read: {error}",
-                where=str(about),
-                allowed="mend the file, or remove its folder",
+                f"it cannot be read: {error}", where=str(about), allowed="mend the file, or remove its folder"
             ) from error
 
     def _write(self, folder: Path, program: KeptProgram) -> None:
@@ -197,16 +195,16 @@ class Library:
 
 
 def clean_name(name: str) -> str:
-    """A name as it is kept: printable words with one space between them."""
+    """Return a name as it is kept: printable words with one space between them."""
     words = re.sub(r"[^\w\- ]+", " ", name.replace("_", " ")).split()
     return " ".join(words)[:MAX_NAME_CHARS].strip(" -")
 
 
 def folder_name(name: str) -> str:
-    """The folder of a name; two names of the same folder are the same name."""
+    """Return the folder of a name; two names of the same folder are the same name."""
     return clean_name(name).casefold().replace(" ", "_") or "_"
 
 
 def today() -> str:
-    """This moment, as it stands in what is kept."""
+    """Return this moment, as it stands in what is kept."""
     return datetime.now(timezone.utc).isoformat(timespec="seconds")

@@ -38,6 +38,7 @@ class Rule:
     to: Any
 
     def is_for(self, node_name: str) -> bool:
+        """Tell whether it counts for that node."""
         return self.node in ("", node_name)
 
 
@@ -51,22 +52,22 @@ class RosArguments:
     unknown: tuple[str, ...] = ()
 
     def overridden_by(self, own: RosArguments) -> RosArguments:
-        """These of a process, with those of one of its nodes put first."""
+        """Return these of a process, with those of one of its nodes put first."""
         return RosArguments((*self.parameters, *own.parameters), (*own.remaps, *self.remaps))
 
     def node_name(self, written: str) -> str:
-        """The name of a node that its program calls `written`."""
+        """Return the name of a node that its program calls `written`."""
         return self._first(written, "__node", "__name") or written
 
     def namespace(self, written: str) -> str | None:
-        """The namespace that is given to a node of that written name; None where none is."""
+        """Return the namespace given to a node of that written name; None where none is."""
         return self._first(written, "__ns")
 
     def _first(self, node_name: str, *whats: str) -> str | None:
         return next((rule.to for rule in self.remaps if rule.what in whats and rule.is_for(node_name)), None)
 
     def names(self, node_name: str, kind: str) -> dict[str, str]:
-        """What names are led to for a node; `kind` is `topic` or `service`. The first rule about a name holds."""
+        """Return what names are led to for a node; `kind` is `topic` or `service`. The first rule for a name holds."""
         found: dict[str, str] = {}
         for rule in self.remaps:
             scheme, _, name = rule.what.rpartition("://")
@@ -75,12 +76,12 @@ class RosArguments:
         return found
 
     def values(self, node_name: str) -> dict[str, Any]:
-        """The values of parameters for a node. The last one of a name holds."""
+        """Return the values of parameters for a node. The last one of a name holds."""
         return {rule.what: rule.to for rule in self.parameters if rule.is_for(node_name)}
 
 
 def read_ros_args(args: Sequence[str]) -> RosArguments:
-    """The ROS arguments among `args`.
+    """Read the ROS arguments among `args`.
 
     Raises:
         RosArgumentsError: one of them cannot be read, or names a file: no file can be opened in the sandbox.
@@ -105,7 +106,7 @@ def read_ros_args(args: Sequence[str]) -> RosArguments:
 
 
 def check_args(args: Sequence[str]) -> None:
-    """Raises RosArgumentsError where a program cannot be given these."""
+    """Check that a program can be given these. Raises RosArgumentsError."""
     if len(args) > MOST_ARGS or sum(map(len, args)) > MOST_CHARS:
         raise RosArgumentsError(
             f"a program takes at most {MOST_ARGS} arguments of {MOST_CHARS} characters in all"
@@ -159,7 +160,7 @@ _ITEM = re.compile(r"""\s*(?P<item>'(?:[^']|'')*'|"(?:[^"\\]|\\.)*"|[^,\[\]'"{}]
 
 
 def parameter_value(text: str) -> Any:
-    """What `text` is as a parameter: a bool, a number, a text, or a list of one of them.
+    """Read `text` as a parameter: a bool, a number, a text, or a list of one of them.
 
     Raises:
         RosArgumentsError: it is a list of different things, or cannot be read.

@@ -29,7 +29,7 @@ from chatrobot.sandbox.process import ExitReport, SandboxedProcess
 from chatrobot.sandbox.warm_server import WarmServer
 
 ENTRY = "chatrobot.programs.inside.entry:run"
-PRELOAD = ("chatrobot.programs.inside.preloaded",)
+PRELOAD = ("chatrobot.programs.inside.entry",)
 BYTES_A_POLL = 16 * 1024
 """A flood may not keep the host from its other work."""
 TEXT_BYTES = 1024 * 1024
@@ -39,7 +39,7 @@ EXIT_WAIT_S = 1.0
 
 
 def warm_server(limits: SandboxLimits | None = None, path: Sequence[Path] = ()) -> WarmServer:
-    """A server that knows the names that programs import. Start it, use it for many programs, close it."""
+    """Return a server that knows the names that programs import. Start it, use it for many programs, close it."""
     return WarmServer(path, PRELOAD, limits)
 
 
@@ -48,7 +48,9 @@ class Launcher(Protocol):
 
     def launch(
         self, entry: str, payload: bytes = b"", limits: SandboxLimits | None = None
-    ) -> SandboxedProcess: ...
+    ) -> SandboxedProcess:
+        """Start a process of its own at `entry`. Raises SandboxError."""
+        ...
 
 
 class SandboxedProgram:
@@ -67,20 +69,21 @@ class SandboxedProgram:
         self._end: ProgramEvent | None = None
 
     def start(self) -> None:
-        """Raises SandboxError where it cannot be launched."""
+        """Launch it. Raises SandboxError."""
         self._process = self._server.launch(ENTRY, self.settings.to_bytes(), self._limits)
         self._process.channel.setblocking(False)
 
     @property
     def end(self) -> ProgramEvent | None:
-        """Its last event; None while it runs."""
+        """Return its last event; None while it runs."""
         return self._end
 
     def fileno(self) -> int:
+        """Return what is readable when there is something to poll."""
         return self._channel.fileno()
 
     def poll(self, timeout_s: float = 0.0) -> list[ProgramEvent]:
-        """What happened since the last poll; waits for something at most `timeout_s`. Nothing after its end."""
+        """Return what happened since the last poll; wait for something at most `timeout_s`. Nothing after its end."""
         if self._end is not None:
             return []
         self._send()
@@ -101,23 +104,23 @@ class SandboxedProgram:
         return events
 
     def tell(self, sensor: str, values: Sequence[Any]) -> None:
-        """What a sensor says: its stamp (seconds since the program's start) and its numbers. A full pipe drops it."""
+        """Pass on a sensor's words: its stamp (seconds since the program's start) and numbers. A full pipe drops them."""
         if len(self._outbox) < OUTBOX_BYTES:
             self._outbox += encode("feed", [[sensor, *values]])
         self._send()
 
     def let_pass(self, now_s: float, due_s: float, messages: Sequence[Sequence[Any]]) -> None:
-        """The answer to `AsksTime`: the time now, when the next message may come, and those of until now."""
+        """Answer `AsksTime`: the time now, when the next message may come, and those of until now."""
         self._outbox += encode("now", round(now_s * 1e9), round(due_s * 1e9), messages)
         self._send()
 
     def kill(self) -> None:
-        """At once. Its end is told by the next poll."""
+        """End it at once; the next poll tells so."""
         if self._process is not None:
             self._process.kill()
 
     def exit_report(self) -> ExitReport | None:
-        """Of a program that has ended: what its process used and tried."""
+        """Return what the process of an ended program used and tried."""
         return self._process.wait(EXIT_WAIT_S) if self._process is not None else None
 
     def close(self) -> None:

@@ -37,15 +37,17 @@ class ProgramSettings:
     horizon_s: float = math.inf
 
     def to_bytes(self) -> bytes:
+        """Return them as the sandbox gets them."""
         return json.dumps(asdict(self)).encode()
 
     @classmethod
     def from_bytes(cls, data: bytes) -> ProgramSettings:
+        """Read what `to_bytes` made."""
         values = json.loads(data)
         return cls(**{**values, "args": tuple(values["args"])})
 
 
 def robot_topics(wiring: Wiring) -> dict[str, str]:
-    """The topics of one robot by what they are, resolved."""
+    """Return the topics of one robot by what they are, resolved."""
     topics = {"cmd_vel": wiring.cmd_vel_topic, **wiring.sensor_topics}
     return {name: f"/{topic.lstrip('/')}" for name, topic in topics.items()}

@@ -13,7 +13,7 @@ from chatrobot.core.scheduling import wake_promptly
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.fault_injection import FaultInjection
 from chatrobot.sim.load import load_world
-from chatrobot.sim.network_wire import FieldsPublisher, MarshalledWire, TransformPublisher
+from chatrobot.sim.network_wire import MarshalledWire, TransformPublisher
 from chatrobot.sim.robot import SimRobot
 from chatrobot.sim.server import SimControl, SimServer
 from chatrobot.sim.world import check_start
@@ -95,7 +95,8 @@ def _open_wire(options: argparse.Namespace, profile: RobotProfile) -> LocalHub |
             where="--on",
             allowed="local, dds, ros or rosbridge:ws://HOST:9090",
         )
-    from chatrobot.wire.connect import connect_ros, connect_wire
+    from chatrobot.wire.connect import connect_wire
+    from chatrobot.wire.ros import connect_ros
 
     if address.startswith("ros:"):
         on_ros = connect_ros(address, profile.wiring, NODE, options.ros_args)
@@ -104,9 +105,7 @@ def _open_wire(options: argparse.Namespace, profile: RobotProfile) -> LocalHub |
         wire: Wire = on_ros
     else:
         wire = connect_wire(address, profile.wiring, NODE)
-    if isinstance(wire, FieldsPublisher):
-        return MarshalledWire(wire, TransformPublisher(wire, profile).after)
-    return MarshalledWire(wire)
+    return MarshalledWire(wire, TransformPublisher(wire, profile).after)
 
 
 if __name__ == "__main__":

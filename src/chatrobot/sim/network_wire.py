@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import contextlib
 import queue
-from collections.abc import Callable, Mapping
-from typing import Any, Protocol, runtime_checkable
+from collections.abc import Callable
+from typing import Any
 
 from chatrobot.core.errors import WireError
 from chatrobot.robots.profile import RobotProfile
@@ -19,7 +19,7 @@ from chatrobot.wire.stamps import to_wall_s
 from chatrobot.wire.wire import M, Wire
 
 
-class MarshalledWire:
+class MarshalledWire(Wire):
     """Wraps an end of a wire that delivers on its own threads: this one delivers in `poll` alone, as a `LocalHub` does.
 
     Args:
@@ -66,20 +66,10 @@ _EVERY = 2
 """Of 100 odometry messages a second, every second one: RViz draws no faster."""
 
 
-@runtime_checkable
-class FieldsPublisher(Wire, Protocol):
-    """A wire that also carries ROS messages that have no planar form."""
-
-    def publish_fields(
-        self, topic: str, type_name: str, fields: Mapping[str, Any], *, is_kept: bool = False
-    ) -> None:
-        """Publish a message of any ROS type, its fields by name."""
-
-
 class TransformPublisher:
     """Publishes with the odometry where the frames are."""
 
-    def __init__(self, wire: FieldsPublisher, profile: RobotProfile) -> None:
+    def __init__(self, wire: Wire, profile: RobotProfile) -> None:
         self._wire = wire
         self._odom_topic = profile.wiring.odom_topic
         self._lidar = profile.lidar

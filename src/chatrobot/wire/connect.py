@@ -10,79 +10,51 @@ A namespace in the address goes before the one in the robot's profile.
 
 from __future__ import annotations
 
-import os
-import re
-from collections.abc import Callable, Sequence
-from importlib.util import find_spec
-from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol, runtime_checkable
+from collections.abc import Callable
+from importlib import import_module
+from typing import NamedTuple
 
-from chatrobot.core.clock import Clock, RealClock
 from chatrobot.core.errors import UsageError
 from chatrobot.core.wiring import Wiring
-from chatrobot.wire.messages import Message
 from chatrobot.wire.wire import Wire
 
-if TYPE_CHECKING:
-    from chatrobot.wire.ros.wire import RosWire
-
-ADDRESSES = "local:PATH, dds: or ros:, dds://DOMAIN[/NAMESPACE] or rosbridge:ws://HOST:9090[#NAMESPACE]"
-_DOMAIN = re.compile(
-    r"(?:dds|ros):(?://(?P<domain>[0-9]{0,3})(?:/(?P<namespace>[A-Za-z_][A-Za-z0-9_/]*)?)?)?"
-)
-
+MODULES = {
+    "dds": "chatrobot.wire.dds",
+    "ros": "chatrobot.wire.ros",
+    "rosbridge": "chatrobot.wire.rosbridge",
+    "local": "chatrobot.wire.local",
+}
+"""The module whose `BACKEND` opens the addresses of a scheme. A wire is added here."""
+ENTRY_POINT_GROUP = "chatrobot.wires"
+"""Another package's wire: the entry point's name is the scheme, its value the module."""
 
 Connect = Callable[[str, Wiring, str], Wire]
 """What `connect_wire` is: address, wiring and our name there to an end of the wire."""
 
 
-@runtime_checkable
-class Discovering(Protocol):
-    """A wire whose ends need time to find each other."""
+class Backend(NamedTuple):
+    """A kind of wire. Its module is light: it loads the library that it stands on in `connect`, never before.
 
-    def advertise(self, topic: str, kind: type[Message]) -> None: ...
+    Attributes:
+        connect: opens our end; raises UsageError for a bad address and for what is not installed, else WireError.
+        form: an address, for messages: `rosbridge:ws://HOST:9090`.
+        is_on_this_machine: whether all who meet at an address are on this machine.
+        alone: the address that the scheme alone stands for (`--on dds`).
+        require: raises UsageError where it is not installed, without loading it.
+    """
 
-    def wait_for_listener(
-        self, topic: str, kind: type[Message], timeout_s: float, count: int = 1
-    ) -> bool: ...
-
-
-@runtime_checkable
-class Knowing(Protocol):
-    """A wire that knows who publishes."""
-
-    def publishers_of(self, topic: str) -> list[str]: ...
-
-
-class Endpoint(NamedTuple):
-    """Somebody else's end of a topic. `topic` is absolute (`/robot1/odom`), `type_name` is `package/msg/Name`."""
-
-    topic: str
-    type_name: str
-    role: Literal["publishes", "listens"]
-
-
-@runtime_checkable
-class Surveying(Protocol):
-    """A wire that can tell who else is on it."""
-
-    def survey(self) -> list[Endpoint]:
-        """The endpoints of others, as far as they have been discovered."""
-        ...
-
-    def resolve(self, topic: str) -> str:
-        """A topic as `survey` names it."""
-        ...
-
-    def rewire(self, wiring: Wiring) -> None:
-        """Take the robot to be wired like this; before anything is published or listened to."""
-        ...
+    connect: Connect
+    form: str
+    is_on_this_machine: Callable[[str], bool] = lambda _: True
+    alone: str = ""
+    require: Callable[[], None] = lambda: None
 
 
 def connect_wire(address: str, wiring: Wiring, node_name: str) -> Wire:
-    """This process's end of the wire at `address`.
+    """Open this process's end of the wire at `address`.
 
     Args:
-        address: one of `ADDRESSES`.
+        address: as `--on` names it, or a local wire's path.
         wiring: the robot's topics and types.
         node_name: what others see us as, where the wire has names.
 
@@ -90,217 +62,44 @@ def connect_wire(address: str, wiring: Wiring, node_name: str) -> Wire:
         UsageError: there is no such address, or what it needs is not installed.
         WireError: nobody answers there.
     """
-    scheme, separator, rest = address.partition(":")
-    if scheme == "dds" and separator:
-        return _connect_dds(address, wiring, node_name)
-    if scheme == "ros" and separator:
-        return connect_ros(address, wiring, node_name)
-    if scheme == "rosbridge" and separator:
-        return _connect_rosbridge(rest, wiring)
-    from chatrobot.wire.local import LocalWire
-
-    path = rest if scheme == "local" and separator else address
-    if not path or ("/" not in path and not separator):
-        raise UsageError(f"{address!r} is no wire", allowed=ADDRESSES)
-    return LocalWire(path)
-
-
-@runtime_checkable
-class Returning(Protocol):
-    """A wire whose other end may be gone for a while and come back."""
-
-    @property
-    def is_connected(self) -> bool: ...
-
-
-@runtime_checkable
-class Nulling(Protocol):
-    """A wire whose scans may hold null: for infinity (open space) and for NaN (nothing measured) alike."""
-
-    @property
-    def has_null_ranges(self) -> bool: ...
-
-
-def has_null_ranges(wire: Wire) -> bool:
-    """Whether open space cannot be told from a range that was not measured, as far as scans have come."""
-    return wire.has_null_ranges if isinstance(wire, Nulling) else False
-
-
-def advertise(wire: Wire, topic: str, kind: type[Message]) -> None:
-    """Let listeners find us before the first message, where the wire needs it: a first zero must not be lost."""
-    if isinstance(wire, Discovering):
-        wire.advertise(topic, kind)
-
-
-def wait_for_listener(wire: Wire, topic: str, kind: type[Message], timeout_s: float, count: int = 1) -> bool:
-    """Block until `count` listen on `topic`, where the wire can know; False where they don't in time."""
-    return wire.wait_for_listener(topic, kind, timeout_s, count) if isinstance(wire, Discovering) else True
-
-
-def publishers_of(wire: Wire, topic: str) -> list[str]:
-    """Who publishes on `topic` besides our own session, by name, where the wire can know."""
-    return wire.publishers_of(topic) if isinstance(wire, Knowing) else []
-
-
-@runtime_checkable
-class Resolving(Protocol):
-    """A wire whose topics may go by other names than we use: ROS remaps them and knows namespaces."""
-
-    def resolve(self, topic: str) -> str: ...
-
-
-def resolved(wire: Wire, topic: str) -> str:
-    """The name under which any other end of `wire` reaches our `topic`."""
-    return wire.resolve(topic) if isinstance(wire, Resolving) and topic else topic
-
-
-@runtime_checkable
-class Namespaced(Protocol):
-    """A wire where we are a node in a namespace."""
-
-    @property
-    def namespace(self) -> str: ...
-
-
-def namespace_of(wire: Wire) -> str:
-    """The namespace of our node, without slashes around it; empty for none, and where the wire has no nodes."""
-    return wire.namespace if isinstance(wire, Namespaced) else ""
-
-
-@runtime_checkable
-class Timed(Protocol):
-    """A wire that may keep a time of its own: that of a simulation."""
-
-    @property
-    def has_own_time(self) -> bool: ...
-
-    def now_s(self) -> float: ...
-
-    def suspended_s(self) -> float: ...
-
-
-def clock_of(wire: Wire) -> Clock:
-    """The clock that the stamps of this wire's messages are of."""
-    return wire if isinstance(wire, Timed) and wire.has_own_time else RealClock()
-
-
-def comes_back(wire: Wire) -> bool:
-    """Whether an error of this wire may pass: what could not be sent is worth another try."""
-    return isinstance(wire, Returning)
+    return _backend(_scheme(address), address).connect(address, wiring, node_name)
 
 
 def wire_address(on: str) -> str:
-    """The address of the wire that `--on` names.
+    """Return the address of the wire that `--on` names.
 
     Raises:
         UsageError: no robot is to be had there, or ROS is not here.
     """
-    if on == "rosbridge":
-        return "rosbridge:ws://localhost:9090"
-    if on == "ros" or on.startswith("ros:"):
-        require_ros()
-    if on in ("dds", "ros") or on.startswith(("dds:", "ros:", "rosbridge:", "local:")):
-        return on if ":" in on else f"{on}:"
-    raise UsageError(
-        f"this version cannot drive a robot over {on!r}",
-        where="--on",
-        allowed="sim, dds or ros, dds://DOMAIN/NAMESPACE, rosbridge:ws://HOST:9090 or local:PATH",
-    )
+    scheme, colon, _ = on.partition(":")
+    backend = _backend(scheme, on, "--on")
+    backend.require()
+    return on if colon else backend.alone or f"{on}:"
 
 
 def is_on_this_machine(address: str) -> bool:
     """Whether all who meet on that wire are on this machine: beats are cheap there, and hardly ever late."""
-    scheme, separator, _ = address.partition(":")
-    if scheme == "dds" and separator:
-        from chatrobot.wire.dds.discovery import discovery_from
-
-        discovery = discovery_from(os.environ)
-        return discovery.range in ("LOCALHOST", "OFF") and not discovery.peers and not discovery.uri
-    if scheme == "ros" and separator:
-        from chatrobot.wire.ros.environment import reaches_this_machine_alone
-
-        return reaches_this_machine_alone(os.environ)
-    if scheme == "rosbridge" and separator:
-        from urllib.parse import urlsplit
-
-        return urlsplit(address.partition(":")[2]).hostname in ("localhost", "127.0.0.1", "::1")
-    return True
+    return _backend(_scheme(address), address).is_on_this_machine(address)
 
 
-def _connect_dds(address: str, wiring: Wiring, node_name: str) -> Wire:
-    from chatrobot.wire.dds.discovery import discovery_from
+def _scheme(address: str) -> str:
+    scheme, colon, _ = address.partition(":")
+    return "local" if "/" in scheme else scheme if colon else ""
 
-    domain_id, namespace = domain_and_namespace(address)
-    try:
-        from chatrobot.wire.dds.wire import DdsWire
-    except ImportError as error:
+
+def _backend(scheme: str, address: str, where: str = "") -> Backend:
+    module = MODULES.get(scheme) or _installed().get(scheme)
+    if module is None:
+        forms = [import_module(known).BACKEND.form for known in MODULES.values()]
         raise UsageError(
-            f"DDS is not installed here ({error.name or error})",
-            allowed="pip install 'chatrobot[dds]'; its wheels are for x86-64 Linux and Python up to 3.13, elsewhere"
-            " take --on rosbridge, or --on ros where ROS 2 is sourced",
-        ) from error
-    return DdsWire(
-        wiring,
-        node_name,
-        namespace=namespace or wiring.namespace,
-        discovery=discovery_from(os.environ, domain_id),
-    )
-
-
-def connect_ros(address: str, wiring: Wiring, node_name: str, ros_args: Sequence[str] = ()) -> RosWire:
-    """A ROS node of its own; `ros_args` is what stood behind `--ros-args`.
-
-    Raises:
-        UsageError: there is no such address, ROS is not here, or it cannot use the arguments.
-        WireError: ROS cannot be opened.
-    """
-    domain_id, namespace = domain_and_namespace(address)
-    try:
-        from chatrobot.wire.ros.node import RosNode
-        from chatrobot.wire.ros.wire import RosWire
-    except ImportError as error:  # not sourced, or of another Python
-        raise _no_ros(str(error)) from error
-    node = RosNode(node_name, namespace=namespace or wiring.namespace, domain_id=domain_id, ros_args=ros_args)
-    return RosWire(wiring, node)
-
-
-def require_ros() -> None:
-    """Quick: without loading it.
-
-    Raises:
-        UsageError: ROS is not here; how to get it.
-    """
-    if find_spec("rclpy") is None:
-        raise _no_ros("no rclpy")
-
-
-def _no_ros(why: str) -> UsageError:
-    from chatrobot.wire.ros.environment import HOW_TO_GET_IT
-
-    return UsageError(f"ROS 2 is not here ({why})", allowed=HOW_TO_GET_IT)
-
-
-def domain_and_namespace(address: str) -> tuple[int | None, str]:
-    """What `dds://42/robot1` or `ros://42/robot1` names; None for the environment's domain."""
-    from chatrobot.wire.dds.discovery import MAX_DOMAIN_ID
-
-    match = _DOMAIN.fullmatch(address)
-    domain_id = int(match["domain"]) if match and match["domain"] else None
-    if match is None or (domain_id or 0) > MAX_DOMAIN_ID:
-        scheme = address.partition(":")[0]
-        raise UsageError(
-            f"{address!r} is no domain", allowed=f"{scheme}: or {scheme}://0 to {scheme}://{MAX_DOMAIN_ID}"
+            f"{address!r} is not a robot address", where=where, allowed=f"sim, {', '.join(forms)}"
         )
-    return domain_id, match["namespace"] or ""
+    backend: Backend = import_module(module).BACKEND
+    return backend
 
 
-def _connect_rosbridge(rest: str, wiring: Wiring) -> Wire:
-    try:
-        from chatrobot.wire.rosbridge import RosbridgeWire
-    except ImportError as error:
-        raise UsageError(
-            f"rosbridge is not installed here ({error.name or error})",
-            allowed="pip install 'chatrobot[rosbridge]'",
-        ) from error
-    url, _, namespace = rest.partition("#")
-    return RosbridgeWire(url, wiring, namespace=namespace or wiring.namespace)
+def _installed() -> dict[str, str]:
+    """The modules of the wires that other packages bring. Slow: looked up where ours have no such scheme."""
+    from importlib.metadata import entry_points
+
+    return {entry.name: entry.value for entry in entry_points(group=ENTRY_POINT_GROUP)}

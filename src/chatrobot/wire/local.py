@@ -15,10 +15,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from chatrobot.core.errors import WireError
+from chatrobot.core.errors import UsageError, WireError
+from chatrobot.core.wiring import Wiring
 from chatrobot.wire.codec import decode, encode, topic_of
+from chatrobot.wire.connect import Backend
 from chatrobot.wire.messages import Message
-from chatrobot.wire.wire import M
+from chatrobot.wire.wire import M, Wire
 
 PACKET_BYTES = 262_144
 _PACKETS_A_TURN = 64
@@ -45,7 +47,7 @@ class _Subscriptions:
         return topic in self._callbacks
 
 
-class LocalWire:
+class LocalWire(Wire):
     """A process's end of the local wire. Connects at once; a thread of its own delivers.
 
     Raises:
@@ -107,7 +109,7 @@ class LocalWire:
                 self._subscriptions.deliver(topic_of(packet), message)
 
 
-class LocalHub:
+class LocalHub(Wire):
     """Routes packets between the processes; is itself an end of the wire for the process that runs it.
 
     Single-threaded: whoever owns it calls `poll`. Callbacks come from within `poll` or `publish`.
@@ -206,3 +208,13 @@ class LocalHub:
         client, _ = self._clients.pop(descriptor)
         self._poller.unregister(descriptor)
         client.close()
+
+
+def _connect(address: str, _: Wiring, __: str) -> Wire:
+    path = address.removeprefix("local:")
+    if not path:
+        raise UsageError("a local wire needs the path of its socket", where=address, allowed="local:PATH")
+    return LocalWire(path)
+
+
+BACKEND = Backend(_connect, "local:PATH")

@@ -7,7 +7,7 @@ from typing import Any
 
 from chatrobot.core.errors import WireError
 from chatrobot.wire.messages import Message
-from chatrobot.wire.wire import M
+from chatrobot.wire.wire import M, Wire
 
 
 class MemoryHub:
@@ -17,10 +17,11 @@ class MemoryHub:
         self.subscribers: dict[str, list[tuple[MemoryWire, type, Callable[[Any], None]]]] = {}
 
     def connect(self) -> MemoryWire:
+        """Make another end of this wire."""
         return MemoryWire(self)
 
 
-class MemoryWire:
+class MemoryWire(Wire):
     """One end of a `MemoryHub`."""
 
     def __init__(self, hub: MemoryHub) -> None:

@@ -17,7 +17,7 @@ from chatrobot.cli.console.controller import ChatController
 from chatrobot.cli.console.lines import indented
 from chatrobot.cli.console.tables import example_place, place_in
 from chatrobot.cli.console.words import Words, language_of_environment
-from chatrobot.cli.typed_ahead import TypedAhead
+from chatrobot.cli.lines import TypedAhead
 from chatrobot.compose import Setup, connect
 from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import LinkError, UsageError
@@ -38,7 +38,7 @@ def run_console(setup: Setup, typed_ahead: TypedAhead) -> int:
         LinkError: the robot does not start.
     """
     if setup.fast:
-        raise UsageError("a conversation is in real time", where="--fast", allowed='chatrobot do "…" --fast')
+        raise UsageError("the console runs in real time", where="--fast", allowed='chatrobot do "…" --fast')
     words = Words(language_of_environment())
     setup = replace(setup, trace=False, options=replace(setup.options, while_moving="replace"))
     controller: ChatController | None = None
@@ -57,7 +57,7 @@ def run_console(setup: Setup, typed_ahead: TypedAhead) -> int:
 
 
 def can_chat(environment: Mapping[str, str] = os.environ) -> bool:
-    """True where the terminal can do colours and move its cursor, and is wide enough for a line."""
+    """Tell whether the terminal can do colours and move its cursor, and is wide enough for a line."""
     return (
         environment.get("TERM", "dumb") not in ("dumb", "unknown", "")
         and "NO_COLOR" not in environment
@@ -96,7 +96,7 @@ def _converse(controller: ChatController, setup: Setup, typed_ahead: TypedAhead)
 
 
 def greeting(controller: ChatController, on: str) -> tuple[RenderableType, ...]:
-    """Which robot, where it is, and three things to say."""
+    """Say which robot it is, where it is, and three things to say."""
     words, world = controller.words, controller.connection.world
     title = controller.connection.profile.title
     if on in SIMULATED:

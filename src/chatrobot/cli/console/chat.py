@@ -22,13 +22,14 @@ from prompt_toolkit.document import Document
 from prompt_toolkit.filters import Condition
 from prompt_toolkit.formatted_text import FormattedText
 from prompt_toolkit.history import FileHistory, History, InMemoryHistory
+from prompt_toolkit.key_binding import KeyBindings, KeyPressEvent
+from prompt_toolkit.keys import Keys
 from prompt_toolkit.patch_stdout import StdoutProxy
 from prompt_toolkit.styles import Style
 from rich.console import Console, RenderableType
 
 from chatrobot.cli.console.completion import ChatCompleter
 from chatrobot.cli.console.controller import ChatController
-from chatrobot.cli.console.keys import chat_keys
 from chatrobot.cli.console.pasted import LONGEST_CHARS, clean
 from chatrobot.cli.console.status_bar import STYLES
 
@@ -74,13 +75,7 @@ class Chat:
             multiline=Condition(lambda: self._is_editing),
             bottom_toolbar=self._status_bar,
             style=Style.from_dict(STYLES),
-            key_bindings=chat_keys(
-                interrupt=self._interrupt,
-                leave=controller.leave,
-                suspend=self._suspend,
-                paste=self._pasted,
-                is_editing=lambda: self._is_editing,
-            ),
+            key_bindings=self._keys(),
             prompt_continuation="  ",
             erase_when_done=True,
         )
@@ -129,23 +124,28 @@ class Chat:
 
     @property
     def echoes(self) -> bool:
+        """What was typed goes when it is sent."""
         return False
 
     @property
     def width(self) -> int:
+        """Columns."""
         return shutil.get_terminal_size().columns
 
     def print(self, *lines: RenderableType) -> None:
+        """Show lines above the prompt."""
         self._console.print(*lines, sep="\n")
 
     def refresh(self) -> None:
-        # Never in the caller's thread: prompt_toolkit looks its loop up twice, and the prompt may end in between.
+        """Draw anew; never in the caller's thread: prompt_toolkit looks its loop up twice, and may end in between."""
         self._soon(self._prompt.app.invalidate)
 
     def edit(self, plan_text: str) -> None:
+        """Put a plan into the line."""
         self._soon(lambda: self._begin_editing(plan_text))
 
     def leave(self, code: int) -> None:
+        """End the conversation."""
         self._code, self._has_left = max(self._code, code), True
         self._soon(self._exit)
 
@@ -159,20 +159,52 @@ class Chat:
             self._prompt.app.exit(result="")
 
     def _leave_if_told(self) -> None:
-        """It may have been told before there was a prompt to leave."""
+        """Leave if it was told before there was a prompt to leave."""
         if self._has_left:
             self._soon(self._exit)
 
     # --- typing ---
+
+    def _keys(self) -> KeyBindings:
+        """Bind Ctrl-C, Ctrl-D and Ctrl-Z, pasted text, and Enter where more is coming; eager: before drawing."""
+        keys = KeyBindings()
+        keys.add("c-c", eager=True)(lambda _: self._interrupt())
+        keys.add("<sigint>", eager=True)(lambda _: self._interrupt())
+        keys.add("c-d", eager=True)(self._delete_or_leave)
+        keys.add("c-z", eager=True)(lambda _: self._suspend())
+        keys.add(Keys.BracketedPaste, eager=True)(self._paste)
+        # While a plan is edited, Enter begins a new line.
+        keys.add("enter", eager=True, filter=Condition(lambda: not self._is_editing))(self._enter)
+        return keys
+
+    def _delete_or_leave(self, event: KeyPressEvent) -> None:
+        if event.current_buffer.text:
+            event.current_buffer.delete()
+        else:
+            self._controller.leave()
+
+    def _paste(self, event: KeyPressEvent) -> None:
+        """Hear what is pasted before it is shown and long before it is sent."""
+        text = event.data.replace("\r\n", "\n").replace("\r", "\n")
+        self._stop_for_paste(text)
+        event.current_buffer.insert_text(text if self._is_editing else text.rstrip("\n"))
+
+    def _enter(self, event: KeyPressEvent) -> None:
+        """Keep lines together that come at once: some terminals do not tell a paste from typing."""
+        buffer = event.current_buffer
+        if any(_is_text(key.key) for key in event.key_processor.input_queue):
+            self._stop_for_paste(f"{buffer.document.current_line}\n")
+            buffer.insert_text("\n")
+        else:
+            buffer.validate_and_handle()
 
     def _message(self) -> FormattedText:
         return FormattedText([("class:prompt", "plan› " if self._is_editing else "› ")])
 
     def _status_bar(self) -> FormattedText:
         controller = self._controller
-        return FormattedText(
-            controller.strip.fragments(self.width, controller.latched, controller.session.model_wait_s)
-        )
+        wait_s = controller.session.model_wait_s
+        return FormattedText(controller.status_bar.fragments(self.width, controller.latched, wait_s))
 
     def _accept(self, buffer: Buffer) -> bool:
         """Enter. False clears the line."""
@@ -183,8 +215,8 @@ class Chat:
             self._controller.enter(buffer.text)
         return False
 
-    def _pasted(self, text: str) -> None:
-        """A whole line that says stop is acted on before it is sent, as if it had been typed."""
+    def _stop_for_paste(self, text: str) -> None:
+        """Act on a whole line that says stop before it is sent, as if it had been typed."""
         if not self._is_editing:
             self._controller.stop_for_paste(text[: text.rfind("\n") + 1])
 
@@ -214,9 +246,14 @@ class Chat:
         self._controller.tell("suspended")
 
     def _on_leaving_signal(self) -> None:
-        """The terminal is gone, or somebody wants us gone: nothing is drawn any more."""
+        """End at once: the terminal is gone, or somebody wants us gone; nothing is drawn any more."""
         self._hang_up()
         os._exit(HANGUP_CODE)
+
+
+def _is_text(key: Keys | str) -> bool:
+    """Text that came in one piece with Enter waits behind it; what the terminal answers to our questions is none."""
+    return not isinstance(key, Keys) or key in (Keys.Enter, Keys.BracketedPaste)
 
 
 def _history(path: Path | None) -> History:

@@ -8,12 +8,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from rich.console import RenderableType
 from rich.text import Text
 
 from chatrobot.cli.console import tables
 from chatrobot.cli.console.controller import ChatController
-from chatrobot.cli.console.maps import big_map
-from chatrobot.cli.plan_file import read_plan_file
+from chatrobot.cli.plan import read_plan_file
 from chatrobot.core.errors import UsageError
 from chatrobot.core.motion_budget import NONE
 
@@ -39,6 +39,7 @@ class Command:
 
     @property
     def help_code(self) -> str:
+        """The code of its help text in the tables."""
         return f"command_{self.name.replace('-', '_')}"
 
 
@@ -57,7 +58,7 @@ def run(controller: ChatController, line: str) -> None:
 
 
 def nearest(word: str) -> str:
-    """The command that was most likely meant; empty where none is near."""
+    """Return the command that was most likely meant; empty where none is near."""
     near = difflib.get_close_matches(word.casefold(), BY_NAME, n=1, cutoff=0.5)
     return near[0] if near else ""
 
@@ -67,10 +68,11 @@ def _unknown(controller: ChatController, word: str) -> None:
     if near:
         controller.tell("nearest_command", command=f"/{word}", nearest=f"/{near}")
     else:
-        controller.display.print(
-            Text("  ").append(controller.words.say("no_such_command", command=f"/{word}")).append(" ")
-            .append(controller.words.say("all_commands"))
-        )  # fmt: skip
+        told = (
+            controller.words.say("no_such_command", command=f"/{word}"),
+            controller.words.say("all_commands"),
+        )
+        controller.display.print(Text(f"  {' '.join(told)}"))
 
 
 def _help(controller: ChatController, _: str) -> None:
@@ -78,15 +80,9 @@ def _help(controller: ChatController, _: str) -> None:
     controller.display.print(tables.help_table(controller.words, controller.connection.world, shown))
 
 
-def _robot(controller: ChatController, _: str) -> None:
-    controller.display.print(*tables.robot_tables(controller.words, controller.connection.profile))
-
-
 def _world(controller: ChatController, _: str) -> None:
-    controller.display.print(
-        big_map(controller.motion_view, controller.connection.world, controller.display.width),
-        tables.world_table(controller.words, controller.connection.world),
-    )
+    world = controller.connection.world
+    controller.display.print(_big_map(controller), tables.places_table(controller.words, world, {}))
 
 
 def _places(controller: ChatController, _: str) -> None:
@@ -94,17 +90,12 @@ def _places(controller: ChatController, _: str) -> None:
     controller.display.print(tables.places_table(controller.words, controller.connection.world, remembered))
 
 
-def _undo(controller: ChatController, _: str) -> None:
-    controller.attempt(lambda: controller.session.say(controller.words.say("undo_words")))
-
-
 def _plan(controller: ChatController, _: str) -> None:
-    if not controller.motion_view.plan_text:
+    view = controller.motion_view
+    if view.plan_text:
+        controller.display.print(*controller.narrator.plan(view.plan_text, view.rehearsed))
+    else:
         controller.tell("no_plan")
-        return
-    controller.display.print(
-        *controller.narrator.plan(controller.motion_view.plan_text, controller.motion_view.rehearsed)
-    )
 
 
 def _save_plan(controller: ChatController, argument: str) -> None:
@@ -115,10 +106,9 @@ def _save_plan(controller: ChatController, argument: str) -> None:
     try:
         with path.open("x", encoding="utf-8") as file:
             file.write(f"{controller.motion_view.plan_text}\n")
+        controller.tell("saved", file=path)
     except OSError as error:
         controller.tell("save_failed", problem=f"{path}: {error.strerror}")
-        return
-    controller.tell("saved", file=path)
 
 
 def _run_plan(controller: ChatController, argument: str) -> None:
@@ -132,7 +122,7 @@ def _run_plan(controller: ChatController, argument: str) -> None:
 
 
 def _program(controller: ChatController, argument: str) -> None:
-    """A new program, or without words the list of those that are kept."""
+    """Ask for a new program; without words list those that are kept."""
     if argument:
         controller.attempt(lambda: controller.session.say_program(argument))
         return
@@ -143,30 +133,23 @@ def _program(controller: ChatController, argument: str) -> None:
 def _map(controller: ChatController, argument: str) -> None:
     if not controller.motion_view.is_measured:  # nobody knows where on it the robot is
         controller.tell("not_measured")
-        return
-    if argument.casefold() in ("big", "大"):
-        controller.display.print(
-            big_map(controller.motion_view, controller.connection.world, controller.display.width)
-        )
-        return
-    if argument:
+    elif argument.casefold() in ("big", "大"):
+        controller.display.print(_big_map(controller))
+    elif argument:
         controller.tell("no_such_map", size=argument)
-        return
-    controller.strip.shows_map = not controller.strip.shows_map
-    controller.tell("map_on" if controller.strip.shows_map else "map_off")
+    else:
+        bar = controller.status_bar
+        bar.shows_map = not bar.shows_map
+        controller.tell("map_on" if bar.shows_map else "map_off")
 
 
-def _stop(controller: ChatController, _: str) -> None:
-    controller.stop("/stop")
+def _big_map(controller: ChatController) -> RenderableType:
+    return tables.big_map(controller.motion_view, controller.connection.world, controller.display.width)
 
 
 def _estop(controller: ChatController, _: str) -> None:
     controller.emergency_stop("/estop")
     controller.tell("estop_done")
-
-
-def _release(controller: ChatController, _: str) -> None:
-    controller.release()  # Motion says whether it is
 
 
 def _limit(controller: ChatController, argument: str) -> None:
@@ -177,26 +160,22 @@ def _limit(controller: ChatController, argument: str) -> None:
         controller.attempt(lambda: controller.session.limit(**limits))  # Motion says what holds then
 
 
-def _quit(controller: ChatController, _: str) -> None:
-    controller.leave()
-
-
 COMMANDS = (
     Command("help", _help),
-    Command("robot", _robot),
+    Command("robot", lambda it, _: it.display.print(*tables.robot_tables(it.words, it.connection.profile))),
     Command("world", _world),
     Command("places", _places),
     Command("plan", _plan),
     Command("save-plan", _save_plan, takes="FILE"),
     Command("run-plan", _run_plan, takes="FILE"),
     Command("program", _program, takes="[TEXT]"),
-    Command("undo", _undo),
+    Command("undo", lambda it, _: it.attempt(lambda: it.session.say(it.words.say("undo_words")))),
     Command("map", _map, takes="[big]"),
     Command("limit", _limit, takes="[200 m] [20 min] [none]"),
-    Command("stop", _stop, at_once=True, heeds_the_rest=False),
+    Command("stop", lambda it, _: it.stop("/stop"), at_once=True, heeds_the_rest=False),
     Command("estop", _estop, at_once=True, heeds_the_rest=False),
-    Command("release", _release, at_once=True),
-    Command("quit", _quit, at_once=True),
+    Command("release", lambda it, _: it.release(), at_once=True),  # Motion says whether it is
+    Command("quit", lambda it, _: it.leave(), at_once=True),
 )
 BY_NAME = {command.name: command for command in COMMANDS}
 
@@ -207,7 +186,7 @@ _AMOUNT = re.compile(rf"({NONE}|\d+(?:\.\d+)?|\.\d+)\s*(km|m|min|s|h)?(?![\w.])[
 
 
 def read_limits(text: str) -> dict[str, float | str] | None:
-    """The payload of a `limit` envelope; None where `text` is no amounts. `none` without a unit lifts both limits."""
+    """Return the payload of a `limit` envelope; None for no amounts. `none` without a unit lifts both limits."""
     found: dict[str, float | str] = {}
     rest = text.strip().casefold()
     while rest:

@@ -67,7 +67,7 @@ class ChatCompleter(Completer):
                 yield Completion(f"/{command.name}", -len(text), display_meta=meta)
 
     def _arguments(self, text: str, event: CompleteEvent) -> Iterable[Completion]:
-        """What a command takes: a file, or one of the words that it lists."""
+        """Offer what a command takes: a file, or one of the words that it lists."""
         name, _, argument = text[1:].partition(" ")
         takes = BY_NAME[name.casefold()].takes if name.casefold() in BY_NAME else ""
         if takes == "FILE":
@@ -78,7 +78,7 @@ class ChatCompleter(Completer):
             yield from (Completion(word, -len(typed)) for word in words)
 
     def _sayings(self, text: str) -> Iterable[Completion]:
-        """What is begun; where nothing is, what may follow. Of a place with several names, one of them."""
+        """Offer what is begun; where nothing is, what may follow. Of a place with several names, one of them."""
         is_empty = not text.strip()
         language = "zh" if has_chinese(text) else self._words.language if is_empty else "en"
         phrases = [(phrase,) for phrase in (COMMON[language] if is_empty else _EVERY_PHRASE)]
@@ -92,7 +92,7 @@ class ChatCompleter(Completer):
                 yield Completion(name, -size)
 
     def _is_understood(self, before: str, name: str) -> bool:
-        """What begins a text is; within a sentence a phrase begins a clause, and the whole can be done."""
+        """Tell whether the whole is understood; within a sentence a phrase begins a clause."""
         if not before.strip():
             return True
         if name in _EVERY_PHRASE and not ends_clause(before):
@@ -105,21 +105,21 @@ _EVERY_PHRASE = tuple(phrase for phrases in COMMON.values() for phrase in phrase
 
 
 def _begun(text: str, names: Sequence[str]) -> tuple[str, int] | None:
-    """The first of these names whose beginning `text` ends with, and how much of it; None where one is there whole."""
+    """Return the first name whose beginning `text` ends with, and how much of it; None where one is there whole."""
     if any(_size_of_beginning(text, f"{name} ") == len(name) for name in names):
         return None
     return next(((name, size) for name in names if (size := _size_of_beginning(text, name))), None)
 
 
 def ends_clause(text: str) -> bool:
-    """Whether another clause may begin behind it: `forward 1 m, then `."""
+    """Tell whether another clause may begin behind it: `forward 1 m, then `."""
     units = cut(normalise(text))
     ends = (lexicon().words.get(units[-size:], ()) for size in range(1, _LONGEST_JOINT + 1))
     return units[-1:] == (",",) or any(kind in ("conn", "sep") for end in ends for kind, _ in end)
 
 
 def _size_of_beginning(text: str, name: str) -> int:
-    """How many characters at the end of `text` are the beginning of `name`, from where a word may begin."""
+    """Count the characters at the end of `text` that are the beginning of `name`, from where a word may begin."""
     typed, whole = text.casefold(), name.casefold()
     if len(whole) != len(name):
         return 0

@@ -11,9 +11,7 @@ from collections.abc import Callable, Sequence
 from rich.console import RenderableType
 from rich.text import Text
 
-from chatrobot.cli.console.display import Display
-from chatrobot.cli.console.lines import indented, marked
-from chatrobot.cli.console.maps import way_map
+from chatrobot.cli.console.lines import Display, indented, marked
 from chatrobot.cli.console.motion_view import MotionView
 from chatrobot.cli.console.narrator import Narrator
 from chatrobot.cli.console.pasted import (
@@ -28,15 +26,16 @@ from chatrobot.cli.console.pasted import (
     must_be_typed,
     quoted,
 )
-from chatrobot.cli.console.pump import Pump
 from chatrobot.cli.console.status_bar import StatusBar
+from chatrobot.cli.console.tables import way_map
 from chatrobot.cli.console.words import Words
-from chatrobot.cli.edited import Edited
+from chatrobot.cli.editing import Edited
 from chatrobot.cli.lines import texts_in
 from chatrobot.compose import Connection
 from chatrobot.core.clock import Clock
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import Event, Interpreted, Notice, Result, Started, Telemetry
+from chatrobot.dialogue.pump import Pump
 from chatrobot.dialogue.question import Question
 from chatrobot.dialogue.replies import is_parting
 from chatrobot.language.consent import read_consent, wants_to_edit
@@ -66,9 +65,9 @@ class ChatController:
         self.session = connection.session
         self.words = words
         self.motion_view = MotionView()
-        self.strip = StatusBar(self.motion_view, words, connection.world)
+        self.status_bar = StatusBar(self.motion_view, words, connection.world)
         self.narrator = Narrator(words)
-        self.pump = Pump(self.session, self.lose, lambda: self.display.leave(1))
+        self.pump = Pump(self.session, self._end)
         self.latched = False
         self.has_parted = False
         """The person said goodbye in words, and was answered."""
@@ -87,7 +86,7 @@ class ChatController:
     # --- what a person does ---
 
     def enter(self, raw: str) -> None:
-        """A line was sent, or several that came at once. A stop in it has gone out before this returns."""
+        """Take a line that was sent, or several that came at once. A stop in it has gone out before this returns."""
         self._said_stopped = False
         cleaned = clean(raw)
         texts = texts_in(cleaned)
@@ -115,7 +114,7 @@ class ChatController:
             self._say(text)
 
     def _enter_all(self, texts: Sequence[str]) -> None:
-        """What stands before a stop is not done; what follows it, or all, is done one after the other."""
+        """Drop what stands before a stop; do what follows it, or all, one after the other."""
         undone, stop, texts = cut_at_stop(texts, self._is_stop)
         if stop:
             self._enter_one(stop)
@@ -130,7 +129,7 @@ class ChatController:
         self._say_next()
 
     def _say_next(self) -> None:
-        """The next of what was pasted. A command takes no turn: what is behind it follows at once."""
+        """Say the next of what was pasted. A command takes no turn: what is behind it follows at once."""
         with self._order:
             text = self._pasted.next()
             while text is not None and text.startswith("/") and text != "/undo":
@@ -144,7 +143,7 @@ class ChatController:
                 self._say_in_order(text if text != "/undo" else self.words.say("undo_words"), is_pasted=True)
 
     def take_edited(self, edited: str) -> None:
-        """The plan or the program that `Display.edit` was asked for."""
+        """Take the plan or the program that `Display.edit` was asked for."""
         is_program = self._edited.is_program
         text = f"{edited.rstrip()}\n" if is_program else clean(edited).strip()
         limit = MAX_SOURCE_CHARS if is_program else LONGEST_CHARS
@@ -179,7 +178,7 @@ class ChatController:
         self.tell("interrupted")
 
     def leave(self) -> None:
-        """An orderly goodbye: what the robot was told is still done. The second one does not wait to see it."""
+        """Say goodbye: what the robot was told is still done. The second one does not wait to see it."""
         if self._has_nothing_to_do or self._leaving:
             self.display.leave(0)
             return
@@ -198,6 +197,7 @@ class ChatController:
         self._tell_undone(self._pasted.drop())
 
     def emergency_stop(self, why: str) -> None:
+        """Stop the robot and keep it stopped until it is released."""
         self.attempt(lambda: self.session.emergency_stop(why))
         self._tell_undone(self._pasted.drop())
         self._raise_alarm()
@@ -209,12 +209,10 @@ class ChatController:
         self.attempt(self.session.release)
 
     def _say(self, text: str) -> None:
-        """What was typed takes the place of all that runs and waits."""
+        """Say what was typed: it takes the place of all that runs and waits."""
         self.words.follow(text)
         self._pauses_again = is_pause(text) and self.session.is_plan_paused
-        if self._is_stop(
-            text
-        ):  # it waits for no lock: the other thread may hang in a terminal that was halted
+        if self._is_stop(text):  # waits for no lock: the other thread may hang in a terminal that was halted
             self.attempt(lambda: self.session.say(text))
             undone = self._pasted.drop()
             self._echo(text)
@@ -246,7 +244,7 @@ class ChatController:
         return self.session.is_idle and not self._pasted.is_waiting
 
     def _answer(self, text: str) -> bool:
-        """True if `text` answers the question whether to do a plan."""
+        """Answer the question whether to do a plan; False where `text` is no answer to it."""
         turn, yes, edits = self._question.turn, read_consent(text), wants_to_edit(text)
         if turn is None or (yes is None and not edits):
             return False
@@ -275,16 +273,10 @@ class ChatController:
         with self._order:
             lines: list[RenderableType] = list(self.narrator.tell(event))
             if self._question.hear(event):
-                lines += [
-                    way_map(self.motion_view, self.connection.world),
-                    Text(f"  {self.words.say('ask_approval')}", "bold"),
-                ]
-            if (
-                isinstance(event, Interpreted)
-                and event.by == "reflex"
-                and (self.motion_view.is_moving or self._said_stopped or self.session.is_plan_paused)
-                and not self._pauses_again
-            ):
+                question = Text(f"  {self.words.say('ask_approval')}", "bold")
+                lines += [way_map(self.motion_view, self.connection.world), question]
+            is_stop = isinstance(event, Interpreted) and event.by == "reflex" and not self._pauses_again
+            if is_stop and (self.motion_view.is_moving or self._said_stopped or self.session.is_plan_paused):
                 self._muted.add(event.turn)  # what was moving says how it ended
             if isinstance(event, Result):
                 self._said_stopped = event.outcome == "stopped"
@@ -297,13 +289,12 @@ class ChatController:
                 self.leave()
             if self._leaving and self._has_nothing_to_do:
                 self.display.leave(0)
-        if isinstance(event, (Telemetry, Started, Result)) and (
-            self.motion_view.is_moving or not isinstance(event, Telemetry)
-        ):
+        moves = isinstance(event, Telemetry) and self.motion_view.is_moving
+        if moves or isinstance(event, (Started, Result)):
             self.display.refresh()
 
     def _is_muted(self, event: Event) -> bool:
-        """It only tells what is told otherwise; what a plan drove before it was edited is told."""
+        """Tell whether the event only says what is said otherwise; what a plan drove before it was edited is told."""
         return event.turn in self._muted and not (isinstance(event, Result) and event.has_moved)
 
     def _hear_release(self, by: str) -> None:
@@ -321,14 +312,22 @@ class ChatController:
         self._say_next()
 
     def lose(self, error: LinkError) -> None:
-        """Motion is gone: its guard halts the robot; here is nothing left to talk to."""
+        """Tell that Motion is gone, and leave: its guard halts the robot."""
         self.display.print(marked("✗", "bold red", str(error)))
         self.display.leave(1)
+
+    def _end(self, error: Exception) -> None:
+        """Leave, for the pumping thread has ended."""
+        if isinstance(error, LinkError):
+            self.lose(error)
+        else:
+            self.display.leave(1)
+            raise error
 
     # --- printing ---
 
     def tell(self, code: str, **values: object) -> None:
-        """One line of the console's own words."""
+        """Print one line of the console's own words."""
         self.display.print(indented(Text(self.words.say(code, **values), "dim")))
 
     def _echo(self, text: str, *, anew: bool = False) -> None:

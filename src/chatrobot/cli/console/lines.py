@@ -1,8 +1,12 @@
-"""Lines that wrap under themselves, without blanks at their ends: they can be copied, and survive a resize."""
+"""The screen, and lines for it that wrap under themselves, without blanks at their ends.
+
+So they can be copied, and survive a resize.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 from rich.cells import cell_len
 from rich.console import Console, ConsoleOptions, RenderableType, RenderResult
@@ -29,19 +33,19 @@ class _Hanging:
 
 
 def indented(text: Text) -> RenderableType:
-    """`text`, indented, however many lines it takes."""
+    """Indent `text`, however many lines it takes."""
     return _Hanging(Text(" " * INDENT), text)
 
 
 def marked(mark: str, style: str, text: str | Text) -> RenderableType:
-    """`text` behind a mark of one character."""
+    """Put `text` behind a mark of one character."""
     return _Hanging(
         Text.assemble(" " * INDENT, (mark.ljust(2), style)), Text(text) if isinstance(text, str) else text
     )
 
 
 def wrapped(text: Text, width: int) -> list[Text]:
-    """`text` in lines of at most `width` cells, broken at blanks and between Chinese characters, which have none."""
+    """Break `text` into lines of at most `width` cells, broken at blanks and between Chinese characters."""
     lines: list[Text] = []
     for line in text.split("\n", allow_blank=True):
         lines += line.divide(_breaks(line.plain, width))
@@ -51,7 +55,7 @@ def wrapped(text: Text, width: int) -> list[Text]:
 
 
 def _breaks(line: str, width: int) -> list[int]:
-    """Where a new line begins."""
+    """List where a new line begins."""
     breaks: list[int] = []
     cells, begin, may_break = 0, 0, 0
     for number, char in enumerate(line):
@@ -69,3 +73,33 @@ def _may_part(before: str, char: str) -> bool:
     if char.isspace() or char in _CLOSING or before in _OPENING:
         return False
     return before.isspace() or cell_len(before) == 2 or cell_len(char) == 2
+
+
+class Display(Protocol):
+    """A screen. All of it may be called from any thread."""
+
+    @property
+    def echoes(self) -> bool:
+        """What was typed stays to be seen without our help."""
+        ...
+
+    @property
+    def width(self) -> int:
+        """Columns."""
+        ...
+
+    def print(self, *lines: RenderableType) -> None:
+        """Show lines above the prompt."""
+        ...
+
+    def refresh(self) -> None:
+        """Something that the status bar shows has changed."""
+        ...
+
+    def edit(self, plan_text: str) -> None:
+        """Let the person change a plan; it comes back through `ChatController.take_edited`."""
+        ...
+
+    def leave(self, code: int) -> None:
+        """End the conversation; `code` is the exit code."""
+        ...

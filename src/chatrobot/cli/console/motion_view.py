@@ -6,19 +6,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from chatrobot.core.events import (
-    Event,
-    Finished,
-    Interpreted,
-    Notice,
-    Paused,
-    ProgramWritten,
-    Progress,
-    Rehearsed,
-    Started,
-    Streamed,
-    Telemetry,
-)
+from chatrobot.core import events
+from chatrobot.core.events import Event
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 from chatrobot.core.motion_budget import OPEN_LOOP
 
@@ -44,48 +33,48 @@ class MotionView:
     path: tuple[XY, ...] = ()
     trail: tuple[XY, ...] = ()
     plan_text: str = ""
-    program: ProgramWritten | None = None
-    rehearsed: Rehearsed | None = None
+    program: events.ProgramWritten | None = None
+    rehearsed: events.Rehearsed | None = None
     turn: int = 0
     is_measured: bool = True
     _streamed: int = 0
 
     def hear(self, event: Event) -> None:
         """Take one event in."""
-        if isinstance(event, Telemetry):
+        if isinstance(event, events.Telemetry):
             self.pose, self.twist = event.pose, event.twist
             self.nearest_m, self.battery_percent = event.nearest_obstacle_m, event.battery_percent
             self._follow(event.pose)
-        elif isinstance(event, Progress):
+        elif isinstance(event, events.Progress):
             self.step, self.of, self.fraction = event.step, event.of, event.fraction
-        elif isinstance(event, Streamed):
+        elif isinstance(event, events.Streamed):
             self._grow(event)
-        elif isinstance(event, Interpreted) and event.plan_text:
+        elif isinstance(event, events.Interpreted) and event.plan_text:
             self.plan_text, self.program = event.plan_text, None
-        elif isinstance(event, ProgramWritten):
+        elif isinstance(event, events.ProgramWritten):
             self.program = event
-        elif isinstance(event, Rehearsed):
+        elif isinstance(event, events.Rehearsed):
             self.rehearsed = event
             path = tuple((x, y) for x, y, _ in event.path)
             goes_on = event.turn == self._streamed and self.is_moving
             self.path = (*self.path, *path) if goes_on else path
-        elif isinstance(event, Started):
+        elif isinstance(event, events.Started):
             self.turn, self.is_moving, self.step, self.of = event.turn, True, 0, 0
             self.is_paused = False
             self.fraction = None if self.rehearsed is not None and self.rehearsed.open_ended else 0.0
             self.pose, self.trail = event.pose, ((event.pose.x_m, event.pose.y_m),)
-        elif isinstance(event, Paused):
+        elif isinstance(event, events.Paused):
             self.pose = event.pose
             if event.turn == self.turn:
                 self.is_moving, self.twist = False, ZERO_TWIST
             self.is_paused = True
-        elif isinstance(event, Finished):
+        elif isinstance(event, events.Finished):
             self._finish(event)
-        elif isinstance(event, Notice) and event.reason.code == OPEN_LOOP:
+        elif isinstance(event, events.Notice) and event.reason.code == OPEN_LOOP:
             self.is_measured = False
 
-    def _grow(self, event: Streamed) -> None:
-        """A plan that comes in step by step."""
+    def _grow(self, event: events.Streamed) -> None:
+        """Take in a step of a plan that comes step by step."""
         goes_on = event.turn == self._streamed
         self.plan_text = f"{self.plan_text}\n{event.plan_text}" if goes_on else event.plan_text
         self._streamed, self.program = event.turn, None
@@ -95,7 +84,7 @@ class MotionView:
         if self.is_moving and self.trail and math.dist(here, self.trail[-1]) >= TRAIL_SPACING_M:
             self.trail = (*self.trail, here)[-TRAIL_LIMIT:]
 
-    def _finish(self, event: Finished) -> None:
+    def _finish(self, event: events.Finished) -> None:
         self.pose = event.pose
         if event.turn == self.turn:
             self.is_paused = False

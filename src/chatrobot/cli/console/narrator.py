@@ -11,23 +11,8 @@ from rich.text import Text
 
 from chatrobot.cli.console.lines import indented, marked
 from chatrobot.cli.console.words import Words
-from chatrobot.core.events import (
-    Event,
-    FindingSeen,
-    Interpreted,
-    Limited,
-    Notice,
-    Outcome,
-    Paused,
-    ProgramLog,
-    ProgramRehearsed,
-    ProgramWritten,
-    Rehearsed,
-    Remembered,
-    Result,
-    Said,
-    Streamed,
-)
+from chatrobot.core import events
+from chatrobot.core.events import Event
 from chatrobot.core.geometry import Twist
 from chatrobot.core.shown import fixed
 from chatrobot.dialogue.programs.text import body, headline
@@ -38,7 +23,7 @@ from chatrobot.plan.shown import folded_plan, shown_plan
 PLAN_LINES = 16
 """A longer plan is shown in part; `/plan` shows it whole."""
 
-_MARKS: dict[Outcome, tuple[str, str]] = {
+_MARKS: dict[events.Outcome, tuple[str, str]] = {
     "completed": ("✓", "green"),
     "answered": ("•", "cyan"),
     "unclear": ("?", "yellow"),
@@ -55,43 +40,43 @@ class Narrator:
 
     def __init__(self, words: Words) -> None:
         self._words = words
-        self._plans: dict[int, Interpreted] = {}
+        self._plans: dict[int, events.Interpreted] = {}
         self._streamed: dict[int, int] = {}
         self._programs: set[int] = set()
 
     def tell(self, event: Event) -> Iterator[RenderableType]:
-        """The lines to print for `event`; none for most."""
+        """Give the lines to print for `event`; none for most."""
         match event:
-            case Streamed():
+            case events.Streamed():
                 return self._streamed_step(event)
-            case Interpreted():
+            case events.Interpreted():
                 return self._interpreted(event)
-            case Rehearsed():
+            case events.Rehearsed():
                 return self._rehearsed(event)
-            case ProgramWritten():
+            case events.ProgramWritten():
                 return self._program_written(event)
-            case ProgramRehearsed():
+            case events.ProgramRehearsed():
                 return self._program_rehearsed(event)
-            case ProgramLog():
+            case events.ProgramLog():
                 return iter((indented(Text(f"| {event.text}", "dim")),))
-            case Limited():
+            case events.Limited():
                 return self._limited(event)
-            case Said():
+            case events.Said():
                 return self._said(event)
-            case Remembered():
+            case events.Remembered():
                 return self._remembered(event)
-            case Paused():
+            case events.Paused():
                 return self._paused(event)
-            case Notice():
+            case events.Notice():
                 return self._notice(event)
-            case Result():
+            case events.Result():
                 return self._result(event)
         return iter(())
 
     def plan(
-        self, plan_text: str, rehearsed: Rehearsed | None, limit: int | None = None
+        self, plan_text: str, rehearsed: events.Rehearsed | None, limit: int | None = None
     ) -> Iterator[RenderableType]:
-        """A plan's numbered lines under its predicted length and duration, and what rehearsal found."""
+        """Give a plan's numbered lines under its predicted length and duration, and what rehearsal found."""
         head = Text("  ").append(self._words.say("plan"), "bold")
         if rehearsed is not None and rehearsed.ok:
             facts = self._words.say(
@@ -107,7 +92,7 @@ class Narrator:
             yield Text("       ").append(self._words.say("plan_more", count=len(lines) - len(shown)), "dim")
         yield from self._findings(rehearsed)
 
-    def _findings(self, rehearsed: Rehearsed | None) -> Iterator[RenderableType]:
+    def _findings(self, rehearsed: events.Rehearsed | None) -> Iterator[RenderableType]:
         """All but the first refusal: that one is the turn's result."""
         refusals = 0
         for finding in rehearsed.findings if rehearsed is not None else ():
@@ -115,14 +100,14 @@ class Narrator:
             if finding.severity != "refuse" or refusals > 1:
                 yield self.finding(finding)
 
-    def finding(self, finding: FindingSeen) -> RenderableType:
-        """One thing that rehearsal found, in words."""
+    def finding(self, finding: events.FindingSeen) -> RenderableType:
+        """Put one thing that rehearsal found into words."""
         mark, style = _FINDINGS[finding.severity]
         return marked(mark, style, render_reason(finding.reason, self._words.language))
 
     # --- one method an event ---
 
-    def _interpreted(self, event: Interpreted) -> Iterator[RenderableType]:
+    def _interpreted(self, event: events.Interpreted) -> Iterator[RenderableType]:
         if event.plan_text and event.turn not in self._streamed:
             self._plans[event.turn] = event
             if event.reply and (
@@ -130,7 +115,7 @@ class Narrator:
             ):  # a plan is English already
                 yield indented(Text(event.reply, "cyan"))
 
-    def _rehearsed(self, event: Rehearsed) -> Iterator[RenderableType]:
+    def _rehearsed(self, event: events.Rehearsed) -> Iterator[RenderableType]:
         understood = self._plans.pop(event.turn, None)
         if understood is not None:
             yield from self.plan(understood.plan_text, event, PLAN_LINES)
@@ -144,44 +129,44 @@ class Narrator:
             yield indented(Text(facts, "dim"))
             yield from self._findings(event)
 
-    def _streamed_step(self, event: Streamed) -> Iterator[RenderableType]:
-        """A step of a plan that is still coming in."""
+    def _streamed_step(self, event: events.Streamed) -> Iterator[RenderableType]:
+        """Give a step of a plan that is still coming in."""
         if event.turn not in self._streamed:
             yield Text("  ").append(self._words.say("plan"), "bold")
         for line in shown_plan(event.plan_text).splitlines():
             number = self._streamed[event.turn] = self._streamed.get(event.turn, 0) + 1
             yield Text("  ").append(f"{number:>3}  ", "dim").append_text(_plan_line(line))
 
-    def _program_written(self, event: ProgramWritten) -> Iterator[RenderableType]:
+    def _program_written(self, event: events.ProgramWritten) -> Iterator[RenderableType]:
         self._programs.add(event.turn)
         language = self._words.language
         yield indented(Text(headline(event, language), "bold"))
         yield from (Text(line) for line in body(event, language))
 
-    def _program_rehearsed(self, event: ProgramRehearsed) -> Iterator[RenderableType]:
+    def _program_rehearsed(self, event: events.ProgramRehearsed) -> Iterator[RenderableType]:
         values = {"speed": f"{event.top_speed_mps:.2f}", "rate": f"{event.top_rate_radps:.2f}"}
         yield indented(Text(say(self._words.language, "program_speeds", **values), "dim"))
         yield from (indented(Text(line, "red")) for line in event.problem.splitlines())
 
-    def _limited(self, event: Limited) -> Iterator[RenderableType]:
+    def _limited(self, event: events.Limited) -> Iterator[RenderableType]:
         asked, sent = self._twist(event.asked), self._twist(event.sent)
         yield marked("!", "yellow", self._words.say("limited_to", asked=asked, sent=sent))
 
-    def _said(self, event: Said) -> Iterator[RenderableType]:
+    def _said(self, event: events.Said) -> Iterator[RenderableType]:
         yield marked("»", "magenta", Text(event.text, "bold"))
 
-    def _remembered(self, event: Remembered) -> Iterator[RenderableType]:
+    def _remembered(self, event: events.Remembered) -> Iterator[RenderableType]:
         words = self._words.say("remembered", place=event.place, pose=self._words.pose(event.pose))
         yield marked("·", "cyan", words)
 
-    def _paused(self, event: Paused) -> Iterator[RenderableType]:
+    def _paused(self, event: events.Paused) -> Iterator[RenderableType]:
         language = self._words.language
         yield marked("‖", "yellow", say(language, "paused_now", plan=describe_left(event, language)))
 
-    def _notice(self, event: Notice) -> Iterator[RenderableType]:
+    def _notice(self, event: events.Notice) -> Iterator[RenderableType]:
         yield marked("!", "yellow", event.text or render_reason(event.reason, self._words.language))
 
-    def _result(self, event: Result) -> Iterator[RenderableType]:
+    def _result(self, event: events.Result) -> Iterator[RenderableType]:
         self._plans.pop(event.turn, None)
         self._streamed.pop(event.turn, None)
         mark, style = _MARKS[event.outcome]
@@ -207,7 +192,7 @@ _VERB = re.compile(r"^ *(?:\d+ × \(?)*([a-z_]+)")
 
 
 def _plan_line(line: str) -> Text:
-    """The first verb in bold, so that a plan reads at a glance."""
+    """Put the first verb in bold, so that a plan reads at a glance."""
     text = Text(line)
     if verb := _VERB.match(line):
         text.stylize("bold cyan", *verb.span(1))

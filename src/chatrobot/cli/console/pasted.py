@@ -30,9 +30,11 @@ class Pasted:
 
     @property
     def is_waiting(self) -> bool:
+        """Something waits."""
         return bool(self._texts)
 
     def keep(self, texts: Sequence[str]) -> None:
+        """Have them wait, in their order."""
         self._texts.extend(texts)
 
     def next(self) -> str | None:
@@ -40,11 +42,11 @@ class Pasted:
         return self._texts.popleft() if self._texts else None
 
     def follow(self, turn: int) -> None:
-        """What waits comes after this turn."""
+        """Have what waits come after this turn."""
         self._turn = turn
 
     def is_after(self, turn: int) -> bool:
-        """Whether this is the turn that is waited for."""
+        """Tell whether this is the turn that is waited for."""
         return self.is_waiting and turn == self._turn
 
     def drop(self) -> tuple[str, ...]:
@@ -55,14 +57,14 @@ class Pasted:
 
 
 def goes_on_after(outcome: Outcome) -> bool:
-    """Whether what follows may be done. From where a robot should not be, the rest is another way."""
+    """Tell whether what follows may be done. From where a robot should not be, the rest is another way."""
     return outcome in _GOES_ON
 
 
 def cut_at_stop(
     texts: Sequence[str], is_stop: Callable[[str], bool]
 ) -> tuple[Sequence[str], str, Sequence[str]]:
-    """What stands before the last stop, the stop (empty where there is none), and what comes after it."""
+    """Return what stands before the last stop, the stop (empty where there is none), and what comes after it."""
     for number in range(len(texts) - 1, -1, -1):
         text = texts[number].strip().casefold()
         if text in _STOPS or (is_stop(text) and not text.startswith("/")):
@@ -71,23 +73,23 @@ def cut_at_stop(
 
 
 def ends_a_paste(command: str) -> bool:
-    """Whether nothing can follow this command."""
+    """Tell whether nothing can follow this command."""
     return command.casefold().startswith(_LAST)
 
 
 def must_be_typed(command: str) -> str:
-    """The command's name where only a person who types it by itself does it: what is pasted may be anybody's words."""
+    """Return the command's name where it must be typed by itself: what is pasted may be anybody's words."""
     word = (command[1:].casefold().split() or [""])[0]
     return word if word in _TYPED_ALONE else ""
 
 
 def quoted(texts: Sequence[str]) -> str:
-    """The texts in quotation marks, each on one line and not too long."""
+    """Return the texts in quotation marks, each on one line and not too long."""
     return ", ".join(f"“{shorten(text, _SHOWN_CHARS, placeholder=' …')}”" for text in texts)
 
 
 def is_plan(text: str) -> bool:
-    """Whether several lines are the text of one plan, such as one that was saved."""
+    """Tell whether several lines are the text of one plan, such as one that was saved."""
     try:
         parse_plan(text)
     except PlanTextError:
@@ -100,7 +102,7 @@ LONGEST_CHARS = 4000
 
 
 def clean(text: str) -> str:
-    """Printable text in valid Unicode: what else it held becomes "�"; line breaks and tabs stay."""
+    """Make `text` printable and valid Unicode: what else it held becomes "�"; line breaks and tabs stay."""
     text = text.replace("\r\n", "\n").replace("\r", "\n")
     if text.isascii() and text.isprintable():
         return text

@@ -62,13 +62,16 @@ class Plain:
 
     @property
     def echoes(self) -> bool:
+        """What was typed stays to be seen."""
         return True
 
     @property
     def width(self) -> int:
+        """Columns."""
         return shutil.get_terminal_size().columns
 
     def print(self, *lines: RenderableType) -> None:
+        """Show lines."""
         if self._is_at_prompt:
             self._is_at_prompt = False
             sys.stdout.write("\r")  # what is printed begins with blanks, or a mark of its own
@@ -80,11 +83,13 @@ class Plain:
             self._show_prompt()
 
     def edit(self, plan_text: str) -> None:  # noqa: ARG002  # what it was has just been printed
+        """Take the lines that come as the plan."""
         is_program = self._controller.motion_view.program is not None
         self._edited_lines, self._edit_ends_with = [], "." if is_program else ""
         self._controller.tell("edit_program_lines" if is_program else "edit_plan_lines")
 
     def leave(self, code: int) -> None:
+        """End the conversation."""
         self._code = max(self._code or 0, code)
         with contextlib.suppress(OSError):
             os.write(self._wake_write, b"\0")
@@ -126,7 +131,7 @@ class Plain:
             self._hand_on()
 
     def _may_go_on(self) -> bool:
-        """What one types is done at once; a terminal hands pasted lines on one by one, and all are there by then."""
+        """Tell whether more may come. A terminal hands pasted lines on one by one, and all are there by then."""
         return self._pasted[0].rstrip().endswith((":", "：")) or bool(
             select.select([sys.stdin], [], [], 0.0)[0]
         )
@@ -170,4 +175,4 @@ class Plain:
 
 
 def _noted(*_: object) -> None:
-    """The wake-up descriptor has the signal's number."""
+    """Do nothing: the wake-up descriptor has the signal's number."""

@@ -50,7 +50,7 @@ class StatusBar:
         self._map_of: tuple[XY, ...] | None = None
 
     def fragments(self, width: int, latched: bool = False, model_wait_s: float | None = None) -> Fragments:
-        """What to show now in `width` cells: one line while the robot stands, the map's height while it moves.
+        """Draw the bar in `width` cells: one line while the robot stands, the map's height while it moves.
 
         Args:
             thinking_s: for how long a model has been asked; None where none is.
@@ -123,7 +123,7 @@ class StatusBar:
         ]
 
     def _map_lines(self) -> MapLines:
-        """The map of this plan; its still part is drawn once a plan, so that it does not jump while it is driven."""
+        """Draw the map of this plan, its still part once a plan, so that it does not jump while it is driven."""
         motion_view = self._motion_view
         if self._map is None or self._map_of is not motion_view.path:
             points = Orientation(self._world).points((*motion_view.path, *motion_view.trail[:1]))
@@ -152,7 +152,7 @@ def _bar(fraction: float, cells: int) -> Fragments:
 
 
 def _cut(line: Fragments, width: int) -> Fragments:
-    """The line in at most `width` cells: a toolbar that wraps would push the prompt about."""
+    """Cut the line to `width` cells: a toolbar that wraps would push the prompt about."""
     left, cut = width, Fragments()
     for style, text in line:
         kept = text

@@ -1,4 +1,4 @@
-"""The tables that slash commands print."""
+"""What slash commands print: tables, and maps as something rich can print."""
 
 from __future__ import annotations
 
@@ -12,7 +12,10 @@ from rich.table import Table
 from rich.text import Text
 
 from chatrobot.cli.console.lines import INDENT, indented
+from chatrobot.cli.console.motion_view import MotionView
 from chatrobot.cli.console.words import Words
+from chatrobot.cli.drawing.extent import Extent, Orientation, extent_around, extent_of_world
+from chatrobot.cli.drawing.map_text import MapText
 from chatrobot.language.context import Place
 from chatrobot.language.names import by_language
 from chatrobot.robots.profile import RobotProfile
@@ -25,17 +28,17 @@ _UNITS = {
 
 
 def example_place(world: World) -> str:
-    """A place to go to in an example; empty where the world has none."""
+    """Return a place to go to in an example; empty where the world has none."""
     return "kitchen" if "kitchen" in world.places else next(iter(world.places), "")
 
 
 def place_in(language: str, world: World, name: str) -> str:
-    """A place's name in that language, if it has one."""
+    """Return a place's name in that language, if it has one."""
     return by_language(world.names_of(name), language)[0]
 
 
 def help_table(words: Words, world: World, commands: Sequence[tuple[str, str]]) -> RenderableType:
-    """What one can say, the commands (as they are typed, with the code of their help), the keys."""
+    """List what one can say, the commands (as they are typed, with the code of their help), the keys."""
     place = place_in(words.language, world, example_place(world)) or words.say("place_name")
     examples = [
         Text("    ").append(part.strip(), "cyan")
@@ -86,13 +89,8 @@ def robot_tables(words: Words, profile: RobotProfile) -> Iterator[RenderableType
     yield Padding(table, (1, 0, 0, INDENT))
 
 
-def world_table(words: Words, world: World) -> RenderableType:
-    """The world's named places."""
-    return places_table(words, world, {})
-
-
 def places_table(words: Words, world: World, remembered: Mapping[str, Place]) -> RenderableType:
-    """The person's own places first, then the world's."""
+    """List places, the person's own first, then the world's."""
     if not world.places and not remembered:
         return indented(Text(words.say("no_places"), "dim"))
     table = _table(words.say("place_name"), words.say("place_pose"), words.say("place_also"))
@@ -115,3 +113,38 @@ def _table(*heads: str) -> Table:
     for head in heads[1:] or ("",):
         table.add_column(head, overflow="fold")
     return table
+
+
+COLOURS = {
+    "wall": "bright_black", "path": "blue", "trail": "dark_orange", "place": "cyan", "robot": "bold red", "": "",
+}  # fmt: skip
+BIG_COLUMNS, BIG_ROWS = 100, 30
+WAY_COLUMNS, WAY_ROWS = 60, 14
+
+
+def big_map(motion_view: MotionView, world: World, width: int) -> Text:
+    """Draw the whole world with its names, the last plan's way and what was driven of it."""
+    extent = extent_of_world(world, (*motion_view.path, *motion_view.trail), margin_m=0.1, least_m=3.0)
+    return _draw(motion_view, world, extent, min(width - 4, BIG_COLUMNS), BIG_ROWS)
+
+
+def way_map(motion_view: MotionView, world: World) -> Text:
+    """Draw the predicted way of the last plan and what stands around it."""
+    extent = extent_around(Orientation(world).points(motion_view.path), margin_m=0.8, least_m=3.0)
+    return _draw(motion_view, world, extent, WAY_COLUMNS, WAY_ROWS)
+
+
+def _draw(motion_view: MotionView, world: World, extent: Extent, columns: int, rows: int) -> Text:
+    # As many cells as the extent fills; a braille dot is as wide as it is high, a cell has two by four.
+    dots_per_m = min(columns * 2 / extent.width_m, rows * 4 / extent.height_m)
+    columns, rows = (
+        max(4, round(extent.width_m * dots_per_m / 2)),
+        max(2, round(extent.height_m * dots_per_m / 4)),
+    )
+    drawing = MapText(world, extent, columns=columns, rows=rows, path=motion_view.path, names=True)
+    text = Text(no_wrap=True)
+    for number, line in enumerate(drawing.lines(trail=motion_view.trail, pose=motion_view.pose)):
+        text.append("\n  " if number else "  ")
+        for layer, run in line:
+            text.append(run, COLOURS[layer])
+    return text

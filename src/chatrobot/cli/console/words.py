@@ -1,4 +1,4 @@
-"""The console's own words, in the language of the last question. The tables are `language/data/<code>/console.toml`."""
+"""The console's own words, in the language of the last question: `language/data/<code>/console.toml`."""
 
 from __future__ import annotations
 
@@ -29,18 +29,18 @@ class Words:
             self.language = "en"
 
     def say(self, code: str, **values: object) -> str:
-        """The words of that code."""
+        """Return the words of that code."""
         return str(load_table(self.language, _TABLE)[code]).format(**values)
 
     def pose(self, pose: Pose) -> str:
-        """A pose as `(1.00, -0.50) 90°`: metres and heading in the odom frame."""
+        """Write a pose as `(1.00, -0.50) 90°`: metres and heading in the odom frame."""
         heading_deg = round(math.degrees(wrap_angle(pose.yaw_rad)))
         heading_deg = 180 if heading_deg == -180 else heading_deg
         return f"({fixed(pose.x_m, 2)}, {fixed(pose.y_m, 2)}) {heading_deg}°"
 
 
 def language_of_environment(environment: Mapping[str, str] = os.environ) -> LanguageCode:
-    """What the person's system speaks, as POSIX orders the variables."""
+    """Return the language of the person's system, as POSIX orders the variables."""
     value = next(
         (environment[name] for name in ("LC_ALL", "LC_MESSAGES", "LANG") if environment.get(name)), ""
     )

@@ -1,13 +1,13 @@
-"""A pillow image drawn three times too large and made smaller at the end: smooth lines without another library."""
+"""A pillow image drawn three times too large and made smaller at the end, and the fonts on it."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import os
+from collections.abc import Iterator, Sequence
+from functools import cache
 from pathlib import Path
 
-from PIL import Image, ImageDraw
-
-from chatrobot.cli.drawing import fonts
+from PIL import Image, ImageDraw, ImageFont
 
 SCALE = 3
 XY = tuple[float, float]
@@ -24,7 +24,7 @@ class Canvas:
         self._draw = ImageDraw.Draw(self._image, "RGBA")
 
     def line(self, points: Sequence[XY], colour: Colour, width_px: float = 1.0) -> None:
-        """A polyline with round joints and ends."""
+        """Draw a polyline with round joints and ends."""
         width = max(1, round(width_px * SCALE))
         self._draw.line(_scaled(points), fill=colour, width=width, joint="curve")
         if width > SCALE:
@@ -32,6 +32,7 @@ class Canvas:
                 self.circle((x, y), width_px / 2.0, fill=colour)
 
     def dashed(self, a: XY, b: XY, colour: Colour, width_px: float = 1.0, dash_px: float = 6.0) -> None:
+        """Draw a dashed line."""
         length = max(1e-9, ((b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2) ** 0.5)
         at = 0.0
         while at < length:
@@ -41,6 +42,7 @@ class Canvas:
 
     def polygon(self, points: Sequence[XY], *, fill: Colour | None = None, edge: Colour | None = None,
                 width_px: float = 1.0) -> None:  # fmt: skip
+        """Draw a polygon."""
         if fill is not None:
             self._draw.polygon(_scaled(points), fill=fill)
         if edge is not None:
@@ -48,6 +50,7 @@ class Canvas:
 
     def circle(self, centre: XY, radius_px: float, *, fill: Colour | None = None, edge: Colour | None = None,
                width_px: float = 1.0) -> None:  # fmt: skip
+        """Draw a circle."""
         x, y, r = centre[0] * SCALE, centre[1] * SCALE, radius_px * SCALE
         self._draw.ellipse(
             (x - r, y - r, x + r, y + r), fill=fill, outline=edge, width=max(1, round(width_px * SCALE))
@@ -56,6 +59,7 @@ class Canvas:
     def box(
         self, box: Box, *, fill: Colour | None = None, edge: Colour | None = None, radius_px: float = 0.0
     ) -> None:
+        """Draw a rectangle, its corners rounded."""
         self._draw.rounded_rectangle(
             [v * SCALE for v in box], radius=radius_px * SCALE, fill=fill, outline=edge, width=SCALE
         )
@@ -70,7 +74,7 @@ class Canvas:
         halo: Colour | None = None,
     ) -> None:
         """Write `text`; nothing at all where no font has its letters. `anchor` as pillow has it."""
-        font = fonts.for_text(text, round(size_px * SCALE))
+        font = font_for(text, round(size_px * SCALE))
         if font is not None:
             self._draw.text(
                 (at[0] * SCALE, at[1] * SCALE), text, fill=colour, font=font, anchor=anchor,
@@ -78,8 +82,8 @@ class Canvas:
             )  # fmt: skip
 
     def text_box(self, at: XY, text: str, size_px: float, anchor: str = "la") -> Box:
-        """Where `text` would stand."""
-        font = fonts.for_text(text, round(size_px * SCALE))
+        """Return the box in which `text` would stand."""
+        font = font_for(text, round(size_px * SCALE))
         if font is None:
             return (*at, *at)
         x0, y0, x1, y1 = self._draw.textbbox((at[0] * SCALE, at[1] * SCALE), text, font=font, anchor=anchor)
@@ -97,3 +101,64 @@ class Canvas:
 
 def _scaled(points: Sequence[XY]) -> list[XY]:
     return [(x * SCALE, y * SCALE) for x, y in points]
+
+
+Font = ImageFont.FreeTypeFont | ImageFont.ImageFont
+
+_HAN_FILES = (
+    "NotoSansCJK*", "NotoSansSC*", "SourceHanSans*", "wqy-microhei*", "wqy-zenhei*", "DroidSansFallback*",
+    "PingFang*", "Hiragino*GB*", "STHeiti*", "msyh*", "simhei*", "uming*", "ukai*",
+)  # fmt: skip
+_MONO_FILES = (
+    "DejaVuSansMono.ttf",
+    "LiberationMono-Regular*",
+    "UbuntuMono*",
+    "NotoSansMono-Regular*",
+    "Menlo*",
+)
+
+
+def latin(size_px: int) -> Font:
+    """Return the font for everything but Chinese."""
+    return ImageFont.load_default(size_px)
+
+
+def han(size_px: int) -> Font | None:
+    """Return a font that has Chinese, None on a system without one."""
+    path = _find(_HAN_FILES)
+    return ImageFont.truetype(str(path), size_px) if path is not None else None
+
+
+def mono(size_px: int) -> Font | None:
+    """Return a font whose letters are all as wide as each other, and which has braille; None where there is none."""
+    path = _find(_MONO_FILES)
+    return ImageFont.truetype(str(path), size_px) if path is not None else None
+
+
+def is_latin(text: str) -> bool:
+    """Tell whether `latin` has every character of `text`."""
+    return all(ord(char) < 0x250 or char in "–—‘’“”…°·×" for char in text)
+
+
+def font_for(text: str, size_px: int) -> Font | None:
+    """Return a font that can show `text`, None where there is none."""
+    return latin(size_px) if is_latin(text) else han(size_px)
+
+
+@cache
+def _find(patterns: tuple[str, ...]) -> Path | None:
+    for pattern in patterns:
+        for folder in _folders():
+            found = next((path for path in sorted(folder.rglob(pattern)) if path.is_file()), None)
+            if found is not None:
+                return found
+    return None
+
+
+def _folders() -> Iterator[Path]:
+    data = Path(os.environ.get("XDG_DATA_HOME") or Path.home() / ".local/share")
+    folders = (
+        *(data / "fonts", Path.home() / ".fonts", Path("/usr/share/fonts"), Path("/usr/local/share/fonts")),
+        *(Path("/System/Library/Fonts"), Path("/Library/Fonts"), Path("C:/Windows/Fonts")),
+    )
+    return (folder for folder in folders if folder.is_dir())

@@ -19,18 +19,21 @@ class Extent(NamedTuple):
 
     @property
     def width_m(self) -> float:
+        """Along x."""
         return self.max_x_m - self.min_x_m
 
     @property
     def height_m(self) -> float:
+        """Along y."""
         return self.max_y_m - self.min_y_m
 
     def holds(self, x_m: float, y_m: float) -> bool:
+        """Tell whether a point lies in the box."""
         return self.min_x_m <= x_m <= self.max_x_m and self.min_y_m <= y_m <= self.max_y_m
 
 
 def extent_around(points: Iterable[XY], *, margin_m: float, least_m: float) -> Extent:
-    """The box around `points` as they are drawn, at least `least_m` wide and high; without any around the start."""
+    """Return the box around `points` as they are drawn, at least `least_m` wide and high; without any the start."""
     xs, ys = zip(*(tuple(points) or ((0.0, 0.0),)))
     (min_x, max_x), (min_y, max_y) = (
         _widened(min(values) - margin_m, max(values) + margin_m, least_m) for values in (xs, ys)
@@ -39,7 +42,7 @@ def extent_around(points: Iterable[XY], *, margin_m: float, least_m: float) -> E
 
 
 def extent_of_world(world: World, points: Iterable[XY], *, margin_m: float, least_m: float) -> Extent:
-    """The box that holds the whole world, the start and `points`, all in the frame of the start."""
+    """Return the box that holds the whole world, the start and `points`, all in the frame of the start."""
     held = [*points]
     if world.bounds is not None:
         held += [(0.0, 0.0), *(pose[:2] for pose in world.places.values())]
@@ -69,10 +72,13 @@ class Orientation:
         return self._sin != 0.0 or self._cos < 0.0
 
     def point(self, x_m: float, y_m: float) -> XY:
+        """Turn a point."""
         return self._cos * x_m - self._sin * y_m, self._sin * x_m + self._cos * y_m
 
     def points(self, points: Iterable[XY]) -> tuple[XY, ...]:
+        """Turn points."""
         return tuple(self.point(*point) for point in points)
 
     def heading_rad(self, yaw_rad: float) -> float:
+        """Turn a heading."""
         return yaw_rad + self._turn_rad

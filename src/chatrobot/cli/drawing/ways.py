@@ -29,7 +29,7 @@ def progress_colour(share: float) -> Rgb:
 def standing_points(
     way: Sequence[Point], spacing_m: float, spacing_rad: float = math.radians(30)
 ) -> Iterator[Point]:
-    """The poses at which to show the robot's outline: not nearer to each other than the spacing, both ends always."""
+    """Return poses at which to show the robot's outline: no nearer to each other than the spacing, both ends always."""
     last: Point | None = None
     for point in way:
         if (
@@ -44,13 +44,13 @@ def standing_points(
 
 
 def outline_at(footprint: Sequence[tuple[float, float]], pose: Pose) -> list[tuple[float, float]]:
-    """A footprint, given in the robot's frame, where the robot is."""
+    """Return a footprint, given in the robot's frame, where the robot is."""
     placed = (pose.compose(Pose(x, y)) for x, y in footprint)
     return [(corner.x_m, corner.y_m) for corner in placed]
 
 
 def where_found(rehearsed: Rehearsed, finding: FindingSeen) -> tuple[float, float] | None:
-    """Where on the way a finding is: where it says so itself, else by its time."""
+    """Find where on the way a finding is: where it says so itself, else by its time."""
     values = finding.reason.values
     x, y = values.get("x_m"), values.get("y_m")
     if isinstance(x, (int, float)) and isinstance(y, (int, float)):

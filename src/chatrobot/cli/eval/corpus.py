@@ -27,6 +27,7 @@ _NUMBERS = (
 _EXPECT_KEYS = (*_NUMBERS, "sign", "closed", "motion", "answer")
 _MEANT_FLAGS = ("still", "mirror_ok", "closed_ok", "ask_ok")
 _ITEM_KEYS = ("id", "category", "say", "turns", "expect", "note", "plan", *_MEANT_FLAGS)
+_PLAN_TEXTS = "plan text, or a list of plan texts"
 _GOTO = re.compile(r"^\s*goto\b", re.MULTILINE)
 
 
@@ -124,100 +125,97 @@ class _Reader:
         self._path = path
 
     def item(self, data: Any) -> Item:
+        """Read an item.
+
+        Raises:
+            CorpusError: what is wrong with it, and what is allowed.
+        """
         fields = self._mapping(data, "an item", _ITEM_KEYS)
-        name = fields.get("id")
-        if not isinstance(name, str) or not name.strip():
-            raise self._error("id is missing or no text", "such as en-0001")
+        name, category = str(fields.get("id")), str(fields.get("category"))
+        has_name = isinstance(fields.get("id"), str) and bool(name.strip())
+        self._require(has_name, "id is missing or is not text", "such as en-0001")
         self._where = f"{self._path}: {name}"
-        if fields.get("category") not in CATEGORIES:
-            raise self._error(f"category is {fields.get('category')!r}", ", ".join(CATEGORIES))
+        self._require(
+            category in CATEGORIES, f"category is {fields.get('category')!r}", ", ".join(CATEGORIES)
+        )
         turns = self._turns(fields)
         expect = self._expect(fields["expect"]) if "expect" in fields else None
         meant = self._meant(fields)
-        if expect is None and meant is None and turns[-1].expect is None:
-            raise self._error(
-                "expect is missing", "what must hold after the last turn: expect, plan or still"
-            )
-        if expect is not None and meant is not None:
-            raise self._error("needs either expect or a plan", "expect; plan; still: true")
-        return Item(name, fields["category"], turns, expect, meant, ask_ok=bool(fields.get("ask_ok")))
+        says = expect is not None or meant is not None or turns[-1].expect is not None
+        self._require(says, "expect is missing", "what must hold after the last turn: expect, plan or still")
+        is_one = expect is None or meant is None
+        self._require(is_one, "needs either expect or a plan", "expect; plan; still: true")
+        return Item(name, category, turns, expect, meant, ask_ok=bool(fields.get("ask_ok")))
 
     def _meant(self, fields: Mapping[str, Any]) -> Meant | None:
         for flag in _MEANT_FLAGS:
-            if not isinstance(fields.get(flag, True), bool):
-                raise self._error(f"{flag} is {fields[flag]!r}", "true or false")
+            self._require_flag(fields, flag)
         if "plan" not in fields:
             return Meant() if fields.get("still") else None
-        if fields.get("still"):
-            raise self._error("needs either a plan or still", "plan: drive 1 m; still: true")
+        self._require(not fields.get("still"), "needs either a plan or still", "plan: drive 1 m; still: true")
         texts = fields["plan"] if isinstance(fields["plan"], list) else [fields["plan"]]
-        if not texts:
-            raise self._error("plan is empty", "plan text, or a list of plan texts")
+        self._require(bool(texts), "plan is empty", _PLAN_TEXTS)
         mirrored, closed = fields.get("mirror_ok", False), fields.get("closed_ok", False)
         return Meant(tuple(self._plan(text) for text in texts), mirrored, closed)
 
     def _plan(self, text: Any) -> Plan:
-        if not isinstance(text, str):
-            raise self._error(f"plan is {text!r}", "plan text, or a list of plan texts")
+        self._require(isinstance(text, str), f"plan is {text!r}", _PLAN_TEXTS)
         try:
             return parse_plan(_GOTO.sub("go to", text))
         except PlanTextError as error:
             raise self._error(f"plan cannot be read: {error}", "plan text (docs/plan-language.md)") from error
 
     def _turns(self, fields: Mapping[str, Any]) -> tuple[Turn, ...]:
-        if ("say" in fields) == ("turns" in fields):
-            raise self._error("needs either say or turns", "say: one text; turns: a list of texts")
+        is_one = ("say" in fields) != ("turns" in fields)
+        self._require(is_one, "needs either say or turns", "say: one text; turns: a list of texts")
         entries = [fields["say"]] if "say" in fields else fields["turns"]
-        if not isinstance(entries, list) or not entries:
-            raise self._error("turns must be a list of texts", "a text, or {say: …, expect: …}")
+        is_list = isinstance(entries, list) and bool(entries)
+        self._require(is_list, "turns must be a list of texts", "a text, or {say: …, expect: …}")
         return tuple(self._turn(entry) for entry in entries)
 
     def _turn(self, data: Any) -> Turn:
         fields = self._mapping(data, "a turn", ("say", "expect")) if isinstance(data, dict) else {"say": data}
         say = fields.get("say")
-        if not isinstance(say, str):
-            raise self._error(f"{say!r} is no text", "put it in quotes")
-        return Turn(say, self._expect(fields["expect"]) if "expect" in fields else None)
+        self._require(isinstance(say, str), f"{say!r} is not text", "put it in quotes")
+        return Turn(str(say), self._expect(fields["expect"]) if "expect" in fields else None)
 
     def _expect(self, data: Any) -> Expect:
         fields = self._mapping(data, "expect", _EXPECT_KEYS)
-        if not fields:
-            raise self._error("expect is empty", ", ".join(_EXPECT_KEYS))
-        self._check_word(fields, "motion", ("none",))
-        self._check_word(fields, "answer", ANSWERS)
-        if not isinstance(fields.get("closed", True), bool):
-            raise self._error(f"closed is {fields['closed']!r}", "true or false")
+        self._require(bool(fields), "expect is empty", ", ".join(_EXPECT_KEYS))
+        for key, allowed in (("motion", ("none",)), ("answer", ANSWERS)):
+            self._require(
+                fields.get(key, allowed[0]) in allowed, f"{key} is {fields.get(key)!r}", ", ".join(allowed)
+            )
+        self._require_flag(fields, "closed")
+        signs = self._mapping(fields["sign"], "sign", ("x", "y", "yaw")) if "sign" in fields else {}
+        for axis, sign in signs.items():
+            self._require(str(sign) in SIGNS, f"sign.{axis} is {str(sign)!r}", 'one of "+", "-", "0"')
         return Expect(
             numbers={key: self._number(key, fields[key]) for key in _NUMBERS if key in fields},
-            sign=self._signs(fields["sign"]) if "sign" in fields else {},
+            sign={axis: str(sign) for axis, sign in signs.items()},
             closed=fields.get("closed", False),
             no_motion="motion" in fields or "answer" in fields,
             answer=fields.get("answer"),
         )
 
-    def _signs(self, data: Any) -> dict[str, str]:
-        signs = {axis: str(sign) for axis, sign in self._mapping(data, "sign", ("x", "y", "yaw")).items()}
-        for axis, sign in signs.items():
-            if sign not in SIGNS:
-                raise self._error(f"sign.{axis} is {sign!r}", 'one of "+", "-", "0"')
-        return signs
-
     def _number(self, key: str, value: Any) -> float:
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-            raise self._error(f"{key} is {value!r}", "a number")
+        is_number = isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+        self._require(is_number, f"{key} is {value!r}", "a number")
         return float(value)
 
-    def _check_word(self, fields: Mapping[str, Any], key: str, allowed: tuple[str, ...]) -> None:
-        if key in fields and fields[key] not in allowed:
-            raise self._error(f"{key} is {fields[key]!r}", ", ".join(allowed))
-
     def _mapping(self, data: Any, name: str, allowed: tuple[str, ...]) -> dict[str, Any]:
-        if not isinstance(data, dict):
-            raise self._error(f"{name} must be a mapping", ", ".join(allowed))
+        self._require(isinstance(data, dict), f"{name} must be a mapping", ", ".join(allowed))
         for key in data:
-            if key not in allowed:
-                raise self._error(f"{name} has the unknown field {key!r}", ", ".join(allowed))
-        return data
+            self._require(key in allowed, f"{name} has the unknown field {key!r}", ", ".join(allowed))
+        return dict(data)
+
+    def _require_flag(self, fields: Mapping[str, Any], flag: str) -> None:
+        is_flag = isinstance(fields.get(flag, True), bool)
+        self._require(is_flag, f"{flag} is {fields.get(flag)!r}", "true or false")
+
+    def _require(self, is_right: bool, problem: str, allowed: str) -> None:
+        if not is_right:
+            raise self._error(problem, allowed)
 
     def _error(self, problem: str, allowed: str) -> CorpusError:
         return CorpusError(problem, where=self._where, allowed=allowed)

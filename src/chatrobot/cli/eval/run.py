@@ -10,9 +10,8 @@ from tempfile import TemporaryDirectory
 from chatrobot.cli.eval.corpus import Item
 from chatrobot.cli.eval.judge import Record, Verdict, judge
 from chatrobot.cli.eval.measure import Measured, Sample, has_moved, measure
-from chatrobot.compose import Connection, Setup, connect, profile_dirs
+from chatrobot.compose import Setup, connect
 from chatrobot.core.events import Event, Interpreted, Result, TruePose
-from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
 
 START = Sample(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -50,8 +49,8 @@ class Judged:
 
 
 def run_items(items: list[Item], setup: Setup) -> Iterator[Judged]:
-    """Each item as it is done. `setup` says which robot and interpreter; its folder is not touched."""
-    profile = load_profile(setup.robot, profile_dirs(setup.folder))
+    """Run each item, and give it as it is done. `setup` says which robot and interpreter; its folder is not touched."""
+    profile = setup.profile
     for item in items:
         judged = _run_item(item, setup, profile)
         if judged.verdict.kind == "abstained" and any(judged.proposals):
@@ -69,16 +68,12 @@ class _Listener:
 
     def hear(self, event: Event) -> None:
         if isinstance(event, TruePose):
-            self.trace.append(
-                Sample(
-                    event.t_s, event.x_m, event.y_m, event.yaw_rad, event.vx_mps, event.vy_mps, event.wz_radps
-                )
-            )
+            self.trace.append(Sample(**{name: getattr(event, name) for name in Sample._fields}))
         elif isinstance(event, Interpreted):
             self.plans.append(event.plan_text)
 
     def take(self) -> list[Sample]:
-        """The poses since the last call, beginning with the last one before."""
+        """Return the poses since the last call, beginning with the last one before."""
         taken, self.trace = self.trace, self.trace[-1:]
         return taken
 
@@ -95,7 +90,8 @@ def _run_item(item: Item, setup: Setup, profile: RobotProfile, *, agrees: bool =
             result = connection.session.do(turn.say)
             proposals.append(proposed_plan(result))
             if agrees and proposals[-1]:
-                result = _agreed(connection, proposals[-1])
+                session = connection.session
+                result = session.see_through(session.say_plan(proposals[-1]))
             if number == len(item.turns):
                 connection.close()  # a robot that still rolls has not arrived
             records.append(Record(result.outcome, result.reply, listener.take()))
@@ -104,17 +100,5 @@ def _run_item(item: Item, setup: Setup, profile: RobotProfile, *, agrees: bool =
 
 
 def proposed_plan(result: Result) -> str:
-    """The plan text that a result proposes; an empty string where it proposes none."""
-    proposal = getattr(result, "proposal", None)
-    if isinstance(proposal, dict):
-        return str(proposal.get("plan_text", ""))
-    return str(getattr(proposal, "plan_text", ""))
-
-
-def _agreed(connection: Connection, plan_text: str) -> Result:
-    """The result of driving what was proposed, as a yes does."""
-    session = connection.session
-    turn = session.say_plan(plan_text)
-    while turn not in session.results:
-        session.pump(0.1)
-    return session.results[turn]
+    """Return the plan text that a result proposes; an empty string where it proposes none."""
+    return result.proposal.plan_text if result.proposal is not None else ""

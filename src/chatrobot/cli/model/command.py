@@ -10,8 +10,7 @@ from urllib.parse import urlsplit
 from chatrobot.cli.folders import config_folder
 from chatrobot.core.errors import UsageError
 from chatrobot.language.phrases import render_reason
-from chatrobot.models.choice import resolve, store_choice
-from chatrobot.models.config import ModelConfig
+from chatrobot.models.config import ModelConfig, resolve, store_choice
 from chatrobot.models.discovery import find_local, listed_models
 from chatrobot.models.keys import KeyringError, delete_key, find_key, keyring_name, store_key, where_key_is
 from chatrobot.models.providers import Provider, providers, split_name

@@ -7,8 +7,7 @@ from dataclasses import replace
 
 from chatrobot.cli.model.command import read_secret
 from chatrobot.cli.model.trial import try_model
-from chatrobot.models.choice import store_choice
-from chatrobot.models.config import ModelConfig
+from chatrobot.models.config import ModelConfig, store_choice
 from chatrobot.models.discovery import find_local
 from chatrobot.models.keys import KeyringError, keyring_name, store_key, where_key_is
 from chatrobot.models.providers import LOCAL, Provider, providers

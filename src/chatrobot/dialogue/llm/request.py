@@ -16,7 +16,6 @@ from chatrobot.core.events import (
     Finished,
     Interpreted,
     Looked,
-    ModelCalled,
     Notice,
     Outcome,
     Rehearsed,
@@ -25,7 +24,6 @@ from chatrobot.core.motion_budget import EXCEEDED
 from chatrobot.core.reason import Reason
 from chatrobot.core.shown import one_line
 from chatrobot.core.summed import summed
-from chatrobot.dialogue.llm.call import CallEnd
 from chatrobot.dialogue.llm.plan_stream import PlanStream
 from chatrobot.dialogue.llm.prompt import correction, is_short_form
 from chatrobot.dialogue.llm.round import ModelRound, ObservationWait
@@ -126,14 +124,12 @@ class ModelRequest:
     def silent_s(self) -> float | None:
         """How long the model has been silent since it was asked, None where it has spoken or is not being asked."""
         call = self._round.call
-        if call.has_spoken or call.has_ended:
-            return None
-        return time.monotonic() - call.began_s
+        return time.monotonic() - call.began_s if not (call.has_ended or call.text) else None
 
     @property
     def asked_at_s(self) -> float | None:
         """Since when the model is being asked (monotonic); None where it is not. From any thread."""
-        return self._round.asked_at_s
+        return self._round.call.asked_at_s
 
     def wait(self, timeout_s: float) -> None:
         """Until the model says something: where time is simulated, it stands meanwhile."""
@@ -154,11 +150,13 @@ class ModelRequest:
         if self._cancelled is not None and not self._feed.is_open:
             self._conclude("stopped", self._cancelled)
             return
-        for item in self._round.call.take():
-            if isinstance(item, CallEnd):
-                self._end_call(item)
-            elif self._listens:
-                self._take(self._round.reader.feed(item))
+        call = self._round.call
+        had_ended = call.has_ended
+        for piece in call.take():
+            if self._listens:
+                self._take(self._round.reader.feed(piece))
+        if call.has_ended and not had_ended:
+            self._end_call()
         self._end_look()
 
     def hear(self, event: Event) -> None:
@@ -196,10 +194,11 @@ class ModelRequest:
             self._round.steps.append(step)
             self._feed.take(step)
 
-    def _end_call(self, end: CallEnd) -> None:
+    def _end_call(self) -> None:
         current = self._round
-        self._take(current.end_call(end, counts=self._listens))
-        self._note_usage(end)
+        if self._listens:
+            self._take(current.last_steps())
+        self._note_usage()
         current.forget_what_is_done()
         plan_text = "" if self._only_talks else current.plan_text
         if plan_text:
@@ -215,15 +214,10 @@ class ModelRequest:
         if not self._feed.is_open:
             self._end_round()
 
-    def _note_usage(self, end: CallEnd) -> None:
-        usage = end.usage
-        self._spending.note(usage)
-        self._emit(
-            ModelCalled(
-                self.turn, self._model.name, self._spending.calls, usage.prompt_tokens, usage.cached_tokens,
-                usage.reply_tokens, usage.cost_usd, usage.counted, end.duration_s,
-            )
-        )  # fmt: skip
+    def _note_usage(self) -> None:
+        called = self._round.call.told(self.turn, self._spending.calls)
+        self._spending.note(called)
+        self._emit(called)
 
     @property
     def _may_run(self) -> bool:
@@ -237,7 +231,7 @@ class ModelRequest:
         self._feed.end()
         self._round.end_run(finished)
         self._total = finished if self._total is None else summed(self._total, finished)
-        if not self._round.is_calling:
+        if self._round.call.has_ended:
             self._end_round()
         elif finished.outcome != "completed":
             self._round.call.cancel()  # the end of the call ends the round
@@ -270,7 +264,7 @@ class ModelRequest:
 
     def _end_talk(self) -> None:
         """It was only to take note of something."""
-        end = self._round.call_end
+        end = self._round.call.end
         problem = end.problem if end is not None else None
         self._conclude("answered" if problem is None else "failed", problem)
 
@@ -339,6 +333,9 @@ class ModelRequest:
     def _conclude(self, outcome: Outcome, reason: Reason | None) -> None:
         if self.ended is not None:
             return
+        if not self._round.call.has_ended:  # it is given up, and has used something, too
+            self._round.call.cancel()
+            self._note_usage()
         text = self._round.reader.text
         says = "\n".join(step.text for step in self._round.steps if isinstance(step, Say))
         is_answer = outcome == "answered" and not self._only_talks

@@ -14,13 +14,12 @@ from chatrobot.core.events import Event, Finished, Looked, Notice
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.core.shown import one_line
-from chatrobot.dialogue.history import Exchange, History
 from chatrobot.dialogue.llm import prompt
 from chatrobot.dialogue.llm.camera import Camera
 from chatrobot.dialogue.llm.prompt import connects_to_the_robot, is_form
 from chatrobot.dialogue.llm.request import ModelRequest
 from chatrobot.dialogue.llm.terms import Ended
-from chatrobot.dialogue.observations import measured, observation
+from chatrobot.dialogue.observations import Exchange, History, measured, observation
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import say

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from chatrobot.core.events import Finished, Looked
 from chatrobot.core.reason import Reason
-from chatrobot.dialogue.llm.call import CallEnd, ModelCall
+from chatrobot.dialogue.llm.call import ModelCall
 from chatrobot.dialogue.llm.reply_reader import ReplyReader
 from chatrobot.dialogue.llm.terms import Surroundings
 from chatrobot.models.seam import CallLimits, Message, Model
@@ -45,17 +45,7 @@ class ModelRound:
         self.run_problem: Reason | None = None
         """Why its run did not come to its end."""
         self.is_plan_refused = False
-        self.call_end: CallEnd | None = None
         self.call = ModelCall(model, messages, limits, wake)
-
-    @property
-    def is_calling(self) -> bool:
-        return not self.call.has_ended
-
-    @property
-    def asked_at_s(self) -> float | None:
-        """Since when the model is being asked (monotonic); None where it is not."""
-        return self.call.began_s if self.is_calling else None
 
     @property
     def is_in_vain(self) -> bool:
@@ -74,18 +64,17 @@ class ModelRound:
     @property
     def problem(self) -> Reason | None:
         """What is wrong with the reply."""
-        if self.call_end is not None and self.call_end.problem is not None:
-            return self.call_end.problem
+        if self.call.end is not None and self.call.end.problem is not None:
+            return self.call.end.problem
         if self.reader.error is not None:
             return Reason("plan_text", {"problem": str(self.reader.error)})
         if not self.steps and not self.reader.looks and not self._done:
             return Reason("model_empty", {"model": self._model.name})
         return None
 
-    def end_call(self, end: CallEnd, *, counts: bool) -> list[Step]:
-        """The model has said all; the steps that are complete only now. `counts`: what it said last does."""
-        self.call_end = end
-        return self.reader.finish() if counts and end.problem is None else []
+    def last_steps(self) -> list[Step]:
+        """Return the steps that are complete only now that the model has said all."""
+        return self.reader.finish() if self.call.end is not None and self.call.end.problem is None else []
 
     def end_run(self, finished: Finished) -> None:
         """Motion has told the end of its run."""

@@ -25,8 +25,7 @@ def chosen_model(option: str, folder: Path | None, *, server_held: bool = False)
         ModelError: `model_unknown`.
         InputError: the stored choice cannot be read.
     """
-    from chatrobot.models.choice import resolve
-    from chatrobot.models.config import ModelConfig
+    from chatrobot.models.config import ModelConfig, resolve
     from chatrobot.models.make import make_model
 
     config = ModelConfig(folder, session=time.strftime("%Y-%m-%d %H:%M:%S"))

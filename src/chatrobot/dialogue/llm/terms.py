@@ -6,9 +6,9 @@ import time
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from chatrobot.core.events import Finished, Looked, Outcome
+from chatrobot.core.events import Finished, Looked, ModelCalled, Outcome
 from chatrobot.core.reason import Reason
-from chatrobot.models.seam import CallLimits, Message, Usage
+from chatrobot.models.seam import CallLimits, Message
 from chatrobot.plan.base import Step
 
 
@@ -91,9 +91,9 @@ class Spending:
         """Calls that were no corrections."""
         return self.calls - self.retries
 
-    def note(self, usage: Usage) -> None:
-        """What a call has used."""
-        self._tokens += usage.prompt_tokens + usage.reply_tokens
+    def note(self, call: ModelCalled) -> None:
+        """Count what a call has used."""
+        self._tokens += call.prompt_tokens + call.reply_tokens
 
     def used_up(self) -> Reason | None:
         """Why no model may be asked any more."""

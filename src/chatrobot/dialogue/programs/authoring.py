@@ -6,31 +6,35 @@ Nothing here runs a program: its source goes to Motion, which rehearses it in th
 from __future__ import annotations
 
 import shlex
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TypeVar
 
 from chatrobot.core.events import Finished, Outcome, ProgramRehearsed, Rehearsed
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
-from chatrobot.dialogue.llm.call import estimated
+from chatrobot.dialogue.llm.call import ModelCall
+from chatrobot.dialogue.llm.prompt import mend_prompt, program_prompt
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.language.program_request import ProgramRequest, read_program_name, read_request
-from chatrobot.models.seam import CallLimits, Message, Model, ModelError, Usage
+from chatrobot.models.seam import CallLimits, Message, Model
 from chatrobot.plan.context import Impossible, RoutePlanner
 from chatrobot.plan.steps import Plan
 from chatrobot.programs.check import check
 from chatrobot.programs.extract import extract
 from chatrobot.programs.library import KeptProgram, Library, Provenance, RunRecord, clean_name, today
-from chatrobot.programs.prompts import mend_prompt, system_prompt
 from chatrobot.programs.writing.program import Wanted, write_program
 from chatrobot.robots.profile import RobotProfile
 
 MOST_REPAIRS = 2
 LIMITS = CallLimits(reply_tokens=4000)
+
+T = TypeVar("T")
+Writing = Generator[Sequence[Message], ModelCall, T]
+"""Work that yields what a model is to be asked, and goes on with the call once that has ended."""
 
 
 class NotWrittenError(Exception):
@@ -42,15 +46,6 @@ class NotWrittenError(Exception):
         super().__init__(reply)
 
 
-@dataclass(frozen=True)
-class Spent:
-    """What one call of the model that writes has used, and how long it took."""
-
-    model: str
-    usage: Usage
-    duration_s: float
-
-
 @dataclass
 class Rehearsal:
     """What Motion told of one version, as it comes in."""
@@ -60,7 +55,7 @@ class Rehearsal:
 
 
 class Authoring:
-    """Writes programs for one robot. Used by the session's pumping thread; only `cancel` may come from any other.
+    """Writes programs for one robot. Used by the session's pumping thread.
 
     Args:
         library: where programs are kept.
@@ -86,23 +81,11 @@ class Authoring:
         self.model = model
         self.prefers_model = prefers_model
         self._routes = routes
-        self._spent: list[Spent] = []
-        self._cancels = 0
-        self._cancel_reply: Callable[[], None] | None = None
-        self.asked_at_s: float | None = None
-        """Since when a model is being asked (monotonic); None where none is."""
-
-    def cancel(self) -> None:
-        """Stop waiting for a model. From any thread; returns at once."""
-        self._cancels += 1
-        cancel = self._cancel_reply
-        if cancel is not None:
-            cancel()
 
     # --- which program ---
 
     def kept(self, text: str, language: str) -> Draft | None:
-        """The kept program that `text` asks to run, with the arguments behind a `--`; None where it asks for none.
+        """Return the kept program that `text` asks to run, with the arguments behind a `--`; None where it asks none.
 
         Raises:
             NotWrittenError: it cannot be given those arguments.
@@ -121,19 +104,19 @@ class Authoring:
             raise NotWrittenError("refused", render_reason(reason, language)) from error
 
     def draft_of(self, program: KeptProgram) -> Draft:
-        """A program that is there already."""
+        """Return the draft of a program that is there already."""
         checked = check(program.source, self._profile)
         program = replace(program, remap=dict(checked.remap))
         place = self.library.place(program.name)
         return Draft(program, checked, place=place, version=program.provenance.versions)
 
     def draft_of_file(self, path: Path, source: str) -> Draft:
-        """A program from a file, which is not kept."""
+        """Return the draft of a program from a file, which is not kept."""
         program = KeptProgram(path.stem, source, provenance=Provenance(f"from {path.name}"))
         return replace(self.draft_of(program), place=str(path))
 
     def edited(self, draft: Draft, source: str) -> Draft:
-        """What a person made of a program that was shown: its next version, or the same where nothing was changed.
+        """Return what a person made of a program that was shown: its next version, or the same where nothing changed.
 
         It is asked about before it runs. One that came from a file is kept from now on: the file stays as it is.
         """
@@ -147,25 +130,25 @@ class Authoring:
 
     @staticmethod
     def request(text: str, *, is_asked_for: bool = False) -> ProgramRequest | None:
-        """What program `text` asks for; None where it asks for none."""
+        """Read what program `text` asks for; None where it asks for none."""
         return read_request(text, is_asked_for=is_asked_for)
 
     # --- writing ---
 
-    def write(self, request: ProgramRequest, pose: Pose, language: str) -> Draft:
-        """The program for a request of somebody whose robot stands at `pose`. Blocks while a model writes.
+    def write(self, request: ProgramRequest, pose: Pose, language: str) -> Writing[Draft]:
+        """Write the program for a request of somebody whose robot stands at `pose`.
 
         Raises:
             NotWrittenError: nobody could write it, and why.
         """
         if self.prefers_model and self.model is not None:
-            return self._by_model(request, language)
+            return (yield from self._by_model(request, language))
         try:
             return self._offline(request, pose, language)
         except NotWrittenError as refusal:
             if self.model is None or refusal.outcome != "unclear":
                 raise
-            return self._by_model(request, language)
+            return (yield from self._by_model(request, language))
 
     def _offline(self, request: ProgramRequest, pose: Pose, language: str) -> Draft:
         plan = self._plan(request, language)
@@ -211,10 +194,10 @@ class Authoring:
 
     # --- with a model ---
 
-    def _by_model(self, request: ProgramRequest, language: str) -> Draft:
+    def _by_model(self, request: ProgramRequest, language: str) -> Writing[Draft]:
         assert self.model is not None
-        messages = [Message("system", system_prompt(self._profile)), Message("user", request.text)]
-        reply = self._ask(messages, language)
+        messages = [Message("system", program_prompt(self._profile)), Message("user", request.text)]
+        reply = yield from self._ask(messages, language)
         found = extract(reply)
         if found is None:
             raise NotWrittenError("unclear", say(language, "no_program_in_reply", reply=reply.strip()[:200]))
@@ -224,49 +207,35 @@ class Authoring:
         )
         return self._new(program, request, [*messages, Message("assistant", reply)])
 
-    def mend(self, draft: Draft, problem: Reason, details: str, language: str) -> Draft | None:
-        """The next version of a model's program; None where it may not be mended any more. Blocks.
+    def may_mend(self, draft: Draft) -> bool:
+        """Tell whether a model wrote it, and may write a further version."""
+        return draft.by_model and draft.version <= MOST_REPAIRS and self.model is not None
+
+    def mend(self, draft: Draft, problem: Reason, details: str, language: str) -> Writing[Draft]:
+        """Write the next version of a model's program.
 
         Raises:
             NotWrittenError: the model did not answer with one.
         """
-        if not draft.by_model or draft.version > MOST_REPAIRS or self.model is None:
-            return None
         told = mend_prompt(render_reason(problem, "en"), details)
         messages = [*draft.messages, Message("user", told)]
-        reply = self._ask(messages, language)
+        reply = yield from self._ask(messages, language)
         found = extract(reply)
         if found is None:
             raise NotWrittenError("failed", say(language, "no_program_in_reply", reply=reply.strip()[:200]))
         checked = check(found.source, self._profile)
         return draft.next(found.source, checked, (*messages, Message("assistant", reply)))
 
-    def _ask(self, messages: Sequence[Message], language: str) -> str:
-        assert self.model is not None
-        before = self._cancels
-        began_s = self.asked_at_s = time.monotonic()
-        reply = self.model.ask(messages, LIMITS)
-        self._cancel_reply = reply.cancel
-        pieces: list[str] = []
-        try:
-            if self._cancels == before:
-                pieces.extend(reply)
-        except ModelError as error:
-            found = extract("".join(pieces))
-            if found is None or not found.is_closed:  # half a program is not run, nor blamed on its writer
-                raise NotWrittenError("failed", render_reason(error.reason, language)) from error
-        finally:
-            self._cancel_reply = self.asked_at_s = None
-            usage = reply.usage or estimated(messages, "".join(pieces))
-            self._spent.append(Spent(self.model.name, usage, time.monotonic() - began_s))
-        if self._cancels != before:
+    @staticmethod
+    def _ask(messages: Sequence[Message], language: str) -> Writing[str]:
+        call = yield messages
+        if call.is_cancelled:
             raise NotWrittenError("stopped", say(language, "stopped_now"))
-        return "".join(pieces)
-
-    def take_spent(self) -> list[Spent]:
-        """The calls since this was asked last, given up ones too."""
-        spent, self._spent = self._spent, []
-        return spent
+        if call.end is not None and call.end.problem is not None:
+            found = extract(call.text)
+            if found is None or not found.is_closed:  # half a program is not run, nor blamed on its writer
+                raise NotWrittenError("failed", render_reason(call.end.problem, language))
+        return call.text
 
     # --- what became of it ---
 
@@ -276,7 +245,7 @@ class Authoring:
             self.library.keep(draft.program)
 
     def note_rehearsal(self, draft: Draft, rehearsal: Rehearsal) -> None:
-        """What the last rehearsal of a kept program showed."""
+        """Keep what the last rehearsal of a kept program showed."""
         program, path = rehearsal.program, rehearsal.path
         if program is None or path is None:
             return
@@ -295,7 +264,7 @@ class Authoring:
         )
 
     def note_run(self, draft: Draft, finished: Finished) -> None:
-        """How a run of a kept program ended."""
+        """Keep how a run of a kept program ended."""
         if finished.path_m or finished.duration_s or finished.outcome == "completed":
             self.library.note_run(
                 draft.program.name,

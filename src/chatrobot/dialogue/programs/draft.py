@@ -37,12 +37,12 @@ class Draft:
 
     @property
     def remap(self) -> dict[str, str]:
-        """What its topics are led to, but for those that its arguments lead elsewhere."""
+        """Return what its topics are led to, but for those that its arguments lead elsewhere."""
         named = {rule.what.strip("/") for rule in read_ros_args(self.args).remaps}
         return {topic: to for topic, to in self.program.remap.items() if topic.strip("/") not in named}
 
     def with_args(self, args: Sequence[str]) -> Draft:
-        """With a command line of its own.
+        """Return it with a command line of its own.
 
         Raises:
             RosArgumentsError: they cannot be given to a program.
@@ -52,10 +52,11 @@ class Draft:
 
     @property
     def by_model(self) -> bool:
+        """Tell whether a model wrote it, and can mend it."""
         return bool(self.messages)
 
     def next(self, source: str, checked: Checked, messages: tuple[Message, ...] = ()) -> Draft:
-        """The version after this one: a model's where there are `messages`, otherwise a person's."""
+        """Return the version after this one: a model's where there are `messages`, otherwise a person's."""
         origin = self.program.provenance
         program = replace(
             self.program,
@@ -75,7 +76,7 @@ class Draft:
         )
 
     def event(self, turn: int) -> ProgramWritten:
-        """What the displays show of it."""
+        """Return what the displays show of it."""
         led = self.remap
         marks = [
             FindingSeen(turn, m.severity, m.reason, (m.line,) if m.line else ())
@@ -99,6 +100,6 @@ class Draft:
 
 
 def difference(old: str, new: str) -> str:
-    """What changed between two versions, as a unified diff."""
+    """Return what changed between two versions, as a unified diff."""
     lines = difflib.unified_diff(old.splitlines(), new.splitlines(), "before", "after", lineterm="", n=2)
     return "\n".join(lines)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -10,22 +10,30 @@ from chatrobot.core.events import (
     Event,
     Finished,
     Interpreted,
-    ModelCalled,
     Notice,
     ProgramRehearsed,
     Rehearsed,
     Started,
 )
 from chatrobot.core.reason import Reason
-from chatrobot.dialogue.goal_client import GoalClient
-from chatrobot.dialogue.programs.authoring import MOST_REPAIRS, Authoring, NotWrittenError, Rehearsal
+from chatrobot.dialogue.goal_client import GoalClient, RequestLog
+from chatrobot.dialogue.llm.call import ModelCall
+from chatrobot.dialogue.programs.authoring import (
+    LIMITS,
+    MOST_REPAIRS,
+    Authoring,
+    NotWrittenError,
+    Rehearsal,
+    Writing,
+)
 from chatrobot.dialogue.programs.draft import Draft
-from chatrobot.dialogue.request_log import RequestLog
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.normalise import has_chinese
 from chatrobot.language.phrases import render_reason
 from chatrobot.language.program_request import ProgramRequest
+from chatrobot.link.motion_link import MotionLink
+from chatrobot.models.seam import Message
 
 MENDABLE = frozenset(
     {
@@ -47,11 +55,22 @@ class _Turn:
     has_started: bool = False
 
 
+@dataclass(frozen=True)
+class _Asked:
+    """A model is being asked; `work` goes on with the call once it has ended. `number` counts the calls of the turn."""
+
+    turn: int
+    work: Writing[None]
+    call: ModelCall
+    number: int
+
+
 class ProgramRequests:
-    """Used by the session's pumping thread.
+    """Used by the session's pumping thread, but for `cancel`. At most one program is being written at a time.
 
     Args:
         is_void_turn: a stop came after that turn was said.
+        finish: ends a turn whose program Motion refused, and no model mended.
     """
 
     def __init__(
@@ -60,59 +79,125 @@ class ProgramRequests:
         understanding: Understanding,
         book: RequestLog,
         goals: GoalClient,
+        link: MotionLink,
         emit: Callable[[Event], None],
         is_void_turn: Callable[[int], bool],
+        finish: Callable[[Finished], None],
     ) -> None:
         self.authoring = authoring
         self._understanding = understanding
         self._requests = book
         self._goals = goals
+        self._link = link
         self._emit = emit
         self._is_void_turn = is_void_turn
+        self._finish = finish
+        self._asked: _Asked | None = None
+        self._cancels = 0
         self._turns: dict[int, _Turn] = {}
         self._shown: dict[str, Draft] = {}
         self._ran: dict[int, Draft] = {}
 
-    def begin(self, turn: int, text: str, *, is_asked_for: bool = False, name: str = "") -> bool:
-        """Take the turn if it is about a program; `name` is what it is to be called.
+    # --- what a model writes ---
 
-        Blocks while a model writes; a stop ends that.
-        """
+    def cancel(self) -> None:
+        """End what a model is being asked, from any thread; return at once."""
+        self._cancels += 1
+        asked = self._asked
+        if asked is not None:
+            asked.call.cancel()
+
+    @property
+    def is_writing(self) -> bool:
+        """True while a model writes: what is said then, but for a stop or a pause, waits."""
+        return self._asked is not None
+
+    @property
+    def asked_at_s(self) -> float | None:
+        """Return since when a model is being asked (monotonic), None where none is; from any thread."""
+        asked = self._asked
+        return asked.call.asked_at_s if asked is not None else None
+
+    def wait(self, timeout_s: float) -> None:
+        """Wait until the model says something; where time is simulated, it stands meanwhile."""
+        if self._asked is not None:
+            self._asked.call.wait(timeout_s)
+
+    def pump(self) -> None:
+        """Take in what the model has said."""
+        asked = self._asked
+        if asked is None:
+            return
+        asked.call.take()
+        if asked.call.has_ended:
+            self._emit(asked.call.told(asked.turn, asked.number))
+            self._asked = None
+            self._go_on(asked.turn, asked.work, asked.number + 1, asked.call)
+
+    def _go_on(self, turn: int, work: Writing[None], number: int = 1, ended: ModelCall | None = None) -> None:
+        """Go on with a turn's work up to its next question to a model, its call `number`."""
+        try:
+            messages: Sequence[Message] = next(work) if ended is None else work.send(ended)
+        except StopIteration:
+            return
+        cancels, model = self._cancels, self.authoring.model
+        assert model is not None
+        call = ModelCall(model, messages, LIMITS, self._link.wake)
+        self._asked = _Asked(turn, work, call, number)
+        if cancels != self._cancels or self._is_void_turn(turn):
+            call.cancel()  # a stop came while it was being asked
+
+    # --- which program, and its run ---
+
+    def begin(self, turn: int, text: str, *, is_asked_for: bool = False, name: str = "") -> bool:
+        """Take the turn if it is about a program; `name` is what it is to be called."""
         language: LanguageCode = "zh" if has_chinese(text) else "en"
         try:
             draft = None if is_asked_for else self.authoring.kept(text, language)
-            if draft is None:
-                request = self.authoring.request(text, is_asked_for=is_asked_for)
-                if request is None:
-                    return False
-                draft = self._write(turn, replace(request, name=name or request.name), language)
         except NotWrittenError as refusal:
-            self._emit(Interpreted(turn, "offline", "", refusal.reply))
-            meant = Interpretation(_MEANT.get(refusal.outcome, "refused"), refusal.reply, language)
-            self._understanding.note_unmoved(text, meant)
-            self._requests.conclude(turn, refusal.outcome, refusal.reply)
+            self._refuse(turn, text, refusal, language)
             return True
-        self.run(turn, text, draft)
+        if draft is not None:
+            self.run(turn, text, draft)
+            return True
+        request = self.authoring.request(text, is_asked_for=is_asked_for)
+        if request is None:
+            return False
+        request = replace(request, name=name or request.name)
+        self._go_on(turn, self._write(turn, text, request, language))
         return True
 
-    def _write(self, turn: int, request: ProgramRequest, language: LanguageCode) -> Draft:
+    def _write(self, turn: int, text: str, request: ProgramRequest, language: LanguageCode) -> Writing[None]:
         try:
-            return self.authoring.write(request, self._understanding.pose, language)
-        finally:
-            self._tell_spent(turn, 1)
+            draft = yield from self.authoring.write(request, self._understanding.pose, language)
+        except NotWrittenError as refusal:
+            self._refuse(turn, text, refusal, language)
+        else:
+            yield from self._run(turn, text, draft)
+
+    def _refuse(self, turn: int, text: str, refusal: NotWrittenError, language: LanguageCode) -> None:
+        self._emit(Interpreted(turn, "offline", "", refusal.reply))
+        meant = Interpretation(_MEANT.get(refusal.outcome, "refused"), refusal.reply, language)
+        self._understanding.note_unmoved(text, meant)
+        self._requests.conclude(turn, refusal.outcome, refusal.reply)
 
     def run(self, turn: int, text: str, draft: Draft) -> None:
         """Have Motion rehearse and run it, as soon as it can be read at all."""
+        self._go_on(turn, self._run(turn, text, draft))
+
+    def _run(self, turn: int, text: str, draft: Draft) -> Writing[None]:
         code = "program_new" if draft.is_new else "program_kept"
         reply = self._understanding.say(code, text, name=draft.program.name)
         self._emit(Interpreted(turn, "model" if draft.by_model else "offline", "", reply))
         self._turns[turn] = about = _Turn(draft)
         self._requests.track(turn, text, Interpretation("plan", reply, self._understanding.language))
-        self._send(turn, about)
+        yield from self._send(turn, about)
 
     def run_edited(self, turn: int, name: str, source: str) -> None:
-        """Have what a person made of the program of that name rehearsed, and asked about; what cannot be read leaves
-        it as it was."""
+        """Have a person's edit of the program of that name rehearsed and asked about.
+
+        One that cannot be read leaves the program as it was.
+        """
         before = self._shown[name]
         draft = self.authoring.edited(before, source)
         unreadable = draft.checked.refusal
@@ -123,7 +208,7 @@ class ProgramRequests:
         self.run(turn, name, draft)
 
     def has_run(self, turn: int) -> bool:
-        """A program was started in that turn."""
+        """Tell whether a program was started in that turn."""
         return turn in self._turns and self._turns[turn].has_started
 
     def run_again(self, turn: int, text: str, of_turn: int) -> None:
@@ -154,7 +239,7 @@ class ProgramRequests:
         return False
 
     def ending(self, turn: int, reply: str) -> str:
-        """The reply at the end of a program's turn: what was promised and cannot be is said again."""
+        """Return the reply at the end of a program's turn: what was promised and cannot be is said again."""
         about = self._turns.pop(turn, None)
         if about is None or not about.has_started:
             return reply
@@ -162,20 +247,40 @@ class ProgramRequests:
         return " ".join([reply, *(render_reason(promise, language) for promise in about.draft.promises)])
 
     def _send_mended(self, event: Finished, about: _Turn) -> bool:
+        """Have a model mend what Motion refused; False where it may not, so that the turn ends."""
         reason = event.reason
         if reason is None or reason.code not in MENDABLE or self._is_void_turn(event.turn):
             return False
-        problem = about.rehearsal.program.problem if about.rehearsal.program is not None else ""
-        if not self._mend(event.turn, about, reason, problem):
+        if not self.authoring.may_mend(about.draft):
             return False
-        self._send(event.turn, about)
+        self._go_on(event.turn, self._mend_refused(event, about, reason), about.draft.version + 1)
         return True
 
-    def _send(self, turn: int, about: _Turn) -> None:
+    def _mend_refused(self, event: Finished, about: _Turn, reason: Reason) -> Writing[None]:
+        problem = about.rehearsal.program.problem if about.rehearsal.program is not None else ""
+        if (yield from self._mend(about, reason, problem)):
+            yield from self._send(event.turn, about)
+        else:
+            self._finish(event)
+
+    def _mend(self, about: _Turn, problem: Reason, details: str) -> Writing[bool]:
+        """Have the model write the next version; False where there is none."""
+        if not self.authoring.may_mend(about.draft):
+            return False
+        try:
+            draft = yield from self.authoring.mend(
+                about.draft, problem, details, self._understanding.language
+            )
+        except NotWrittenError:
+            return False  # what was wrong is told all the same
+        about.draft, about.rehearsal = draft, Rehearsal()
+        return True
+
+    def _send(self, turn: int, about: _Turn) -> Writing[None]:
         """Show this version and hand it to Motion; one that cannot even be read is mended first, or ends the turn."""
         self._show(turn, about.draft)
         while (refusal := about.draft.checked.refusal) is not None:
-            if not self._mend(turn, about, refusal.reason, ""):
+            if not (yield from self._mend(about, refusal.reason, "")):
                 del self._turns[turn]
                 reply = render_reason(refusal.reason, self._understanding.language)
                 self._requests.conclude(turn, "refused", reply)
@@ -203,30 +308,6 @@ class ProgramRequests:
     def _show(self, turn: int, draft: Draft) -> None:
         self._shown[draft.program.name] = draft
         self._emit(draft.event(turn))
-
-    def _tell_spent(self, turn: int, call: int) -> None:
-        """What a model has used, as for plans; `call` counts those of the turn."""
-        for spent in self.authoring.take_spent():
-            usage = spent.usage
-            self._emit(
-                ModelCalled(
-                    turn, spent.model, call, usage.prompt_tokens, usage.cached_tokens, usage.reply_tokens,
-                    usage.cost_usd, usage.counted, spent.duration_s,
-                )
-            )  # fmt: skip
-
-    def _mend(self, turn: int, about: _Turn, problem: Reason, details: str) -> bool:
-        """Have the model write the next version; False where there is none."""
-        try:
-            draft = self.authoring.mend(about.draft, problem, details, self._understanding.language)
-        except NotWrittenError:
-            return False  # what was wrong is told all the same
-        finally:
-            self._tell_spent(turn, about.draft.version + 1)
-        if draft is None:
-            return False
-        about.draft, about.rehearsal = draft, Rehearsal()
-        return True
 
 
 _MEANT: Mapping[str, Any] = {"unclear": "unclear", "answered": "answered"}

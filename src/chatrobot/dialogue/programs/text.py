@@ -13,13 +13,13 @@ SIGNS = {"refuse": "✗", "warn": "!", "note": "·"}
 
 
 def headline(event: ProgramWritten, language: str) -> str:
-    """Its name, who wrote this version, and its number."""
+    """Return its name, who wrote this version, and its number."""
     by = say(language, f"written_by_{event.by}")
     return say(language, "program_shown", name=event.program, by=by, version=event.version)
 
 
 def body(event: ProgramWritten, language: str) -> Iterator[str]:
-    """The file of its source; what changed, or the source where it is new; and what is risky in it."""
+    """Yield the file of its source; what changed, or the source where it is new; and what is risky in it."""
     marks = _marks_of(event.marks)
     if event.place:
         yield f"  {say(language, 'program_place', place=_from_home(event.place))}"
@@ -30,7 +30,7 @@ def body(event: ProgramWritten, language: str) -> Iterator[str]:
 
 
 def numbered(source: str, marks: Iterable[Mark], language: str) -> Iterator[str]:
-    """Every line with its number; marks under the line they are about, those about the whole at the end."""
+    """Yield every line with its number; marks under the line they are about, those about the whole at the end."""
     marks = tuple(marks)
     lines = source.splitlines()
     for number, line in enumerate(lines, start=1):

@@ -6,32 +6,21 @@ it (its own end, an exception, a kill, silence), the robot is brought to stand.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Protocol
 
-from chatrobot.core.clock import TICK_S
+from chatrobot.core.clock import TERM_S, TICK_S
 from chatrobot.core.events import Event, Finished, Outcome, ProgramLog, Progress
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.execution.sensors import STANDS_LATE_S, is_seen_moving, is_seen_standing
 from chatrobot.governor.governor import Verdict
-from chatrobot.governor.lease import TERM_S
-from chatrobot.motion.governed_motion import GovernedMotion, decelerated, is_worth_telling
-from chatrobot.motion.governed_robot import GovernedRobot
+from chatrobot.motion.governed_robot import GovernedMotion, GovernedRobot, decelerated, is_worth_telling
 from chatrobot.motion.planner import Planned, Planner
+from chatrobot.motion.programs.clocks import HeldTwist, LiveProgram
 from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.motion.remembered_obstacles import RememberedObstacles
-from chatrobot.programs.events import (
-    Died,
-    Ended,
-    Log,
-    Output,
-    ProgramEvent,
-    Raised,
-    TwistAsked,
-    raised_reason,
-)
+from chatrobot.programs.events import Died, Ended, Log, Output, ProgramEvent, Raised, TwistAsked
 from chatrobot.wire.wire import Wire
 
 SETTLE_S = 1.0
@@ -43,18 +32,6 @@ FARTHER_SHARE, FARTHER_M = 0.1, 0.1
 """A program that lasts or drives so much more than its rehearsal does something else: its rehearsal is no measure."""
 LOG_LINES = 500
 """More of what a program logs is not told; it may go on for an hour."""
-
-
-class LiveProgram(Protocol):
-    """A program that is running: `SandboxedProgram` in real time, or in step with a simulation."""
-
-    def poll_until(self, now_s: float) -> Sequence[ProgramEvent]:
-        """What it did up to `now_s` after its launch. Never blocks on a real clock."""
-        ...
-
-    def close(self) -> None:
-        """End it now, if it still runs."""
-        ...
 
 
 class ProgramExecution:
@@ -88,7 +65,7 @@ class ProgramExecution:
         self._told: set[tuple[str, Twist]] = set()
 
     def tick(self, now_s: float) -> None:
-        """One period: what the program asks, as far as the governor allows it."""
+        """Send what the program asks for, as far as the governor allows it: one period."""
         since_s, self._now_s = self._now_s, now_s
         if self._ended_s is None:
             for event in self._program.poll_until(now_s - self._began_s):
@@ -110,17 +87,17 @@ class ProgramExecution:
             self.is_done = standing or now_s - self._ended_s > patience_s
 
     def ramp_down(self, why: Reason) -> None:
-        """A controlled stop: the program is ended, the robot brought to stand."""
+        """End the program and bring the robot to stand, as its limits allow."""
         self._ramps_down = self._ended_s is None
         self._end("stopped", why)
 
     def close(self) -> None:
-        """The program is not to run on, whatever ended this run."""
+        """End the program, whatever ended this run."""
         self._program.close()
         self._motion.close()
 
     def progress(self, now_s: float) -> Progress:
-        """By the duration that was rehearsed; a program that goes on for longer has no share of it."""
+        """Return how far it is of the rehearsed duration; a program that goes on for longer has no share of it."""
         estimate = self._sensors.estimate
         assert estimate is not None
         assert self.goal.planned is not None
@@ -130,7 +107,7 @@ class ProgramExecution:
         return Progress(self.goal.turn, 1, 1, fraction, estimate.pose, estimate.twist)
 
     def finished(self, outcome: Outcome, reason: Reason | None) -> Finished:
-        """The end, as odometry measured it."""
+        """Return the end, as odometry measured it."""
         planned_m = self.goal.length_m
         goes_on_m = planned_m * (1.0 + FARTHER_SHARE) + FARTHER_M
         return self._motion.finished(
@@ -160,7 +137,7 @@ class ProgramExecution:
             self._end("failed" if code else "completed", reason)
         elif isinstance(event, Raised):
             self._log(now_s, "traceback", event.traceback)
-            self._end("failed", raised_reason(event))
+            self._end("failed", event.as_reason)
         elif isinstance(event, Died):
             self._end("failed", event.reason)
 
@@ -207,7 +184,7 @@ class ProgramSandbox(Protocol):
         ...
 
     def launch(self, goal: ProgramGoal) -> LiveProgram | Reason:
-        """Start it; why it cannot be."""
+        """Start it; return why where it cannot be."""
         ...
 
 
@@ -215,34 +192,10 @@ class NoSandbox:
     """Nowhere: every program is refused."""
 
     def attach(self, wire: Wire) -> None:
-        """There is nothing to hear for."""
+        """Do nothing: there are no programs to hear for."""
 
     def rehearse(self, goal: ProgramGoal, planner: Planner, seen: RememberedObstacles | None) -> Planned:  # noqa: ARG002
         return Planned(goal.turn, None, Reason("no_programs_here"))
 
     def launch(self, goal: ProgramGoal) -> LiveProgram | Reason:  # noqa: ARG002
         return Reason("no_programs_here")
-
-
-class HeldTwist:
-    """What a program asks for now: what it published last, for as long as the base would have held it.
-
-    Args:
-        base_timeout_s: of the robot's wiring; None holds for ever. The lease ends it in any case.
-    """
-
-    def __init__(self, base_timeout_s: float | None) -> None:
-        self._timeout_s = math.inf if base_timeout_s is None else base_timeout_s
-        self._twist = ZERO_TWIST
-        self._ends_s = -math.inf
-
-    def publish(self, twist: Twist, now_s: float) -> None:
-        self._twist, self._ends_s = twist, now_s + self._timeout_s
-
-    def at(self, now_s: float) -> Twist:
-        return self._twist if now_s < self._ends_s else ZERO_TWIST
-
-    @property
-    def ends_s(self) -> float:
-        """When it turns to zero."""
-        return self._ends_s

@@ -5,15 +5,12 @@ from __future__ import annotations
 from chatrobot.core.errors import SandboxError
 from chatrobot.core.reason import Reason
 from chatrobot.motion.planner import Planned, Planner
-from chatrobot.motion.programs.execution import LiveProgram
-from chatrobot.motion.programs.goal import ProgramGoal
-from chatrobot.motion.programs.live_program import InStepProgram, RealTimeProgram, Senses
-from chatrobot.motion.programs.planned_program import PlannedProgram
+from chatrobot.motion.programs.clocks import LiveProgram, RealTimeProgram, SensorMailbox, SteppedProgram
+from chatrobot.motion.programs.goal import PlannedProgram, ProgramGoal
 from chatrobot.motion.programs.rehearsal import rehearse_program
 from chatrobot.motion.remembered_obstacles import RememberedObstacles
-from chatrobot.programs.events import LATEST_S
 from chatrobot.programs.sandboxed import SandboxedProgram, warm_server
-from chatrobot.programs.settings import ProgramSettings, robot_topics
+from chatrobot.programs.settings import LATEST_S, ProgramSettings, robot_topics
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.wire import Wire
 
@@ -29,12 +26,14 @@ class ProgramHost:
         self._profile = profile
         self._is_in_step = is_in_step
         self._server = warm_server()
-        self._senses = Senses()
+        self._sensors = SensorMailbox()
 
     def attach(self, wire: Wire) -> None:
-        self._senses.attach(wire, self._profile.wiring)
+        """Hear the robot's sensors, for programs that listen to them."""
+        self._sensors.attach(wire, self._profile.wiring)
 
     def rehearse(self, goal: ProgramGoal, planner: Planner, seen: RememberedObstacles | None) -> Planned:
+        """Run it on virtual time, among what is known and what the lidar has seen, from where the goal starts."""
         try:
             self._warm()
             rehearsal = rehearse_program(
@@ -53,6 +52,7 @@ class ProgramHost:
         return PlannedProgram(goal.turn, None, program=rehearsal, name=goal.name, strict=goal.strict)
 
     def launch(self, goal: ProgramGoal) -> LiveProgram | Reason:
+        """Start it; return why where it cannot be."""
         settings = ProgramSettings(
             goal.code,
             name=_file_name(goal.name),
@@ -64,18 +64,17 @@ class ProgramHost:
             horizon_s=LATEST_S,
         )
         program = SandboxedProgram(self._server, settings)
-        self._senses.forget()
+        self._sensors.forget()
         try:
             self._warm()
             program.start()
         except SandboxError as error:
             return error.reason
-        kind = InStepProgram if self._is_in_step else RealTimeProgram
-        return kind(program, self._senses)
+        return (SteppedProgram if self._is_in_step else RealTimeProgram)(program, self._sensors)
 
     @property
     def server_pid(self) -> int | None:
-        """Of the warm server, where it runs."""
+        """Return the process of the warm server, where it runs."""
         return self._server.process.pid if self._server.process is not None else None
 
     def close(self) -> None:
@@ -88,5 +87,5 @@ class ProgramHost:
 
 
 def _file_name(name: str) -> str:
-    """What tracebacks call the program."""
+    """Return what tracebacks call the program."""
     return name.replace(" ", "_") or "program"

@@ -7,22 +7,23 @@ with warm_server() as server:       # chatrobot.programs.sandboxed; start it onc
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from typing import Any
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from chatrobot.core.events import ProgramRehearsed
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
-from chatrobot.core.reason import Reason
-from chatrobot.motion.programs.rehearsal_environment import RehearsalEnvironment, limited_reason
+from chatrobot.core.reason import Reason, Value
+from chatrobot.motion.programs.clocks import SteppedProgram
+from chatrobot.motion.programs.rehearsal_environment import RehearsalEnvironment
 from chatrobot.motion.remembered_obstacles import RememberedObstacles, with_seen
 from chatrobot.plan.context import Finding, Severity
 from chatrobot.plan.known_world import Contact, Floats
-from chatrobot.plan.rehearsal import MARGIN_M
-from chatrobot.plan.swept_path import area_clearance, first_contact
-from chatrobot.programs.events import Died, Ended, Log, Output, Raised, TopicNoticed, raised_reason
-from chatrobot.programs.lock_step import Played, play
+from chatrobot.plan.rehearsal import MARGIN_M, RehearsedPath, limited_reason
+from chatrobot.plan.swept_path import area_clearance, first_contact, pose_of
+from chatrobot.programs.events import Died, Ended, Log, Output, ProgramEvent, Raised, TopicNoticed, TwistAsked
 from chatrobot.programs.sandboxed import Launcher, SandboxedProgram
 from chatrobot.programs.settings import ProgramSettings, robot_topics
 from chatrobot.robots.profile import RobotProfile
@@ -32,6 +33,8 @@ from chatrobot.sim.world import EMPTY_WORLD, World
 HORIZON_S = 60.0
 WALL_LIMIT_S = 10.0
 LIMITS = SandboxLimits(cpu_s=10)
+LOG_LINES = 50
+"""Of what it logs, in the event."""
 _HARMLESS = ("box_tried_files", "box_tried_memory", "box_tried_threads")
 """Honest programs try these, and some can do without."""
 _TWISTS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
@@ -44,45 +47,87 @@ _SENSOR_TYPES = (
 
 
 @dataclass(frozen=True, eq=False)
-class ProgramRehearsal:
-    """What a program would do.
+class ProgramRehearsal(RehearsedPath):
+    """What a program would do; `path` goes on to where the robot stands after the program's end.
 
-    `path` is [n, 4] of t_s, x_m, y_m, yaw_rad in the odom frame, up to where the robot stands after the program's
-    end. `cmd_vel` is what it published: (seconds since its start, velocity). `stopped_at_end` is false where the last
-    velocity it asked for was not zero. `turned_rad` is net, `top_…` what the robot really reached.
+    `end` is its last event. `cmd_vel` is what it published for the robot: (seconds since its start, velocity).
+    `wall_s` is how long the rehearsal took here.
     """
 
-    path: Floats
-    duration_s: float
-    length_m: float
-    turned_rad: float
-    top_speed_mps: float
-    top_rate_radps: float
-    findings: tuple[Finding, ...]
-    stopped_at_end: bool
+    end: Ended | Raised | Died
     cmd_vel: tuple[tuple[float, Twist], ...]
     log: tuple[Log | Output, ...]
     topics: tuple[TopicNoticed, ...]
-    end: Ended | Raised | Died
     wall_s: float
 
     @property
-    def ok(self) -> bool:
-        """Nothing was found that refuses it."""
-        return self.refusal is None
+    def duration_s(self) -> float:
+        """Return how long it took by the program's clock."""
+        if not isinstance(self.end, Died):
+            return self.end.t_s
+        return self.cmd_vel[-1][0] if self.cmd_vel else 0.0
 
     @property
-    def refusal(self) -> Finding | None:
-        return next((finding for finding in self.findings if finding.severity == "refuse"), None)
+    def top_speed_mps(self) -> float:
+        """Return the highest speed that the robot really reached."""
+        steps = self._steps
+        return float((np.hypot(steps[:, 1], steps[:, 2]) / steps[:, 0]).max(initial=0.0))
 
     @property
-    def traceback(self) -> str:
-        return self.end.traceback if isinstance(self.end, Raised) else ""
+    def top_rate_radps(self) -> float:
+        """Return the highest rate of turn that the robot really reached."""
+        steps = self._steps
+        return float((np.abs(steps[:, 3]) / steps[:, 0]).max(initial=0.0))
+
+    @property
+    def _steps(self) -> Floats:
+        """From row to row of the path, where these are not too near to divide by."""
+        steps: Floats = np.diff(self.path, axis=0)
+        return steps[steps[:, 0] > 1e-3]
+
+    @property
+    def stopped_at_end(self) -> bool:
+        """Tell whether the last velocity it asked for was zero, if it asked for any."""
+        return not self.cmd_vel or self.cmd_vel[-1][1].is_zero
+
+    @property
+    def moves(self) -> bool:
+        """Tell whether it ever asked for a velocity."""
+        return any(not twist.is_zero for _, twist in self.cmd_vel)
+
+    @property
+    def is_endless(self) -> bool:
+        """Tell whether it was still running, or waiting, when its rehearsal ended."""
+        return self.ended in ("horizon", "stuck")
+
+    @property
+    def ended(self) -> str:
+        """Return how, as `ProgramRehearsed` has it."""
+        return self.end.how if isinstance(self.end, Ended) else type(self.end).__name__.lower()
+
+    @property
+    def problem(self) -> str:
+        """Return the traceback of a program that raised, or the last words of one that died."""
+        return self.end.traceback if isinstance(self.end, Raised) else getattr(self.end, "log", "")
 
     @property
     def line(self) -> int:
-        """Of the program, where it raised; 0 elsewhere."""
+        """Return the line of the program where it raised; 0 elsewhere."""
         return self.end.line if isinstance(self.end, Raised) else 0
+
+    def event(self, turn: int, name: str) -> ProgramRehearsed:
+        """Return what is told of it, besides what is told of every rehearsal."""
+        return ProgramRehearsed(
+            turn,
+            name,
+            self.ended,
+            round(self.top_speed_mps, 3),
+            round(self.top_rate_radps, 3),
+            self.stopped_at_end,
+            self.problem,
+            self.line,
+            tuple(f"[{e.level}] [{e.name}] {e.text}" for e in self.log[:LOG_LINES] if isinstance(e, Log)),
+        )
 
 
 def rehearse_program(
@@ -99,9 +144,14 @@ def rehearse_program(
     wall_limit_s: float = WALL_LIMIT_S,
     seen: RememberedObstacles | None = None,
 ) -> ProgramRehearsal:
-    """Rehearse `source` from `start` (odom frame), at most to `horizon_s` of its own time. Raises SandboxError.
+    """Rehearse `source` from `start` (odom frame), at most to `horizon_s` of its own time.
 
-    `seen` is what the lidar has seen: the program sees it, too.
+    Args:
+        wall_limit_s: a program that takes longer here is ended, as too busy.
+        seen: what the lidar has seen: the program sees it, too.
+
+    Raises:
+        SandboxError: it cannot be launched.
     """
     settings = ProgramSettings(
         source,
@@ -111,120 +161,155 @@ def rehearse_program(
         args=args,
         horizon_s=horizon_s,
     )
-    area = world.allowed_area.points if world.allowed_area is not None else None
-    environment = RehearsalEnvironment(
-        profile, with_seen(world, seen.clear_of(start)) if seen is not None else world, start
-    )
-    played = play(SandboxedProgram(server, settings, LIMITS), environment, wall_limit_s)
-    environment.finish()
+    around = with_seen(world, seen.clear_of(start)) if seen is not None else world
+    environment = RehearsalEnvironment(profile, around, start)
+    program = SandboxedProgram(server, settings, LIMITS)
+    run = _Run(program, environment)
+    run.drive(wall_limit_s)
     path = np.array(environment.path)
-    findings = [
-        *_about_the_end(played, horizon_s),
-        *_about_motion(played, environment),
-        *_about_topics(played, settings),
-    ]
-    findings += _about_the_way(path, profile, world, area, seen)
-    steps = np.diff(path, axis=0)
-    long_enough = steps[steps[:, 0] > 1e-3]
-    speeds = np.hypot(long_enough[:, 1], long_enough[:, 2]) / long_enough[:, 0]
-    rates = np.abs(long_enough[:, 3]) / long_enough[:, 0]
-    return ProgramRehearsal(
-        path=path,
-        duration_s=played.duration_s,
-        length_m=float(np.hypot(steps[:, 1], steps[:, 2]).sum()),
-        turned_rad=float(path[-1, 3] - path[0, 3]),
-        top_speed_mps=float(speeds.max(initial=0.0)),
-        top_rate_radps=float(rates.max(initial=0.0)),
-        findings=tuple(sorted(findings, key=lambda finding: finding.t_s)),
-        stopped_at_end=_stopped(played),
-        cmd_vel=tuple(played.cmd_vel),
-        log=tuple(played.log),
-        topics=tuple(played.topics),
-        end=played.end,
-        wall_s=played.wall_s,
+    shown = ProgramRehearsal(
+        path,
+        float(np.hypot(*np.diff(path[:, 1:3], axis=0).T).sum()),
+        (),
+        run.end,
+        tuple(run.cmd_vel),
+        tuple(run.log),
+        tuple(run.topics),
+        run.wall_s,
     )
+    findings = [
+        *_about_the_end(shown, horizon_s),
+        *(
+            _found("warn" if tried.code in _HARMLESS else "refuse", tried, shown.duration_s)
+            for tried in run.tried
+        ),
+        *_about_motion(shown, environment, is_planar=run.is_planar),
+        *_about_topics(shown, settings.topics),
+        *_about_the_way(path, profile, world, seen),
+    ]
+    return replace(shown, findings=tuple(sorted(findings, key=lambda finding: finding.t_s)))
 
 
-def _stopped(played: Played) -> bool:
-    return not played.cmd_vel or played.cmd_vel[-1][1].is_zero
+class _Run:
+    """One rehearsal: has the program and its simulated robot live step by step, and keeps what it did."""
+
+    def __init__(self, program: SandboxedProgram, environment: RehearsalEnvironment) -> None:
+        self.cmd_vel: list[tuple[float, Twist]] = []
+        self.log: list[Log | Output] = []
+        self.topics: list[TopicNoticed] = []
+        self.is_planar = True
+        self.tried: Sequence[Reason] = ()
+        """What the walls of the sandbox did not let it do."""
+        self.end: Ended | Raised | Died = Ended(0.0, "returned", 0)
+        self.wall_s = 0.0
+        self._program = program
+        self._environment = environment
+
+    def drive(self, wall_limit_s: float) -> None:
+        """Run it to its end, and the robot until it stands."""
+        began_s = time.monotonic()
+        program, environment = self._program, self._environment
+        clocked = SteppedProgram(program, environment.sensors, limit_s=wall_limit_s, in_all=True)
+        program.start()
+        try:
+            while not self._hear(clocked.poll_until(environment.now_s)):
+                environment.advance(clocked.next_s)
+            report = program.exit_report() if program.end is not None else None
+            self.tried = report.findings if report is not None else ()
+        finally:
+            program.close()
+        self.wall_s = time.monotonic() - began_s
+        environment.finish()
+
+    def _hear(self, events: Sequence[ProgramEvent]) -> bool:
+        """Take in what it did; whether it has ended."""
+        for event in events:
+            if isinstance(event, TwistAsked):
+                self.cmd_vel.append((self._environment.now_s, event.twist))
+                self.is_planar &= event.planar
+                self._environment.ask(event.twist)
+            elif isinstance(event, (Log, Output)):
+                self.log.append(event)
+            elif isinstance(event, TopicNoticed):
+                self.topics.append(event)
+            elif isinstance(event, (Ended, Raised, Died)):
+                self.end = event
+                return True
+        return False
 
 
-def _has_driven_and_stopped(played: Played) -> bool:
-    """What it did with the robot was done: the last velocity it asked for was a zero behind others."""
-    return _stopped(played) and any(not twist.is_zero for _, twist in played.cmd_vel)
+def _found(severity: Severity, reason: Reason | str, t_s: float = 0.0, **values: Value) -> Finding:
+    return Finding(severity, Reason(reason, values) if isinstance(reason, str) else reason, t_s=t_s)
 
 
-def _found(severity: Severity, reason_code: str, t_s: float = 0.0, **values: float | int | str) -> Finding:
-    return Finding(severity, Reason(reason_code, values), t_s=t_s)
-
-
-def _about_the_end(played: Played, horizon_s: float) -> Iterator[Finding]:
-    end = played.end
+def _about_the_end(shown: ProgramRehearsal, horizon_s: float) -> Iterator[Finding]:
+    end, over_s = shown.end, shown.duration_s
     if isinstance(end, Died):
-        yield Finding("refuse", end.reason, t_s=played.duration_s)
-    elif isinstance(end, Raised) and _has_driven_and_stopped(played):
-        yield Finding("warn", Reason("program_raised_at_end", raised_reason(end).values), t_s=end.t_s)
+        yield _found("refuse", end.reason, over_s)
+    elif (
+        isinstance(end, Raised) and shown.moves and shown.stopped_at_end
+    ):  # what it did with the robot was done
+        yield _found("warn", Reason("program_raised_at_end", end.as_reason.values), over_s)
     elif isinstance(end, Raised):
-        yield Finding("refuse", raised_reason(end), t_s=end.t_s)
+        yield _found("refuse", end.as_reason, over_s)
     elif end.how == "horizon":
-        yield _found("note", "program_endless", end.t_s, horizon_s=horizon_s)
+        yield _found("note", "program_endless", over_s, horizon_s=horizon_s)
     elif end.how == "stuck":
-        yield _found("warn", "program_waits_for_ever", end.t_s, horizon_s=horizon_s)
+        yield _found("warn", "program_waits_for_ever", over_s, horizon_s=horizon_s)
     elif end.exit_code != 0:
-        yield _found("warn", "program_exit_code", end.t_s, exit_code=end.exit_code)
-    for attempt in played.attempts:
-        yield Finding("warn" if attempt.code in _HARMLESS else "refuse", attempt, t_s=played.duration_s)
+        yield _found("warn", "program_exit_code", over_s, exit_code=end.exit_code)
 
 
-def _about_motion(played: Played, environment: RehearsalEnvironment) -> Iterator[Finding]:
+def _about_motion(
+    shown: ProgramRehearsal, environment: RehearsalEnvironment, *, is_planar: bool
+) -> Iterator[Finding]:
     for t_s, verdict in environment.limited.values():
-        if not verdict.asked.is_finite:
-            yield _found("refuse", "program_not_finite", t_s)
+        if verdict.asked.is_finite:
+            reason = verdict.reason or limited_reason(verdict.asked, verdict.allowed)
+            yield _found("note", reason, t_s)
         else:
-            yield Finding("note", limited_reason(verdict), t_s=t_s)
-    if not played.is_planar:
+            yield _found("refuse", "program_not_finite", t_s)
+    if not is_planar:
         yield _found("note", "program_not_planar")
-    if all(twist.is_zero for _, twist in played.cmd_vel):
+    if not shown.moves:
         yield _found("warn", "program_moves_nothing")
-    elif not _stopped(played) and not (isinstance(played.end, Ended) and played.end.how == "horizon"):
-        yield _found("warn", "program_never_stops", played.duration_s)
+    elif not shown.stopped_at_end and shown.ended != "horizon":
+        yield _found("warn", "program_never_stops", shown.duration_s)
 
 
-def _about_topics(played: Played, settings: ProgramSettings) -> Iterator[Finding]:
-    ours = set(settings.topics.values())
-    for noticed in dict.fromkeys((topic.direction, topic.topic, topic.type_name) for topic in played.topics):
-        direction, topic, type_name = noticed
-        if topic in ours:
+def _about_topics(shown: ProgramRehearsal, robots: Mapping[str, str]) -> Iterator[Finding]:
+    noticed = dict.fromkeys((topic.direction, topic.topic, topic.type_name) for topic in shown.topics)
+    for direction, topic, type_name in noticed:
+        if topic in robots.values():
             continue
         if direction == "publishes" and type_name in _TWISTS:
-            yield _found("warn", "program_other_topic", topic=topic, robot_topic=settings.topics["cmd_vel"])
+            yield _found("warn", "program_other_topic", topic=topic, robot_topic=robots["cmd_vel"])
         elif direction == "listens" and type_name in _SENSOR_TYPES:
             yield _found("warn", "program_topic_silent", topic=topic)
 
 
 def _about_the_way(
-    path: Floats, profile: RobotProfile, world: World, area: Any, seen: RememberedObstacles | None
+    path: Floats, profile: RobotProfile, world: World, seen: RememberedObstacles | None
 ) -> Iterator[Finding]:
     poses, footprint = path[:, 1:], profile.footprint
     if not world.is_empty:
         known = first_contact(poses, footprint, world.clearance_m, MARGIN_M)
         if known is not None:
             name = world.obstacle_name_at(known.x_m, known.y_m)
-            yield _contact(
-                "would_collide", path, known, margin_m=MARGIN_M, **({"obstacle": name} if name else {})
-            )
+            about: dict[str, Value] = {"obstacle": name} if name else {}
+            yield _contact("would_collide", path, known, margin_m=MARGIN_M, **about)
     unknown = seen.first_contact(poses) if seen is not None else None
     if unknown is not None:
         yield _contact("would_collide", path, unknown, margin_m=MARGIN_M)
-    if area is not None:
-        left = first_contact(poses, footprint, area_clearance(area), 0.0, core_stays_clear=False)
+    if world.allowed_area is not None:
+        clearance = area_clearance(world.allowed_area.points)
+        left = first_contact(poses, footprint, clearance, 0.0, core_stays_clear=False)
         if left is not None:
             yield _contact("leaves_area", path, left)
 
 
-def _contact(code: str, path: Floats, contact: Contact, **about: float | str) -> Finding:
+def _contact(code: str, path: Floats, contact: Contact, **about: Value) -> Finding:
     row = path[contact.row]
     driven_m = float(np.hypot(*np.diff(path[: contact.row + 1, 1:3], axis=0).T).sum())
-    values: dict[str, float | int | str] = {"distance_m": driven_m, "total_m": driven_m, **about}
-    pose = Pose(*(float(value) for value in row[1:]))
-    return Finding("refuse", Reason(code, values), t_s=float(row[0]), where=pose)
+    reason = Reason(code, {"distance_m": driven_m, "total_m": driven_m, **about})
+    return Finding("refuse", reason, t_s=float(row[0]), where=pose_of(row))

@@ -10,12 +10,11 @@ import uuid
 from typing import Any
 
 from chatrobot.core.reason import Reason
+from chatrobot.link.envelope import PROTOCOL
 from chatrobot.link.topics import CONTROL, read_beat
-from chatrobot.wire.connect import advertise, publishers_of
 from chatrobot.wire.messages import Text
 from chatrobot.wire.wire import Wire
 
-BEAT_S = 0.1
 MANY_SOURCES = 20
 MANY_MOTIONS = 20
 SILENT_S = 1.0
@@ -43,12 +42,13 @@ class CompetingControllers:
             "node": node,
             "host": socket.gethostname(),
             "pid": os.getpid(),
+            "protocol": PROTOCOL,
         }
         if open_loop is not None:
             self._about["open_loop"] = dict(open_loop.values)
         self._hears: dict[str, None] = {}
         self._heard: dict[str, tuple[float, str]] = {}
-        advertise(wire, CONTROL, Text)
+        wire.advertise(CONTROL, Text)
         wire.subscribe(CONTROL, Text, self._hear)
 
     def note_source(self, lease: str) -> None:
@@ -57,7 +57,7 @@ class CompetingControllers:
             self._hears = dict.fromkeys([*self._hears, lease][-MANY_SOURCES:])
 
     def beat(self) -> None:
-        """Say that we are there, and whom we hear; every `BEAT_S`."""
+        """Say that we are there, and whom we hear; every `PRESENCE_S`."""
         about = {**self._about, "hears": list(self._hears)}
         self._wire.publish(CONTROL, Text(json.dumps(about, separators=(",", ":"))))
 
@@ -72,7 +72,7 @@ class CompetingControllers:
         return [name for name in self._publishers() if _node(name) not in (*NODES, *GUARDS)]
 
     def _publishers(self) -> list[str]:
-        return publishers_of(self._wire, self._topic)
+        return self._wire.publishers_of(self._topic)
 
     def _hear(self, message: Text) -> None:
         about = read_beat(message.data)

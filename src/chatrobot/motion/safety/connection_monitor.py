@@ -7,26 +7,17 @@ import time
 from collections.abc import Callable
 from typing import NamedTuple
 
+from chatrobot.core.clock import PRESENCE_S
 from chatrobot.core.errors import WireError
 from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import ODOM_TOPIC, Wiring
 from chatrobot.motion.motion import Motion
-from chatrobot.motion.safety.competing_controllers import BEAT_S, CompetingControllers
+from chatrobot.motion.safety.competing_controllers import CompetingControllers
 from chatrobot.motion.topic_discovery import fit, is_complete, why_unheard
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.wire.connect import (
-    Connect,
-    Endpoint,
-    Returning,
-    Surveying,
-    advertise,
-    comes_back,
-    has_null_ranges,
-    publishers_of,
-    resolved,
-)
+from chatrobot.wire.connect import Connect
 from chatrobot.wire.messages import Message, TwistMessage
-from chatrobot.wire.wire import M, Wire
+from chatrobot.wire.wire import Endpoint, M, Wire
 
 LOOK_EVERY = 5
 """Who else is on the wire is looked up with every fifth beat: it costs a millisecond."""
@@ -78,11 +69,11 @@ class ConnectionMonitor:
                 if count % SURVEY_EVERY == 0:
                     self._look_for_odometry()
             count += 1
-            time.sleep(BEAT_S)
+            time.sleep(PRESENCE_S)
 
     def look_around(self) -> None:
         """See who else drives, and whether scans come whole."""
-        if not self._told_of_nulls and has_null_ranges(self._wire):
+        if not self._told_of_nulls and self._wire.has_null_ranges:
             self._told_of_nulls = True
             self._notice(Reason("open_space_unknown", {"speed_mps": self._profile.safety.blind_speed_mps}))
         motions = self._competitors.motions()
@@ -95,21 +86,20 @@ class ConnectionMonitor:
         self._motion.stop_confirmation.others = ", ".join(others)
         self._motions = motions
         if self._profile.open_loop:
-            self._odometry = publishers_of(self._wire, ODOM_TOPIC)
+            self._odometry = self._wire.publishers_of(ODOM_TOPIC)
         self._motion.interlock.obstruction = self._obstruction()
 
     def _look_for_odometry(self) -> None:
         """Why none comes, for who asks the robot to move."""
         if not self._profile.has_odometry or self._motion.sensors.estimate is not None:
             return
-        if isinstance(self._wire, Surveying):
-            self._motion.why_unheard = why_unheard(
-                self._profile.wiring, self._wire.survey(), self._wire.resolve
-            )
+        if self._wire.knows_others:
+            found = self._wire.survey()
+            self._motion.goals.why_unheard = why_unheard(self._profile.wiring, found, self._wire.resolve)
 
     def _mind_wire(self) -> None:
         """Wi-Fi is gone, or back: say so, and see the robot stand, which may have held its last command meanwhile."""
-        is_there = is_up(self._wire)
+        is_there = self._wire.is_connected
         if is_there == self._was_up:
             return
         self._was_up = is_there
@@ -119,12 +109,12 @@ class ConnectionMonitor:
             self._motion.post(self._motion.see_it_stand)
 
     def _obstruction(self) -> Reason | None:
-        if not is_up(self._wire):
+        if not self._wire.is_connected:
             return Reason("wire_gone")
         if self._motions and not self._accept_others:
             return Reason("another_motion", {"who": ", ".join(self._motions)})
         if self._odometry:  # it can be measured now; in the middle of a session is no moment to begin with it
-            return Reason("odometry_there", {"topic": resolved(self._wire, ODOM_TOPIC)})
+            return Reason("odometry_there", {"topic": self._wire.resolve(ODOM_TOPIC)})
         return None
 
 
@@ -134,14 +124,17 @@ SURVEY_S = 0.8
 LOOK_S = 0.05
 
 
-class ReconnectingWire:
+class ReconnectingWire(Wire):
     """A wire whose other end may return: what cannot be sent meanwhile is dropped, as on every other wire.
 
     `on_gone` is called once for each time that it goes, by whatever thread finds out.
     """
 
+    comes_back = True
+
     def __init__(self, wire: Wire) -> None:
         self._wire = wire
+        self.knows_others, self.namespace = wire.knows_others, wire.namespace
         self._is_gone = False
         self.on_gone: Callable[[], None] = lambda: None
 
@@ -163,29 +156,23 @@ class ReconnectingWire:
 
     @property
     def is_connected(self) -> bool:
-        return is_up(self._wire)
+        return self._wire.is_connected
 
     @property
     def has_null_ranges(self) -> bool:
-        return has_null_ranges(self._wire)
+        return self._wire.has_null_ranges
 
     def resolve(self, topic: str) -> str:
-        return resolved(self._wire, topic)
+        return self._wire.resolve(topic)
 
     def publishers_of(self, topic: str) -> list[str]:
-        return publishers_of(self._wire, topic)
+        return self._wire.publishers_of(topic)
 
     def survey(self) -> list[Endpoint]:
-        return self._wire.survey() if isinstance(self._wire, Surveying) else []
+        return self._wire.survey()
 
     def rewire(self, wiring: Wiring) -> None:
-        if isinstance(self._wire, Surveying):
-            self._wire.rewire(wiring)
-
-
-def is_up(wire: Wire) -> bool:
-    """Whether the other end is there, as far as this wire can know."""
-    return wire.is_connected if isinstance(wire, Returning) else True
+        self._wire.rewire(wiring)
 
 
 class Reached(NamedTuple):
@@ -204,8 +191,8 @@ def reach(connect: Connect, address: str, wiring: Wiring, node: str) -> Reached:
     """
     wire = _connect_patiently(connect, address, wiring, node)
     fitted, said = _survey(wire, wiring)
-    advertise(wire, fitted.cmd_vel_topic, TwistMessage)
-    return Reached(ReconnectingWire(wire) if comes_back(wire) else wire, fitted, said)
+    wire.advertise(fitted.cmd_vel_topic, TwistMessage)
+    return Reached(ReconnectingWire(wire) if wire.comes_back else wire, fitted, said)
 
 
 def _connect_patiently(connect: Connect, address: str, wiring: Wiring, node: str) -> Wire:
@@ -221,7 +208,7 @@ def _connect_patiently(connect: Connect, address: str, wiring: Wiring, node: str
 
 def _survey(wire: Wire, wiring: Wiring) -> tuple[Wiring, list[Reason]]:
     """How the robot is wired, where the wire can tell."""
-    if not isinstance(wire, Surveying):
+    if not wire.knows_others:
         return wiring, []
     deadline_s = time.monotonic() + SURVEY_S
     while time.monotonic() < deadline_s:

@@ -1,4 +1,4 @@
-"""Where a sandboxed process begins: it puts the names and the time in place, and runs the program."""
+"""Where a sandboxed process begins: it puts names, time and output in place, runs the program and tells its end."""
 
 from __future__ import annotations
 
@@ -11,41 +11,24 @@ import os
 import socket
 import sys
 import threading
+import traceback
 from types import CodeType, ModuleType
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from chatrobot.programs.inside import event_loop, top_level, virtual_time
-from chatrobot.programs.inside.complaint import complaint
-from chatrobot.programs.inside.complaint import preload as preload_complaint
-from chatrobot.programs.inside.link import set_link
-from chatrobot.programs.inside.live_link import LiveLink
-from chatrobot.programs.inside.output import PipeStream
-from chatrobot.programs.inside.virtual_link import VirtualLink
+from chatrobot.programs.inside.link import Link, open_link
 from chatrobot.programs.settings import ProgramSettings
-
-AnyLink = VirtualLink | LiveLink
-
-
-def preload() -> None:
-    """For the warm server, before it forks."""
-    top_level.preload()
-    preload_complaint()
 
 
 def run(channel: socket.socket, payload: bytes) -> None:
     """Run the program of `payload` (`ProgramSettings`) on `channel`. Does not return."""
     settings = ProgramSettings.from_bytes(payload)
-    link: AnyLink
-    if settings.mode == "virtual":
-        link = VirtualLink(channel, settings)
+    link = open_link(channel, settings)
+    if link.scheduler is not None:
         virtual_time.install(link.scheduler, settings.start_ns)
-    else:
-        link = LiveLink(channel, settings)
-        link.start()
-    set_link(link)
     top_level.install()
     event_loop.install()
-    sys.stdout, sys.stderr = PipeStream(link, "stdout"), PipeStream(link, "stderr")
+    sys.stdout, sys.stderr = _PipeStream(link, "stdout"), _PipeStream(link, "stderr")
     sys.stdin = io.StringIO("")
     threading.excepthook = _tell_of_thread
     link.send("ready")
@@ -108,7 +91,7 @@ def _exit_code(end: SystemExit) -> int:
     return 1
 
 
-def _end(link: AnyLink, how: str, code: int, error: BaseException | None) -> NoReturn:
+def _end(link: Link, how: str, code: int, error: BaseException | None) -> NoReturn:
     """Tell what became of it, once its threads are over, as the interpreter would wait for them."""
     told = complaint(error) if error is not None else None
     for at_exit in reversed(threading._threading_atexits):  # type: ignore[attr-defined]
@@ -125,3 +108,99 @@ def _end(link: AnyLink, how: str, code: int, error: BaseException | None) -> NoR
         link.send("ended", how, code)
     link.flush()
     os._exit(code)
+
+
+LONGEST_TEXT = 8 * 1024
+
+
+def complaint(error: BaseException) -> tuple[str, str, str, int]:
+    """Return (type, message, traceback, the program's line or 0). Opens no file for the lines of others."""
+    told = traceback.TracebackException.from_exception(error, lookup_lines=False)
+    line = _line(told)
+    _keep_own_frames(told)
+    kind = type(error)
+    name = (
+        kind.__qualname__
+        if kind.__module__ in ("builtins", "__main__")
+        else f"{kind.__module__}.{kind.__qualname__}"
+    )
+    return name[:200], _text(error)[:LONGEST_TEXT], "".join(told.format())[-LONGEST_TEXT:], line
+
+
+def _text(error: BaseException) -> str:
+    try:
+        return str(error)
+    except Exception:  # noqa: BLE001 - its class is the program's, and may do anything
+        return ""
+
+
+def _is_own(file_name: str) -> bool:
+    """The program's source is where `linecache` was given it."""
+    return file_name in linecache.cache and file_name == getattr(sys.modules["__main__"], "__file__", None)
+
+
+def _line(told: traceback.TracebackException) -> int:
+    lines = [frame.lineno or 0 for frame in told.stack if _is_own(frame.filename)]
+    if lines:
+        return lines[-1]
+    return int(getattr(told, "lineno", None) or 0)
+
+
+def _keep_own_frames(told: traceback.TracebackException | None) -> None:
+    depth = 0
+    while told is not None and depth < 10:
+        told.stack[:] = [frame for frame in told.stack if _is_own(frame.filename)]
+        told = told.__cause__ or told.__context__
+        depth += 1
+
+
+class _PipeStream(io.TextIOBase):
+    """Stands for `sys.stdout` or `sys.stderr`."""
+
+    encoding = "utf-8"
+    errors = "replace"
+
+    def __init__(self, link: Link, name: str) -> None:
+        self.name = name
+        self._link = link
+        self._line = ""
+        self.buffer = _Bytes(self)
+
+    def writable(self) -> bool:
+        return True
+
+    def write(self, text: str) -> int:
+        if not isinstance(text, str):
+            raise TypeError(f"write() argument must be str, not {type(text).__name__}")
+        *lines, self._line = (self._line + text).split("\n")
+        for line in lines:
+            self._link.output(self.name, line)
+        return len(text)
+
+    def flush(self) -> None:
+        if self._line:
+            line, self._line = self._line, ""
+            self._link.output(self.name, line)
+
+
+class _Bytes(io.RawIOBase):
+    def __init__(self, text: _PipeStream) -> None:
+        self._text = text
+
+    def writable(self) -> bool:
+        return True
+
+    def write(self, data: Any) -> int:
+        self._text.write(bytes(data).decode(errors="replace"))
+        return len(data)
+
+
+def _warm_up() -> None:
+    """Have all imported that a traceback needs when it is shown: in the sandbox it is too late."""
+    try:
+        sum([1, "2"])  # type: ignore[list-item]
+    except TypeError:
+        traceback.format_exc()
+
+
+_warm_up()

@@ -9,7 +9,7 @@ import warnings
 from typing import Any, cast
 
 
-class EventSelector(selectors.BaseSelector):
+class _EventSelector(selectors.BaseSelector):
     """A selector with nothing to select: it waits for its time or for `wake`."""
 
     def __init__(self) -> None:
@@ -19,7 +19,7 @@ class EventSelector(selectors.BaseSelector):
         self._event.set()
 
     def register(self, fileobj: Any, _events: int, _data: Any = None) -> selectors.SelectorKey:
-        raise OSError(f"there is nothing to wait for in the box: {fileobj!r}")
+        raise OSError(f"there is nothing to wait for in the sandbox: {fileobj!r}")
 
     def unregister(self, fileobj: Any) -> selectors.SelectorKey:
         raise KeyError(fileobj)
@@ -34,11 +34,11 @@ class EventSelector(selectors.BaseSelector):
         return {}
 
 
-class SandboxedEventLoop(asyncio.SelectorEventLoop):
+class _SandboxedEventLoop(asyncio.SelectorEventLoop):
     """Woken by its selector, not by a pair of sockets."""
 
     def __init__(self) -> None:
-        super().__init__(EventSelector())
+        super().__init__(_EventSelector())
 
     def _make_self_pipe(self) -> None:
         self._ssock = self._csock = None
@@ -54,9 +54,9 @@ class SandboxedEventLoop(asyncio.SelectorEventLoop):
 
 
 def install() -> None:
-    """Every loop that the program asks for is one of ours."""
+    """Have every loop that the program asks for be one of ours."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DeprecationWarning)  # policies go with Python 3.16, and so will this
         policy = asyncio.get_event_loop_policy()
-    cast(Any, type(policy))._loop_factory = SandboxedEventLoop
-    cast(Any, asyncio).SelectorEventLoop = SandboxedEventLoop
+    cast(Any, type(policy))._loop_factory = _SandboxedEventLoop
+    cast(Any, asyncio).SelectorEventLoop = _SandboxedEventLoop

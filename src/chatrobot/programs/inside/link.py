@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import os
 import socket
+import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, NoReturn
 
 from chatrobot.programs.frames import LARGEST_FROM_HOST, FrameReader, encode
-from chatrobot.programs.settings import ProgramSettings
+from chatrobot.programs.inside.scheduler import Scheduler
+from chatrobot.programs.settings import LATEST_S, ProgramSettings
 
 Listener = Callable[[list[Any]], None]
 """Takes what a sensor says: its stamp (seconds since the program's start) and its numbers."""
@@ -20,7 +23,12 @@ SAME_TWIST_NS = 20_000_000
 
 
 class Link:
-    """What both kinds of time share. `wanted` counts the threads that wait for what sensors may say."""
+    """What both kinds of time share.
+
+    `wanted` counts the threads that wait for what sensors may say; `scheduler` is the clock on virtual time.
+    """
+
+    scheduler: Scheduler | None = None
 
     def __init__(self, channel: socket.socket, settings: ProgramSettings) -> None:
         self.settings = settings
@@ -31,32 +39,39 @@ class Link:
         self._depths: dict[str, int] = {}
         self._last_twist: tuple[float, ...] = ()
         self._last_twist_ns = 0
-        self._thrift = Thrift()
+        self._thrift = _Thrift()
 
     # --- each kind of time has its own ---
 
     def now_ns(self) -> int:
-        """Since the program's start. Costs nothing."""
+        """Return the time since the program's start. Costs nothing."""
         raise NotImplementedError
 
     def look(self) -> int:
-        """`now_ns` for a program that asks what time it is, or whether something has happened."""
+        """Return `now_ns` for a program that asks what time it is, or whether something has happened."""
         raise NotImplementedError
 
     def count_publish(self) -> None:
-        """The program publishes: that takes a little time too."""
+        """Let the little time pass that publishing takes."""
 
     def send(self, word: str, *values: Any) -> None:
-        """A word, with the time put first."""
+        """Send a word, with the time put first."""
         raise NotImplementedError
+
+    def start(self) -> None:
+        """Begin to hear the host, where that takes threads."""
+
+    def flush(self) -> None:
+        """Send what is kept back."""
 
     # --- what names stand on ---
 
     def wall_ns(self) -> int:
-        """ROS time, which is system time."""
+        """Return ROS time, which is system time."""
         return self.settings.start_ns + self.look()
 
     def twist(self, vx_mps: float, vy_mps: float, wz_radps: float, planar: bool) -> None:
+        """Ask for a velocity; `planar`: without the parts that no ground robot has."""
         twist, now_ns = (vx_mps, vy_mps, wz_radps), self.now_ns()
         if twist == self._last_twist and now_ns - self._last_twist_ns < SAME_TWIST_NS:
             return
@@ -71,17 +86,20 @@ class Link:
             self.send("listens", sensor, min(depth, 1000))
 
     def unlisten(self, sensor: str, listener: Listener) -> None:
+        """Undo `listen`."""
         self._listeners[sensor].remove(listener)
 
     def log(self, level: str, name: str, text: str) -> None:
+        """Tell a line of a logger."""
         self._say("log", (level, name[:200]), text)
 
     def output(self, stream: str, text: str) -> None:
+        """Tell a printed line."""
         self._say("out", (stream,), text)
 
     @contextmanager
     def waiting(self) -> Iterator[None]:
-        """Around a wait that what sensors say may end."""
+        """Stand around a wait that what sensors say may end."""
         self.wanted += 1
         try:
             yield
@@ -120,12 +138,16 @@ class Link:
 _current: list[Link] = []
 
 
-def set_link(link: Link) -> None:
+def open_link(channel: socket.socket, settings: ProgramSettings) -> Link:
+    """Begin to speak with the host on `channel`, for this whole process."""
+    link = _VirtualLink(channel, settings) if settings.mode == "virtual" else _LiveLink(channel, settings)
     _current[:] = [link]
+    link.start()
+    return link
 
 
 def get_link() -> Link:
-    """The one of this process."""
+    """Return the one of this process."""
     return _current[0]
 
 
@@ -133,7 +155,7 @@ BURST_BYTES = 64 * 1024
 BYTES_PER_S = 8 * 1024
 
 
-class Thrift:
+class _Thrift:
     """A budget of text that refills with time."""
 
     def __init__(self) -> None:
@@ -142,7 +164,7 @@ class Thrift:
         self._dropped = 0
 
     def passes(self, text: str, now_ns: int) -> Iterator[str]:
-        """`text` where the budget allows it, after a word on what it did not allow before."""
+        """Yield `text` where the budget allows it, after a word on what it did not allow before."""
         self._left += max(0, now_ns - self._counted_ns) * 1e-9 * BYTES_PER_S
         self._left = min(self._left, float(BURST_BYTES))
         self._counted_ns = now_ns
@@ -154,3 +176,110 @@ class Thrift:
             yield f"[{self._dropped} lines dropped]"
             self._dropped = 0
         yield text
+
+
+BEAT_S = 0.1
+
+
+class _LiveLink(Link):
+    """In real time: words go out at once, a thread takes in what sensors say, another one beats."""
+
+    def __init__(self, channel: socket.socket, settings: ProgramSettings) -> None:
+        super().__init__(channel, settings)
+        self._began_ns = time.monotonic_ns()
+        self._sending = threading.Lock()
+
+    def start(self) -> None:
+        for name, work in (("beat", self._beat), ("take in", self._take_in)):
+            threading.Thread(target=work, name=name, daemon=True).start()
+
+    def now_ns(self) -> int:
+        return time.monotonic_ns() - self._began_ns
+
+    look = now_ns
+
+    def wall_ns(self) -> int:
+        return time.time_ns()
+
+    def send(self, word: str, *values: Any) -> None:
+        frame = self._encoded(word, values)
+        with self._sending:
+            self._channel.sendall(frame)
+
+    def _beat(self) -> None:
+        while True:
+            self.send("beat")
+            time.sleep(BEAT_S)
+
+    def _take_in(self) -> None:
+        while True:
+            for _, messages in self._read():
+                self._deliver(messages)
+
+
+SEND_AT_BYTES = 16 * 1024
+NEVER_NS = 2**62
+SLACK_NS = 100
+"""The host's seconds are floats: what it reached this little too early is reached."""
+PUBLISH_NS = 20_000
+PUBLISH_WEIGHT = 0.1
+"""What publishing costs, and how much of a look at the clock it is."""
+
+
+class _VirtualLink(Link):
+    """On virtual time: the host's simulated robot and the program move in lock step.
+
+    A program that listens to nothing needs no answers: what it does goes out with the time it did it at, and the host
+    follows. One that listens asks the host for time, and gets it up to the next message.
+    """
+
+    scheduler: Scheduler
+
+    def __init__(self, channel: socket.socket, settings: ProgramSettings) -> None:
+        super().__init__(channel, settings)
+        self.due_ns = NEVER_NS
+        self._outbox = bytearray()
+        self.scheduler = Scheduler(self, int(min(settings.horizon_s, LATEST_S) * 1e9))
+
+    def now_ns(self) -> int:
+        return self.scheduler.now_ns
+
+    def look(self) -> int:
+        return self.scheduler.look()
+
+    def count_publish(self) -> None:
+        self.scheduler.look(PUBLISH_NS, PUBLISH_WEIGHT)
+
+    def send(self, word: str, *values: Any) -> None:
+        self._outbox += self._encoded(word, values)
+        if len(self._outbox) > SEND_AT_BYTES:
+            self.flush()
+
+    def flush(self) -> None:
+        data, self._outbox = self._outbox, bytearray()
+        self._channel.sendall(data)
+
+    def listen(self, sensor: str, depth: int, listener: Any) -> None:
+        super().listen(sensor, depth, listener)
+        self.due_ns = min(self.due_ns, self.now_ns())
+
+    # --- for the scheduler ---
+
+    def advance(self, now_ns: int, until_ns: int) -> int:
+        if not self._is_listening:
+            self.due_ns = NEVER_NS
+            return until_ns
+        self.send("until", until_ns, self.wanted > 0)
+        self.flush()
+        for word, reached_ns, due_ns, messages in self._read():
+            assert word == "now"
+            self.due_ns = due_ns
+            now_ns = max(now_ns, until_ns if until_ns - reached_ns < SLACK_NS else reached_ns)
+            self._deliver(messages)
+        return now_ns
+
+    def finish(self, now_ns: int, stuck: bool) -> NoReturn:
+        self.scheduler.now_ns = now_ns
+        self.send("ended", "stuck" if stuck and not self._is_listening else "horizon", 0)
+        self.flush()
+        os._exit(0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import math
 from array import array
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 REGISTRY: dict[str, type[Any]] = {}
@@ -26,32 +26,33 @@ Make = Callable[[], Any]
 Field = tuple[Make, Check]
 
 
-def message(type_name: str, fields: str = "", **constants: Any) -> type[Any]:
-    """A message class.
+def message(type_name: str, fields: str = "") -> type[Any]:
+    """Make a message class.
 
     Args:
         type_name: `package/Name`.
-        fields: as in a .msg file, one a line or parted by semicolons: `float64 x; geometry_msgs/Point[] points`.
-        constants: of the message.
+        fields: as in a .msg file, parted by semicolons: `float64 x; Point[] points; float64 w 1; uint8 SONAR=0`.
     """
     package, name = type_name.split("/")
-    return _make(type_name, name, f"{package}.msg._{_snake(name)}", fields, constants)
+    return _make(type_name, name, f"{package}.msg._{_snake(name)}", fields)
 
 
 def service(type_name: str, request: str = "", response: str = "") -> type[Any]:
-    """A service class with `Request` and `Response`."""
+    """Make a service class with `Request` and `Response`."""
     package, name = type_name.split("/")
     module = f"{package}.srv._{_snake(name)}"
     parts = {
-        part: _make(f"{package}/{name}_{part}", f"{name}_{part}", module, fields, {})
+        part: _make(f"{package}/{name}_{part}", f"{name}_{part}", module, fields)
         for part, fields in (("Request", request), ("Response", response))
     }
     return type(name, (), {"__module__": module, "_type_name": f"{package}/srv/{name}", **parts})
 
 
-def _make(type_name: str, name: str, module: str, fields: str, constants: Mapping[str, Any]) -> type[Any]:
-    lines = [line.split() for line in fields.replace("\n", ";").split(";") if line.strip()]
-    kinds = {line[1]: line[0] for line in lines}
+def _make(type_name: str, name: str, module: str, text: str) -> type[Any]:
+    fields = [field.split() for field in text.split(";") if field.strip()]
+    constants = {field.split("=")[0]: int(field.split("=")[1]) for _, field, *_ in fields if "=" in field}
+    lines = [line for line in fields if "=" not in line[1]]
+    kinds = {line[1]: _qualified(line[0], type_name) for line in lines}
     defaults = {
         line[1]: float(line[2]) if "float" in line[0] else int(line[2]) for line in lines if len(line) > 2
     }
@@ -123,6 +124,13 @@ def _equals(self: Any, other: Any) -> bool:
         if not (same if isinstance(same, bool) else bool(same.all())):
             return False
     return True
+
+
+def _qualified(kind: str, type_name: str) -> str:
+    """As .msg files have it: `Header` is std_msgs's, other types without a package are of the same one."""
+    if not kind[0].isupper():
+        return kind
+    return f"std_msgs/{kind}" if kind == "Header" else f"{type_name.split('/')[0]}/{kind}"
 
 
 # --- fields ---

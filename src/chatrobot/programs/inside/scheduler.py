@@ -27,11 +27,11 @@ class Outside(Protocol):
     """When the next message of the robot may come that the program listens for."""
 
     def advance(self, now_ns: int, until_ns: int) -> int:
-        """Let time pass to `until_ns`, or to an earlier message, which is delivered. Returns the new time."""
+        """Let time pass to `until_ns`, or to an earlier message, which is delivered. Return the new time."""
         ...
 
     def finish(self, now_ns: int, stuck: bool) -> NoReturn:
-        """The horizon is reached; `stuck`: nothing was left to wait for."""
+        """End the program at the horizon; `stuck`: nothing was left to wait for."""
         ...
 
 
@@ -64,7 +64,7 @@ class Scheduler:
     # --- for the clock ---
 
     def look(self, cost_ns: int = LOOK_NS, weight: float = 1.0) -> int:
-        """The time, a little later than at the last look."""
+        """Return the time, a little later than at the last look."""
         task = self.current
         task.looks += weight
         self.now_ns += cost_ns if task.looks < FLOOD_AFTER_LOOKS else FLOOD_LOOK_NS
@@ -73,6 +73,7 @@ class Scheduler:
         return self.now_ns
 
     def sleep_until(self, deadline_ns: int) -> None:
+        """Have the running thread sleep."""
         if deadline_ns <= self.now_ns:
             self.look()
             self._yield()
@@ -82,7 +83,7 @@ class Scheduler:
     # --- for locks ---
 
     def block(self, deadline_ns: int | None) -> bool:
-        """The running thread waits. True if `wake` woke it, False if the deadline came first."""
+        """Have the running thread wait. True if `wake` woke it, False if the deadline came first."""
         task = self.current
         task.waits, task.woken, task.looks = True, False, 0.0
         task.ticket += 1
@@ -93,6 +94,7 @@ class Scheduler:
         return task.woken
 
     def wake(self, task: Task) -> None:
+        """End the wait of a thread."""
         if task.waits:
             task.waits, task.woken = False, True
             self._ready.append(task)
@@ -100,13 +102,13 @@ class Scheduler:
     # --- for threads ---
 
     def add(self) -> Task:
-        """A new thread's task: it runs when its turn comes; its thread first acquires the baton."""
+        """Return a new thread's task: it runs when its turn comes; its thread first acquires the baton."""
         task = Task()
         self._ready.append(task)
         return task
 
     def leave(self, task: Task) -> None:
-        """The running thread is over; the next one runs."""
+        """End the running thread's task; the next one runs."""
         task.finished = True
         for joiner in task.joiners:
             self.wake(joiner)
@@ -114,6 +116,7 @@ class Scheduler:
         following.baton.release()
 
     def join(self, task: Task, deadline_ns: int | None) -> None:
+        """Have the running thread wait for the end of another."""
         while not task.finished:
             task.joiners.append(self.current)
             if not self.block(deadline_ns):

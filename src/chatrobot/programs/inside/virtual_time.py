@@ -15,18 +15,18 @@ import select
 import threading
 import time
 import timeit
+from collections import deque
 from collections.abc import Callable
 from typing import Any, cast
 
-from chatrobot.programs.inside.scheduler import Scheduler
-from chatrobot.programs.inside.virtual_lock import GLANCE, VirtualLock
+from chatrobot.programs.inside.scheduler import Scheduler, Task
 
 UPTIME_NS = 1_000_000_000_000
 """What the monotonic clocks say at the start."""
 
 
 def install(scheduler: Scheduler, start_ns: int) -> None:
-    """From here on this process lives on virtual time, which begins at the wall clock's `start_ns`."""
+    """Have this process live on virtual time, which begins at the wall clock's `start_ns`."""
     VirtualLock.scheduler = scheduler
     _install_clocks(scheduler, start_ns)
     _install_dates(scheduler, start_ns)
@@ -194,3 +194,67 @@ def _install_select(scheduler: Scheduler) -> None:
         return [], [], []
 
     cast(Any, select).select = wait
+
+
+GLANCE = 0.1
+"""A look at a lock counts less towards a flood than one at the clock: locks are looked at by the library too."""
+
+
+class VirtualLock:
+    """Behaves like `threading.Lock()`. A release hands the lock to who has waited longest.
+
+    `scheduler` belongs to the class: the process has one.
+    """
+
+    scheduler: Scheduler
+
+    def __init__(self) -> None:
+        self._locked = False
+        self._waiters: deque[Task] = deque()
+
+    def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
+        """Take the lock, or wait for it at most `timeout` seconds."""
+        if not blocking and timeout != -1:
+            raise ValueError("can't specify a timeout for a non-blocking call")
+        if timeout < 0 and timeout != -1:
+            raise ValueError("timeout value must be a non-negative number")
+        if timeout > threading.TIMEOUT_MAX:
+            raise OverflowError("timeout value is too large")
+        if not self._locked:
+            self._locked = True
+            return True
+        scheduler = self.scheduler
+        if not blocking or timeout == 0:
+            scheduler.look(weight=GLANCE)
+            return False
+        task = scheduler.current
+        self._waiters.append(task)
+        woken = scheduler.block(None if timeout < 0 else scheduler.now_ns + int(timeout * 1e9))
+        if not woken and task in self._waiters:
+            self._waiters.remove(task)
+        return woken
+
+    def release(self) -> None:
+        """Give it back, or hand it on."""
+        if not self._locked:
+            raise RuntimeError("release unlocked lock")
+        while self._waiters:
+            task = self._waiters.popleft()
+            if task.waits:  # else its time ran out just now
+                self.scheduler.wake(task)
+                return
+        self._locked = False
+
+    def locked(self) -> bool:
+        """Tell whether somebody has it."""
+        self.scheduler.look(weight=GLANCE)
+        return self._locked
+
+    def _at_fork_reinit(self) -> None:
+        self._locked = False
+        self._waiters.clear()
+
+    __enter__ = acquire
+
+    def __exit__(self, *_: object) -> None:
+        self.release()

@@ -10,20 +10,7 @@ from chatrobot.core.geometry import Twist
 from chatrobot.plan.context import Impossible, LoweringContext, choose_arc_speed, choose_rate, choose_speed
 from chatrobot.plan.lowering import CoreWalk, PlannedMotion
 from chatrobot.plan.primitives.drive import UNTIL_AT_MOST_M, straight_twist
-from chatrobot.plan.steps import (
-    Arc,
-    Drive,
-    Face,
-    Go,
-    Plan,
-    RawTwist,
-    Remember,
-    Repeat,
-    Say,
-    Step,
-    Turn,
-    Wait,
-)
+from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, RawTwist, Remember, Repeat, Say, Step, Turn, Wait
 from chatrobot.plan.trajectory import RampedTwist
 from chatrobot.robots.profile import Point
 
@@ -39,12 +26,12 @@ class Body:
 
     @property
     def needs_pose(self) -> bool:
-        """Some step steers by odometry."""
+        """Tell whether some step steers by odometry."""
         return bool(self.uses & _BY_ODOMETRY)
 
 
 def write_lines(plan: Plan, context: LoweringContext) -> Body | Impossible:
-    """The body of `run` for `plan`; what this robot cannot do is said instead of written."""
+    """Return the body of `run` for `plan`, or why this robot cannot do it."""
     found = _walked(plan, context)
     if isinstance(found, Impossible):
         return found
@@ -152,10 +139,7 @@ class _Writer:
         else:
             near = number(step.until.distance_m)
             self._call(
-                depth,
-                "move_until_near",
-                ", ".join([near, *velocities(twist), f"seconds={seconds}"]),
-                comment,
+                depth, "move_until_near", ", ".join([near, *velocities(twist), f"seconds={seconds}"]), comment
             )
             self.body.uses.update({"linear_y"} if twist.vy_mps else ())
         self._rest(depth)
@@ -235,17 +219,17 @@ class _Writer:
 
 
 def velocities(twist: Twist) -> list[str]:
-    """The arguments of `move` that are not zero."""
+    """Return the arguments of `move` that are not zero."""
     names = ("linear_x", "linear_y", "angular_z")
     return [f"{name}={number(value)}" for name, value in zip(names, twist) if value != 0.0]
 
 
 def number(value: float) -> str:
-    """A float as a person writes it: always with its point, at most six digits after it."""
+    """Write a float as a person does: always with its point, at most six digits after it."""
     text = repr(round(float(value), 6))
     return repr(float(value)) if text in ("0.0", "-0.0") and value != 0.0 else text
 
 
 def angle(angle_rad: float) -> str:
-    """In degrees, which people read."""
+    """Write an angle in degrees, which people read."""
     return f"math.radians({number(math.degrees(angle_rad))})"

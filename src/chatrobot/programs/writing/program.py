@@ -26,7 +26,7 @@ _WIDTH = 100
 
 
 def write_program(plan: Plan, profile: RobotProfile, wanted: Wanted) -> str | Impossible:
-    """The source of a program that does `plan`, or why this robot cannot."""
+    """Return the source of a program that does `plan`, or why this robot cannot."""
     context = LoweringContext(
         profile, pose=wanted.start, plan_start=wanted.start, route_planner=wanted.routes
     )
@@ -203,7 +203,7 @@ if __name__ == '__main__':
 
 
 def node_name(name: str) -> str:
-    """A name that ROS takes for a node: letters, digits and underscores."""
+    """Return a name that ROS takes for a node: letters, digits and underscores."""
     slug = re.sub(r"[^a-z0-9]+", "_", name.casefold()).strip("_")
     if not slug or not re.match(r"[a-z]", slug):
         slug = f"program_{slug}".rstrip("_")
@@ -211,7 +211,7 @@ def node_name(name: str) -> str:
 
 
 def class_name(name: str) -> str:
-    """The same for the class: `square dance` becomes SquareDance."""
+    """Return the same for the class: `square dance` becomes SquareDance."""
     found = "".join(part.capitalize() for part in node_name(name).split("_"))
     return (
         f"{found}Node"
@@ -221,7 +221,7 @@ def class_name(name: str) -> str:
 
 
 def folded(steps: Sequence[Step]) -> tuple[Step, ...]:
-    """The same steps with loops for what repeats. Ways to places are left alone: each begins somewhere else."""
+    """Return the same steps with loops for what repeats. Ways to places are left alone: each begins somewhere else."""
     found: list[Step] = []
     at = 0
     while at < len(steps):

@@ -20,15 +20,39 @@ from cyclonedds.pub import DataWriter
 from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
 
-from chatrobot.wire.connect import Endpoint
-from chatrobot.wire.dds.names import ros_topic_name, ros_type_name
+from chatrobot.core.errors import WireError
 from chatrobot.wire.dds.ros_types import MALFORMED, RosTypes
+from chatrobot.wire.wire import Endpoint
 
 _INFO_TOPIC = "ros_discovery_info"
 _INFO_TYPE = "rmw_dds_common/msg/ParticipantEntitiesInfo"
 _INFO_QOS = (Policy.Reliability.Reliable(0), Policy.Durability.TransientLocal)
 _MANY = 1000
 _OWN_ID = "CHATROBOT_ID"
+
+
+def dds_topic_name(topic: str, namespace: str) -> str:
+    """`cmd_vel` in namespace `robot1` is `rt/robot1/cmd_vel`; `/clock` is `rt/clock` in every namespace.
+
+    Raises:
+        WireError: no topic can be called that.
+    """
+    name = topic[1:] if topic.startswith("/") else f"{namespace.strip('/')}/{topic}".lstrip("/")
+    parts = name.split("/")
+    if not all(part.isascii() and part.replace("_", "a").isalnum() for part in parts):
+        raise WireError(f"{topic!r} is not a topic name: letters, digits, _ and / between them")
+    return f"rt/{name}"
+
+
+def ros_topic_name(dds_topic: str) -> str:
+    """`rt/robot1/odom` is `/robot1/odom`; empty for what is no ROS topic."""
+    return dds_topic[2:] if dds_topic.startswith("rt/") else ""
+
+
+def ros_type_name(dds_type: str) -> str:
+    """`nav_msgs::msg::dds_::Odometry_` is `nav_msgs/msg/Odometry`; empty for what is no ROS message."""
+    package, _, short = dds_type.partition("::msg::dds_::")
+    return f"{package}/msg/{short.removesuffix('_')}" if short else ""
 
 
 def own_id() -> str:

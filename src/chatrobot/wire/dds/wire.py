@@ -14,16 +14,14 @@ from cyclonedds.internal import dds_infinity
 
 from chatrobot.core.errors import WireError
 from chatrobot.core.wiring import Wiring
-from chatrobot.wire.connect import Endpoint
-from chatrobot.wire.dds.discovery import Discovery, configuration, discovery_from, machine_addresses
 from chatrobot.wire.dds.endpoints import Port, Reader, Writer
 from chatrobot.wire.dds.fence import fence_in
-from chatrobot.wire.dds.graph import Graph, participant_qos
-from chatrobot.wire.dds.names import dds_topic_name
+from chatrobot.wire.dds.graph import Graph, dds_topic_name, participant_qos
 from chatrobot.wire.dds.ros_types import RosTypes
+from chatrobot.wire.discovery import Discovery, configuration, discovery_from, machine_addresses
 from chatrobot.wire.messages import Message
 from chatrobot.wire.ros_messages import RosForm, is_sensor, read_depth, ros_form
-from chatrobot.wire.wire import M
+from chatrobot.wire.wire import Endpoint, M, Wire
 
 _GID_24_DISTRIBUTIONS = ("foxy", "galactic", "humble", "iron")
 
@@ -31,7 +29,7 @@ _domains: dict[int, Domain] = {}
 _domains_lock = threading.Lock()
 
 
-class DdsWire:
+class DdsWire(Wire):
     """A process's end of a DDS domain, a ROS 2 node to others. They meet within about 0.1 s, not at once: what is
     published before a listener is found is lost, so `wait_for_listener` where a single message matters.
 
@@ -48,6 +46,9 @@ class DdsWire:
         UsageError: an environment variable cannot be used.
     """
 
+    knows_others = True
+    sees_others_leave = True
+
     def __init__(
         self, wiring: Wiring, node_name: str, *, namespace: str = "", discovery: Discovery | None = None
     ) -> None:
@@ -55,7 +56,7 @@ class DdsWire:
         distribution = os.environ.get("ROS_DISTRO", "").lower()
         self._types = RosTypes(24 if distribution in _GID_24_DISTRIBUTIONS else 16)
         self._wiring = wiring
-        self._namespace = namespace.strip("/")
+        self.namespace = namespace.strip("/")
         self._lock = threading.Lock()
         self._writers: dict[tuple[str, object], Writer] = {}
         self._readers: dict[tuple[str, type], Reader] = {}
@@ -64,7 +65,7 @@ class DdsWire:
             _open_domain(discovery)
             participant = DomainParticipant(discovery.domain_id, participant_qos())
             self._participant: DomainParticipant | None = participant
-            self._graph: Graph | None = Graph(participant, self._types, node_name, f"/{self._namespace}")
+            self._graph: Graph | None = Graph(participant, self._types, node_name, f"/{self.namespace}")
             self._waitset: WaitSet | None = WaitSet(participant)
             self._wake = GuardCondition(participant)
             self._waitset.attach(self._wake)
@@ -94,12 +95,6 @@ class DdsWire:
     def publish_fields(
         self, topic: str, type_name: str, fields: Mapping[str, Any], *, is_kept: bool = False
     ) -> None:
-        """Publish a ROS message that has no planar form, `tf2_msgs/msg/TFMessage` say.
-
-        Args:
-            fields: nested dictionaries; what is left out is zero. Stamps as ROS has them (`stamps.to_wall_s`).
-            is_kept: who listens later gets the last message, too (ROS's transient local durability).
-        """
         writer = self._writers.get((topic, type_name))
         if writer is None:
             form = RosForm(type_name, dict, lambda _: None)
@@ -108,33 +103,24 @@ class DdsWire:
         writer.write_fields(fields)
 
     def advertise(self, topic: str, kind: type[Message]) -> None:
-        """Let others find us as a publisher now, before the first message."""
         if (topic, kind) not in self._writers:
             self._open_writer(topic, kind)
 
     def wait_for_listener(self, topic: str, kind: type[Message], timeout_s: float, count: int = 1) -> bool:
-        """Block until `count` listen on `topic`, ourselves included; False where they don't in time."""
         return self._open_writer(topic, kind).wait_for_listeners(count, timeout_s)
 
     def publishers_of(self, topic: str) -> list[str]:
-        """Who publishes on `topic` besides the processes of our own session, by name."""
         graph = self._graph
         with _as_wire_error(f"cannot see who publishes {topic}"):
             return [] if graph is None else graph.publishers_of(self._name(topic))
 
     def rewire(self, wiring: Wiring) -> None:
-        """Take the robot to be wired like this; before anything is published or listened to."""
         self._wiring = wiring
 
     def survey(self) -> list[Endpoint]:
-        """The endpoints of other participants, found so far."""
         graph = self._graph
         with _as_wire_error("cannot see who is there"):
             return [] if graph is None else graph.endpoints()
-
-    @property
-    def namespace(self) -> str:
-        return self._namespace
 
     def resolve(self, topic: str) -> str:
         return "/" + self._name(topic).removeprefix("rt/")
@@ -179,7 +165,7 @@ class DdsWire:
         return Port(self._name(topic), form, is_sensor(topic, kind, self._wiring), read_depth(kind))
 
     def _name(self, topic: str) -> str:
-        return dds_topic_name(topic, self._namespace)
+        return dds_topic_name(topic, self.namespace)
 
     def _announce(self, graph: Graph) -> None:
         graph.announce(

@@ -10,16 +10,15 @@ from typing import Any, Literal
 from rclpy.exceptions import NameValidationException
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
-from chatrobot.core.clock import RealClock
+from chatrobot.core.clock import Clock, RealClock
 from chatrobot.core.errors import WireError
 from chatrobot.core.wiring import Wiring
-from chatrobot.wire.connect import Endpoint
 from chatrobot.wire.messages import Message
 from chatrobot.wire.ros.convert import message_class, to_message
 from chatrobot.wire.ros.node import RosNode
 from chatrobot.wire.ros_messages import RosForm, is_sensor, read_depth, ros_form, stamped
 from chatrobot.wire.stamps import StampTranslator, to_wall_s
-from chatrobot.wire.wire import M
+from chatrobot.wire.wire import Endpoint, M, Wire
 
 _WRITE_DEPTH = 10
 """ROS's; how much a reader keeps nobody asks."""
@@ -100,7 +99,7 @@ class _Subscription:
             callback(message)
 
 
-class RosWire:
+class RosWire(Wire):
     """A node's end of ROS. It owns the node: closing closes it.
 
     Relative topics are in the node's namespace; remappings hold. With `use_sim_time` stamps are the simulation's
@@ -110,8 +109,12 @@ class RosWire:
         wiring: the robot's topics and types.
     """
 
+    knows_others = True
+    sees_others_leave = True
+
     def __init__(self, wiring: Wiring, node: RosNode) -> None:
         self.node = node
+        self.namespace = str(node.handle.get_namespace()).strip("/")
         self._wiring = wiring
         self._lock = threading.Lock()
         self._publishers: dict[tuple[str, object], _Publisher] = {}
@@ -156,11 +159,6 @@ class RosWire:
     def publish_fields(
         self, topic: str, type_name: str, fields: Mapping[str, Any], *, is_kept: bool = False
     ) -> None:
-        """Publish a ROS message that has no planar form, `tf2_msgs/msg/TFMessage` say; what is left out is zero.
-
-        Args:
-            is_kept: who listens later gets the last message, too (ROS's transient local durability).
-        """
         publisher = self._publishers.get((topic, type_name))
         if publisher is None:
             form = RosForm(type_name, dict, lambda _: None)
@@ -168,11 +166,9 @@ class RosWire:
         publisher.send_fields(fields)
 
     def advertise(self, topic: str, kind: type[Message]) -> None:
-        """Let others find us as a publisher now, before the first message."""
         self._open_publisher(topic, kind, self._form(topic, kind))
 
     def wait_for_listener(self, topic: str, kind: type[Message], timeout_s: float, count: int = 1) -> bool:
-        """Block until `count` listen on `topic`, ourselves included; False where they don't in time."""
         publisher = self._open_publisher(topic, kind, self._form(topic, kind))
         ends_s = time.monotonic() + timeout_s
         while publisher.listener_count() < count:
@@ -182,7 +178,6 @@ class RosWire:
         return True
 
     def publishers_of(self, topic: str) -> list[str]:
-        """Who publishes on `topic` besides this node, by name."""
         handle = self.node.handle
         try:
             found = handle.get_publishers_info_by_topic(topic)
@@ -196,7 +191,6 @@ class RosWire:
         return sorted(set(names))
 
     def survey(self) -> list[Endpoint]:
-        """The endpoints of other nodes, found so far."""
         handle, own = self.node.handle, self._own_name()
 
         def others(topic: str, infos: list[Any], role: Literal["publishes", "listens"]) -> list[Endpoint]:
@@ -213,24 +207,14 @@ class RosWire:
         return found
 
     def rewire(self, wiring: Wiring) -> None:
-        """Take the robot to be wired like this; before anything is published or listened to."""
         self._wiring = wiring
 
     def resolve(self, topic: str) -> str:
-        """The topic's full name, namespace and remappings applied."""
         return str(self.node.handle.resolve_topic_name(topic))
 
     @property
-    def namespace(self) -> str:
-        return str(self.node.handle.get_namespace()).strip("/")
-
-    def now_s(self) -> float:
-        """ROS's time; a clock for who asks `has_own_time` first."""
-        return self.node.now_s()
-
-    def suspended_s(self) -> float:
-        """As of any clock: a machine that slept has not looked after its robot, whatever time a simulation keeps."""
-        return RealClock().suspended_s()
+    def clock(self) -> Clock:
+        return _RosClock(self.node) if self.has_own_time else RealClock()
 
     def close(self) -> None:
         self.node.close()
@@ -262,6 +246,16 @@ class RosWire:
                     raise WireError(f"cannot publish on {topic}: {error}") from error
                 self._publishers = {**self._publishers, (topic, key): publisher}
             return publisher
+
+
+class _RosClock(RealClock):
+    """ROS's time, which may be a simulation's. A machine that slept has not looked after its robot all the same."""
+
+    def __init__(self, node: RosNode) -> None:
+        self._node = node
+
+    def now_s(self) -> float:
+        return self._node.now_s()
 
 
 def _qos(

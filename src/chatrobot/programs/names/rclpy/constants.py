@@ -1,3 +1,0 @@
-"""rclpy.constants"""
-
-S_TO_NS = 1000 * 1000 * 1000

@@ -1,0 +1,1 @@
+"""Tests of a robot profile, a wire or a primitive of your own: docs/testing.md. Nothing of the product imports this."""
