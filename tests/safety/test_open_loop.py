@@ -283,7 +283,7 @@ def test_a_paused_plan_is_stopped_and_not_gone_on_with() -> None:
 
 def test_a_world_is_refused_for_nobody_knows_where_in_it_the_robot_is() -> None:
     profile = open_loop(load_profile("wheeltec_mini_mec"))
-    with pytest.raises(UsageError, match="nobody knows"):
+    with pytest.raises(UsageError, match="without odometry"):
         check_known(load_world("home"), profile)
     check_known(load_world("empty"), profile)
 
