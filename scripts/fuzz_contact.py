@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.governor.governor import FARTHEST
-from chatrobot.governor.obstacles import AWAY_MPS, MARGIN_M, NEARER_M
+from chatrobot.governor.space_rules import AWAY_MPS, MARGIN_M, NEARER_M
 from chatrobot.robots.profile import Point, RobotProfile
 
 EPSILON = 1e-9

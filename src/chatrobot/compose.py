@@ -34,8 +34,7 @@ from chatrobot.robots.profile import NOT_CHOSEN, MotionBudget, RobotProfile
 from chatrobot.sim.fault_injection import FaultInjection
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import TRUTH_TOPIC, SimRobot
-from chatrobot.sim.start import check_known, check_start
-from chatrobot.sim.world import World
+from chatrobot.sim.world import World, check_known, check_start
 from chatrobot.wire.connect import connect_wire, is_on_this_machine, wire_address
 from chatrobot.wire.messages import Odometry
 

@@ -15,10 +15,9 @@ from chatrobot.cli.drawing.extent import extent_of_world
 from chatrobot.cli.drawing.map_text import furniture, thickness_m
 from chatrobot.core.events import Started, Telemetry
 from chatrobot.core.geometry import Pose, Twist
-from chatrobot.sim.load import load_world
+from chatrobot.sim.load import load_world, parse_world
 from chatrobot.sim.shapes import Circle, rectangle
 from chatrobot.sim.world import Obstacle, World
-from chatrobot.sim.world_file import parse_world
 from tests.console.fakes import draw_map_text
 from tests.console.test_draw import OBSTACLE, PROFILE, rehearsed
 from tests.console.test_map_text import plain

@@ -7,9 +7,9 @@ import json
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.plan.plans import plan_to_json
 
 from chatrobot.dialogue.llm.reply_reader import LOOKS, ReplyReader
-from chatrobot.plan.json_form import plan_to_json
 from chatrobot.plan.steps import RawTwist
 from chatrobot.plan.text import format_step, parse_plan
 

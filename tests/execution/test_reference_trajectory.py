@@ -7,8 +7,7 @@ import pytest
 from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.execution.reference_trajectory import ReferenceTrajectory
-from chatrobot.plan.core_motion import RampedTwist
-from chatrobot.plan.trajectory import Segment
+from chatrobot.plan.trajectory import RampedTwist, Segment
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
 
 LIMITS = load_profile(DEFAULT_PROFILE).limits

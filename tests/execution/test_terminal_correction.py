@@ -7,13 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from chatrobot.core.geometry import Pose
-from chatrobot.execution.terminal_correction import (
-    AT_THE_END,
-    BETWEEN_STEPS,
-    RATE_RADPS,
-    SPEED_MPS,
-    correction,
-)
+from chatrobot.execution.tracking import AT_THE_END, BETWEEN_STEPS, RATE_RADPS, SPEED_MPS, correction
 from chatrobot.robots.load import list_profiles, load_profile
 from chatrobot.robots.profile import RobotProfile
 

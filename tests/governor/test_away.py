@@ -13,8 +13,8 @@ from tests.governor.situations import MECANUM, at
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.governor.contact import Footprint, comes_nearer
 from chatrobot.governor.obstacle_memory import ObstacleMemory
-from chatrobot.governor.obstacles import AWAY_MPS, MARGIN_M, NEARER_M, RELEASE_M, ObstacleRule
 from chatrobot.governor.rule import FREE, NOTHING_SENSED, Situation
+from chatrobot.governor.space_rules import AWAY_MPS, MARGIN_M, NEARER_M, RELEASE_M, ObstacleRule
 from chatrobot.robots.load import load_profile
 
 FRONT_M, SIDE_M = 0.135, 0.111

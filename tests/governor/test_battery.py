@@ -12,9 +12,8 @@ from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.governed import StopEpoch
 from chatrobot.core.reason import Reason
-from chatrobot.governor.battery import BatteryRule, at_most
 from chatrobot.governor.governor import Governor
-from chatrobot.governor.rule import FREE, Sensed
+from chatrobot.governor.rule import FREE, BatteryRule, Sensed, at_most
 from chatrobot.robots.profile import Safety
 
 FULL_SPEED = Twist(1.0, 0.0, 0.0)

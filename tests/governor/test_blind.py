@@ -9,7 +9,9 @@ import pytest
 from tests.governor.situations import MECANUM, at
 
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
-from chatrobot.governor.blind import (
+from chatrobot.governor.obstacle_memory import ObstacleMemory
+from chatrobot.governor.rule import FREE, Situation
+from chatrobot.governor.space_rules import (
     LOOK_AHEAD_M,
     LOOK_AHEAD_S,
     OUTWARDS_M,
@@ -18,8 +20,6 @@ from chatrobot.governor.blind import (
     BlindRule,
     _outline,
 )
-from chatrobot.governor.obstacle_memory import ObstacleMemory
-from chatrobot.governor.rule import FREE, Situation
 from chatrobot.robots.profile import Lidar, Safety
 from chatrobot.wire.messages import LaserScan
 

@@ -12,7 +12,7 @@ from tests.governor.situations import MECANUM
 
 from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import Twist
-from chatrobot.governor.braking import CREEP_MPS, Braking
+from chatrobot.governor.kernel import CREEP_MPS, Braking
 
 LIMITS = replace(
     MECANUM.limits,

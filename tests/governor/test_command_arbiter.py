@@ -12,7 +12,7 @@ from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import Twist
 from chatrobot.core.governed import StopEpoch
 from chatrobot.governor.governor import VOID_EPOCH, Governor
-from chatrobot.governor.priority import PRIORITIES, RELEASERS, Priority, priority_of
+from chatrobot.governor.lease import PRIORITIES, RELEASERS, Priority, priority_of
 from chatrobot.governor.rule import Sensed
 from chatrobot.motion.safety.stop import WireTransport
 from chatrobot.robots.load import load_profile

@@ -10,8 +10,9 @@ import pytest
 from tests.governor.situations import MECANUM, at, with_safety
 
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
-from chatrobot.governor.fence import FenceRule, seconds_to_edge
+from chatrobot.governor.contact import seconds_until_below
 from chatrobot.governor.rule import FREE
+from chatrobot.governor.space_rules import FenceRule
 from chatrobot.plan.steps import Drive, Plan, Turn
 from chatrobot.robots.profile import Circle, Safety
 from chatrobot.testing.rig import Rig
@@ -110,11 +111,13 @@ def test_a_robot_that_brakes_weakly_looks_that_far(wz: float) -> None:
 
 
 def test_the_time_to_the_edge_is_interpolated() -> None:
-    times = np.array([0.0, 1.0, 2.0, 3.0])
-    assert seconds_to_edge(np.array([3.0, 2.0, 1.0, -1.0]), times) == pytest.approx(2.5)
-    assert seconds_to_edge(np.array([3.0, 2.0, 1.0, 0.5]), times) == math.inf
-    assert seconds_to_edge(np.array([-1.0, -1.5, -2.0, -3.0]), times) == 0.0
-    assert seconds_to_edge(np.array([-1.0, -0.9, -0.5, -1.5]), times) == 2.0
+    def seconds_to_edge(*spare_m: float) -> float:
+        return seconds_until_below(np.array(spare_m)[:, None], np.array([0.0, 1.0, 2.0, 3.0]), 0.0)
+
+    assert seconds_to_edge(3.0, 2.0, 1.0, -1.0) == pytest.approx(2.5)
+    assert seconds_to_edge(3.0, 2.0, 1.0, 0.5) == math.inf
+    assert seconds_to_edge(-1.0, -1.5, -2.0, -3.0) == 0.0
+    assert seconds_to_edge(-1.0, -0.9, -0.5, -1.5) == 2.0
 
 
 def test_the_area_of_the_world_is_a_fence_too() -> None:

@@ -13,7 +13,7 @@ from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.governed import StopEpoch
 from chatrobot.governor.governor import Governor
-from chatrobot.governor.jerk import JerkLimit, _most
+from chatrobot.governor.kernel import JerkLimit, _most
 from chatrobot.robots.profile import RobotProfile
 
 

@@ -7,8 +7,7 @@ import math
 import pytest
 
 from chatrobot.core.clock import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S
-from chatrobot.governor.lease import Leases
-from chatrobot.governor.priority import Priority
+from chatrobot.governor.lease import Leases, Priority
 
 
 def opened(source: str = "console", term_s: float = 0.25) -> Leases:

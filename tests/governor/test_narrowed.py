@@ -13,8 +13,7 @@ from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import Twist
 from chatrobot.core.governed import StopEpoch
 from chatrobot.governor.governor import Governor
-from chatrobot.governor.narrowed import NarrowedRule
-from chatrobot.governor.rule import FREE
+from chatrobot.governor.rule import FREE, NarrowedRule
 from chatrobot.robots.load import load_profile
 
 FULL = Twist(0.0, 1.0, 2.0)

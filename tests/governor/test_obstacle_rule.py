@@ -9,11 +9,11 @@ from tests.governor.situations import MECANUM, at
 
 from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
-from chatrobot.governor.braking import Braking
 from chatrobot.governor.governor import Governor, StopEpoch
+from chatrobot.governor.kernel import Braking
 from chatrobot.governor.obstacle_memory import ObstacleMemory
-from chatrobot.governor.obstacles import MARGIN_M, RELEASE_M, ObstacleRule
 from chatrobot.governor.rule import FREE
+from chatrobot.governor.space_rules import MARGIN_M, RELEASE_M, ObstacleRule
 from chatrobot.wire.messages import LaserScan
 
 AHEAD = Twist(1.0, 0.0, 0.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import pytest
@@ -10,11 +11,11 @@ from tests.governor.situations import MECANUM, at, with_safety
 
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
+from chatrobot.governor.governor import make_rules
 from chatrobot.governor.obstacle_memory import ObstacleMemory
-from chatrobot.governor.rule import Ruling, Situation
-from chatrobot.governor.rules import UNRULED, Setting, compose, make_rules
+from chatrobot.governor.rule import UNRULED, Ruling, Situation, compose
 from chatrobot.robots.load import load_profile
-from chatrobot.robots.profile import Circle, Safety
+from chatrobot.robots.profile import Circle, Point, RobotProfile, Safety
 
 ASKED = Twist(1.0, 0.0, 0.0)
 
@@ -68,17 +69,17 @@ def test_a_soft_rule_that_stops_the_robot_stays_soft() -> None:
     assert (composed.ruling.factor, composed.urgent_factor) == (0.0, 1.0)
 
 
-def names(setting: Setting) -> list[str]:
-    return [rule.name for rule in make_rules(setting)]
+def names(profile: RobotProfile, seen: ObstacleMemory | None = None, area: Sequence[Point] = ()) -> list[str]:
+    return [rule.name for rule in make_rules(profile, seen, area)]
 
 
 def test_a_robot_gets_the_rules_that_its_profile_and_its_world_call_for() -> None:
     turtle = load_profile("turtlesim")
-    assert names(Setting(turtle)) == []
+    assert names(turtle) == []
     assert MECANUM.lidar is not None
     seen = ObstacleMemory(MECANUM.lidar)
-    assert names(Setting(MECANUM, seen)) == ["obstacle", "blind"]
+    assert names(MECANUM, seen) == ["obstacle", "blind"]
     full = with_safety(Safety(Circle(0, 0, 1), ("odom",), 0.1, 20.0))
     area = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))
-    assert names(Setting(full, seen, area)) == ["sensors", "obstacle", "blind", "fence", "fence", "battery"]
-    assert names(Setting(replace(full, safety=Safety()), None, ())) == []
+    assert names(full, seen, area) == ["sensors", "obstacle", "blind", "fence", "fence", "battery"]
+    assert names(replace(full, safety=Safety()), None, ()) == []

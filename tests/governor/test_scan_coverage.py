@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from chatrobot.core.geometry import ORIGIN, Pose
-from chatrobot.governor.scan_coverage import (
+from chatrobot.governor.obstacle_memory import (
     APART_M,
     APART_RAD,
     SCANS_VALID,

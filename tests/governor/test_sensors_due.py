@@ -8,7 +8,7 @@ import pytest
 from tests.governor.situations import MECANUM, at, with_safety
 
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Twist
-from chatrobot.governor.sensors_due import SensorRule, silent_after_s
+from chatrobot.governor.rule import SensorRule, silent_after_s
 from chatrobot.plan.steps import Drive, Plan
 from chatrobot.robots.profile import Safety
 from chatrobot.testing.rig import Rig

@@ -15,11 +15,11 @@ from chatrobot.language.ledger import Ledger, TurnRecord, Walk
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import Walked, redone, taken_back
 from chatrobot.plan.context import LoweringContext
-from chatrobot.plan.core_motion import RampedTwist
-from chatrobot.plan.lowering import PlannedMotion, iterate_core
+from chatrobot.plan.lowering import CoreWalk, PlannedMotion
 from chatrobot.plan.split import Parts, Reached, split
 from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, RawTwist, Repeat, Say, Step, Turn, Wait
 from chatrobot.plan.text import format_plan
+from chatrobot.plan.trajectory import RampedTwist
 from chatrobot.robots.load import load_profile
 from tests.language.dialogue_runner import conversation
 from tests.language.profiles import MECANUM
@@ -98,7 +98,7 @@ class Robot:
 def driven(plan: Plan, start: Pose, share: float) -> tuple[Parts, Pose]:
     """The parts of a plan that is stopped after that share of its motions, and the pose then."""
     context = LoweringContext(MECANUM, start, start)
-    items = [item for item in iterate_core(plan, context) if isinstance(item, PlannedMotion)]
+    items = [item for item in CoreWalk(plan, context) if isinstance(item, PlannedMotion)]
     at = share * len(items)
     if at >= len(items):
         return split(plan.steps, Reached(items[-1].number), context), items[-1].end

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.events import Event, Finished, Telemetry
-from chatrobot.governor.priority import RELEASERS
+from chatrobot.governor.lease import RELEASERS
 from chatrobot.link.in_process import InProcessLink
 from chatrobot.link.motion_link import MotionLink
 from chatrobot.link.processes import MotionProcess, spawn

@@ -17,7 +17,7 @@ from chatrobot.core.events import Finished, Rehearsed
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.governor.contact import Footprint
 from chatrobot.governor.kernel import make_kernel
-from chatrobot.governor.obstacles import MARGIN_M
+from chatrobot.governor.space_rules import MARGIN_M
 from chatrobot.motion import planner
 from chatrobot.motion.remembered_obstacles import POINT_RADIUS_M, RememberedObstacles, Sight
 from chatrobot.plan.rehearsal import MARGIN_M as REHEARSED_M

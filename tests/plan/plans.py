@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
+from typing import Any
 
 from hypothesis import strategies as st
 
+from chatrobot.plan.json_form import VERSION
 from chatrobot.plan.steps import (
     Arc,
     Drive,
@@ -60,3 +63,19 @@ def blocks(inner: st.SearchStrategy[Step]) -> st.SearchStrategy[Step]:
 
 steps = st.recursive(leaves, blocks, max_leaves=6)
 plans = st.lists(steps, min_size=1, max_size=4).map(lambda found: Plan(tuple(found)))
+
+
+def plan_to_json(plan: Plan) -> dict[str, Any]:
+    """The JSON form, as a tool would write it."""
+    return {"version": VERSION, "steps": [_to_json(step) for step in plan.steps]}
+
+
+def _to_json(value: Any) -> Any:
+    if isinstance(value, tuple):
+        return [_to_json(item) for item in value]
+    if not dataclasses.is_dataclass(value):
+        return value
+    fields = {f.name: getattr(value, f.name) for f in dataclasses.fields(value)}
+    defaults = {f.name: f.default for f in dataclasses.fields(value)}
+    left = {name: item for name, item in fields.items() if name != "kind" and item != defaults[name]}
+    return {"kind": fields["kind"], **{name: _to_json(item) for name, item in left.items()}}

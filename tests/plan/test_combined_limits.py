@@ -9,8 +9,13 @@ import pytest
 
 from chatrobot.core.geometry import Twist
 from chatrobot.governor.kernel import bounded
-from chatrobot.plan.context import Impossible
-from chatrobot.plan.speeds import choose_arc_speed, choose_speed, max_arc_speed_mps, scale_into_limits
+from chatrobot.plan.context import (
+    Impossible,
+    choose_arc_speed,
+    choose_speed,
+    max_arc_speed_mps,
+    scale_into_limits,
+)
 from chatrobot.robots.load import load_profile
 
 MECANUM = load_profile("wheeltec_mini_mec")

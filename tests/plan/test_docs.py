@@ -5,9 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from chatrobot.plan.json_form import plan_from_json, plan_to_json
-from chatrobot.plan.registry import primitives
+from chatrobot.plan.json_form import plan_from_json
+from chatrobot.plan.primitive import primitives
 from chatrobot.plan.text import parse_plan
+from tests.plan.plans import plan_to_json
 
 DOC = (Path(__file__).parents[2] / "docs" / "plan-language.md").read_text(encoding="utf-8")
 

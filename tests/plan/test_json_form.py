@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from chatrobot.core.errors import PlanTextError
-from chatrobot.plan.json_form import VERSION, plan_from_json, plan_schema, plan_to_json
-from chatrobot.plan.registry import primitives
+from chatrobot.plan.json_form import VERSION, plan_from_json, plan_schema
+from chatrobot.plan.primitive import primitives
 from chatrobot.plan.steps import Drive, Plan
-from tests.plan.plans import plans
+from tests.plan.plans import plan_to_json, plans
 
 
 @given(plans)

@@ -10,8 +10,7 @@ import pytest
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.plan.context import Impossible, LoweringContext, NoRoute, Route
-from chatrobot.plan.core_motion import CoreMotion, Emit, Pause, RampedTwist
-from chatrobot.plan.lowering import PlannedMotion, iterate_core, lower
+from chatrobot.plan.lowering import CoreWalk, PlannedMotion, lower
 from chatrobot.plan.steps import (
     Arc,
     Drive,
@@ -27,6 +26,7 @@ from chatrobot.plan.steps import (
     Turn,
     Wait,
 )
+from chatrobot.plan.trajectory import CoreMotion, Emit, Pause, RampedTwist
 from chatrobot.robots.profile import RobotProfile
 from tests.plan.robots import ACKERMANN, DIFFERENTIAL, MECANUM
 
@@ -199,7 +199,7 @@ def test_go_follows_the_route_or_says_that_there_is_none() -> None:
 
 def test_the_walk_chains_ideal_ends_through_repeats() -> None:
     side = (Drive(distance_m=1), Turn(angle_rad=math.pi / 2))
-    items = list(iterate_core(Plan((Repeat(4, side), Say("done"))), LoweringContext(MECANUM)))
+    items = list(CoreWalk(Plan((Repeat(4, side), Say("done"))), LoweringContext(MECANUM)))
     assert all(isinstance(item, PlannedMotion) for item in items)
     planned = [item for item in items if isinstance(item, PlannedMotion)]
     assert [item.index for item in planned] == [(0, 0), (0, 1)] * 4 + [(1,)]
@@ -211,7 +211,7 @@ def test_the_walk_chains_ideal_ends_through_repeats() -> None:
 
 
 def test_the_walk_goes_on_from_where_a_motion_really_ended() -> None:
-    walk = iterate_core(
+    walk = CoreWalk(
         Plan((Drive(until=ObstacleWithin(0.5)), Turn(angle_rad=1), Go(0, 0))), LoweringContext(MECANUM)
     )
     next(walk)
@@ -224,14 +224,14 @@ def test_the_walk_goes_on_from_where_a_motion_really_ended() -> None:
 
 def test_the_walk_ends_at_the_first_impossible_step_and_names_it() -> None:
     plan = Plan((Drive(distance_m=1), Repeat(2, (Wait(1), Turn(angle_rad=1, rate_radps=9)))))
-    items = list(iterate_core(plan, LoweringContext(MECANUM)))
+    items = list(CoreWalk(plan, LoweringContext(MECANUM)))
     assert isinstance(items[-1], Impossible)
     assert items[-1].index == (1, 1)
     assert len(items) == 3
 
 
 def test_a_step_without_motion_is_still_walked_over() -> None:
-    (item,) = iterate_core(Plan((Face(0.0),)), LoweringContext(MECANUM))
+    (item,) = CoreWalk(Plan((Face(0.0),)), LoweringContext(MECANUM))
     assert isinstance(item, PlannedMotion)
     assert item.motion is None
     assert item.first
@@ -239,5 +239,5 @@ def test_a_step_without_motion_is_still_walked_over() -> None:
 
 
 def test_a_block_is_walked_not_lowered() -> None:
-    with pytest.raises(TypeError, match="iterate_core"):
+    with pytest.raises(TypeError, match="CoreWalk"):
         lower(Repeat(2, (Wait(1),)), LoweringContext(MECANUM))

@@ -9,16 +9,17 @@ import pytest
 
 from chatrobot.core.errors import UsageError
 from chatrobot.core.geometry import Twist
-from chatrobot.plan import registry
+from chatrobot.plan import primitive as registry
 from chatrobot.plan.base import Step
 from chatrobot.plan.context import Lowered, LoweringContext
-from chatrobot.plan.core_motion import RampedTwist
-from chatrobot.plan.json_form import plan_from_json, plan_schema, plan_to_json
-from chatrobot.plan.lowering import PlannedMotion, iterate_core
+from chatrobot.plan.json_form import plan_from_json, plan_schema
+from chatrobot.plan.lowering import CoreWalk, PlannedMotion
 from chatrobot.plan.primitive import Primitive
 from chatrobot.plan.reader import LineReader
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
+from chatrobot.plan.trajectory import RampedTwist
+from tests.plan.plans import plan_to_json
 from tests.plan.robots import MECANUM
 
 
@@ -58,7 +59,11 @@ class _EntryPoint:
 
 @pytest.fixture
 def third_party(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    monkeypatch.setattr(importlib.metadata, "entry_points", lambda group: [_EntryPoint()] if group else [])
+    monkeypatch.setattr(
+        importlib.metadata,
+        "entry_points",
+        lambda group: [_EntryPoint()] * (group == registry.ENTRY_POINT_GROUP),
+    )
     registry.primitives()
     registry._loaded.discard(registry.ENTRY_POINT_GROUP)
     yield
@@ -72,7 +77,7 @@ def test_a_third_partys_primitive_is_found_everywhere() -> None:
     assert format_plan(plan) == "wiggle 3"
     assert plan_from_json(plan_to_json(plan)) == plan
     assert "Wiggle" in plan_schema()["$defs"]
-    items = list(iterate_core(plan, LoweringContext(MECANUM)))
+    items = list(CoreWalk(plan, LoweringContext(MECANUM)))
     assert len(items) == 6
     assert all(isinstance(item, PlannedMotion) for item in items)
 

@@ -10,11 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
-from chatrobot.plan.findings import Finding
+from chatrobot.plan.context import Finding
 from chatrobot.plan.lowering import PlannedMotion
 from chatrobot.plan.rehearsal import MARGIN_M, Rehearsal, rehearse
 from chatrobot.plan.steps import Plan
-from chatrobot.plan.sweep import outline_points, transformed
+from chatrobot.plan.swept_path import outline_points, transformed
 from chatrobot.plan.text import parse_plan
 from chatrobot.robots.profile import RobotProfile
 from tests.plan.kernels import gentle_brake, half_speed, pass_all, steady
@@ -215,7 +215,7 @@ near = st.builds(
 def test_a_plan_that_would_touch_anything_is_always_refused(text: str) -> None:
     world = flat()
     result = rehearsed(text, world)
-    placed = transformed(outline_points(MECANUM.footprint, 0.01), result.path[:, 1:])
+    placed = transformed(outline_points(MECANUM.footprint), result.path[:, 1:])
     touches = bool((world.clearance_m(placed.reshape(-1, 2)) <= 0.0).any())
     assert not (touches and result.ok)
     free = bool((world.clearance_m(placed.reshape(-1, 2)) > MARGIN_M + 0.001).all())
@@ -236,16 +236,15 @@ def test_a_square_and_arcs_of_twenty_seconds_are_rehearsed_in_ten_milliseconds()
 
 
 def test_the_samples_are_the_trajectorys_own() -> None:
-    from chatrobot.plan.core_motion import RampedTwist
-    from chatrobot.plan.sampling import sample_poses, sample_ramp, tick_times
-    from chatrobot.plan.trajectory import Segment
+    from chatrobot.plan.swept_path import sample_poses, sample_ramp, tick_times
+    from chatrobot.plan.trajectory import RampedTwist, Segment
 
     for twist in (Twist(0.3, 0.1, 0.5), Twist(0.3, 0.1, 1e-7), Twist(0.2, 0, 0), Twist(0, 0, -1.0)):
         for hold_s in (0.01, 0.2, 3.0):
             segment = Segment(RampedTwist.within(MECANUM.limits, twist, hold_s), Pose(1, 2, 0.5))
             times = tick_times(segment.total_s, 0.02)
-            s, rate = sample_ramp(segment.ramp, times)
+            s = sample_ramp(segment.ramp, times)
             poses = sample_poses(segment, s)
             for i, t in enumerate(times):
-                assert (s[i], rate[i]) == pytest.approx(segment.ramp.at(float(t)), abs=1e-9)
+                assert s[i] == pytest.approx(segment.ramp.at(float(t))[0], abs=1e-9)
                 assert poses[i] == pytest.approx(segment.at(float(t))[0], abs=1e-9)

@@ -8,7 +8,6 @@ from hypothesis import strategies as st
 
 from chatrobot.core.geometry import ORIGIN
 from chatrobot.plan.rehearsal import Rehearsal, rehearse
-from chatrobot.plan.rounding import round_corners
 from chatrobot.plan.steps import Arc, Plan
 from chatrobot.plan.text import format_plan, parse_plan
 from tests.plan.kernels import pass_all
@@ -27,7 +26,7 @@ def codes(rehearsal: Rehearsal) -> list[str]:
 
 def test_a_base_that_turns_on_the_spot_keeps_its_corners() -> None:
     plan = parse_plan(SQUARE)
-    assert round_corners(plan, MECANUM).plan is plan
+    assert rehearse(plan, MECANUM, None, ORIGIN, pass_all).plan is plan
 
 
 def test_a_square_gets_round_corners_and_its_last_turn_is_left_out() -> None:

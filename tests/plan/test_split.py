@@ -14,11 +14,9 @@ from hypothesis import strategies as st
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.plan.base import Step
 from chatrobot.plan.context import LoweringContext
-from chatrobot.plan.core_motion import Pause, RampedTwist
-from chatrobot.plan.lowering import PlannedMotion, iterate_core
-from chatrobot.plan.primitive import Primitive
+from chatrobot.plan.lowering import CoreWalk, PlannedMotion
+from chatrobot.plan.primitive import Primitive, register, unregister
 from chatrobot.plan.reader import LineReader
-from chatrobot.plan.registry import register, unregister
 from chatrobot.plan.split import Parts, Reached, split
 from chatrobot.plan.steps import (
     Arc,
@@ -34,7 +32,7 @@ from chatrobot.plan.steps import (
     Wait,
 )
 from chatrobot.plan.text import format_plan, parse_plan
-from chatrobot.plan.trajectory import Segment
+from chatrobot.plan.trajectory import Pause, RampedTwist, Segment
 from tests.plan.robots import MECANUM
 
 START = Pose(1.0, -0.5, 0.3)
@@ -68,7 +66,7 @@ def driven(plan: Plan | None, start: Pose, plan_start: Pose | None = None) -> li
     """The motions of `plan` from `start`, all of which are possible."""
     if plan is None:
         return []
-    items = list(iterate_core(plan, LoweringContext(MECANUM, start, plan_start or start)))
+    items = list(CoreWalk(plan, LoweringContext(MECANUM, start, plan_start or start)))
     motions = [item for item in items if isinstance(item, PlannedMotion)]
     assert len(motions) == len(items)
     return motions

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from chatrobot.core.errors import PlanTextError
-from chatrobot.plan.registry import primitives
+from chatrobot.plan.primitive import primitives
 from chatrobot.plan.steps import (
     Arc,
     Drive,

@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from chatrobot.core.geometry import Pose, Twist
-from chatrobot.plan.core_motion import RAMP_SHARE, RampedTwist
-from chatrobot.plan.trajectory import Ramp, Segment
+from chatrobot.plan.trajectory import RAMP_SHARE, Ramp, RampedTwist, Segment
 from tests.plan.robots import MECANUM
 
 LIMITS = MECANUM.limits
@@ -46,12 +45,6 @@ def test_progress_never_runs_faster_than_time_nor_backwards(hold_s: float, k: fl
         previous_s, previous_rate = s, rate
 
 
-@given(holds, slopes, st.floats(0.0, 1.0))
-def test_time_at_inverts_progress(hold_s: float, k: float, share: float) -> None:
-    ramp = Ramp(hold_s, k)
-    assert ramp.at(ramp.time_at(share * hold_s))[0] == pytest.approx(share * hold_s, abs=1e-9 * (1 + hold_s))
-
-
 @given(holds, slopes, st.floats(-0.1, 1.1))
 def test_an_early_stop_goes_on_smoothly_and_never_farther(hold_s: float, k: float, share: float) -> None:
     ramp = Ramp(hold_s, k)
@@ -71,7 +64,6 @@ def test_a_stop_before_the_start_does_not_move_at_all() -> None:
     stopped = Ramp(2.0, 1.0).stop_early(0.0)
     assert stopped.total_s == 0.0
     assert stopped.at(1.0) == (0.0, 0.0)
-    assert stopped.time_at(0.5) == 0.0
 
 
 @given(twists, holds, starts)

@@ -3,27 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from chatrobot.plan.known_world import Floats
+from chatrobot.sim.shapes import Polygon
+from chatrobot.sim.world import Bounds
 
 Box = tuple[float, float, float, float]
 """min x, min y, max x, max y, in metres."""
-
-
-@dataclass(frozen=True)
-class BoxBounds:
-    min_x_m: float
-    min_y_m: float
-    max_x_m: float
-    max_y_m: float
-
-
-@dataclass(frozen=True)
-class Polygon:
-    points: tuple[tuple[float, float], ...]
 
 
 class BoxWorld:
@@ -36,11 +24,11 @@ class BoxWorld:
         return len(self.boxes) == 0
 
     @property
-    def bounds(self) -> BoxBounds | None:
+    def bounds(self) -> Bounds | None:
         if self.is_empty:
             return None
         low, high = self.boxes[:, :2].min(axis=0), self.boxes[:, 2:].max(axis=0)
-        return BoxBounds(float(low[0]), float(low[1]), float(high[0]), float(high[1]))
+        return Bounds(float(low[0]), float(low[1]), float(high[0]), float(high[1]))
 
     def clearance_m(self, points: Floats) -> Floats:
         if self.is_empty:

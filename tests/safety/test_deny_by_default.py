@@ -15,7 +15,7 @@ import pytest
 
 from chatrobot.core.errors import PlanTextError
 from chatrobot.link.envelope import MODES, PAYLOADS, WORDS, Envelope
-from chatrobot.plan.registry import RESERVED_VERBS, primitives
+from chatrobot.plan.primitive import RESERVED_VERBS, primitives
 from chatrobot.plan.text import parse_plan
 from tests.link.link_rigs import SimulatedRig, finished, send_plan
 

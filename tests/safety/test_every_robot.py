@@ -10,7 +10,7 @@ import pytest
 from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Twist
 from chatrobot.governor.governor import LONGEST_STEP_S
-from chatrobot.governor.priority import PRIORITIES, RELEASERS
+from chatrobot.governor.lease import PRIORITIES, RELEASERS
 from chatrobot.governor.rule import Sensed
 from chatrobot.robots.load import list_profiles
 from chatrobot.robots.profile import Circle, RobotProfile, Safety

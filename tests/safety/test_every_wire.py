@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from chatrobot.governor.priority import PRIORITIES
+from chatrobot.governor.lease import PRIORITIES
 from chatrobot.robots.load import ProfileEntry, list_profiles
 from chatrobot.robots.profile import Wiring
 from chatrobot.wire.connect import MODULES

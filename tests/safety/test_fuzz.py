@@ -38,12 +38,12 @@ def test_the_fuzzer_notices_a_governor_that_lets_through_what_was_asked(
 
 
 def test_the_fuzzer_notices_a_robot_that_is_fast_in_contact(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("chatrobot.governor.obstacles.AWAY_MPS", 0.3)
+    monkeypatch.setattr("chatrobot.governor.space_rules.AWAY_MPS", 0.3)
     assert fuzz.run_chunk(0, 200) != ""
 
 
 def test_the_fuzzer_notices_a_robot_that_comes_nearer_in_contact(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("chatrobot.governor.obstacles.NEARER_M", 0.5)
+    monkeypatch.setattr("chatrobot.governor.space_rules.NEARER_M", 0.5)
     assert fuzz.run_chunk(0, 200) != ""
 
 

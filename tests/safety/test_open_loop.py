@@ -35,7 +35,7 @@ from chatrobot.robots.open_loop import (
 )
 from chatrobot.robots.profile import NOT_CHOSEN, MotionBudget, RobotProfile
 from chatrobot.sim.load import load_world
-from chatrobot.sim.start import check_known
+from chatrobot.sim.world import check_known
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import TwistMessage
 from chatrobot.wire.wire import Wire
@@ -282,7 +282,7 @@ def test_a_paused_plan_is_stopped_and_not_gone_on_with() -> None:
 
 def test_a_world_is_refused_for_nobody_knows_where_in_it_the_robot_is() -> None:
     profile = open_loop(load_profile("wheeltec_mini_mec"))
-    with pytest.raises(UsageError, match="nobody knows"):
+    with pytest.raises(UsageError, match="without odometry"):
         check_known(load_world("home"), profile)
     check_known(load_world("empty"), profile)
 

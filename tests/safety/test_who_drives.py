@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from chatrobot.core.events import Event, Finished, Notice
-from chatrobot.governor.priority import RELEASERS
+from chatrobot.governor.lease import RELEASERS
 from chatrobot.link.envelope import Envelope
 from chatrobot.link.in_process import InProcessLink
 from chatrobot.link.motion_link import Sender

@@ -14,7 +14,7 @@ SOURCE = Path(chatrobot.__file__).parent
 WRITERS = {"transports/transport.py", "guard/__main__.py", "link/in_process.py"}
 """The transport; the guard, which knows zeros alone; the guard's rule on simulated time."""
 
-CARRIERS = {"motion/safety/connection_monitor.py", "sim/marshalled.py", "sim/robot.py"}
+CARRIERS = {"motion/safety/connection_monitor.py", "sim/network_wire.py", "sim/robot.py"}
 """Hand on what they were given: a wire around a wire, and the robot's own end with its sensors."""
 
 OTHER_GRAPHS = (

@@ -24,7 +24,7 @@ from chatrobot.link import topic_link as topics
 from chatrobot.models import providers
 from chatrobot.models.config import ModelConfig, resolve
 from chatrobot.options import PARAMETERS
-from chatrobot.plan import registry
+from chatrobot.plan import primitive
 from chatrobot.programs.library import Library
 from chatrobot.robots import load
 from chatrobot.robots.load import load_profile
@@ -88,7 +88,7 @@ def test_another_packages_profile_primitive_and_provider_are_found() -> None:
 
 
 def test_groups_and_topics_have_their_names() -> None:
-    groups = {registry.ENTRY_POINT_GROUP, load.ENTRY_POINT_GROUP, providers.ENTRY_POINTS}
+    groups = {primitive.ENTRY_POINT_GROUP, load.ENTRY_POINT_GROUP, providers.ENTRY_POINTS}
     assert groups == {*NAMES["entry_point_groups"].split()}
     assert connect.ENTRY_POINT_GROUP == "chatrobot.wires"
     ours = {value for module in (topics, wiring) for value in vars(module).values() if isinstance(value, str)}

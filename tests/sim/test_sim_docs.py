@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from chatrobot.sim.fault_injection import FaultInjection
-from chatrobot.sim.world_file import parse_world
+from chatrobot.sim.load import parse_world
 
 DOCS = (Path(__file__).parents[2] / "docs" / "simulation.md").read_text(encoding="utf-8")
 

@@ -14,8 +14,7 @@ from tests.under_signals import see_every_wait_end
 from chatrobot.core.errors import WireError
 from chatrobot.robots.profile import Lidar
 from chatrobot.sim.__main__ import main
-from chatrobot.sim.marshalled import MarshalledWire
-from chatrobot.sim.tf import TransformPublisher
+from chatrobot.sim.network_wire import MarshalledWire, TransformPublisher
 from chatrobot.wire.memory import MemoryHub
 from chatrobot.wire.messages import Message, Number, Odometry
 from chatrobot.wire.wire import Wire
@@ -58,7 +57,7 @@ def test_callbacks_come_on_the_thread_that_polls_and_in_order() -> None:
 
 def test_a_signal_in_the_last_moment_of_a_wait_does_not_make_it_wait_for_ever() -> None:
     imports = (
-        "from chatrobot.sim.marshalled import MarshalledWire\nfrom chatrobot.wire.memory import MemoryHub"
+        "from chatrobot.sim.network_wire import MarshalledWire\nfrom chatrobot.wire.memory import MemoryHub"
     )
     see_every_wait_end(imports, "MarshalledWire(MemoryHub().connect())", "poll(0.002)")
 

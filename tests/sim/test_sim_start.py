@@ -10,9 +10,8 @@ from chatrobot.compose import Setup, connect
 from chatrobot.core.errors import WorldError
 from chatrobot.robots.load import list_profiles, load_profile
 from chatrobot.sim.__main__ import main
-from chatrobot.sim.load import load_world
-from chatrobot.sim.start import check_start
-from chatrobot.sim.world_file import parse_world
+from chatrobot.sim.load import load_world, parse_world
+from chatrobot.sim.world import check_start
 
 MECANUM = load_profile("wheeltec_mini_mec")
 """0.27 m long, 0.222 m wide."""

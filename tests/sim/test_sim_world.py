@@ -15,10 +15,9 @@ from hypothesis import strategies as st
 from chatrobot.core.errors import WorldError
 from chatrobot.core.geometry import Pose
 from chatrobot.sim.distance_field import FAR_M, RESOLUTION_M, DistanceField, build_distance_field
-from chatrobot.sim.load import load_world
+from chatrobot.sim.load import load_world, parse_world
 from chatrobot.sim.shapes import Circle, Shape, polygon, rectangle
 from chatrobot.sim.world import EMPTY_WORLD, World
-from chatrobot.sim.world_file import parse_world
 
 HOME = load_world("home")
 BODY_M = 0.25

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 
 import chatrobot
-from chatrobot.plan.registry import AnyPrimitive, primitives
+from chatrobot.plan.primitive import AnyPrimitive, primitives
 from chatrobot.testing.contracts import PrimitiveContract
 from chatrobot.testing.rig import RecordingWire
 from chatrobot.wire.memory import MemoryHub

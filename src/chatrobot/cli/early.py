@@ -50,7 +50,7 @@ class Early:
         if args.on in SIMULATED:
             from chatrobot.sim.fault_injection import FaultInjection
             from chatrobot.sim.load import load_world
-            from chatrobot.sim.start import check_known
+            from chatrobot.sim.world import check_known
 
             world = args.world or ("empty" if args.open_loop else "home")
             check_known(load_world(world), profile)

@@ -11,7 +11,7 @@ from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.reason import fixed
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.phrases import render_reason, say
-from chatrobot.plan.folded import folded_plan
+from chatrobot.plan.shown import folded_plan
 
 _CLEAR_LINE = "\r\x1b[K"
 _MARKS = {"refuse": "✗", "warn": "!", "note": "·"}

@@ -16,7 +16,7 @@ from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import one_line
 from chatrobot.language.context import Place
 from chatrobot.plan.context import Route
-from chatrobot.plan.primitives.go import MAX_PLACE_CHARS
+from chatrobot.plan.primitives.drive import MAX_PLACE_CHARS
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.world import World
 

@@ -1,4 +1,4 @@
-"""Where the robot is, from wheel odometry and, where there is one, a gyro.
+"""Pose estimation from wheel odometry and, where there is one, a gyro.
 
 Wheels that slip overstate both how far and how much the robot turned; a gyro only has a bias, and that can be
 measured while the robot is at rest. So distances come from the wheels and headings from the gyro.
@@ -12,9 +12,53 @@ from dataclasses import dataclass
 from chatrobot.core.geometry import Pose, Twist, wrap_angle
 from chatrobot.core.reason import Reason
 from chatrobot.execution.heading import Heading
-from chatrobot.execution.rest import STANDING_RATE_RADPS, STANDING_SPEED_MPS, Rest
 from chatrobot.robots.profile import Calibration, Limits
 from chatrobot.wire.messages import Imu, Odometry
+
+STANDING_SPEED_MPS = 0.005
+STANDING_RATE_RADPS = 0.02
+SETTLED_S = 0.15
+"""A robot that was told to stand has braked and rocks no more after so long."""
+UNROLLED_S = 0.06
+"""Wheels stand when several messages in a row have said so."""
+
+
+class Rest:
+    """Tells since when the robot has been at rest: told to stand, and seen not to roll.
+
+    A gyro's bias may only be learned then. That the wheels look slow is not enough: a robot that is told to creep
+    does. `note_command` may come from another thread than `see`.
+    """
+
+    def __init__(self) -> None:
+        self._told_since_s = -math.inf
+        self._still_since_s = math.inf
+
+    def note_command(self, *, is_zero: bool, now_s: float) -> None:
+        """Note that the robot has just been told to stand, or to move."""
+        if not is_zero:
+            self._told_since_s = math.inf
+        elif self._told_since_s == math.inf:
+            self._told_since_s = now_s
+
+    def see(self, message: Odometry) -> None:
+        """Take what its wheels do."""
+        speed_mps = math.hypot(message.vx_mps, message.vy_mps)
+        if speed_mps >= STANDING_SPEED_MPS or abs(message.wz_radps) >= STANDING_RATE_RADPS:
+            self._still_since_s = math.inf
+        elif self._still_since_s == math.inf:
+            self._still_since_s = message.stamp_s
+
+    @property
+    def told_since_s(self) -> float:
+        """Return since when it is told to stand; infinite where it was told to move, minus infinity if never."""
+        return self._told_since_s
+
+    @property
+    def since_s(self) -> float:
+        """Return since when it has been at rest, once the body was still, too; infinite where it moves."""
+        return max(self._told_since_s + SETTLED_S, self._still_since_s + UNROLLED_S)
+
 
 HISTORY = 100
 """Estimates kept to tell where a scan was made: a second of them."""
@@ -41,6 +85,7 @@ class Estimate:
 
     @property
     def is_standing(self) -> bool:
+        """Return True where it moves too slowly to be seen moving."""
         return self.twist.speed_mps < STANDING_SPEED_MPS and abs(self.twist.wz_radps) < STANDING_RATE_RADPS
 
 
@@ -68,7 +113,7 @@ class PoseEstimator:
         """Counts the times odometry began anew: coordinates of an older epoch mean nothing any more."""
 
     def pose_at(self, stamp_s: float) -> Pose | None:
-        """Where the robot was at `stamp_s`, to one odometry sample; None before the first."""
+        """Return where the robot was at `stamp_s`, to one odometry sample; None before the first."""
         history = self._history
         for estimate in reversed(history):
             if estimate.stamp_s <= stamp_s:
@@ -76,11 +121,11 @@ class PoseEstimator:
         return history[0].pose if history else None
 
     def on_imu(self, message: Imu) -> None:
-        """A gyro sample; it counts with the next odometry."""
+        """Take a gyro sample; it counts with the next odometry."""
         self._heading.on_imu(message)
 
     def on_odometry(self, message: Odometry) -> None:
-        """A wheel odometry sample."""
+        """Take a wheel odometry sample."""
         if not all(map(math.isfinite, message)):
             self.fault = Reason("odometry_not_finite")
             return
@@ -103,7 +148,7 @@ class PoseEstimator:
         self._advance(message, step)
 
     def _jump(self, step: Pose, before: Twist, dt_s: float) -> Reason | None:
-        """Why a robot that did `before` cannot have made that step in `dt_s`; None where it can."""
+        """Return why a robot that did `before` cannot have made that step in `dt_s`; None where it can."""
         limits = self._limits
         if dt_s <= GAP_S:
             off_m = math.hypot(step.x_m, step.y_m) - 2.0 * limits.max_speed_mps * dt_s
@@ -123,7 +168,7 @@ class PoseEstimator:
         self._history = (*self._history[1 - HISTORY :], self.estimate)
 
     def _turn(self, message: Odometry) -> float:
-        """How much it has turned since the message before."""
+        """Return how much it has turned since the message before."""
         before_rad = self._turned_rad
         self._turned_rad = self._heading.at(message.stamp_s, self.wheel_yaw_rad, self.rest.since_s)
         return self._turned_rad - before_rad
@@ -152,7 +197,7 @@ class PoseEstimator:
 
 
 def _off_course(step: Pose, before: Twist, limits: Limits, gap_s: float) -> tuple[float, float]:
-    """How far, in metres and radians, `step` is from all that the robot may have done in a gap of `gap_s`.
+    """Return how far, in metres and radians, `step` is from all that the robot may have done in a gap of `gap_s`.
 
     It stood, or went on along the course it was on, for a while and at any speed up to its limit.
     """

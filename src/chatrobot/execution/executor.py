@@ -13,24 +13,23 @@ from chatrobot.core.events import Event, Outcome, Progress, Remembered, Said
 from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.execution.estimator import Estimate
-from chatrobot.execution.health import (
-    STANDS_LATE_S,
-    is_seen_moving,
-    is_seen_standing,
-    sensor_fault,
+from chatrobot.execution.reference_trajectory import ReferenceTrajectory, Tally
+from chatrobot.execution.sensors import STANDS_LATE_S, Sensors, is_seen_moving, is_seen_standing, sensor_fault
+from chatrobot.execution.tracking import (
+    AT_THE_END,
+    BETWEEN_STEPS,
+    TRIES,
+    Tolerance,
+    corrected,
+    correction,
+    must_brake,
     tracking_fault,
+    without_reverse,
 )
-from chatrobot.execution.lookahead import must_brake
-from chatrobot.execution.reference_trajectory import ReferenceTrajectory
-from chatrobot.execution.sensors import Sensors
-from chatrobot.execution.tally import Tally
-from chatrobot.execution.terminal_correction import AT_THE_END, BETWEEN_STEPS, TRIES, Tolerance, correction
-from chatrobot.execution.tracking import corrected, without_reverse
 from chatrobot.plan.context import Impossible
-from chatrobot.plan.core_motion import CoreMotion, Emit, Pause
 from chatrobot.plan.lowering import NotYet, Walk
 from chatrobot.plan.split import Reached
-from chatrobot.plan.trajectory import Segment
+from chatrobot.plan.trajectory import CoreMotion, Emit, Pause, Segment
 from chatrobot.robots.profile import RobotProfile
 
 UNSEEN_S = 0.1
@@ -46,7 +45,7 @@ LATE_BY_S = (0.15, 0.3, 0.45, 0.6)
 """How long a bad Wi-Fi may keep our velocities and the robot's news together."""
 
 LAGS = frozenset({"does_not_move", "does_not_follow"})
-"""What a robot may look like that does what it is told, only late; one that goes another way is none of them."""
+"""Faults that a robot may show that does what it is told, only late; going another way is none of them."""
 
 RAMP_RULES = frozenset({"", "speed", "acceleration"})
 """What the governor does to any motion: no reason to wait."""
@@ -79,7 +78,7 @@ class Executor:
         self._timed: Twist | None = None
         self._asked = ZERO_TWIST
         self._withheld = 0.0
-        """What share of the last request was not sent: for so long the reference waits."""
+        """The share of the last request, 0 to 1, that was not sent: for so long the reference waits."""
         self._noted_s = 0.0
         self._first_tick = False
         self._ending: Reason | None = None
@@ -95,26 +94,24 @@ class Executor:
         self._started_s = now_s
 
     def expect(self, duration_s: float) -> None:
-        """The walk has become longer: `duration_s` in all."""
+        """Take in that the walk has become longer: `duration_s` in all."""
         self._duration_s = duration_s
 
     # --- what Motion reads ---
 
     @property
     def steps_done(self) -> int:
-        """Steps finished, repeats counted each time."""
+        """Return how many steps are finished, repeats counted each time."""
         return self.steps if self.is_done and self.reason is None else max(0, self.step - 1)
 
     @property
     def reached(self) -> Reached | None:
-        """How far the plan has been driven, as odometry shows it just now; None where there is no odometry."""
+        """Return how far the plan has been driven, as odometry shows it just now; None without odometry."""
         estimate = self._sensors.estimate
-        if estimate is None or not self._sensors.has_odometry:
-            return None
-        return self._tally.reached(estimate.pose)
+        return self._tally.reached(estimate.pose) if estimate is not None else None
 
     def progress(self, turn: int, now_s: float) -> Progress:
-        """How far it is, by the rehearsed duration."""
+        """Return how far it is, by the rehearsed duration."""
         share = (now_s - self._started_s) / self._duration_s if self._duration_s > 0.0 else 1.0
         estimate = self._sensors.estimate
         pose, twist = (
@@ -125,7 +122,7 @@ class Executor:
         return Progress(turn, self.step, self.steps, max(0.0, min(1.0, share)), pose, twist)
 
     def note(self, rule: str, reason: Reason | None, sent: Twist, now_s: float) -> None:
-        """What the governor made of the last request.
+        """Take what the governor made of the last request.
 
         Where a rule slows the robot the reference waits for it, until it has its speed again; a way that stays barred
         ends the plan.
@@ -149,11 +146,11 @@ class Executor:
     # --- control ---
 
     def ramp_down(self, reason: Reason) -> None:
-        """A controlled stop: brake along the path, then end as `stopped`."""
+        """Brake along the path, then end as `stopped`: a controlled stop."""
         self._ending = reason
 
     def tick(self, now_s: float) -> Twist:
-        """The twist to ask for now, in the robot's frame."""
+        """Return the twist to ask for now, in the robot's frame."""
         fault = sensor_fault(self._sensors)
         if fault is not None:
             return self._end("failed", fault)
@@ -215,10 +212,8 @@ class Executor:
         self._reference.begin(segment, now_s)
         self._first_tick = True
         estimate = self._sensors.estimate
-        self._begin = (
-            estimate.pose if estimate is not None else segment.start,
-            self._sensors.estimator.wheel_yaw_rad,
-        )
+        pose = estimate.pose if estimate is not None else segment.start
+        self._begin = (pose, self._sensors.estimator.wheel_yaw_rad)
 
     def _drive(self, segment: Segment, now_s: float) -> Twist | None:
         t_s = now_s - self._reference.began_s
@@ -231,7 +226,7 @@ class Executor:
         self._first_tick = False
         _, twist = segment.at(t_s + TICK_S / 2.0)  # the mean over the tick it will be held for
         estimate = self._sensors.estimate
-        if estimate is None or not self._sensors.has_odometry:
+        if estimate is None:
             return twist
         reference = self._reference_at(estimate)
         fault = self._tracking_fault(segment, reference, estimate)
@@ -240,7 +235,7 @@ class Executor:
         return corrected(self._profile, segment, twist, reference.relative_to(estimate.pose))
 
     def _reference_at(self, estimate: Estimate) -> Pose:
-        """Where the robot should be when it is seen as in `estimate`, as late as it does what it is told."""
+        """Return where it should be when it is seen as in `estimate`, as late as it does what it is told."""
         return self._reference.at(estimate.stamp_s - self._sensors.response.lag_s)
 
     def _tracking_fault(self, segment: Segment, reference: Pose, estimate: Estimate) -> Reason | None:
@@ -265,7 +260,7 @@ class Executor:
 
     def _cut_short(self, segment: Segment, t_s: float) -> Segment:
         """Brake where the plan's condition holds, or where a controlled stop was asked for."""
-        if self._ending is None and not must_brake(self._profile, self._sensors.scan, segment, t_s, TICK_S):
+        if self._ending is None and not must_brake(self._profile, self._sensors.scan, segment, t_s):
             return segment
         shorter = segment.stop_early(t_s)
         if shorter.total_s >= segment.total_s:
@@ -304,7 +299,7 @@ class Executor:
         """The plan is done: see the robot stand, and drive the rest that feedback left, if it is worth it."""
         assert self._settle_since_s is not None
         waited_s = now_s - self._settle_since_s
-        if not self._sensors.has_odometry or self._sensors.estimate is None:
+        if self._sensors.estimate is None:
             return ZERO_TWIST if waited_s < UNSEEN_S else self._end("completed", None)
         seen = is_seen_standing(self._sensors)
         if not seen and waited_s < (STANDS_LATE_S if is_seen_moving(self._sensors) else SETTLE_S):
@@ -317,7 +312,7 @@ class Executor:
     def _correct(self, tolerance: Tolerance, now_s: float) -> bool:
         """Begin a small motion back to the reference if the rest is beyond `tolerance`. True if begun."""
         estimate = self._sensors.estimate
-        if estimate is None or not self._sensors.has_odometry or self._corrections_left == 0:
+        if estimate is None or self._corrections_left == 0:
             return False
         rest = self._reference_at(estimate).relative_to(estimate.pose)
         if self._timed is not None:  # it was to last so long: that it went too far is told, not driven back
@@ -334,9 +329,8 @@ class Executor:
     def _tell(self, motion: Emit) -> None:
         estimate = self._sensors.estimate
         if motion.kind == "remember":
-            self._emit(
-                Remembered(self._turn, motion.text, estimate.pose if estimate else self._reference.reference)
-            )
+            pose = estimate.pose if estimate is not None else self._reference.reference
+            self._emit(Remembered(self._turn, motion.text, pose))
         else:
             self._emit(Said(self._turn, motion.text))
 

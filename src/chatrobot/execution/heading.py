@@ -1,4 +1,4 @@
-"""How much the robot has turned: by its gyro, and by its wheels where the gyro is silent or not yet calibrated.
+"""Heading: by the gyro, and by the wheels where the gyro is silent or not yet calibrated.
 
 Odometry and gyro come in no certain order, so each gyro sample waits for odometry that is at least as new as itself:
 only then is it known whether the robot was at rest while the sample was taken.
@@ -47,7 +47,7 @@ class _Sample(NamedTuple):
 
 
 class Heading:
-    """Feed it gyro samples as they come, and with each odometry what the wheels have turned in all.
+    """Sums up turns. Feed it gyro samples as they come, and with each odometry what the wheels have turned in all.
 
     Args:
         turn_scale: what is really turned for each radian that wheels and gyro tell.
@@ -67,16 +67,16 @@ class Heading:
 
     @property
     def has_gyro(self) -> bool:
-        """There is a gyro, and its bias is known."""
+        """Return True where there is a gyro, and its bias is known."""
         return self._bias_samples > 0
 
     def on_imu(self, message: Imu) -> None:
-        """A gyro sample, from any thread."""
+        """Take a gyro sample, from any thread."""
         if math.isfinite(message.wz_radps):
             self._waiting.append(message)
 
     def at(self, stamp_s: float, wheels_rad: float, rested_since_s: float) -> float:
-        """The turn in all at `stamp_s`, when odometry says that the wheels have turned `wheels_rad` in all.
+        """Return the turn in all, rad, at `stamp_s`, when the wheels have turned `wheels_rad` in all.
 
         Args:
             rested_since_s: since when the robot has been at rest; infinite where it moves.
@@ -90,7 +90,7 @@ class Heading:
         return self._settled_rad + self._turn_scale * (wheels_rad - self._wheels_at_settled_rad)
 
     def rate_radps(self, stamp_s: float, wheels_radps: float) -> float:
-        """How fast it turns at `stamp_s`, where the wheels say `wheels_radps`."""
+        """Return how fast it turns at `stamp_s`, where the wheels say `wheels_radps`."""
         if self.has_gyro and stamp_s - self._settled_s < GYRO_GAP_S:
             return self._rate_radps
         return wheels_radps * self._turn_scale
@@ -128,7 +128,7 @@ class Heading:
         self._rest.clear()
 
     def _is_quiet(self) -> bool:
-        """Neither the gyro's samples nor the wheels show that anything moved meanwhile."""
+        """Return True where neither the gyro's samples nor the wheels show that anything moved meanwhile."""
         rolled_rad = abs(sum(sample.wheel_turn_rad for sample in self._rest))
         spread_radps = statistics.pstdev(sample.rate_radps for sample in self._rest)
         return rolled_rad <= ROLLED_RAD and spread_radps <= STILL_RADPS
@@ -139,7 +139,7 @@ class Heading:
             self.bias_radps += (sample.rate_radps - self.bias_radps) / self._bias_samples
 
     def _turn_meanwhile(self) -> None:
-        """What looked like rest, and was too short or too lively for it, is part of the turn."""
+        """Count as turned what looked like rest, and was too short or too lively for it."""
         if not self.has_gyro and len(self._rest) >= FIRST_SAMPLES and self._is_quiet():
             self._average()
         for sample in self._rest:
@@ -154,7 +154,7 @@ class Heading:
         self._settled_rad += self._turn_scale * turn_rad
 
     def _wheels_at(self, stamp_s: float) -> float:
-        """What the wheels had turned by `stamp_s`, between two odometry messages."""
+        """Return what the wheels had turned by `stamp_s`, between two odometry messages."""
         for (after_s, after_rad), (before_s, before_rad) in pairwise(reversed(self._wheels)):
             if before_s <= stamp_s:
                 share = (stamp_s - before_s) / (after_s - before_s)

@@ -1,4 +1,4 @@
-"""When would this twist touch something? In seconds of the twist itself, so that one rule serves every direction.
+"""Time to contact: in seconds of the twist itself, so that one rule serves every direction.
 
 A robot that follows a constant twist sweeps its footprint along a screw motion. For points that the lidar saw, the
 clearance of the footprint is sampled along that motion; where it falls below the margin, there is contact. Forward,
@@ -38,7 +38,7 @@ class Footprint:
         self.radius_m = float(np.hypot(corners[:, 0], corners[:, 1]).max())
 
     def clearance_m(self, x_m: Floats, y_m: Floats) -> Floats:
-        """Of points in the robot's frame, in the shape of both."""
+        """Return the clearance of points in the robot's frame, in the shape of both."""
         # One plane after the other: numpy is slow along a short last axis, and this is most of what a tick costs.
         clearance = np.full_like(x_m, -math.inf)
         for normal_x, normal_y, away in self._planes:
@@ -46,7 +46,7 @@ class Footprint:
         return clearance
 
     def kept_m(self, x_m: Floats, y_m: Floats) -> Floats:
-        """Of points on a way, [times, n]: what is kept clear at least from one time to the next, [times - 1, n].
+        """Return what points on a way, [times, n], keep clear at least from one time to the next, [times - 1, n].
 
         A point that passes a corner is nearest between two times. Its distance to each side goes nearly straight.
         """
@@ -57,7 +57,7 @@ class Footprint:
         return kept
 
     def nearest_m(self, points: Floats, within_m: float) -> float:
-        """The clearance of the nearest of points [n, 2] in the robot's frame; infinite where it is not `within_m`."""
+        """Return the clearance of the nearest of points [n, 2] in the robot's frame; infinite beyond `within_m`."""
         reach_m = self.radius_m + within_m
         close = points[np.einsum("ij,ij->i", points, points) <= reach_m * reach_m]
         return float(self.clearance_m(close[:, 0], close[:, 1]).min(initial=math.inf))
@@ -66,7 +66,7 @@ class Footprint:
 def seconds_to_contact(
     footprint: Footprint, points: Floats, twist: Twist, horizon_s: float, margin_m: float
 ) -> float:
-    """How long `twist` may be followed before a point comes within `margin_m` of the footprint.
+    """Return how long `twist` may be followed before a point comes within `margin_m` of the footprint.
 
     Args:
         points: [n, 2], metres, in the robot's frame.
@@ -88,6 +88,14 @@ def seconds_to_contact(
     if len(near) == 0:
         return math.inf
     clearance = footprint.clearance_m(*_seen_from(near, angle, moved_x, moved_y))
+    return seconds_until_below(clearance, times, margin_m)
+
+
+def seconds_until_below(clearance: Floats, times: Floats, margin_m: float) -> float:
+    """Return when a clearance [times, n], metres, falls to `margin_m`, in seconds; infinite where it does not.
+
+    What is below it already counts only where it shrinks: from the moment before that.
+    """
     worrying = (clearance <= margin_m) & (clearance < clearance[0] - SHRINKS_BY_M)
     hits = np.flatnonzero(worrying.any(axis=1))
     if len(hits) == 0:
@@ -104,7 +112,7 @@ def seconds_to_contact(
 def comes_nearer(
     footprint: Footprint, points: Floats, twist: Twist, horizon_s: float, nearest_m: float, by_m: float
 ) -> bool:
-    """Whether `twist` brings a point nearer, by more than `by_m`, than it is and than the nearest one is.
+    """Return True where `twist` brings a point nearer, by more than `by_m`, than it is and than the nearest one is.
 
     Args:
         points: [n, 2], metres, in the robot's frame.

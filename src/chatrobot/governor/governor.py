@@ -11,16 +11,21 @@ from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
 from chatrobot.core.governed import GovernedTwist, Mint, StopEpoch
 from chatrobot.core.reason import Reason
-from chatrobot.governor.command_arbiter import CommandArbiter, Handover
-from chatrobot.governor.jerk import JerkLimit
-from chatrobot.governor.kernel import bounded, make_kernel
-from chatrobot.governor.lease import Leases
-from chatrobot.governor.narrowed import NarrowedRule
-from chatrobot.governor.obstacle_memory import NO_POINTS, ObstacleMemory
-from chatrobot.governor.priority import RELEASERS
-from chatrobot.governor.rule import NOTHING_SENSED, Sensed, Situation
-from chatrobot.governor.rules import Composed, Setting, compose, make_rules
-from chatrobot.governor.scan_coverage import Floats, LidarView
+from chatrobot.governor.kernel import JerkLimit, bounded, make_kernel
+from chatrobot.governor.lease import RELEASERS, CommandArbiter, Handover, Leases
+from chatrobot.governor.obstacle_memory import NO_POINTS, Floats, LidarView, ObstacleMemory
+from chatrobot.governor.rule import (
+    NOTHING_SENSED,
+    BatteryRule,
+    Composed,
+    NarrowedRule,
+    Rule,
+    Sensed,
+    SensorRule,
+    Situation,
+    compose,
+)
+from chatrobot.governor.space_rules import BlindRule, FenceRule, ObstacleRule
 from chatrobot.robots.open_loop import OPEN_LOOP_MPS, OPEN_LOOP_RADPS
 from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.wire.messages import LaserScan
@@ -33,7 +38,7 @@ LATE_RADPS = 0.1
 """A ramp that is still this much above what the way allows is too late."""
 
 FARTHEST = 1e6
-"""In metres and radians: a pose beyond it (or one of no numbers) is as good as none."""
+"""Metres, and radians: a pose beyond it (or one of no numbers) is as good as none."""
 
 LATE_BEAT = "late_beat"
 """The rule in whose name a source whose heartbeat is late is slowed."""
@@ -44,7 +49,7 @@ VOID_EPOCH = -1
 
 @dataclass(frozen=True)
 class Verdict:
-    """What the governor made of a request. `asked` and `sent` differ where `action` is not `passed`.
+    """Tells what the governor made of a request. `asked` and `sent` differ where `action` is not `passed`.
 
     `allowed` is what the rules leave of `asked`; `sent` is on its way there as fast as the ramps allow. A refusal
     carries a zero to send, but for `outranked`: another drives, and nothing is to be sent.
@@ -56,6 +61,29 @@ class Verdict:
     sent: GovernedTwist
     allowed: Twist
     reason: Reason | None = None
+
+
+def make_rules(
+    profile: RobotProfile, seen: ObstacleMemory | None = None, area: Sequence[Point] | None = None
+) -> list[Rule]:
+    """Return the rules that apply to one robot; a new rule is added here.
+
+    Args:
+        area: the corners of the area that the world allows, in `odom`.
+    """
+    safety = profile.safety
+    rules: list[Rule] = []
+    if safety.requires:
+        rules.append(SensorRule(profile))
+    if seen is not None:
+        rules += [ObstacleRule(profile, seen), BlindRule(profile, seen)]
+    if safety.fence is not None:
+        rules.append(FenceRule(profile, safety.fence))
+    if area:
+        rules.append(FenceRule(profile, area))
+    if safety.battery_low_percent is not None:
+        rules.append(BatteryRule(profile, safety.battery_low_percent))
+    return rules
 
 
 class Governor:
@@ -92,7 +120,7 @@ class Governor:
         self._latch: Reason | None = None
         self._obstacle_memory = ObstacleMemory(profile.lidar) if profile.lidar is not None else None
         self._narrowed = NarrowedRule()
-        self._rules = [self._narrowed, *make_rules(Setting(profile, self._obstacle_memory, area))]
+        self._rules = [self._narrowed, *make_rules(profile, self._obstacle_memory, area)]
         if profile.open_loop:
             self.narrow(OPEN_LOOP_MPS, OPEN_LOOP_RADPS)
 
@@ -100,7 +128,7 @@ class Governor:
 
     @property
     def latched(self) -> Reason | None:
-        """Why and by whom the emergency stop is set; None where it is not."""
+        """Return why and by whom the emergency stop is set; None where it is not."""
         return self._latch
 
     def latch(self, source: str, why: str) -> None:
@@ -131,27 +159,27 @@ class Governor:
         return self._command_arbiter.take(lease_id, now_s)
 
     def end(self, lease_id: str) -> None:
-        """That source's motion is over; nobody is in command."""
+        """End that source's motion; nobody is in command."""
         self._command_arbiter.leave(lease_id)
 
     def narrow(self, speed_mps: float = math.inf, rate_radps: float = math.inf) -> None:
-        """From now on at most these. There is no way back: a limit can only shrink. Raises ValueError."""
+        """Allow at most these from now on. There is no way back: a limit can only shrink. Raises ValueError."""
         self._narrowed.narrow(speed_mps, rate_radps)
 
     # --- every tick ---
 
     @property
     def seen_points(self) -> Floats:
-        """What the lidar sees around the robot and remembers, [n, 2] in `odom`: what a rehearsal has to know of."""
+        """Return what the lidar sees around the robot and remembers, [n, 2] in `odom`."""
         return self._obstacle_memory.points if self._obstacle_memory is not None else NO_POINTS
 
     @property
     def latest_view(self) -> LidarView | None:
-        """Where the lidar looked with its latest scan."""
+        """Return where the lidar looked with its latest scan."""
         return self._obstacle_memory.coverage.latest if self._obstacle_memory is not None else None
 
     def take_scan(self, scan: LaserScan, pose: Pose) -> None:
-        """What the lidar saw when the robot stood at `pose` (of `odom`)."""
+        """Take what the lidar saw when the robot stood at `pose` (of `odom`)."""
         if self._obstacle_memory is not None:
             self._obstacle_memory.take(scan, pose)
 
@@ -163,7 +191,7 @@ class Governor:
         pose: Pose | None = None,
         sensed: Sensed = NOTHING_SENSED,
     ) -> Verdict:
-        """What may be sent at `now_s` for `asked` under that lease, by a robot at `pose` (of `odom`, if known).
+        """Return what may be sent at `now_s` for `asked` under that lease, by a robot at `pose` (of `odom`, if known).
 
         After a stop, or after a pause, ramps begin at zero again. With a heartbeat that is late it goes slower.
         """

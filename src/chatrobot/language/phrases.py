@@ -10,8 +10,7 @@ from functools import cache
 from chatrobot.core.reason import ANGLE_PLACES, LENGTH_PLACES, Reason, Value, number
 from chatrobot.language.data_files import load_table
 from chatrobot.language.typed import codes, typed
-from chatrobot.plan.folded import repeated, runs
-from chatrobot.plan.shown import shown_plan
+from chatrobot.plan.shown import repeated, runs, shown_plan
 from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, RawTwist, Remember, Repeat, Say, Step, Turn, Wait
 from chatrobot.plan.text import format_step, parse_plan
 

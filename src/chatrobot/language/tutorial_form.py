@@ -13,7 +13,7 @@ from chatrobot.language.quantities import read_quantities
 from chatrobot.language.tokens import Atom, tokenise
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import RawTwist
-from chatrobot.plan.tutorial_form import NUMBER, ImpossibleTwistError, read_tutorial_line, twist_from
+from chatrobot.plan.text import NUMBER, ImpossibleTwistError, read_tutorial_line, twist_from
 
 _BLOCK = re.compile(r"['\"]?(linear|angular)['\"]?\s*:\s*\{([^{}]*)\}")
 _ENTRY = re.compile(rf"['\"]?([xyz])['\"]?\s*:\s*({NUMBER})")

@@ -16,8 +16,8 @@ from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.execution.sensors import Sensors
-from chatrobot.governor.priority import RELEASERS, Priority, priority_of
-from chatrobot.plan.free_part import Most
+from chatrobot.governor.lease import RELEASERS, Priority, priority_of
+from chatrobot.plan.swept_path import Most
 from chatrobot.robots.profile import OPEN_LOOP, Limits, MotionBudget, RobotProfile, read_limit
 
 REACHED = frozenset(

@@ -19,10 +19,10 @@ from chatrobot.motion.budgets import Account, Extent
 from chatrobot.motion.planner import Planned
 from chatrobot.plan.base import Step
 from chatrobot.plan.context import MAX_DURATION_S
-from chatrobot.plan.free_part import Most
-from chatrobot.plan.lowering import NOT_YET, CoreWalk, NotYet, PlannedMotion, WalkItem, iterate_core
+from chatrobot.plan.lowering import NOT_YET, CoreWalk, NotYet, PlannedMotion, WalkItem
 from chatrobot.plan.rehearsal import Rehearsal
 from chatrobot.plan.steps import MAX_LINES, count_steps
+from chatrobot.plan.swept_path import Most
 
 PARTS_LIMIT = MAX_LINES
 
@@ -182,7 +182,7 @@ class PartedWalk:
         self._numbers_before += numbers
         self._walked = (len(part.plan.steps), count_steps(part.plan.steps))
         # From where the part before it really ended: its condition may have come true early.
-        self._walk = iterate_core(part.plan, replace(part.context, pose=self._pose))
+        self._walk = CoreWalk(part.plan, replace(part.context, pose=self._pose))
         return True
 
     def _counted(self, item: PlannedMotion) -> PlannedMotion:

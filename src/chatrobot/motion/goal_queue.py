@@ -12,7 +12,7 @@ from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Finished, Notice, Outcome, Paused
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
-from chatrobot.governor.priority import Priority
+from chatrobot.governor.lease import Priority
 from chatrobot.link.envelope import QUEUE_LIMIT, Envelope
 from chatrobot.link.motion_link import LAPSES_AFTER_M, LAPSES_AFTER_RAD
 from chatrobot.motion.goal import Goal

@@ -10,7 +10,7 @@ from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Finished, Notice, Outcome
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
-from chatrobot.governor.priority import Priority
+from chatrobot.governor.lease import Priority
 from chatrobot.link.envelope import Envelope
 from chatrobot.link.motion_link import Approval
 from chatrobot.motion.budgets import Budgets

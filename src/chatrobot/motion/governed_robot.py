@@ -11,12 +11,10 @@ from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 from chatrobot.core.governed import GovernedTwist
 from chatrobot.core.reason import Reason
 from chatrobot.execution.executor import RAMP_RULES
-from chatrobot.execution.health import freshness, sensor_fault, silence
-from chatrobot.execution.lookahead import nearest_m
-from chatrobot.execution.sensors import Sensors
+from chatrobot.execution.sensors import Sensors, freshness, sensor_fault, silence
+from chatrobot.execution.tracking import nearest_m
 from chatrobot.governor.governor import Governor, Verdict
-from chatrobot.governor.rule import Sensed
-from chatrobot.governor.sensors_due import silent_after_s
+from chatrobot.governor.rule import Sensed, silent_after_s
 from chatrobot.motion.remembered_obstacles import RememberedObstacles, Sight
 from chatrobot.motion.safety.stop import Transport
 from chatrobot.robots.profile import RobotProfile

@@ -16,7 +16,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import CMD_VEL_INPUT_TOPIC, JOYSTICK_TOPIC
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
-from chatrobot.governor.priority import RELEASERS, Priority, priority_of
+from chatrobot.governor.lease import RELEASERS, Priority, priority_of
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.budgets import Budgets, open_loop_notice
 from chatrobot.motion.clients import Clients, CmdVelInput

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Finished, Outcome, Progress, Started
 from chatrobot.core.reason import Reason
-from chatrobot.execution.health import is_seen_moving
+from chatrobot.execution.sensors import is_seen_moving
 from chatrobot.motion.budgets import REACHED
 from chatrobot.motion.goal import Goal
 from chatrobot.motion.goal_queue import Inbox, OutcomeQueue

@@ -16,11 +16,11 @@ from chatrobot.governor.kernel import Kernel, make_kernel
 from chatrobot.motion.budgets import Extent
 from chatrobot.motion.remembered_obstacles import RememberedObstacles, RoutesAroundObstacles, seen_but_unknown
 from chatrobot.plan.context import RoutePlanner
-from chatrobot.plan.free_part import ANY_WAY, Most
 from chatrobot.plan.known_world import Floats
 from chatrobot.plan.rehearsal import Rehearsal, RehearsedPath, rehearse
 from chatrobot.plan.route import GridRoutePlanner
 from chatrobot.plan.steps import Plan
+from chatrobot.plan.swept_path import ANY_WAY, Most
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.robots.profile import Point, RobotProfile
 from chatrobot.sim.world import World

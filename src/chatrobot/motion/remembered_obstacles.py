@@ -11,18 +11,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
-from chatrobot.governor.blind import BlindRule
 from chatrobot.governor.contact import Floats, Footprint
-from chatrobot.governor.obstacle_memory import ObstacleMemory
-from chatrobot.governor.obstacles import MARGIN_M, NEARER_M
+from chatrobot.governor.obstacle_memory import LidarView, ObstacleMemory
 from chatrobot.governor.rule import NOTHING_SENSED, Sensed, Situation
-from chatrobot.governor.scan_coverage import LidarView
+from chatrobot.governor.space_rules import MARGIN_M, NEARER_M, BlindRule
 from chatrobot.plan import rehearsal
 from chatrobot.plan.context import NoRoute, Route, RoutePlanner
-from chatrobot.plan.known_world import Area, Contact
+from chatrobot.plan.known_world import Contact
 from chatrobot.plan.route import GridRoutePlanner
 from chatrobot.robots.profile import Lidar, Point, RobotProfile
-from chatrobot.sim.shapes import Circle
+from chatrobot.sim.shapes import Circle, Polygon
 from chatrobot.sim.world import Bounds, Obstacle, World
 
 APART_M = 0.01
@@ -210,7 +208,7 @@ class _KnownAndSeen:
         self._field = _Field.of(points)
 
     @property
-    def allowed_area(self) -> Area | None:
+    def allowed_area(self) -> Polygon | None:
         return self._world.allowed_area
 
     @property

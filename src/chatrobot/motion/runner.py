@@ -23,7 +23,7 @@ from chatrobot.core.events import Event, Notice
 from chatrobot.core.process import MOTION, prefer, wake_promptly
 from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import Wiring
-from chatrobot.governor.priority import RELEASERS
+from chatrobot.governor.lease import RELEASERS
 from chatrobot.guard.watch import Departure
 from chatrobot.link.envelope import Envelope
 from chatrobot.link.topic_link import STOP, USER_INPUT
@@ -40,7 +40,7 @@ from chatrobot.robots.load import load_profile
 from chatrobot.robots.open_loop import as_chosen, drives_on_alone, slowed
 from chatrobot.robots.profile import NOT_CHOSEN, MotionBudget, RobotProfile
 from chatrobot.sim.load import load_world
-from chatrobot.sim.start import check_known
+from chatrobot.sim.world import check_known
 from chatrobot.wire.connect import (
     Connect,
     connect_wire,

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Finished, Telemetry
 from chatrobot.core.reason import Reason
-from chatrobot.governor.priority import RELEASERS
+from chatrobot.governor.lease import RELEASERS
 from chatrobot.link.envelope import Envelope, Word
 from chatrobot.link.topic_link import CHATGPT_NODE, EVENTS, TELEMETRY
 from chatrobot.motion.runner import MotionRunner

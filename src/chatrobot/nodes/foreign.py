@@ -18,8 +18,7 @@ from chatrobot.link.motion_link import Sender
 from chatrobot.link.topic_link import CHATGPT_NODE
 from chatrobot.motion.runner import MotionRunner
 from chatrobot.plan.steps import Plan, RawTwist
-from chatrobot.plan.text import format_plan, parse_plan
-from chatrobot.plan.tutorial_form import ImpossibleTwistError, read_tutorial_line
+from chatrobot.plan.text import ImpossibleTwistError, format_plan, parse_plan, read_tutorial_line
 
 LONGEST_S = 10.0
 MAX_CHARACTERS = 2000

@@ -1,9 +1,9 @@
-"""What every step of a plan is made from: the base classes, the frames, the conditions and the checks on numbers."""
+"""A plan, and what each of its steps is made from: base classes, frames, conditions and checks on numbers."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
@@ -19,23 +19,26 @@ def require(condition: bool, problem: str) -> None:
         raise ValueError(problem)
 
 
-def require_positive(name: str, value: float | None) -> None:
-    """None passes: the field was left out."""
-    if value is not None:
-        require(
-            math.isfinite(value) and value > 0.0, f"{name} must be a finite number above zero, not {value}"
-        )
+def require_positive(step: object, *names: str) -> None:
+    """Raise ValueError for a field that is not above zero, or infinite. None passes: it was left out."""
+    for name in names:
+        value = getattr(step, name)
+        ok = value is None or (math.isfinite(value) and value > 0.0)
+        require(ok, f"{name} must be a finite number above zero, not {value}")
 
 
-def require_finite(name: str, value: float) -> None:
-    require(math.isfinite(value), f"{name} must be a finite number, not {value}")
+def require_finite(step: object, *names: str) -> None:
+    """Raise ValueError for a field that is NaN or infinite. None passes."""
+    for name in names:
+        value = getattr(step, name)
+        require(value is None or math.isfinite(value), f"{name} must be a finite number, not {value}")
 
 
 _SHORTEST = 1e-3
 
 
 def divide_extent(extent: float, share: float) -> tuple[float, float]:
-    """The part of `extent` (m, s) that is done, to a tenth of a millimetre, and the rest of it.
+    """Return the part of `extent` (m, s) that is done, to a tenth of a millimetre, and the rest of it.
 
     What is shorter than a millimetre is no part of its own.
     """
@@ -48,7 +51,7 @@ def divide_extent(extent: float, share: float) -> tuple[float, float]:
 
 
 def divide_angle(angle_rad: float, share: float) -> tuple[float, float]:
-    """As `divide_extent`, to a hundredth of a degree; what is less than a twentieth of one is no part of its own."""
+    """Divide as `divide_extent`, to a hundredth of a degree; less than a twentieth of one is no part of its own."""
     done_deg = round(math.degrees(angle_rad) * share, 2)
     rest_deg = math.degrees(angle_rad) - done_deg
     if done_deg < 0.05:
@@ -59,7 +62,7 @@ def divide_angle(angle_rad: float, share: float) -> tuple[float, float]:
 
 
 def rounded_angle(angle_rad: float, decimals: int) -> float:
-    """To so many decimals of a degree."""
+    """Return the angle, rad, rounded to so many decimals of a degree."""
     return math.radians(round(math.degrees(angle_rad), decimals))
 
 
@@ -90,12 +93,12 @@ class Block(Step):
 
     @property
     def times(self) -> int:
-        """How often the steps inside are done."""
+        """Return how often the steps inside are done."""
         raise NotImplementedError
 
 
 def expanded(steps: Sequence[Step]) -> Iterator[Step]:
-    """The steps with repeats counted out."""
+    """Yield the steps with repeats counted out."""
     for step in steps:
         if isinstance(step, Block):
             for _ in range(step.times):
@@ -113,7 +116,40 @@ class ObstacleWithin:
     __pydantic_config__: ClassVar[dict[str, Any]] = _FORBID
 
     def __post_init__(self) -> None:
-        require_positive("distance_m", self.distance_m)
+        require_positive(self, "distance_m")
 
 
 Condition = ObstacleWithin
+
+
+MAX_LINES = 1000
+MAX_NESTING = 8
+MAX_EXPANDED_STEPS = 10_000
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A plan: what the robot is to do, in order. At most 1000 lines, 8 blocks deep, 10 000 steps with repeats done."""
+
+    steps: tuple[Step, ...]
+
+    def __post_init__(self) -> None:
+        require(len(self.steps) > 0, "a plan needs at least one step")
+        require(_nesting(self.steps) <= MAX_NESTING, f"blocks are nested at most {MAX_NESTING} deep")
+        require(_lines(self.steps) <= MAX_LINES, f"a plan has at most {MAX_LINES} lines")
+        count = count_steps(self.steps)
+        most = MAX_EXPANDED_STEPS
+        require(count <= most, f"a plan does at most {most} steps in all, not {count}")
+
+
+def count_steps(steps: Iterable[Step]) -> int:
+    """Return how many steps are done in all, repeats counted out."""
+    return sum(step.times * count_steps(step.steps) if isinstance(step, Block) else 1 for step in steps)
+
+
+def _lines(steps: Iterable[Step]) -> int:
+    return sum(2 + _lines(step.steps) if isinstance(step, Block) else 1 for step in steps)
+
+
+def _nesting(steps: Iterable[Step]) -> int:
+    return max((1 + _nesting(step.steps) if isinstance(step, Block) else 0 for step in steps), default=0)

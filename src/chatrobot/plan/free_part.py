@@ -1,21 +1,21 @@
-"""What can be done of a plan where one of its motions is blocked: all before it, and the free part of that one."""
+"""The part of a plan that can be done where one of its motions is blocked: all before it, and the free part of that."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 
 from chatrobot.core.geometry import Pose
+from chatrobot.plan.base import Plan
 from chatrobot.plan.context import Impossible, LoweringContext
-from chatrobot.plan.core_motion import CoreMotion, RampedTwist
 from chatrobot.plan.known_world import Floats
 from chatrobot.plan.lowering import PlannedMotion
 from chatrobot.plan.split import Reached, split
-from chatrobot.plan.steps import Plan
+from chatrobot.plan.swept_path import STANDING
+from chatrobot.plan.trajectory import CoreMotion, RampedTwist
 
 SPARE_M = 0.01
 """What is offered ends so far before what is in the way, at least."""
@@ -28,32 +28,6 @@ LEAST_M = 0.1
 LEAST_DEG = 10
 """Less than this is not worth a question."""
 
-STANDING = 1e-9
-"""Rows of a path that differ by less are the same."""
-
-
-class Most(NamedTuple):
-    """How far and how long a plan may drive that is offered; while it waits it does not drive."""
-
-    length_m: float = math.inf
-    driving_s: float = math.inf
-
-    def first_row_over(self, rows: Floats) -> int:
-        """The first of the rows [n, 4] of a path that is beyond it; n where none is."""
-        steps = np.diff(rows, axis=0)
-        driven_m = np.cumsum(np.hypot(steps[:, 1], steps[:, 2]))
-        moves = np.any(np.abs(steps[:, 1:]) > STANDING, axis=1)
-        over = (driven_m > self.length_m + STANDING) | (np.cumsum(steps[:, 0] * moves) > self.driving_s)
-        found = np.flatnonzero(over)
-        return int(found[0]) + 1 if len(found) else len(rows)
-
-    def allows(self, rows: Floats) -> bool:
-        """The whole path [n, 4] is within it."""
-        return self.first_row_over(rows) == len(rows)
-
-
-ANY_WAY = Most()
-
 
 @dataclass(frozen=True)
 class Leg:
@@ -64,7 +38,7 @@ class Leg:
 
 
 def leg_at(legs: Sequence[Leg], row: int) -> tuple[Leg, int]:
-    """The leg that this row of the whole path belongs to, and the first row of it."""
+    """Return the leg that this row of the whole path belongs to, and the first row of it."""
     ends = np.cumsum([len(leg.rows) for leg in legs])
     number = int(np.searchsorted(ends, row, side="right"))
     return legs[number], int(ends[number]) - len(legs[number].rows)
@@ -73,42 +47,30 @@ def leg_at(legs: Sequence[Leg], row: int) -> tuple[Leg, int]:
 def part_up_to(
     plan: Plan, context: LoweringContext, legs: Sequence[Leg], row: int, most_m: float = math.inf
 ) -> tuple[Plan | None, dict[str, float]]:
-    """What can be done of `plan` up to a row of its path, and how much of the motion there; `most_m`: of the whole."""
+    """Return the part of `plan` up to a row of its path, and how much of the motion there is free.
+
+    Args:
+        context: from where the plan begins.
+        most_m: nothing is in the way, but the whole path may lead no farther.
+
+    Returns:
+        None where nothing is worth a question; and `free_m` or `free_deg`, where there is some.
+    """
     leg, first_row = leg_at(legs, row)
     rows = np.concatenate([leg.rows for leg in legs])[: row + 1]
     driven_m = float(np.hypot(*np.diff(rows[: first_row + 1, 1:3], axis=0).T).sum())
     of_step = [found.item for found in legs if found.item.number == leg.item.number]
-    done = of_step.index(leg.item)
-    return free_part(plan, context, leg.item, done, of_step[0].start, rows[first_row:], most_m - driven_m)
-
-
-def free_part(
-    plan: Plan,
-    context: LoweringContext,
-    blocked: PlannedMotion,
-    motions_done: int,
-    step_start: Pose,
-    way: Floats,
-    most_m: float = math.inf,
-) -> tuple[Plan | None, dict[str, float]]:
-    """What can be done of `plan`, None where nothing is worth a question; and what is free of the blocked motion.
-
-    Args:
-        context: from where the plan begins.
-        motions_done: how many motions of the blocked step come before; the step begins at `step_start`.
-        way: [n, 4] of t_s, x_m, y_m, yaw_rad, from where the motion begins to where it is blocked.
-        most_m: nothing is in the way, but this motion may go no farther.
-    """
-    share, row, free = _free_share(blocked.motion, way, most_m)
-    here = Pose(*(float(value) for value in way[row, 1:]))
+    way = rows[first_row:]
+    share, end_row, free = _free_share(leg.item.motion, way, most_m - driven_m)
+    here = Pose(*(float(value) for value in way[end_row, 1:]))
     if not free and here.distance_to(context.pose) < LEAST_M:
         return None, {}
-    reached = Reached(blocked.number - 1, True, motions_done, share, step_start)
+    reached = Reached(leg.item.number - 1, True, of_step.index(leg.item), share, of_step[0].start)
     return split(plan.steps, reached, replace(context, pose=here)).executed, free
 
 
 def nearest_part(plan: Plan, context: LoweringContext, impossible: Impossible) -> Plan | None:
-    """All that comes before an impossible step, and what can be done instead of it; None where nothing can."""
+    """Return all that comes before an impossible step, and what can be done instead of it; None where nothing can."""
     if impossible.instead is None:
         return None
     before = split(plan.steps, Reached(impossible.number - 1), context).executed
@@ -119,7 +81,7 @@ def nearest_part(plan: Plan, context: LoweringContext, impossible: Impossible) -
 
 
 def _free_share(motion: CoreMotion | None, way: Floats, most_m: float) -> tuple[float, int, dict[str, float]]:
-    """The share of the motion that is free, the row of `way` where it ends, and the amount; 0 where it is too small."""
+    """Return the share of the motion that is free, the row of `way` where it ends, and the amount; 0 for too little."""
     if isinstance(motion, RampedTwist) and motion.twist.speed_mps > 0.0:
         driven_m = np.append(0.0, np.cumsum(np.hypot(*np.diff(way[:, 1:3], axis=0).T)))
         until_m = min(driven_m[-1] - SPARE_M if math.isinf(most_m) else driven_m[-1], most_m)

@@ -1,40 +1,22 @@
-"""The JSON form of a plan: for tools, MCP and models with structured output. pydantic is imported only on reading.
+"""Read the JSON form of a plan, for tools and models with structured output. pydantic is imported only on reading.
 
     {"version": "chatrobot-plan/1", "steps": [{"kind": "drive", "distance_m": 1.0}, …]}
 
-Fields are those of the steps' dataclasses; a field that has its default may be left out, and is left out on writing.
+Fields are those of the steps' dataclasses; a field that has its default may be left out.
 """
 
 from __future__ import annotations
 
-import dataclasses
 import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from chatrobot.core.errors import PlanTextError
-from chatrobot.plan.base import Block, Step
-from chatrobot.plan.registry import for_kind, primitives
-from chatrobot.plan.steps import MAX_LINES, MAX_NESTING, Plan
+from chatrobot.plan.base import MAX_LINES, MAX_NESTING, Block, Plan, Step
+from chatrobot.plan.primitive import for_kind, primitives
 
 VERSION = "chatrobot-plan/1"
 _STEPS_SCHEMA = {"type": "array", "items": {"$ref": "#/$defs/Step"}, "minItems": 1, "maxItems": MAX_LINES}
-
-
-def plan_to_json(plan: Plan) -> dict[str, Any]:
-    """JSON's own types, ready for `json.dumps`."""
-    return {"version": VERSION, "steps": [_to_json(step) for step in plan.steps]}
-
-
-def _to_json(value: Any) -> Any:
-    if isinstance(value, tuple):
-        return [_to_json(item) for item in value]
-    if not dataclasses.is_dataclass(value):
-        return value
-    fields = {f.name: getattr(value, f.name) for f in dataclasses.fields(value)}
-    defaults = {f.name: f.default for f in dataclasses.fields(value)}
-    left = {name: item for name, item in fields.items() if name != "kind" and item != defaults[name]}
-    return {"kind": fields["kind"], **{name: _to_json(item) for name, item in left.items()}}
 
 
 def plan_from_json(data: str | bytes | Mapping[str, Any]) -> Plan:
@@ -47,7 +29,7 @@ def plan_from_json(data: str | bytes | Mapping[str, Any]) -> Plan:
         try:
             data = json.loads(data)
         except (ValueError, RecursionError) as error:
-            raise PlanTextError(f"this is no JSON: {error}") from error
+            raise PlanTextError(f"not valid JSON: {error}") from error
     if not isinstance(data, Mapping):
         raise PlanTextError("a plan is a JSON object", allowed='{"version": …, "steps": […]}')
     unknown = sorted(set(data) - {"version", "steps", "$schema"})
@@ -77,7 +59,7 @@ def _read_step(data: Any, path: str, depth: int) -> Step:
     primitive = for_kind(kind) if isinstance(kind, str) else None
     if primitive is None:
         kinds = ", ".join(known.kind for known in primitives())
-        raise PlanTextError(f"{path}.kind: {kind!r} is no kind of step", allowed=kinds)
+        raise PlanTextError(f"{path}.kind: {kind!r} is not a kind of step", allowed=kinds)
     values = dict(data)
     if issubclass(primitive.step_type, Block):
         values["steps"] = _read_steps(data.get("steps"), f"{path}.steps", depth + 1)
@@ -128,7 +110,7 @@ def _adapter(step_type: type[Step]) -> Any:
 
 
 def plan_schema() -> dict[str, Any]:
-    """The JSON schema (draft 2020-12) of the JSON form, with every primitive that is registered."""
+    """Return the JSON schema (draft 2020-12) of the JSON form, with every primitive that is registered."""
     defs: dict[str, Any] = {}
     kinds = {}
     for primitive in primitives():

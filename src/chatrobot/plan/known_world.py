@@ -1,17 +1,19 @@
-"""What rehearsal and route planning ask of a world and of a governor: protocols, so that neither is imported here."""
+"""Protocols: what rehearsal and route planning ask of a world and of a governor, so that neither is imported here."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
 from chatrobot.core.geometry import Pose, Twist
-from chatrobot.robots.profile import Point
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
+
+    from chatrobot.sim.shapes import Polygon
+    from chatrobot.sim.world import Bounds
 
     Floats = NDArray[np.float64]
 else:
@@ -20,7 +22,7 @@ else:
 
 @dataclass(frozen=True)
 class Contact:
-    """Where along a path the footprint comes too close: the row of the path, and the point that is too close."""
+    """Says where along a path the footprint comes too close: the row of the path, and the point that is too close."""
 
     row: int
     x_m: float
@@ -31,64 +33,44 @@ GovernorKernel = Callable[[Twist, Twist, float], Twist]
 """(what was sent last, what is asked now, seconds since) -> what may be sent now. Pure."""
 
 
-class Area(Protocol):
-    """A simple polygon, metres."""
-
-    @property
-    def points(self) -> Sequence[Point]: ...
-
-
-class Bounds(Protocol):
-    """A box along the axes, metres."""
-
-    @property
-    def min_x_m(self) -> float: ...
-    @property
-    def min_y_m(self) -> float: ...
-    @property
-    def max_x_m(self) -> float: ...
-    @property
-    def max_y_m(self) -> float: ...
-
-
 class SeenWorld(Protocol):
-    """What the lidar has seen around the robot, as the governor knows it, in the odom frame."""
+    """Knows what the lidar has seen around the robot, as the governor does, in the odom frame."""
 
     def allowed_share(self, twist: Twist, pose: Pose) -> float:
-        """How much of a twist the governor will allow at that pose, where the lidar sees as much as it does now."""
+        """Return the share of a twist, 0 to 1, allowed at that pose where the lidar sees as much as it does now."""
         ...
 
     def free_ahead_m(self, pose: Pose, direction_rad: float) -> float:
-        """How far it is straight on to what was seen, from the front of the footprint; infinite where nothing was."""
+        """Return how far it is straight on to what was seen, from the front of the footprint; infinite for nothing."""
         ...
 
     def first_contact(self, poses: Floats) -> Contact | None:
-        """The first of [n, 3] poses, from where the robot stands, that the governor would not allow."""
+        """Return the first of [n, 3] poses, from where the robot stands, that the governor would not allow."""
         ...
 
 
 class KnownWorld(Protocol):
-    """What is known to stand around the robot, in the odom frame."""
+    """Knows what stands around the robot, in the odom frame."""
 
     @property
     def is_empty(self) -> bool:
-        """Nothing is known to stand anywhere."""
+        """Return True where nothing is known to stand anywhere."""
         ...
 
     @property
-    def allowed_area(self) -> Area | None:
-        """Where the robot has to stay, if anybody said so."""
+    def allowed_area(self) -> Polygon | None:
+        """Return where the robot has to stay, if anybody said so."""
         ...
 
     @property
     def bounds(self) -> Bounds | None:
-        """The box that holds all that is known; None in an empty world."""
+        """Return the box that holds all that is known; None in an empty world."""
         ...
 
     def clearance_m(self, points: Floats) -> Floats:
-        """Metres from each of [n, 2] points to the nearest obstacle, never more than it is; negative inside."""
+        """Return metres from each of [n, 2] points to the nearest obstacle, never more than it is; negative inside."""
         ...
 
     def obstacle_name_at(self, x_m: float, y_m: float) -> str:
-        """The name of the obstacle nearest to a point; empty where nobody knows one."""
+        """Return the name of the obstacle nearest to a point; empty where nobody knows one."""
         ...

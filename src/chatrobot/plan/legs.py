@@ -1,4 +1,10 @@
-"""Getting to a point: turn to each leg and drive it, reverse where that is shorter, or steer there on a curve."""
+"""Getting to a point: turn to each leg and drive it, reverse where that is shorter, or steer there on a curve.
+
+A curve is the shortest of bounded curvature, forward: an arc, a straight line and, to a pose, another arc. Source:
+L. E. Dubins, On curves of minimal length with a constraint on average curvature (1957); the four words
+circle-straight-circle, which always suffice when start and goal are more than four radii apart. To a point with a
+free final heading circle-straight is enough unless the point lies inside one turning circle; then the other is used.
+"""
 
 from __future__ import annotations
 
@@ -13,18 +19,91 @@ from chatrobot.plan.context import (
     LoweringContext,
     NoRoute,
     Route,
-    too_far,
-)
-from chatrobot.plan.core_motion import CoreMotion, RampedTwist
-from chatrobot.plan.dubins import Curve, curve_to_point, curve_to_pose
-from chatrobot.plan.speeds import (
     choose_arc_speed,
     choose_rate,
     choose_speed,
     max_arc_speed_mps,
     refuse_turn_on_the_spot,
+    too_far,
 )
+from chatrobot.plan.trajectory import CoreMotion, RampedTwist
 from chatrobot.robots.profile import Point, RobotProfile
+
+Piece = tuple[float, float]
+"""(signed bend in radians, left positive, length in metres); a straight piece has bend 0."""
+
+Curve = tuple[Piece, ...]
+
+_TINY = 1e-9
+
+
+def _length_m(curve: Curve) -> float:
+    return sum(length for _, length in curve)
+
+
+def curve_to_point(start: Pose, goal: Point, radius_m: float) -> Curve | None:
+    """Return the shorter of left-straight and right-straight from `start` to `goal`, or None if neither exists."""
+    curves = (_bend_then_straight(start, goal, radius_m, side) for side in (1.0, -1.0))
+    return min((curve for curve in curves if curve is not None), key=_length_m, default=None)
+
+
+def curve_to_pose(start: Pose, goal: Pose, radius_m: float) -> Curve | None:
+    """Return the shortest of the four words circle-straight-circle."""
+    sides = ((a, b) for a in (1.0, -1.0) for b in (1.0, -1.0))
+    curves = (_bend_straight_bend(start, goal, radius_m, *pair) for pair in sides)
+    return min((curve for curve in curves if curve is not None), key=_length_m, default=None)
+
+
+def _center(pose: Pose, radius_m: float, side: float) -> Point:
+    """Of the turning circle on the left (side 1) or right (side -1)."""
+    return (
+        pose.x_m - side * radius_m * math.sin(pose.yaw_rad),
+        pose.y_m + side * radius_m * math.cos(pose.yaw_rad),
+    )
+
+
+def _bend(from_rad: float, to_rad: float, side: float, radius_m: float) -> Piece:
+    """Turn from one heading to another, going round to `side` only."""
+    angle = (side * (to_rad - from_rad)) % (2.0 * math.pi)
+    if angle > 2.0 * math.pi - _TINY or angle < _TINY:
+        angle = 0.0
+    return side * angle, radius_m * angle
+
+
+def _pieces(*pieces: Piece) -> Curve:
+    return tuple(piece for piece in pieces if piece[1] > _TINY)
+
+
+def _bend_then_straight(start: Pose, goal: Point, radius_m: float, side: float) -> Curve | None:
+    cx, cy = _center(start, radius_m, side)
+    dx, dy = goal[0] - cx, goal[1] - cy
+    distance = math.hypot(dx, dy)
+    if distance < radius_m - _TINY:
+        return None
+    straight = math.sqrt(max(0.0, distance * distance - radius_m * radius_m))
+    # seen along the tangent, the centre lies `radius` to the side: this angle turns the line centre-goal into it
+    heading = math.atan2(dy, dx) + side * math.atan2(radius_m, straight)
+    return _pieces(_bend(start.yaw_rad, heading, side, radius_m), (0.0, straight))
+
+
+def _bend_straight_bend(start: Pose, goal: Pose, radius_m: float, first: float, last: float) -> Curve | None:
+    ax, ay = _center(start, radius_m, first)
+    bx, by = _center(goal, radius_m, last)
+    dx, dy = bx - ax, by - ay
+    distance = math.hypot(dx, dy)
+    across = 0.0 if first == last else 2.0 * radius_m
+    if distance < across - _TINY:
+        return None
+    straight = math.sqrt(max(0.0, distance * distance - across * across))
+    if straight < _TINY and across == 0.0:
+        return _pieces(_bend(start.yaw_rad, goal.yaw_rad, first, radius_m))
+    heading = math.atan2(dy, dx) + first * math.atan2(across, straight)
+    return _pieces(
+        _bend(start.yaw_rad, heading, first, radius_m),
+        (0.0, straight),
+        _bend(heading, goal.yaw_rad, last, radius_m),
+    )
+
 
 REVERSE_WITHIN_RAD = math.radians(10.0)
 REVERSE_AT_MOST_M = 3.0
@@ -35,7 +114,7 @@ _ALIGNED_RAD = 1e-6
 def turn_to(
     profile: RobotProfile, pose: Pose, heading_rad: float, rate_radps: float | None = None
 ) -> Lowered:
-    """The short way round from `pose` to a heading of the same frame. Nothing if it looks there already."""
+    """Turn the short way round from `pose` to a heading of the same frame. Nothing if it looks there already."""
     angle = wrap_angle(heading_rad - pose.yaw_rad)
     rate = choose_rate(profile, rate_radps)
     if isinstance(rate, Impossible):
@@ -57,7 +136,7 @@ def go_to(
     speed_mps: float | None,
     named_place: bool,
 ) -> Lowered:
-    """From `context.pose` to `goal` (odom frame), at the end looking along `heading_rad` if that is given."""
+    """Lead from `context.pose` to `goal` (odom frame), at the end looking along `heading_rad` if that is given."""
     speed = choose_speed(context.profile, speed_mps)
     if isinstance(speed, Impossible):
         return speed

@@ -12,24 +12,22 @@ from typing import Final, Protocol, Union
 
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
-from chatrobot.plan.base import Block, Step
+from chatrobot.plan.base import Block, Plan, Step, count_steps
 from chatrobot.plan.context import MAX_DURATION_S, Impossible, Lowered, LoweringContext, too_long
-from chatrobot.plan.core_motion import CoreMotion, RampedTwist
-from chatrobot.plan.primitive import BlockPrimitive
-from chatrobot.plan.registry import for_step
-from chatrobot.plan.steps import Plan, count_steps
+from chatrobot.plan.primitive import BlockPrimitive, for_step
+from chatrobot.plan.trajectory import CoreMotion, RampedTwist
 from chatrobot.robots.profile import RobotProfile
 
 
 def lower(step: Step, context: LoweringContext) -> Lowered:
-    """The core motions of one step (not of a block: `iterate_core` walks those), or why it is impossible.
+    """Return the core motions of one step (not of a block: `CoreWalk` walks those), or why it is impossible.
 
     Raises:
         TypeError: for a block.
     """
     primitive = for_step(step)
     if isinstance(primitive, BlockPrimitive):
-        raise TypeError(f"{type(step).__name__} is a block: walk it with iterate_core")
+        raise TypeError(f"{type(step).__name__} is a block: walk it with CoreWalk")
     if primitive.needs_pose and context.profile.open_loop:
         return Impossible(Reason("needs_odometry"))
     lowered = primitive.lower(step, context)
@@ -65,7 +63,7 @@ CoreItem = Union[PlannedMotion, Impossible]
 
 
 class NotYet:
-    """In place of an item: the next one is still to come."""
+    """Stands for an item that is still to come."""
 
 
 NOT_YET: Final = NotYet()
@@ -73,19 +71,19 @@ WalkItem = Union[CoreItem, NotYet]
 
 
 class Walk(Protocol):
-    """What an executor walks; `CoreWalk` is the one through a whole plan."""
+    """Yields what an executor drives; `CoreWalk` is the one through a whole plan."""
 
     @property
     def pose(self) -> Pose:
-        """Where the last motion ends, or the first one will begin."""
+        """Return where the last motion ends, or the first one will begin."""
         ...
 
     def __next__(self) -> WalkItem:
-        """Raises StopIteration at the end."""
+        """Return what comes next; raises StopIteration at the end."""
         ...
 
     def ended_at(self, pose: Pose) -> None:
-        """The last motion really ended at `pose`."""
+        """Go on from `pose`: the last motion really ended there."""
         ...
 
 
@@ -105,7 +103,7 @@ class CoreWalk(Iterator[CoreItem]):
         return next(self._items)
 
     def ended_at(self, pose: Pose) -> None:
-        """The last motion was cut short (its condition came true) or led elsewhere: go on from `pose`."""
+        """Go on from `pose`: the last motion was cut short (its condition came true) or led elsewhere."""
         self.pose = pose
 
     def _walk(self, plan: Plan) -> Iterator[CoreItem]:
@@ -128,13 +126,8 @@ class CoreWalk(Iterator[CoreItem]):
             yield PlannedMotion(index, number, self._total, step, motion, start, end, first, last)
 
 
-def iterate_core(plan: Plan, context: LoweringContext) -> CoreWalk:
-    """Walk `plan` from `context.pose`."""
-    return CoreWalk(plan, context)
-
-
 def ideal_end(plan: Plan, profile: RobotProfile, start: Pose) -> Pose | None:
-    """Where `plan` ends when it is driven exactly from `start`; None where a step of it is impossible.
+    """Return where `plan` ends when it is driven exactly from `start`; None where a step of it is impossible.
 
     Ways around obstacles are left out: they change no end.
     """

@@ -1,14 +1,103 @@
-"""Reads one line of plan text token by token, and says on a mistake what is allowed at that place."""
+"""One line of plan text, token by token: its units, its numbers, and on a mistake what is allowed at that place."""
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import NoReturn
 
 from chatrobot.core.errors import PlanTextError
-from chatrobot.plan.units import ANGLES, LENGTHS, RATES, SPEEDS, TIMES, Convert
+
+Convert = Callable[[float], float]
+
+
+def _same(value: float) -> float:
+    return value
+
+
+def _divided(divisor: float) -> Convert:
+    """Division, not multiplication: 35 cm is 35/100, the double nearest to 0.35."""
+    return lambda value: value / divisor
+
+
+def _times(factor: float) -> Convert:
+    return lambda value: value * factor
+
+
+def _spellings(**groups: Convert) -> dict[str, Convert]:
+    """Keys are spellings joined by two underscores."""
+    return {word: convert for words, convert in groups.items() for word in words.split("__")}
+
+
+LENGTHS: dict[str, Convert] = _spellings(
+    m__metre__metres__meter__meters=_same,
+    cm__centimetre__centimetres__centimeter__centimeters=_divided(100.0),
+    mm__millimetre__millimetres__millimeter__millimeters=_divided(1000.0),
+    km__kilometre__kilometres__kilometer__kilometers=_times(1000.0),
+    ft__foot__feet=_times(0.3048),
+)
+TIMES: dict[str, Convert] = _spellings(
+    s__sec__secs__second__seconds=_same,
+    ms__millisecond__milliseconds=_divided(1000.0),
+    min__mins__minute__minutes=_times(60.0),
+)
+ANGLES: dict[str, Convert] = {
+    "°": math.radians,
+    **_spellings(
+        deg__degree__degrees=math.radians,
+        rad__radian__radians=_same,
+        rev__turn__turns__revolution__revolutions=_times(2.0 * math.pi),
+    ),
+}
+SPEEDS: dict[str, Convert] = {"m/s": _same, "mps": _same, "cm/s": _divided(100.0), "km/h": _divided(3.6)}
+RATES: dict[str, Convert] = {
+    "rad/s": _same,
+    "radps": _same,
+    "deg/s": math.radians,
+    "°/s": math.radians,
+    "rpm": _times(math.pi / 30.0),
+}
+
+
+def number_text(value: float) -> str:
+    """Return the shortest decimal that reads back as `value`; whole numbers without a point."""
+    if value == int(value) and abs(value) < 1e15:
+        return str(int(value))
+    return repr(float(value))
+
+
+def _degrees_text(angle_rad: float) -> str | None:
+    """Return the shortest decimal of degrees that reads back as exactly `angle_rad`, if there is one."""
+    degrees = math.degrees(angle_rad)
+    if abs(degrees) > 1e15:
+        return None
+    for digits in (3, 6, 9, 12, 15, 16, 17):
+        text = number_text(float(f"{degrees:.{digits}g}"))
+        if math.radians(float(text)) == angle_rad:
+            return text
+    return None
+
+
+def angle_text(angle_rad: float, *, suffix: str = "", prefer_degrees: bool = True) -> str:
+    """Return degrees or radians (`suffix` "/s" for rates), whichever reads back exactly and is shorter to read."""
+    in_radians, in_degrees = number_text(angle_rad), _degrees_text(angle_rad)
+    if in_degrees is None:
+        return f"{in_radians} rad{suffix}"
+    shorter = len(in_degrees) - len(in_radians)
+    use_degrees = prefer_degrees if shorter == 0 else shorter < 0
+    return f"{in_degrees} deg{suffix}" if use_degrees else f"{in_radians} rad{suffix}"
+
+
+def at_speed(speed_mps: float | None) -> str:
+    """Return what a line ends with for a speed; nothing for None."""
+    return "" if speed_mps is None else f" at {number_text(speed_mps)} m/s"
+
+
+def at_rate(rate_radps: float | None) -> str:
+    """Return what a line ends with for a rate of turn; nothing for None."""
+    return "" if rate_radps is None else f" at {angle_text(rate_radps, suffix='/s', prefer_degrees=False)}"
+
 
 _TOKEN = re.compile(
     r"""\s*(?:
@@ -25,7 +114,7 @@ _ESCAPE = re.compile(r"\\(.)")
 
 
 def quote(text: str) -> str:
-    """`text` as a quoted token. The text must be printable."""
+    """Return `text` as a quoted token. The text must be printable."""
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')
     return f'"{escaped}"'
 
@@ -49,24 +138,26 @@ class LineReader:
                 self._tokens.append((kind, match.group(kind), match.start(kind)))
 
     def at_end(self) -> bool:
+        """Return True where no token is left."""
         return self._next >= len(self._tokens)
 
     def fail(self, problem: str, allowed: str = "") -> NoReturn:
+        """Raise PlanTextError with the line, the problem and what is allowed."""
         raise PlanTextError(problem, line_number=self.line_number, line=self.line, allowed=allowed)
 
     def fail_here(self, allowed: str) -> NoReturn:
-        """The next token (or the end of the line) is not what may stand here."""
+        """Fail: the next token (or the end of the line) is not what may stand here."""
         if self.at_end():
             self.fail("something is missing at the end", allowed)
         self.fail(f"{self._tokens[self._next][1]!r} is not understood here", allowed)
 
     def finish(self, allowed: str) -> None:
-        """Nothing may be left. `allowed` names what else could have stood here."""
+        """Fail where a token is left. `allowed` names what else could have stood here."""
         if not self.at_end():
             self.fail_here(allowed)
 
     def peek_word(self) -> str:
-        """The next token in lower case if it is a word, else ""."""
+        """Return the next token in lower case if it is a word, else ""."""
         if self.at_end():
             return ""
         kind, text, _ = self._tokens[self._next]
@@ -81,14 +172,16 @@ class LineReader:
         return ""
 
     def expect(self, *words: str) -> str:
+        """Take the next token, which must be one of these words, and say which."""
         return self.accept(*words) or self.fail_here(" or ".join(repr(word) for word in words))
 
     @property
     def number_follows(self) -> bool:
+        """Return True where the next token is a number."""
         return not self.at_end() and self._tokens[self._next][0] == "number"
 
     def number(self, allowed: str = "a number") -> float:
-        """A finite number."""
+        """Take a finite number."""
         if not self.number_follows:
             self.fail_here(allowed)
         value = float(self._tokens[self._next][1])
@@ -98,6 +191,7 @@ class LineReader:
         return value
 
     def whole_number(self, allowed: str) -> int:
+        """Take a whole number."""
         value = self.number(allowed)
         if value != int(value):
             self._next -= 1
@@ -119,26 +213,31 @@ class LineReader:
         return converted
 
     def length_m(self) -> float:
+        """Take a length; metres where no unit is given."""
         return self._quantity(LENGTHS, "m", "a length such as 0.5 m")
 
     def duration_s(self) -> float:
+        """Take a time; seconds where no unit is given."""
         return self._quantity(TIMES, "s", "a time such as 3 s")
 
     def angle_rad(self) -> float:
+        """Take an angle with its unit."""
         return self._quantity(ANGLES, "", "an angle such as 90 deg or 0.5 rad")
 
     def speed_mps(self) -> float:
+        """Take a speed; m/s where no unit is given."""
         return self._quantity(SPEEDS, "m/s", "a speed such as 0.2 m/s")
 
     def rate_radps(self) -> float:
+        """Take a rate of turn with its unit."""
         return self._quantity(RATES, "", "a rate such as 0.5 rad/s or 30 deg/s")
 
     def length_or_duration(self) -> tuple[float | None, float | None]:
-        """(metres, None) or (None, seconds), by the unit."""
+        """Take (metres, None) or (None, seconds), by the unit."""
         return self._either(LENGTHS, TIMES, "a distance such as 1 m or a time such as 2 s")
 
     def angle_or_duration(self) -> tuple[float | None, float | None]:
-        """(radians, None) or (None, seconds), by the unit."""
+        """Take (radians, None) or (None, seconds), by the unit."""
         return self._either(ANGLES, TIMES, "an angle such as 90 deg or a time such as 2 s")
 
     def _either(
@@ -153,7 +252,7 @@ class LineReader:
         return self._quantity(first, "", allowed), None
 
     def text(self, allowed: str) -> str:
-        """A quoted text, or everything up to the end of the line (a comment apart)."""
+        """Take a quoted text, or everything up to the end of the line (a comment apart)."""
         if self.at_end():
             self.fail_here(allowed)
         kind, text, start = self._tokens[self._next]

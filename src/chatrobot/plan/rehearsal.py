@@ -15,26 +15,35 @@ import numpy as np
 from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.reason import Reason
+from chatrobot.plan.base import Plan
 from chatrobot.plan.context import (
     MAX_DURATION_S,
     MAX_EXTENT_M,
+    Finding,
     Impossible,
     LoweringContext,
     RoutePlanner,
+    Severity,
     too_far,
     too_long,
 )
-from chatrobot.plan.core_motion import Pause, RampedTwist
-from chatrobot.plan.findings import Finding, Severity
-from chatrobot.plan.free_part import ANY_WAY, Leg, Most, leg_at, nearest_part, part_up_to
-from chatrobot.plan.governed_path import GovernorCheck, pose_of
+from chatrobot.plan.free_part import Leg, leg_at, nearest_part, part_up_to
 from chatrobot.plan.known_world import Contact, Floats, GovernorKernel, KnownWorld, SeenWorld
-from chatrobot.plan.lowering import CoreWalk, PlannedMotion, iterate_core
-from chatrobot.plan.rounding import round_corners
-from chatrobot.plan.sampling import sample_poses, sample_ramp, tick_times
-from chatrobot.plan.steps import Plan
-from chatrobot.plan.sweep import fence_clearance, first_contact, free_ahead_m
-from chatrobot.plan.trajectory import Segment
+from chatrobot.plan.lowering import CoreWalk, PlannedMotion
+from chatrobot.plan.rounding import Rounded, round_corners
+from chatrobot.plan.swept_path import (
+    ANY_WAY,
+    GovernorCheck,
+    Most,
+    fence_clearance,
+    first_contact,
+    free_ahead_m,
+    pose_of,
+    sample_poses,
+    sample_ramp,
+    tick_times,
+)
+from chatrobot.plan.trajectory import Pause, RampedTwist, Segment
 from chatrobot.robots.profile import Circle, Point, RobotProfile
 
 MARGIN_M = 0.04
@@ -46,7 +55,7 @@ KNOWN_WITHIN_M = 0.15
 
 @dataclass(frozen=True)
 class StepEnd:
-    """Where and when one step (repeats counted out) is predicted to end."""
+    """Predicts where and when one step (repeats counted out) ends."""
 
     index: tuple[int, ...]
     number: int
@@ -56,7 +65,7 @@ class StepEnd:
 
 @dataclass(frozen=True, eq=False)
 class RehearsedPath:
-    """Where a robot would be at every moment, and what was found about that.
+    """Predicts where a robot would be at every moment, and holds what was found about that.
 
     `path` is [n, 4] of t_s, x_m, y_m, yaw_rad in the odom frame, at most 50 ms apart.
     """
@@ -67,28 +76,28 @@ class RehearsedPath:
 
     @property
     def ok(self) -> bool:
-        """Tell whether nothing was found that refuses it."""
+        """Return True where nothing was found that refuses it."""
         return self.refusal is None
 
     @property
     def refusal(self) -> Finding | None:
-        """Return the first finding that refuses it."""
+        """Return the first finding that refuses it; None where none does."""
         return next((finding for finding in self.findings if finding.severity == "refuse"), None)
 
     @property
     def duration_s(self) -> float:
-        """Return how long it takes."""
+        """Return how long it takes, seconds."""
         return float(self.path[-1, 0])
 
     @property
     def end_pose(self) -> Pose:
-        """Return where the robot stands at its end."""
+        """Return the predicted pose at the end, in the odom frame."""
         return pose_of(self.path[-1])
 
 
 @dataclass(frozen=True, eq=False)
 class Rehearsal(RehearsedPath):
-    """What a plan would do; its path ends where it ends, or at the first step that cannot be done.
+    """Predicts what a plan would do; its path ends where it ends, or at the first step that cannot be done.
 
     `plan` is the one to run (corners may have been rounded for a base that steers). `possible` is what can be done of
     a plan that is refused, or else drives more than it may, where that is worth a question.
@@ -100,8 +109,8 @@ class Rehearsal(RehearsedPath):
     possible: Plan | None = None
 
     def walk(self) -> CoreWalk:
-        """The very motions that were rehearsed, for the executor."""
-        return iterate_core(self.plan, self.context)
+        """Walk the very motions that were rehearsed, for the executor."""
+        return CoreWalk(self.plan, self.context)
 
 
 def rehearse(
@@ -126,19 +135,14 @@ def rehearse(
         seen: what the lidar has seen; None where there is none.
         most: how far and how long a plan may drive; what is `possible` of one that drives more is told.
     """
-    planner = route_planner
-    if planner is None and world is not None and not world.is_empty:
+    if route_planner is None and world is not None and not world.is_empty:
         from chatrobot.plan.route import GridRoutePlanner
 
-        planner = GridRoutePlanner(world, profile)
-    context = LoweringContext(
-        profile, start_pose, plan_start if plan_start is not None else start_pose, planner
-    )
-    rounded = round_corners(plan, profile)
+        route_planner = GridRoutePlanner(world, profile)
+    context = LoweringContext(profile, start_pose, plan_start or start_pose, route_planner)
+    rounded = Rounded(plan) if profile.can_turn_on_the_spot else round_corners(plan, profile)
     run = _Run(rounded.plan, context, world, governor, seen, most)
-    run.findings += [
-        Finding(note.severity, note.reason, note.index, 0.0, start_pose) for note in rounded.notes
-    ]
+    run.findings += [replace(finding, where=start_pose) for finding in rounded.findings]
     if not any(finding.severity == "refuse" for finding in run.findings):
         run.drive()
     return run.result()
@@ -171,7 +175,7 @@ class _Run:
         self._blocked_row = math.inf
 
     def drive(self) -> None:
-        walk = iterate_core(self.plan, self.context)
+        walk = CoreWalk(self.plan, self.context)
         for item in walk:
             if isinstance(item, Impossible):
                 self._find("refuse", item.reason, item.index, walk.pose)
@@ -195,16 +199,8 @@ class _Run:
         findings = tuple(sorted(self.findings, key=lambda finding: finding.t_s))
         return Rehearsal(path, length_m, findings, self.plan, self.context, tuple(self.steps), self.possible)
 
-    def _find(
-        self,
-        severity: Severity,
-        reason: Reason,
-        index: tuple[int, ...],
-        where: Pose,
-        t_s: float | None = None,
-    ) -> None:
-        at_s = self.t_s if t_s is None else t_s
-        self.findings.append(Finding(severity, reason, index, at_s, where))
+    def _find(self, severity: Severity, reason: Reason, index: tuple[int, ...], where: Pose) -> None:
+        self.findings.append(Finding(severity, reason, index, self.t_s, where))
 
     def _is_within_bounds(self, item: PlannedMotion) -> bool:
         if isinstance(item.motion, RampedTwist):
@@ -239,12 +235,12 @@ class _Run:
             walk.ended_at(pose_of(rows[-1]))
         else:
             times = tick_times(segment.total_s, TICK_S)
-            rows = np.column_stack((times, sample_poses(segment, sample_ramp(segment.ramp, times)[0])))
+            rows = np.column_stack((times, sample_poses(segment, sample_ramp(segment.ramp, times))))
         rows[:, 0] += self.t_s
         self._add(item, rows)
 
     def _slowed(self, segment: Segment) -> Segment:
-        """The segment as slowly as the governor will let the robot go where its lidar does not see; the same path."""
+        """Return the segment as slowly as the governor lets the robot go where its lidar does not see."""
         motion, share = segment.motion, 1.0
         if self.seen is not None:
             share = self.seen.allowed_share(motion.twist, segment.start)
@@ -255,7 +251,7 @@ class _Run:
         return Segment(slower, segment.start)
 
     def _until(self, segment: Segment, distance_m: float, item: PlannedMotion) -> Segment:
-        """The segment as it will be if the lidar sees what is known and what it saw, and nothing else."""
+        """Return the segment as it will be if the lidar sees what is known and what it saw, and nothing else."""
         twist, lidar = segment.motion.twist, self.context.profile.lidar
         if lidar is not None:
             distance_m = min(distance_m, lidar.max_range_m)
@@ -272,9 +268,8 @@ class _Run:
             self._find("note", Reason("no_obstacle_known", {"distance_m": most_m}), item.index, item.start)
             return segment
         hold_s = max(0.0, free_m - distance_m) / twist.speed_mps
-        return Segment(
-            RampedTwist(twist, min(hold_s, segment.ramp.hold_s), segment.motion.ramp_per_s), segment.start
-        )
+        cut = RampedTwist(twist, min(hold_s, segment.ramp.hold_s), segment.motion.ramp_per_s)
+        return Segment(cut, segment.start)
 
     def _sweep(self) -> None:
         """Find where the footprint first comes too close to what is known, to what was seen, or leaves its area."""
@@ -318,10 +313,12 @@ class _Run:
             name = self._name_of(contact)
             values.update({"obstacle": name} if name else {})
         row = rows[contact.row]
-        self._find("refuse", Reason(code, values), leg.item.index, pose_of(row), float(row[0]))
+        self.findings.append(
+            Finding("refuse", Reason(code, values), leg.item.index, float(row[0]), pose_of(row))
+        )
 
     def _name_of(self, contact: Contact) -> str:
-        """What stands there, if it is known."""
+        """Return the name of what stands there, if it is known."""
         if self.world is None:
             return ""
         is_known = self.world.clearance_m(np.array([[contact.x_m, contact.y_m]]))[0] < KNOWN_WITHIN_M
@@ -329,7 +326,7 @@ class _Run:
 
 
 def limited_reason(asked: Twist, possible: Twist) -> Reason:
-    """Return what to tell of a velocity that is beyond the limits."""
+    """Return the reason for a twist of which only a part is possible."""
     values: dict[str, float | int | str] = {
         "asked_mps": asked.speed_mps,
         "possible_mps": possible.speed_mps,

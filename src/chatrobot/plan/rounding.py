@@ -7,16 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from chatrobot.core.reason import Reason
-from chatrobot.plan.base import Block, Step
-from chatrobot.plan.findings import Severity
-from chatrobot.plan.primitives.arc import Arc
+from chatrobot.plan.base import MAX_LINES, Block, Plan, Step
+from chatrobot.plan.context import Finding, max_arc_speed_mps
 from chatrobot.plan.primitives.drive import Drive
-from chatrobot.plan.primitives.remember import Remember
-from chatrobot.plan.primitives.say import Say
-from chatrobot.plan.primitives.turn import Turn
-from chatrobot.plan.primitives.wait import Wait
-from chatrobot.plan.speeds import max_arc_speed_mps
-from chatrobot.plan.steps import MAX_LINES, Plan
+from chatrobot.plan.primitives.no_motion import Remember, Say, Wait
+from chatrobot.plan.primitives.turn import Arc, Turn
 from chatrobot.robots.profile import RobotProfile
 
 _ALONG_RAD = 1e-9
@@ -24,35 +19,26 @@ _LEFTOVER_M = 1e-6
 
 
 @dataclass(frozen=True)
-class Note:
-    """What was done to the plan, or why it cannot be done. `index` is the path of a step in `Rounded.plan`."""
-
-    severity: Severity
-    reason: Reason
-    index: tuple[int, ...] = ()
-
-
-@dataclass(frozen=True)
 class Rounded:
-    """The plan to run, and what to say about it."""
+    """The plan to run, and what to say about it. The paths of steps in the findings are of this plan."""
 
     plan: Plan
-    notes: tuple[Note, ...] = ()
+    findings: tuple[Finding, ...] = ()
 
 
 def round_corners(plan: Plan, profile: RobotProfile) -> Rounded:
-    """The plan as it is for a base that turns on the spot. For one that steers, every turn between two straight legs
-    becomes an arc of the minimum turning radius, the legs shortened by r * tan(angle / 2), so that the lines driven
-    stay where they were. A turn with no leg after it is left out, with a note. A turn that cannot be rounded stays
-    as it is, and lowering refuses it.
+    """Return the plan as a base that steers can drive it.
+
+    Every turn between two straight legs becomes an arc of the minimum turning radius r, the legs shortened by
+    r * tan(angle / 2), so that the lines driven stay where they were. A turn with no leg after it is left out, with a
+    note. A turn that cannot be rounded stays as it is, and lowering refuses it.
     """
-    if profile.can_turn_on_the_spot or not _has_turn(plan.steps):
+    if not _has_turn(plan.steps):
         return Rounded(plan)
     flat = _flattened(plan.steps)
     if len(flat) > MAX_LINES:
-        return Rounded(
-            plan, (Note("refuse", Reason("plan_too_large", {"steps": len(flat), "max_steps": MAX_LINES})),)
-        )
+        reason = Reason("plan_too_large", {"steps": len(flat), "max_steps": MAX_LINES})
+        return Rounded(plan, (Finding("refuse", reason),))
     return _Rounding(profile).run(plan, flat)
 
 
@@ -82,7 +68,7 @@ class _Rounding:
     def run(self, plan: Plan, flat: list[Step]) -> Rounded:
         steps: list[Step] = []
         corners = 0
-        notes: list[Note] = []
+        notes: list[Finding] = []
         position = 0
         while position < len(flat):
             step = flat[position]
@@ -94,14 +80,17 @@ class _Rounding:
             is_last = not any(_moves(later) for later in flat[position:])
             if is_last and any(_moves(earlier) for earlier in steps):
                 angle = sum(self._signed_angle(turn) for turn in turns)
-                notes.append(Note("note", Reason("turn_left_out", {"angle_rad": angle}), (len(steps) - 1,)))
+                notes.append(
+                    Finding("note", Reason("turn_left_out", {"angle_rad": angle}), (len(steps) - 1,))
+                )
             elif self._round(steps, turns, flat, position):
                 corners += 1
             else:
                 steps += turns
         if corners:
             notes.insert(
-                0, Note("note", Reason("corners_rounded", {"corners": corners, "radius_m": self._radius_m}))
+                0,
+                Finding("note", Reason("corners_rounded", {"corners": corners, "radius_m": self._radius_m})),
             )
         return Rounded(Plan(tuple(steps)) if notes else plan, tuple(notes))
 

@@ -30,7 +30,7 @@ COMFORT_M = 0.3
 """Clearance beyond the robot's own circle above which more of it is worth nothing."""
 
 CLOSE_COST = 3.0
-"""A cell at the very edge of fitting costs this much more than one with comfort."""
+"""Dimensionless: a cell at the very edge of fitting costs this much more than one with comfort."""
 
 AT_PLACE_M = 0.1
 """So far from a named place a robot still is there."""
@@ -67,7 +67,7 @@ class _Grid:
         return self.x0_m + j * self.size_m, self.y0_m + i * self.size_m
 
     def distance_to(self, x_m: float, y_m: float) -> Floats:
-        """Metres from every cell to a point, [ny, nx]."""
+        """Return metres from every cell to a point, [ny, nx]."""
         ny, nx = self.clearance_m.shape
         dx = self.x0_m + self.size_m * np.arange(nx) - x_m
         dy = self.y0_m + self.size_m * np.arange(ny) - y_m
@@ -91,7 +91,7 @@ class GridRoutePlanner:
         self._answers: dict[tuple[Pose, Point, bool], Route | NoRoute] = {}
 
     def route(self, start: Pose, goal: Point, *, named_place: bool) -> Route | NoRoute:
-        """Waypoints from `start` to `goal`, both in the odom frame.
+        """Return waypoints from `start` to `goal`, both in the odom frame.
 
         At a named place that is a little too tight, the route ends at the free point within 0.1 m. Otherwise
         `target_blocked` or `no_route` is the answer. Answers are remembered: what rehearsal asked, the executor gets
@@ -130,7 +130,7 @@ class GridRoutePlanner:
         return float(self._world.clearance_m(np.array([point]))[0])
 
     def _is_searchable(self, start: Pose, goal: Point) -> bool:
-        """Not when start and goal are so far apart that a grid over both would have cells larger than the robot."""
+        """Return False where a grid over start and goal would have cells larger than the robot."""
         span_m = _length((start.x_m, start.y_m), goal) + 2.0 * BORDER_M
         return span_m * span_m / MAX_CELLS < self._inner_m**2 / 4.0
 
@@ -164,7 +164,7 @@ class GridRoutePlanner:
         return _Grid(float(x0), float(y0), size_m, clearance)
 
     def _blocked(self, goal: Point, goal_m: float, free: Point | None) -> NoRoute:
-        """What stands at the goal, how much room there is, and the free point that is `short_m` from it."""
+        """Say what stands at the goal, how much room there is, and the free point that is `short_m` from it."""
         values: dict[str, float | int | str] = {"clearance_m": max(0.0, goal_m), "needed_m": self._needed_m}
         name = self._world.obstacle_name_at(*goal)
         if name:
@@ -213,7 +213,7 @@ class GridRoutePlanner:
         return bool((clearance >= needed).all())
 
     def _along(self, start: Point, end: Point) -> tuple[Floats, Floats]:
-        """Distances from `start` and clearances, each [n], along a straight leg."""
+        """Return distances from `start` and clearances, each [n], along a straight leg."""
         length = _length(start, end)
         count = min(MAX_CELLS, max(2, math.ceil(length / LEG_SPACING_M) + 1))
         share = np.linspace(0.0, 1.0, count)
@@ -255,13 +255,13 @@ def _length(start: Point, end: Point) -> float:
 
 
 def _inscribed_radius(footprint: tuple[Point, ...]) -> float:
-    """Of the largest circle about (0, 0) inside a convex polygon."""
+    """Return the radius, metres, of the largest circle about (0, 0) inside a convex polygon."""
     edges = zip(footprint, footprint[1:] + footprint[:1])
     return min(abs(ax * by - ay * bx) / math.hypot(bx - ax, by - ay) for (ax, ay), (bx, by) in edges)
 
 
 def _a_star(cost: Floats, start: tuple[int, int], goal: tuple[int, int]) -> list[tuple[int, int]] | None:
-    """The cheapest way over cells of [ny, nx] costs (infinite: closed), or None. Costs are at least 1 a cell."""
+    """Return the cheapest way over cells of [ny, nx] costs (infinite: closed), or None. Costs are at least 1 a cell."""
     width = cost.shape[1] + 2
     padded = np.full((cost.shape[0] + 2, width), np.inf)
     padded[1:-1, 1:-1] = cost

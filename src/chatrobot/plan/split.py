@@ -11,24 +11,19 @@ from dataclasses import dataclass, field, replace
 from itertools import groupby
 
 from chatrobot.core.geometry import ORIGIN, Pose
-from chatrobot.plan.base import Block, Step
+from chatrobot.plan.base import Block, Plan, Step, count_steps
 from chatrobot.plan.context import Impossible, LoweringContext
-from chatrobot.plan.core_motion import CoreMotion, Emit, Pause, RampedTwist
 from chatrobot.plan.lowering import lower
-from chatrobot.plan.primitive import BlockPrimitive
-from chatrobot.plan.primitives.go import Go
-from chatrobot.plan.primitives.remember import Remember
-from chatrobot.plan.primitives.repeat import Repeat
-from chatrobot.plan.primitives.say import Say
+from chatrobot.plan.primitive import BlockPrimitive, for_step
+from chatrobot.plan.primitives.drive import Go
+from chatrobot.plan.primitives.no_motion import Remember, Repeat, Say, Wait
 from chatrobot.plan.primitives.twist import RawTwist
-from chatrobot.plan.primitives.wait import Wait
-from chatrobot.plan.registry import for_step
-from chatrobot.plan.steps import Plan, count_steps
+from chatrobot.plan.trajectory import CoreMotion, Emit, Pause, RampedTwist
 
 
 @dataclass(frozen=True)
 class Reached:
-    """How far a plan was driven.
+    """Tells how far a plan was driven.
 
     Steps are numbered as in `PlannedMotion`: from 1, repeats counted each time.
 
@@ -126,7 +121,7 @@ class _Split:
         return self._divided(step, self._reached.share)
 
     def _whole(self, count: int) -> bool | None:
-        """Whether the next `count` steps were all done (True) or not begun (False); None: neither."""
+        """Return True where the next `count` steps were all done, False where none was begun; None: neither."""
         reached, after = self._reached, self._number + count
         if after <= reached.steps_done and not self._some_early(self._number, after):
             self._number = after
@@ -162,7 +157,7 @@ class _Split:
         return (done,) if done is not None else (), (rest,) if rest is not None else ()
 
     def _divided_motions(self, step: Step, share: float) -> Divided:
-        """Of a primitive that does not divide its steps: the core motions, as steps of their own."""
+        """Divide a step whose primitive does not: its core motions become steps of their own."""
         motions = lower(step, replace(self._context, pose=self._reached.step_start))
         if isinstance(motions, Impossible):
             return (), (step,)
@@ -175,7 +170,7 @@ class _Split:
 
 
 def _joined(block: Block, rounds: Sequence[tuple[Step, ...]]) -> tuple[Step, ...]:
-    """The rounds of a block one after the other; those that are whole are one block again."""
+    """Join the rounds of a block; those that are whole are one block again."""
     joined: list[Step] = []
     for is_whole, group in groupby(rounds, key=lambda steps: steps == block.steps):
         alike = list(group)
@@ -193,7 +188,7 @@ def _as_steps(motions: Iterable[CoreMotion]) -> list[Step]:
 
 
 def _as_step(motion: CoreMotion) -> Step | None:
-    """The step that is this one motion; None for what a third party tells."""
+    """Return the step that is this one motion; None for what a third party tells."""
     if isinstance(motion, RampedTwist):
         return RawTwist(*motion.twist, duration_s=motion.hold_s)
     if isinstance(motion, Pause):

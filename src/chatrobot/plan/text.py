@@ -2,19 +2,22 @@
 
 `format_plan` writes one canonical form; `parse_plan(format_plan(plan)) == plan` for every valid plan. Reading is
 more tolerant than writing. The grammar lies with the primitives (`plan/primitives`); docs/plan-language.md shows it.
+The tutorial's form of a velocity, `linear.x = 1,linear.y = 0,…,angular.z = 0`, is read here, too: it counts only where
+a line consists wholly of its assignments, never inside prose.
 """
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from chatrobot.core.errors import PlanTextError
-from chatrobot.plan.base import Block, Step
-from chatrobot.plan.primitive import BlockPrimitive
+from chatrobot.plan.base import MAX_EXPANDED_STEPS, MAX_LINES, MAX_NESTING, Block, Plan, Step, count_steps
+from chatrobot.plan.primitive import AnyPrimitive, BlockPrimitive, for_step, for_verb, primitives
+from chatrobot.plan.primitives.twist import RawTwist
 from chatrobot.plan.reader import LineReader
-from chatrobot.plan.registry import AnyPrimitive, for_step, for_verb, primitives
-from chatrobot.plan.steps import MAX_EXPANDED_STEPS, MAX_LINES, MAX_NESTING, Plan, count_steps
 
 MAX_LINE_CHARS = 400
 _INDENT = "  "
@@ -34,12 +37,12 @@ def parse_plan(text: str) -> Plan:
 
 
 def format_plan(plan: Plan) -> str:
-    """The canonical text: a line a step, no newline at the end."""
+    """Return the canonical text: a line a step, no newline at the end."""
     return "\n".join(_lines(plan.steps, ""))
 
 
 def format_step(step: Step) -> str:
-    """The canonical text of one step, with all its lines if it is a block."""
+    """Return the canonical text of one step, with all its lines if it is a block."""
     return "\n".join(_lines((step,), ""))
 
 
@@ -80,11 +83,11 @@ class StreamParser:
 
     @property
     def in_block(self) -> bool:
-        """A block is open: its `end` has not been read."""
+        """Return True where a block is open: its `end` has not been read."""
         return bool(self._open)
 
     def feed(self, chunk: str) -> list[Step]:
-        """The top-level steps that this piece of text completed.
+        """Return the top-level steps that this piece of text completed.
 
         Raises:
             PlanTextError: a line cannot be read, or the plan is too large.
@@ -96,7 +99,7 @@ class StreamParser:
         return self._deliver(done)
 
     def finish(self) -> list[Step]:
-        """The text is over: read a last line without a newline.
+        """End the text: read a last line without a newline.
 
         Raises:
             PlanTextError: as `feed`, or a block was not closed.
@@ -138,11 +141,11 @@ class StreamParser:
         if self._steps_done > MAX_EXPANDED_STEPS:
             self._fail(f"the plan would do more than {MAX_EXPANDED_STEPS} steps", line)
 
-    def _fail(self, problem: str, line: str, allowed: str = "") -> None:
-        raise PlanTextError(problem, line_number=self._line_number, line=line, allowed=allowed)
+    def _fail(self, problem: str, line: str) -> None:
+        raise PlanTextError(problem, line_number=self._line_number, line=line)
 
     def _read_line(self, line: str) -> Step | None:
-        """The top-level step that this line completes, if it does."""
+        """Return the top-level step that this line completes, if it does."""
         if len(line.strip()) > MAX_LINE_CHARS:
             raise _too_long(self._line_number, line)
         if self._line_number > MAX_LINES:
@@ -161,7 +164,9 @@ class StreamParser:
             self._open_block(primitive, reader)
             return None
         try:
-            return self._place(primitive.parse(reader))
+            step = primitive.parse(reader)
+            reader.finish("the end of the line")
+            return self._place(step)
         except ValueError as error:
             reader.fail(str(error), primitive.usage)
 
@@ -170,6 +175,7 @@ class StreamParser:
         if len(self._open) >= MAX_NESTING:
             reader.fail(f"blocks are nested at most {MAX_NESTING} deep")
         header = primitive.parse_header(reader)
+        reader.finish("the end of the line")
         self._open.append(_OpenBlock(primitive, header, self._line_number, reader.line))
 
     def _close_block(self, reader: LineReader) -> Step | None:
@@ -185,7 +191,7 @@ class StreamParser:
         return self._place(step)
 
     def _place(self, step: Step) -> Step | None:
-        """Into the open block, or out as a top-level step."""
+        """Put a step into the open block, or return it as a top-level one."""
         if not self._open:
             return step
         self._open[-1].steps.append(step)
@@ -198,3 +204,55 @@ def _too_long(line_number: int, line: str) -> PlanTextError:
         line_number=line_number,
         line=f"{line.strip()[:40]}…",
     )
+
+
+DURATION_S = 1.0
+"""How long a line moves the robot."""
+
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?"
+_ASSIGNMENT = rf"(linear|angular)\s*\.\s*([xyz])\s*=\s*({NUMBER}|[-+]?(?:inf|nan)\w*)"
+_FIND = re.compile(_ASSIGNMENT)
+_LINE = re.compile(rf"\s*[\"'“]?\s*{_ASSIGNMENT}(?:\s*[,，;]\s*{_ASSIGNMENT})*\s*[.,;，]?\s*[\"'”]?\s*")
+
+
+class ImpossibleTwistError(ValueError):
+    """Raised for a velocity that cannot be. `code`: `bad_number` (not finite) or `not_planar`."""
+
+    def __init__(self, code: str) -> None:
+        super().__init__(code)
+        self.code = code
+
+
+def read_tutorial_line(line: str) -> RawTwist | None:
+    """Return the velocity that `line` assigns, None where it is anything else.
+
+    Raises:
+        ImpossibleTwistError: it is of that form, and no planar robot can do it.
+    """
+    line = line.lower()
+    if "\n" in line.strip() or not _LINE.fullmatch(line):
+        return None
+    found = {f"{group}.{axis}": _number(value) for group, axis, value in _FIND.findall(line)}
+    return twist_from(found, DURATION_S)
+
+
+def twist_from(values: dict[str, float], duration_s: float) -> RawTwist:
+    """Return the raw velocity of assignments by name (`linear.x`, m/s; `angular.z`, rad/s); what is missing is zero.
+
+    Raises:
+        ImpossibleTwistError: see there.
+    """
+    if not all(math.isfinite(value) for value in values.values()):
+        raise ImpossibleTwistError("bad_number")
+    if any(values.get(name) for name in ("linear.z", "angular.x", "angular.y")):
+        raise ImpossibleTwistError("not_planar")
+    return RawTwist(
+        values.get("linear.x", 0.0), values.get("linear.y", 0.0), values.get("angular.z", 0.0), duration_s
+    )
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan  # `infinitely` and the like

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from chatrobot.core.reason import Reason, Value
-from chatrobot.plan.findings import Severity
+from chatrobot.plan.context import Severity
 from chatrobot.robots.profile import RobotProfile
 
 MAX_SOURCE_CHARS = 60_000

@@ -11,14 +11,12 @@ from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import ChatRobotError, InputError, UsageError
 from chatrobot.core.process import wake_promptly
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.sim.control import SimControl
 from chatrobot.sim.fault_injection import FaultInjection
 from chatrobot.sim.load import load_world
-from chatrobot.sim.marshalled import MarshalledWire
+from chatrobot.sim.network_wire import MarshalledWire, TransformPublisher
 from chatrobot.sim.robot import SimRobot
-from chatrobot.sim.server import SimServer
-from chatrobot.sim.start import check_start
-from chatrobot.sim.tf import TransformPublisher
+from chatrobot.sim.server import SimControl, SimServer
+from chatrobot.sim.world import check_start
 from chatrobot.wire.local import LocalHub
 from chatrobot.wire.messages import TwistMessage
 from chatrobot.wire.wire import Wire
@@ -44,7 +42,9 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m chatrobot.sim", description=__doc__)
     parser.add_argument("--profile", required=True, help="a robot profile, by name or path")
     parser.add_argument("--world", default="home", help="empty, home or a world file")
-    parser.add_argument("--sim", default="", metavar="KEY=VALUE,…", help="how it lies: slip=0.03,noise=on,…")
+    parser.add_argument(
+        "--sim", default="", metavar="KEY=VALUE,…", help="injected faults: slip=0.03,noise=on,…"
+    )
     parser.add_argument(
         "--on",
         default="local",
@@ -93,7 +93,7 @@ def _open_wire(options: argparse.Namespace, profile: RobotProfile) -> LocalHub |
         raise UsageError(
             f"{options.on!r} is not a robot address",
             where="--on",
-            allowed="local, dds, ros or rosbridge:ws://host:9090",
+            allowed="local, dds, ros or rosbridge:ws://HOST:9090",
         )
     from chatrobot.wire.connect import connect_wire
     from chatrobot.wire.ros import connect_ros

@@ -1,4 +1,4 @@
-"""What the wheels of a base make of its last command: kinematics, top speed and acceleration of the hardware.
+"""The wheels of a base, and what they make of its last command: kinematics, top speed and acceleration.
 
 The base holds its last command until it gets another one. Velocities change linearly in time, as motor
 controllers with a current limit do, and a step is cut exactly where a ramp ends, so the result hardly depends
@@ -13,7 +13,7 @@ from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.robots.profile import RobotProfile
 
 HARDWARE_MARGIN = 1.5
-"""The hardware can do a little more than the governor lets through; else nobody would need a governor."""
+"""Dimensionless. The hardware can do more than the governor lets through; else nobody would need a governor."""
 
 
 class Base:
@@ -32,16 +32,17 @@ class Base:
         self.wheel_twist = ZERO_TWIST
 
     def command(self, twist: Twist) -> None:
-        """What this kind of base can do of `twist` is held from now on. Not-a-number is ignored."""
+        """Hold from now on what this kind of base can do of `twist`. NaN is ignored."""
         if twist.is_finite:
             self._target = self._feasible(twist)
 
     @property
     def is_standing(self) -> bool:
+        """Return True where it stands and is told to."""
         return self.wheel_twist.is_zero and self._target.is_zero
 
     def stall(self) -> None:
-        """The wheels are held fast: they stand at once, and push on."""
+        """Hold the wheels fast: they stand at once, and push on."""
         self.wheel_twist = ZERO_TWIST
 
     def step(self, duration_s: float) -> list[tuple[Twist, float]]:
@@ -62,7 +63,7 @@ class Base:
         return segments
 
     def _ramp(self, duration_s: float) -> tuple[float, Twist]:
-        """Up to where the first ramp, linear or angular, ends: how long that takes and what is reached."""
+        """Go to where the first ramp, linear or angular, ends: how long that takes and what is reached."""
         now, target = self.wheel_twist, self._target
         dvx, dvy, dwz = target.vx_mps - now.vx_mps, target.vy_mps - now.vy_mps, target.wz_radps - now.wz_radps
         linear_s = math.hypot(dvx, dvy) / self._acceleration_mps2
@@ -78,7 +79,7 @@ class Base:
         return ramp_s, self._rolling(reached)
 
     def _feasible(self, twist: Twist) -> Twist:
-        """The nearest this base comes to `twist`: its wheels and its top speed."""
+        """Return the nearest this base comes to `twist`: its wheels and its top speed."""
         vx, vy, wz = twist
         if self._kinematics != "mecanum":
             vy = 0.0
@@ -92,7 +93,7 @@ class Base:
         return self._rolling(Twist(vx, vy, wz))
 
     def _rolling(self, twist: Twist) -> Twist:
-        """A steered base turns only as far as it rolls: at most the speed over its smallest radius."""
+        """Turn a steered base only as far as it rolls: at most the speed over its smallest radius."""
         if self._kinematics != "ackermann":
             return twist
         top = abs(twist.vx_mps) / max(self._turning_radius_m, 1e-3)

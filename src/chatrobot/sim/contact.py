@@ -1,5 +1,4 @@
-"""What stands around the robot, as far as its body and its lidar meet it. numpy is imported at the first
-obstacle."""
+"""The surroundings of the robot, as its body and its lidar meet them. numpy is imported at the first obstacle."""
 
 from __future__ import annotations
 
@@ -17,8 +16,7 @@ if TYPE_CHECKING:
     from chatrobot.sim.edges import Edges
 
 CONTACT_M = 1e-4
-"""How near to a contact a motion is carried; also what a blocked robot must be able to move to count as
-free."""
+"""How near to a contact a motion is carried; also what a blocked robot must be able to move to count as free."""
 
 RELEASE_M = 1e-3
 """A robot that has moved so far from where it touched something touches it no more."""
@@ -31,9 +29,6 @@ class Surroundings:
         self._points = footprint
         self._reach_m = max(math.hypot(x, y) for x, y in footprint)
         self._fixed = tuple(shapes)
-        self._edges: Edges | None = None
-        self._free_m = 0.0
-        self.is_empty = True
         self.set_added(())
 
     def set_added(self, shapes: Sequence[Shape]) -> None:
@@ -41,21 +36,19 @@ class Surroundings:
         shapes = (*self._fixed, *shapes)
         self.is_empty = not shapes
         self._free_m = 0.0
+        self._edges: Edges | None = None
         if shapes:
             from chatrobot.sim.edges import Edges, Footprint
 
             self._edges = Edges(shapes)
             self._footprint = Footprint(self._points)
-        else:
-            self._edges = None
 
     def free_share(self, start: Pose, twist: Twist, duration_s: float) -> float:
-        """How much of a short motion (centimetres) is free, 0 to 1."""
+        """Return how much of a short motion (centimetres) is free, 0 to 1."""
         if self._edges is None:
             return 1.0
         path_m = twist.speed_mps * duration_s
-        # As long as the robot has come less far than its whole turning circle was clear, nothing can touch
-        # it.
+        # As long as the robot has come less far than its whole turning circle was clear, nothing can touch it.
         if path_m < self._free_m:
             self._free_m -= path_m
             return 1.0
@@ -66,7 +59,7 @@ class Surroundings:
         return self._bisect(start, twist, duration_s)
 
     def raycast(self, eye: Pose, beams: int) -> NDArray[np.float64]:
-        """Metres from `eye` along `beams` directions from -pi on, [beams]; inf where there is nothing."""
+        """Return metres from `eye` along `beams` directions from -pi on, [beams]; inf where there is nothing."""
         if self._edges is None:
             raise ValueError("there is nothing to see")
         return self._edges.raycast(eye, beams)

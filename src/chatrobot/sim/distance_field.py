@@ -1,4 +1,4 @@
-"""How far it is from anywhere to the nearest obstacle, precomputed on a grid."""
+"""Distances from anywhere to the nearest obstacle, precomputed on a grid."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class DistanceField:
     values_m: Floats
 
     def clearance_m(self, points: Floats) -> Floats:
-        """Bilinear interpolation that never promises more than there is.
+        """Interpolate bilinearly, and never promise more than there is.
 
         A distance changes by at most a metre per metre, and a point is at most half a cell's diagonal from
         where the interpolation of its distances holds: that much is subtracted.
@@ -61,14 +61,13 @@ class DistanceField:
         above = flat[at + nx] * (1.0 - u) + flat[at + nx + 1] * u
         clearance = below * (1.0 - v) + above * v - self.resolution_m / math.sqrt(2.0)
         beyond = np.hypot(column - inside_column, row - inside_row) * self.resolution_m
-        # All obstacles lie within the grid, a convex box: leaving it at a right angle adds a leg to a
-        # triangle.
+        # All obstacles lie within the grid, a convex box: leaving it at a right angle adds a leg to a triangle.
         result: Floats = np.where(beyond > 0.0, np.hypot(np.maximum(clearance, 0.0), beyond), clearance)
         return result
 
 
 def build_distance_field(shapes: Sequence[Shape]) -> DistanceField:
-    """The field of `shapes`; a constant `FAR_M` for none of them."""
+    """Return the field of `shapes`; a constant `FAR_M` for none of them."""
     if not shapes:
         return DistanceField(-0.5, -0.5, 1.0, np.full((2, 2), FAR_M))
     corners = np.array([point for shape in shapes for point in _box(shape)])
@@ -137,7 +136,7 @@ def _polygon_distance(shape: Polygon, xs: Floats, ys: Floats) -> Floats:
 
 
 def _axis_aligned_box(shape: Shape) -> tuple[float, float, float, float] | None:
-    """The shape as (low x, low y, high x, high y), if it is such a box."""
+    """Return the shape as (low x, low y, high x, high y), if it is such a box."""
     if not isinstance(shape, Polygon) or len(shape.points) != 4:
         return None
     xs, ys = zip(*shape.points)

@@ -1,5 +1,4 @@
-"""Edges and circles as arrays: clearance, contact with a footprint, and rays, all at once for a whole
-world."""
+"""Edges and circles as arrays: clearance, contact with a footprint, and rays, all at once for a whole world."""
 
 from __future__ import annotations
 
@@ -27,8 +26,7 @@ class Footprint:
 
 
 class Edges:
-    """The outlines of shapes: `_starts`, `_vectors` [m, 2] of polygon edges, `_centres` [k, 2], `_radii`
-    [k]."""
+    """The outlines of shapes: `_starts`, `_vectors` [m, 2] of polygon edges, `_centres` [k, 2], `_radii` [k]."""
 
     def __init__(self, shapes: Sequence[Shape]) -> None:
         corners = [
@@ -45,7 +43,7 @@ class Edges:
         self._radii = np.array([c.radius_m for c in circles], dtype=float)
 
     def clearance_m(self, x_m: float, y_m: float) -> float:
-        """From a point to the nearest outline."""
+        """Return metres from a point to the nearest outline."""
         nearest_m = math.inf
         if len(self._starts):
             to_point = np.array((x_m, y_m)) - self._starts
@@ -58,7 +56,7 @@ class Edges:
         return nearest_m
 
     def touch(self, body: Footprint, pose: Pose) -> bool:
-        """Whether any outline meets the footprint of a robot at `pose`."""
+        """Return True where any outline meets the footprint of a robot at `pose`."""
         cos, sin = math.cos(pose.yaw_rad), math.sin(pose.yaw_rad)
         turn = np.array(((cos, -sin), (sin, cos)))
         position = np.array((pose.x_m, pose.y_m))
@@ -89,7 +87,7 @@ class Edges:
         return bool(np.any(inside | (distances <= self._radii)))
 
     def raycast(self, eye: Pose, beams: int) -> Floats:
-        """Metres along `beams` equally spaced directions, the first at -pi in the frame of `eye`.
+        """Return metres along `beams` equally spaced directions, the first at -pi in the frame of `eye`.
 
         Returns:
             [beams]; inf where a ray meets nothing.

@@ -24,7 +24,7 @@ since."""
 GYRO_NOISE_RADPS = 0.0009
 """Standard deviation of a gyro sample: 0.05 deg/s rms, total noise of an MPU-6050 (PS-MPU-6000A, 6.1)."""
 ENCODER_NOISE = 0.01
-"""Standard deviation of one wheel increment relative to its size; over a metre it averages out to below a
+"""Dimensionless standard deviation of one wheel increment relative to its size; over a metre it averages out to below a
 millimetre. Proportional to the motion as in Thrun, Burgard, Fox, Probabilistic Robotics (2005), 5.4; the size
 is our choice."""
 LIDAR_NOISE_M = 0.01
@@ -38,7 +38,7 @@ class FaultInjection:
     """The faults of the simulated robot; without any it measures exactly.
 
     Attributes:
-        slip: the wheels report more than happens: true travel, linear and angular, is (1 - slip) of it.
+        slip: the wheels report more than happens: true travel, linear and angular, is (1 - slip) of it; dimensionless.
         one_wheel_slip: the same for the wheels on the left side alone, so that the robot veers to the left.
         latency_s: odometry, gyro and scan arrive that late, stamped with the time they were measured at.
         noise: encoders, gyro and lidar are as noisy as real ones.
@@ -72,7 +72,7 @@ class FaultInjection:
 
     @classmethod
     def parse(cls, text: str) -> FaultInjection:
-        """Read `key=value,key=value`; an empty text is an honest robot.
+        """Read `key=value,key=value`; an empty text injects no fault.
 
         Raises:
             UsageError: an unknown key, a key twice or a value that is not possible; names the allowed ones.
@@ -94,7 +94,7 @@ class FaultInjection:
 
     @property
     def bias_radps(self) -> float:
-        """The gyro's bias in this run."""
+        """Return the gyro's bias in this run."""
         if self.gyro_bias_radps is not None:
             return self.gyro_bias_radps
         if not self.noise:

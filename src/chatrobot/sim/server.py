@@ -1,15 +1,21 @@
-"""The simulated robot in real time, on a local wire whose hub it runs, or as a ROS node of any other wire."""
+"""The simulated robot in real time, on a local wire whose hub it runs, or as a ROS node; and obstacles that come and go
+by messages."""
 
 from __future__ import annotations
 
+import json
 import math
 import signal
 from types import FrameType
-from typing import Protocol
+from typing import Any
 
 from chatrobot.core.clock import Clock
+from chatrobot.sim.network_wire import MarshalledWire
 from chatrobot.sim.robot import TICK_S, SimRobot
+from chatrobot.sim.shapes import Circle, Shape, polygon
 from chatrobot.wire.local import LocalHub
+from chatrobot.wire.messages import Text
+from chatrobot.wire.wire import Wire
 
 LAST_CLIENT_GONE_S = 2.0
 """It ends so long after its last client has left."""
@@ -20,19 +26,11 @@ GAP_S = 0.5
 one was a busy machine: physics catches up."""
 
 
-class Polled(Protocol):
-    """An end of a wire that delivers when it is polled."""
-
-    def poll(self, timeout_s: float) -> None: ...
-
-    def close(self) -> None: ...
-
-
 class SimServer:
     """Lets a simulated robot live in real time: on a hub as long as somebody is there, on another wire until it is
     told to end, by Ctrl-C too."""
 
-    def __init__(self, robot: SimRobot, hub: Polled, clock: Clock) -> None:
+    def __init__(self, robot: SimRobot, hub: LocalHub | MarshalledWire, clock: Clock) -> None:
         self._robot = robot
         self._hub = hub
         self._clock = clock
@@ -49,16 +47,19 @@ class SimServer:
             self._robot.step(behind_s)
 
     def run(self) -> None:
-        """Until everybody has left, nobody came or SIGTERM; the hub is closed then.
+        """Run until everybody has left, nobody came or SIGTERM; the hub is closed then.
 
         A terminal's signals are for whoever talks to a person: the robot goes on, as a real one would. Only where
         nobody has to be there, it is a person who ends it.
         """
         for ignored in (signal.SIGINT, signal.SIGTSTP, signal.SIGHUP):
             signal.signal(ignored, signal.SIG_IGN)
-        for ending in (
-            (signal.SIGTERM,) if self._serves_clients else (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
-        ):
+        ends_by = (
+            [signal.SIGTERM]
+            if isinstance(self._hub, LocalHub)
+            else [signal.SIGTERM, signal.SIGINT, signal.SIGHUP]
+        )
+        for ending in ends_by:
             signal.signal(ending, self._on_terminate)
         try:
             while not self._terminated and not self._deserted():
@@ -71,14 +72,10 @@ class SimServer:
         elapsed_s = self._clock.now_s() - self._robot.start_s
         return (math.floor(elapsed_s / TICK_S) + 1) * TICK_S - elapsed_s
 
-    @property
-    def _serves_clients(self) -> bool:
-        return isinstance(self._hub, LocalHub)
-
     def _deserted(self) -> bool:
-        now_s = self._clock.now_s()
         if not isinstance(self._hub, LocalHub):
             return False
+        now_s = self._clock.now_s()
         if self._hub.client_count:
             self._alone_since_s = now_s
             return False
@@ -87,3 +84,50 @@ class SimServer:
 
     def _on_terminate(self, _signal: int, _frame: FrameType | None) -> None:
         self._terminated = True
+
+
+CONTROL_TOPIC = "chatrobot/sim/control"
+"""`Text` with JSON: {"add": NAME, "polygon": [[x, y], …]}, {"add": NAME, "circle": [x, y, radius]} or
+{"remove": NAME}; metres, in the frame of the start."""
+REPLY_TOPIC = "chatrobot/sim/control_reply"
+"""`Text` with JSON: {"done": NAME}, or {"error": what was wrong}."""
+
+
+class SimControl:
+    """Lets obstacles come and go in a running simulation, as messages on `CONTROL_TOPIC` say."""
+
+    def __init__(self, robot: SimRobot, wire: Wire) -> None:
+        self._robot = robot
+        self._wire = wire
+        wire.subscribe(CONTROL_TOPIC, Text, self._on_request)
+
+    def _on_request(self, message: Text) -> None:
+        try:
+            reply = {"done": self._apply(json.loads(message.data))}
+        except (ValueError, TypeError, KeyError) as error:
+            reply = {"error": f"not understood: {error}"}
+        self._wire.publish(REPLY_TOPIC, Text(json.dumps(reply)))
+
+    def _apply(self, request: dict[str, Any]) -> str:
+        if "remove" in request:
+            name = str(request["remove"])
+            if not self._robot.remove_obstacle(name):
+                raise ValueError(f"nothing named {name!r} was added")
+            return name
+        name = str(request["add"])
+        self._robot.add_obstacle(name, _shape(request))
+        return name
+
+
+def _shape(request: dict[str, Any]) -> Shape:
+    if "circle" in request:
+        x_m, y_m, radius_m = (_finite(value) for value in request["circle"])
+        return Circle(x_m, y_m, radius_m)
+    return polygon(tuple((_finite(x), _finite(y)) for x, y in request["polygon"]))
+
+
+def _finite(value: Any) -> float:
+    number = float(value)
+    if not math.isfinite(number):
+        raise ValueError(f"{value} is not finite")
+    return number

@@ -17,11 +17,11 @@ class Polygon:
     points: tuple[Point, ...]
 
     def seen_from(self, origin: Pose) -> Polygon:
-        """The same polygon expressed in the frame that `origin` describes."""
+        """Return the same polygon expressed in the frame that `origin` describes."""
         return Polygon(tuple(_point_seen_from(point, origin) for point in self.points))
 
     def distance_m(self, x_m: float, y_m: float) -> float:
-        """From a point to the outline; negative inside."""
+        """Return metres from a point to the outline; negative inside."""
         corners = zip(self.points, self.points[1:] + self.points[:1])
         outline_m = min(_distance_to_segment_m(x_m, y_m, a, b) for a, b in corners)
         return -outline_m if self._contains(x_m, y_m) else outline_m
@@ -34,6 +34,7 @@ class Polygon:
         return inside
 
     def outline(self) -> tuple[Point, ...]:
+        """Return its corners."""
         return self.points
 
 
@@ -46,16 +47,16 @@ class Circle:
     radius_m: float
 
     def seen_from(self, origin: Pose) -> Circle:
-        """The same circle expressed in the frame that `origin` describes."""
+        """Return the same circle expressed in the frame that `origin` describes."""
         x_m, y_m = _point_seen_from((self.x_m, self.y_m), origin)
         return Circle(x_m, y_m, self.radius_m)
 
     def distance_m(self, x_m: float, y_m: float) -> float:
-        """From a point to the rim; negative inside."""
+        """Return metres from a point to the rim; negative inside."""
         return math.hypot(x_m - self.x_m, y_m - self.y_m) - self.radius_m
 
     def outline(self) -> tuple[Point, ...]:
-        """A polygon of 24 corners, for drawing."""
+        """Return a polygon of 24 corners, for drawing."""
         angles = [math.tau * i / 24 for i in range(24)]
         return tuple(
             (self.x_m + self.radius_m * math.cos(a), self.y_m + self.radius_m * math.sin(a)) for a in angles
@@ -66,7 +67,7 @@ Shape = Polygon | Circle
 
 
 def polygon(points: tuple[Point, ...]) -> Polygon:
-    """A polygon from corners in either sense of rotation.
+    """Make a polygon from corners in either sense of rotation.
 
     Raises:
         ValueError: fewer than three corners, or no area.
@@ -80,7 +81,7 @@ def polygon(points: tuple[Point, ...]) -> Polygon:
 
 
 def rectangle(x_m: float, y_m: float, length_m: float, width_m: float, yaw_rad: float = 0.0) -> Polygon:
-    """A rectangle by its centre, `length_m` along its own x axis, which looks along `yaw_rad`."""
+    """Make a rectangle by its centre, `length_m` along its own x axis, which looks along `yaw_rad`."""
     half_x, half_y = length_m / 2.0, width_m / 2.0
     cos, sin = math.cos(yaw_rad), math.sin(yaw_rad)
     corners = ((-half_x, -half_y), (half_x, -half_y), (half_x, half_y), (-half_x, half_y))

@@ -1,4 +1,4 @@
-"""What stands around the robot and what places are called.
+"""Worlds: what stands around the robot, what places are called, and whether a run can begin there.
 
 A world is expressed in the frame the robot starts in: the robot begins every run at (0, 0, 0), so that here
 the frame of the world and `odom` are the same.
@@ -6,13 +6,16 @@ the frame of the world and `odom` are the same.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from chatrobot.core.errors import UsageError, WorldError
 from chatrobot.core.geometry import Pose
-from chatrobot.sim.shapes import Point, Polygon, Shape
+from chatrobot.robots.profile import RobotProfile
+from chatrobot.sim.shapes import Circle, Point, Polygon, Shape
 
 if TYPE_CHECKING:
     import numpy as np
@@ -60,35 +63,34 @@ class World:
 
     @property
     def is_empty(self) -> bool:
-        """Nothing stands here."""
+        """Return True where nothing stands."""
         return not self.obstacles
 
     def place(self, name: str) -> Pose | None:
-        """The pose of a place by any of its names; None where nobody knows it."""
+        """Return the pose of a place by any of its names; None where nobody knows it."""
         main_name = self.aliases.get(name.strip().casefold(), name.strip())
         return self.places.get(main_name)
 
     def names_of(self, name: str) -> tuple[str, ...]:
-        """The main name of a place, as it is written, and its other names."""
+        """Return the main name of a place, as it is written, and its other names."""
         return (
             name,
             *(alias for alias, main in self.aliases.items() if main == name and alias != name.casefold()),
         )
 
     def obstacle_name_at(self, x_m: float, y_m: float) -> str:
-        """The name of the obstacle that is there, or nearest to there; empty in an empty world."""
+        """Return the name of the obstacle that is there, or nearest to there; empty in an empty world."""
         if not self.obstacles:
             return ""
         return min(self.obstacles, key=lambda obstacle: obstacle.shape.distance_m(x_m, y_m)).name
 
     def outline(self) -> list[tuple[str, tuple[Point, ...]]]:
-        """Every obstacle as a named polygon, for drawing a map."""
+        """Return every obstacle as a named polygon, for drawing a map."""
         return [(obstacle.name, obstacle.shape.outline()) for obstacle in self.obstacles]
 
     @cached_property
     def bounds(self) -> Bounds | None:
-        """The box that holds all obstacles, places, the allowed area and the start; None in an empty
-        world."""
+        """Return the box that holds all obstacles, places, the allowed area and the start; None in an empty world."""
         points = [point for _, outline in self.outline() for point in outline]
         points += [(pose.x_m, pose.y_m) for pose in self.places.values()]
         points += self.allowed_area.points if self.allowed_area else ()
@@ -99,13 +101,13 @@ class World:
 
     @cached_property
     def distance_field(self) -> DistanceField:
-        """How far it is to the nearest obstacle, on a grid; computed once, at the first look."""
+        """Return how far it is to the nearest obstacle, on a grid; computed once, at the first look."""
         from chatrobot.sim.distance_field import build_distance_field
 
         return build_distance_field(tuple(obstacle.shape for obstacle in self.obstacles))
 
     def clearance_m(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Metres from each point to the nearest obstacle, never more than it is (see `DistanceField`).
+        """Return metres from each point to the nearest obstacle, never more than it is (see `DistanceField`).
 
         Args:
             points: [n, 2], metres, in the world's frame.
@@ -117,3 +119,55 @@ class World:
 
 
 EMPTY_WORLD = World("empty")
+
+
+SPACING_M = 0.02
+"""Of the points of the outline that are looked at; no obstacle is a bar as thin as this."""
+
+
+def check_known(world: World, profile: RobotProfile) -> None:
+    """Refuse a world for a robot that is driven open loop: where in it the robot is, nobody knows.
+
+    Raises:
+        UsageError: it is driven open loop, and the world is not empty.
+    """
+    if profile.open_loop and not (world.is_empty and world.allowed_area is None):
+        raise UsageError(
+            "without odometry the place of the robot in it is unknown",
+            where=f"world {world.name}",
+            allowed="empty",
+        )
+
+
+def check_start(world: World, profile: RobotProfile, where: str) -> None:
+    """Refuse a world in which the robot would begin its run inside an obstacle: it could not move, nor be moved.
+
+    Raises:
+        WorldError: names the obstacle; `where` is what the person chose the world by.
+    """
+    body = Polygon(profile.footprint)
+    for obstacle in world.obstacles:
+        if obstacle.shape.distance_m(0.0, 0.0) > profile.footprint_radius_m:
+            continue
+        if _meet(body, obstacle.shape):
+            raise WorldError(
+                f"the start of the world {world.name!r} lies in the {obstacle.name}",
+                where=where,
+                allowed=f"a start where the {profile.title} touches nothing",
+            )
+
+
+def _meet(body: Polygon, shape: Shape) -> bool:
+    if isinstance(shape, Circle):
+        return body.distance_m(shape.x_m, shape.y_m) <= shape.radius_m
+    return any(shape.distance_m(x, y) <= 0.0 for x, y in _along(body)) or any(
+        body.distance_m(x, y) <= 0.0 for x, y in shape.points
+    )
+
+
+def _along(body: Polygon) -> list[Point]:
+    found: list[Point] = []
+    for (ax, ay), (bx, by) in zip(body.points, body.points[1:] + body.points[:1]):
+        count = max(1, math.ceil(math.hypot(bx - ax, by - ay) / SPACING_M))
+        found += [(ax + (bx - ax) * i / count, ay + (by - ay) * i / count) for i in range(count)]
+    return found

@@ -11,7 +11,7 @@ import pytest
 
 from chatrobot.api import connect
 from chatrobot.core.events import Event, Rehearsed
-from chatrobot.plan.registry import AnyPrimitive, for_verb
+from chatrobot.plan.primitive import AnyPrimitive, for_verb
 from chatrobot.plan.steps import Drive, Plan
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile

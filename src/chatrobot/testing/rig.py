@@ -15,7 +15,7 @@ from chatrobot.governor.governor import Governor
 from chatrobot.governor.rule import Sensed
 from chatrobot.motion.safety.stop import WireTransport
 from chatrobot.plan.context import LoweringContext
-from chatrobot.plan.lowering import iterate_core
+from chatrobot.plan.lowering import CoreWalk
 from chatrobot.plan.steps import Plan
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import Point, RobotProfile
@@ -115,7 +115,7 @@ class Rig:
         self.executor = executor = Executor(self.profile, self.sensors, self.events.append)
         began_s = self.clock.now_s()
         assert self.governor.begin("rig", self.clock.now_s(), self._sensed()).refusal is None
-        executor.start(1, iterate_core(plan, context), 10.0, began_s)
+        executor.start(1, CoreWalk(plan, context), 10.0, began_s)
         while self.clock.now_s() - began_s < limit_s:
             if self.clock.now_s() - began_s >= halt_after_s:
                 self.halt()

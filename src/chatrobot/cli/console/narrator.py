@@ -19,8 +19,7 @@ from chatrobot.core.reason import fixed
 from chatrobot.dialogue.programs.draft import body, headline
 from chatrobot.dialogue.replies import describe_left
 from chatrobot.language.phrases import render_reason, say
-from chatrobot.plan.folded import folded_plan
-from chatrobot.plan.shown import shown_plan
+from chatrobot.plan.shown import folded_plan, shown_plan
 
 PLAN_LINES = 16
 """A longer plan is shown in part; `/plan` shows it whole."""

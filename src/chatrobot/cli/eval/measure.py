@@ -11,10 +11,9 @@ from typing import NamedTuple
 from chatrobot.core.geometry import ORIGIN, Twist
 from chatrobot.plan.base import Step, expanded
 from chatrobot.plan.context import Impossible, LoweringContext
-from chatrobot.plan.core_motion import Pause, RampedTwist
-from chatrobot.plan.lowering import PlannedMotion, iterate_core
+from chatrobot.plan.lowering import CoreWalk, PlannedMotion
 from chatrobot.plan.steps import Arc, Drive, Go, Plan, Turn
-from chatrobot.plan.trajectory import Ramp
+from chatrobot.plan.trajectory import Pause, Ramp, RampedTwist
 from chatrobot.robots.profile import RobotProfile
 
 MOVING_MPS = 0.01
@@ -156,7 +155,7 @@ def ideal(steps: Sequence[Step], profile: RobotProfile) -> Ideal | None:
     if not steps:
         return Ideal()
     items: list[PlannedMotion] = []
-    for item in iterate_core(Plan(tuple(steps)), LoweringContext(profile, ORIGIN, ORIGIN, None)):
+    for item in CoreWalk(Plan(tuple(steps)), LoweringContext(profile, ORIGIN, ORIGIN, None)):
         if isinstance(item, Impossible):
             return None
         items.append(item)

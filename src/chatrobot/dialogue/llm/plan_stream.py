@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 from chatrobot.core.events import Event, Said, Streamed
 from chatrobot.plan.base import Step
-from chatrobot.plan.primitives.say import Say
+from chatrobot.plan.primitives.no_motion import Say
 from chatrobot.plan.text import format_step
 
 if TYPE_CHECKING:

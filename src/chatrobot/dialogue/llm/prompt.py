@@ -15,9 +15,9 @@ from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason, one_line, quoted
 from chatrobot.dialogue.llm.reply_reader import LOOKS, REST
 from chatrobot.plan.base import Step
-from chatrobot.plan.registry import primitives
+from chatrobot.plan.primitive import primitives
 from chatrobot.plan.steps import RawTwist
-from chatrobot.plan.tutorial_form import ImpossibleTwistError, read_tutorial_line
+from chatrobot.plan.text import ImpossibleTwistError, read_tutorial_line
 from chatrobot.programs.check import ROBOT_MODULES
 from chatrobot.robots.profile import RobotProfile
 

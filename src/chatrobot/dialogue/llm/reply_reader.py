@@ -8,8 +8,7 @@ from __future__ import annotations
 from chatrobot.core.errors import PlanTextError
 from chatrobot.plan.base import Step
 from chatrobot.plan.reader import LineReader
-from chatrobot.plan.text import StreamParser
-from chatrobot.plan.tutorial_form import ImpossibleTwistError, read_tutorial_line
+from chatrobot.plan.text import ImpossibleTwistError, StreamParser, read_tutorial_line
 
 LOOKS = ("scan", "pose", "places", "outcome", "camera")
 """What a model may ask to see with a line `look …` at the end of its reply."""

@@ -10,7 +10,7 @@ from chatrobot.dialogue.llm.call import ModelCall
 from chatrobot.dialogue.llm.reply_reader import ReplyReader
 from chatrobot.models.seam import CallLimits, Message, Model
 from chatrobot.plan.base import Step
-from chatrobot.plan.primitives.say import Say
+from chatrobot.plan.primitives.no_motion import Say
 from chatrobot.plan.steps import count_steps
 from chatrobot.plan.text import format_step
 

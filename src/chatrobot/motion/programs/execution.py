@@ -13,7 +13,7 @@ from chatrobot.core.clock import TERM_S, TICK_S
 from chatrobot.core.events import Event, Finished, Outcome, ProgramLog, Progress
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.reason import Reason
-from chatrobot.execution.health import STANDS_LATE_S, is_seen_moving, is_seen_standing
+from chatrobot.execution.sensors import STANDS_LATE_S, is_seen_moving, is_seen_standing
 from chatrobot.governor.governor import Verdict
 from chatrobot.motion.governed_motion import GovernedMotion, decelerated, is_worth_telling
 from chatrobot.motion.governed_robot import GovernedRobot

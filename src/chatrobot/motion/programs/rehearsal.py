@@ -19,11 +19,10 @@ from chatrobot.core.reason import Reason, Value
 from chatrobot.motion.programs.clocks import SteppedProgram
 from chatrobot.motion.programs.rehearsal_environment import RehearsalEnvironment
 from chatrobot.motion.remembered_obstacles import RememberedObstacles, with_seen
-from chatrobot.plan.findings import Finding, Severity
-from chatrobot.plan.governed_path import pose_of
+from chatrobot.plan.context import Finding, Severity
 from chatrobot.plan.known_world import Contact, Floats
 from chatrobot.plan.rehearsal import MARGIN_M, RehearsedPath, limited_reason
-from chatrobot.plan.sweep import area_clearance, first_contact
+from chatrobot.plan.swept_path import area_clearance, first_contact, pose_of
 from chatrobot.programs.events import (
     ENDS,
     Beat,

@@ -11,8 +11,7 @@ from typing import Literal, Protocol
 from chatrobot.core.clock import Clock
 from chatrobot.core.governed import GovernedTwist, StopEpoch
 from chatrobot.core.reason import Reason
-from chatrobot.execution.health import FRESH_S, STANDS_LATE_S, is_seen_moving, is_seen_standing
-from chatrobot.execution.sensors import Sensors
+from chatrobot.execution.sensors import FRESH_S, STANDS_LATE_S, Sensors, is_seen_moving, is_seen_standing
 from chatrobot.robots.profile import Wiring
 from chatrobot.wire.messages import ZERO, TwistMessage
 from chatrobot.wire.runtime_dir import stop_socket_path

@@ -1,1 +1,1 @@
-"""The built-in primitives, one module each with a `PRIMITIVE`. `plan.registry` finds every module in here."""
+"""The built-in primitives, by kind; each module lists its own in `PRIMITIVES`, where `plan.primitive` finds them."""

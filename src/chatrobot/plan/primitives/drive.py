@@ -1,4 +1,4 @@
-"""drive: straight, keeping the heading, for a distance or a time and/or until something is near."""
+"""Ways along the floor: `drive` straight, keeping the heading, and `go` to a point around what is known."""
 
 from __future__ import annotations
 
@@ -6,30 +6,31 @@ import math
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from chatrobot.core.geometry import Twist
+from chatrobot.core.geometry import Pose, Twist, wrap_angle
 from chatrobot.core.reason import Reason
 from chatrobot.plan.base import (
     Condition,
+    Frame,
     ObstacleWithin,
     Step,
     divide_extent,
     require,
     require_finite,
     require_positive,
+    rounded_angle,
 )
-from chatrobot.plan.context import Impossible, Lowered, LoweringContext
-from chatrobot.plan.core_motion import RampedTwist
-from chatrobot.plan.primitive import Primitive, StepParts, step_parts
-from chatrobot.plan.reader import LineReader
-from chatrobot.plan.speeds import choose_speed
-from chatrobot.plan.units import angle_text, number_text
+from chatrobot.plan.context import Impossible, Lowered, LoweringContext, choose_speed
+from chatrobot.plan.legs import go_to
+from chatrobot.plan.primitive import Primitive, StepParts, divided
+from chatrobot.plan.reader import LineReader, angle_text, at_speed, number_text, quote
+from chatrobot.plan.trajectory import RampedTwist
 
 UNTIL_AT_MOST_M = 20.0
 """How far a drive that has only a condition goes when the condition never comes true."""
 
 _DIRECTIONS = {"forward": 0.0, "left": math.pi / 2, "right": -math.pi / 2, "back": math.pi}
 _SPELLINGS = {**_DIRECTIONS, "forwards": 0.0, "ahead": 0.0, "backward": math.pi, "backwards": math.pi}
-_ALLOWED = "forward, back, left, right, 'toward 45 deg', 'at 0.2 m/s' or 'until obstacle within 0.5 m'"
+_DRIVE_ALLOWED = "forward, back, left, right, 'toward 45 deg', 'at 0.2 m/s' or 'until obstacle within 0.5 m'"
 
 
 @dataclass(frozen=True)
@@ -49,21 +50,15 @@ class Drive(Step):
     kind: Literal["drive"] = "drive"
 
     def __post_init__(self) -> None:
-        require_positive("distance_m", self.distance_m)
-        require_positive("duration_s", self.duration_s)
-        require_positive("speed_mps", self.speed_mps)
-        require_finite("direction_rad", self.direction_rad)
-        require(
-            not (self.distance_m is None and self.duration_s is None and self.until is None),
-            "a drive needs a distance, a duration or a condition",
-        )
-        require(
-            self.distance_m is None or self.duration_s is None,
-            "a drive has a distance or a duration, not both (say the speed instead)",
-        )
+        require_positive(self, "distance_m", "duration_s", "speed_mps")
+        require_finite(self, "direction_rad")
+        is_measured = self.distance_m is not None or self.duration_s is not None
+        require(is_measured or self.until is not None, "a drive needs a distance, a duration or a condition")
+        is_both = self.distance_m is not None and self.duration_s is not None
+        require(not is_both, "a drive has a distance or a duration, not both (say the speed instead)")
 
 
-class DrivePrimitive(Primitive[Drive]):
+class _DrivePrimitive(Primitive[Drive]):
     kind = verb = "drive"
     step_type = Drive
     usage = (
@@ -80,30 +75,30 @@ class DrivePrimitive(Primitive[Drive]):
     )
 
     def parse(self, line: LineReader) -> Drive:
-        distance: float | None = None
-        duration: float | None = None
-        direction = 0.0
-        speed: float | None = None
+        distance_m: float | None = None
+        duration_s: float | None = None
+        direction_rad = 0.0
+        speed_mps: float | None = None
         until: ObstacleWithin | None = None
         if line.at_end():
-            line.fail_here(f"a distance such as 1 m, a time such as 2 s, {_ALLOWED}")
+            line.fail_here(f"a distance such as 1 m, a time such as 2 s, {_DRIVE_ALLOWED}")
         while not line.at_end():
             line.accept("for")
-            if line.number_follows and distance is None and duration is None:
-                distance, duration = line.length_or_duration()
+            if line.number_follows and distance_m is None and duration_s is None:
+                distance_m, duration_s = line.length_or_duration()
             elif line.accept("toward", "towards"):
-                direction = line.angle_rad()
+                direction_rad = line.angle_rad()
             elif line.accept("at"):
-                speed = line.speed_mps()
+                speed_mps = line.speed_mps()
             elif line.accept("until"):
                 line.expect("obstacle")
                 line.expect("within")
                 until = ObstacleWithin(line.length_m())
             elif word := line.accept(*_SPELLINGS):
-                direction = _SPELLINGS[word]
+                direction_rad = _SPELLINGS[word]
             else:
-                line.fail_here(_ALLOWED)
-        return Drive(distance, duration, direction, speed, until)
+                line.fail_here(_DRIVE_ALLOWED)
+        return Drive(distance_m, duration_s, direction_rad, speed_mps, until)
 
     def format(self, step: Drive) -> str:
         words = ["drive"]
@@ -116,11 +111,8 @@ class DrivePrimitive(Primitive[Drive]):
             words.append(f"toward {angle_text(step.direction_rad)}")
         elif step.direction_rad != 0.0 or len(words) == 1:
             words.append(named[step.direction_rad])
-        if step.speed_mps is not None:
-            words.append(f"at {number_text(step.speed_mps)} m/s")
-        if step.until is not None:
-            words.append(f"until obstacle within {number_text(step.until.distance_m)} m")
-        return " ".join(words)
+        until = f" until obstacle within {number_text(step.until.distance_m)} m" if step.until else ""
+        return " ".join(words) + at_speed(step.speed_mps) + until
 
     def lower(self, step: Drive, context: LoweringContext) -> Lowered:
         profile = context.profile
@@ -130,21 +122,16 @@ class DrivePrimitive(Primitive[Drive]):
         if isinstance(speed, Impossible):
             return speed
         twist = straight_twist(speed, step.direction_rad)
-        if step.duration_s is not None:
-            hold_s = step.duration_s
-        else:
-            hold_s = (step.distance_m if step.distance_m is not None else UNTIL_AT_MOST_M) / speed
         is_timed = step.duration_s is not None
+        hold_s = step.duration_s or (step.distance_m or UNTIL_AT_MOST_M) / speed
         return [RampedTwist.within(profile.limits, twist, hold_s, until=step.until, is_timed=is_timed)]
 
     def divide(self, step: Drive, share: float, context: LoweringContext) -> StepParts:  # noqa: ARG002
-        timed = step.duration_s
-        if timed is not None:
-            extents = divide_extent(timed, share)
-            done, rest = step_parts(extents, lambda part: replace(step, duration_s=part))
+        if step.duration_s is not None:
+            done, rest = divided(step, "duration_s", divide_extent(step.duration_s, share))
         else:
             extents = divide_extent(step.distance_m or UNTIL_AT_MOST_M, share)
-            done, rest = step_parts(extents, lambda part: replace(step, distance_m=part))
+            done, rest = divided(step, "distance_m", extents)
         return replace(done, until=None) if isinstance(done, Drive) else None, rest
 
 
@@ -155,4 +142,97 @@ def straight_twist(speed_mps: float, direction_rad: float) -> Twist:
     return Twist(vx if abs(vx) > tiny else 0.0, vy if abs(vy) > tiny else 0.0, 0.0)
 
 
-PRIMITIVE = DrivePrimitive()
+MAX_PLACE_CHARS = 80
+_GO_ALLOWED = "'from start', 'facing 90 deg', 'named \"kitchen\"', 'at 0.2 m/s' or the end of the line"
+
+
+@dataclass(frozen=True)
+class Go(Step):
+    """Go to a point, around what is known, and look along `yaw_rad` there if it is given.
+
+    `place` is the name it was resolved from, for people to read; coordinates decide.
+    """
+
+    x_m: float
+    y_m: float
+    yaw_rad: float | None = None
+    frame: Frame = "odom"
+    place: str = ""
+    speed_mps: float | None = None
+    kind: Literal["go"] = "go"
+
+    def __post_init__(self) -> None:
+        require_finite(self, "x_m", "y_m", "yaw_rad")
+        require_positive(self, "speed_mps")
+        fits = self.place.isprintable() and len(self.place) <= MAX_PLACE_CHARS
+        require(fits, f"the name of a place is printable text of at most {MAX_PLACE_CHARS} characters")
+
+    @classmethod
+    def to_pose(cls, pose: Pose) -> Go:
+        """Back to a measured pose of `odom`: to a tenth of a millimetre and a hundredth of a degree."""
+        return cls(round(pose.x_m, 4), round(pose.y_m, 4), rounded_angle(wrap_angle(pose.yaw_rad), 2))
+
+
+class _GoPrimitive(Primitive[Go]):
+    kind = verb = "go"
+    step_type = Go
+    needs_pose = True
+    usage = 'go to X Y [from start] [facing ANGLE] [named "PLACE"] [at SPEED]'
+    help = "Go to a point of the map (metres), or ('from start') counted from where this plan began, around obstacles."
+    examples = ("go to 1.2 -0.4", "go to 0 0 from start facing 0 deg", 'go to 3 1 named "kitchen"')
+
+    def parse(self, line: LineReader) -> Go:
+        line.accept("to")
+        x_m, y_m = line.length_m(), line.length_m()
+        frame: Frame = "odom"
+        yaw_rad: float | None = None
+        place = ""
+        speed_mps: float | None = None
+        while not line.at_end():
+            if line.accept("from"):
+                line.expect("start")
+                frame = "start"
+            elif line.accept("facing"):
+                yaw_rad = line.angle_rad()
+            elif line.accept("named"):
+                place = line.text('the name of the place, as in named "kitchen"')
+            elif line.accept("at"):
+                speed_mps = line.speed_mps()
+            else:
+                line.fail_here(_GO_ALLOWED)
+        return Go(x_m, y_m, yaw_rad, frame, place, speed_mps)
+
+    def format(self, step: Go) -> str:
+        start = " from start" if step.frame == "start" else ""
+        facing = "" if step.yaw_rad is None else f" facing {angle_text(step.yaw_rad)}"
+        named = f" named {quote(step.place)}" if step.place else ""
+        point = f"{number_text(step.x_m)} {number_text(step.y_m)}"
+        return f"go to {point}{start}{facing}{named}{at_speed(step.speed_mps)}"
+
+    def lower(self, step: Go, context: LoweringContext) -> Lowered:
+        frame = context.frame_pose(step.frame)
+        target = frame.compose(Pose(step.x_m, step.y_m, step.yaw_rad or 0.0))
+        heading = None if step.yaw_rad is None else target.yaw_rad
+        lowered = go_to(
+            context, (target.x_m, target.y_m), heading, speed_mps=step.speed_mps, named_place=bool(step.place)
+        )
+        if isinstance(lowered, Impossible) and "nearest_x_m" in lowered.reason.values:
+            at = lowered.reason.values
+            nearest = Go(float(at["nearest_x_m"]), float(at["nearest_y_m"]), speed_mps=step.speed_mps)
+            return replace(lowered, instead=nearest)
+        return lowered
+
+    def divide(self, step: Go, share: float, context: LoweringContext) -> StepParts:  # noqa: ARG002
+        return Go.to_pose(context.pose), step
+
+    def resolve(self, step: Go, plan_start: Pose) -> Go:
+        if step.frame == "odom":
+            return step
+        target = plan_start.compose(Pose(step.x_m, step.y_m, step.yaw_rad or 0.0))
+        yaw_rad = None if step.yaw_rad is None else rounded_angle(wrap_angle(target.yaw_rad), 6)
+        return replace(
+            step, x_m=round(target.x_m, 6), y_m=round(target.y_m, 6), yaw_rad=yaw_rad, frame="odom"
+        )
+
+
+PRIMITIVES = (_DrivePrimitive(), _GoPrimitive())

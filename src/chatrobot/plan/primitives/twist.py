@@ -1,19 +1,23 @@
-"""twist: a raw velocity for a time, the tutorial's form. Limits scale it, direction kept; they never refuse it."""
+"""`twist`: a raw velocity for a time, the tutorial's form. Limits scale it, direction kept; they never refuse it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
 from chatrobot.plan.base import Step, divide_extent, require_finite, require_positive
-from chatrobot.plan.context import Impossible, Lowered, LoweringContext
-from chatrobot.plan.core_motion import Pause, RampedTwist
-from chatrobot.plan.primitive import Primitive, StepParts, step_parts
-from chatrobot.plan.reader import LineReader
-from chatrobot.plan.speeds import refuse_turn_on_the_spot, scale_into_limits
-from chatrobot.plan.units import number_text
+from chatrobot.plan.context import (
+    Impossible,
+    Lowered,
+    LoweringContext,
+    refuse_turn_on_the_spot,
+    scale_into_limits,
+)
+from chatrobot.plan.primitive import Primitive, StepParts, divided
+from chatrobot.plan.reader import LineReader, number_text
+from chatrobot.plan.trajectory import Pause, RampedTwist
 from chatrobot.robots.profile import RobotProfile
 
 
@@ -28,13 +32,11 @@ class RawTwist(Step):
     kind: Literal["twist"] = "twist"
 
     def __post_init__(self) -> None:
-        require_finite("vx_mps", self.vx_mps)
-        require_finite("vy_mps", self.vy_mps)
-        require_finite("wz_radps", self.wz_radps)
-        require_positive("duration_s", self.duration_s)
+        require_finite(self, "vx_mps", "vy_mps", "wz_radps")
+        require_positive(self, "duration_s")
 
 
-class TwistPrimitive(Primitive[RawTwist]):
+class _TwistPrimitive(Primitive[RawTwist]):
     kind = verb = "twist"
     step_type = RawTwist
     usage = "twist VX VY WZ [for TIME]"
@@ -66,8 +68,7 @@ class TwistPrimitive(Primitive[RawTwist]):
         return [RampedTwist.within(limits, twist, step.duration_s, asked=scaled, is_timed=True)]
 
     def divide(self, step: RawTwist, share: float, context: LoweringContext) -> StepParts:  # noqa: ARG002
-        times = divide_extent(step.duration_s, share)
-        return step_parts(times, lambda part: replace(step, duration_s=part))
+        return divided(step, "duration_s", divide_extent(step.duration_s, share))
 
 
 def _velocity(line: LineReader, unit: str, direction: str) -> float:
@@ -90,4 +91,4 @@ def _refuse_shape(profile: RobotProfile, twist: Twist) -> Impossible | None:
     return Impossible(Reason("turning_radius_too_small", {"radius_m": radius_m, "min_radius_m": least_m}))
 
 
-PRIMITIVE = TwistPrimitive()
+PRIMITIVES = (_TwistPrimitive(),)

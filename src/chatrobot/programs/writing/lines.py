@@ -7,12 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from chatrobot.core.geometry import Twist
-from chatrobot.plan.context import Impossible, LoweringContext
-from chatrobot.plan.core_motion import RampedTwist
-from chatrobot.plan.lowering import CoreWalk, PlannedMotion, iterate_core
+from chatrobot.plan.context import Impossible, LoweringContext, choose_arc_speed, choose_rate, choose_speed
+from chatrobot.plan.lowering import CoreWalk, PlannedMotion
 from chatrobot.plan.primitives.drive import UNTIL_AT_MOST_M, straight_twist
-from chatrobot.plan.speeds import choose_arc_speed, choose_rate, choose_speed
 from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, RawTwist, Remember, Repeat, Say, Step, Turn, Wait
+from chatrobot.plan.trajectory import RampedTwist
 from chatrobot.robots.profile import Point
 
 _BY_ODOMETRY = {"go_to", "face"}
@@ -50,7 +49,7 @@ Walked = dict[tuple[int, ...], list[PlannedMotion]]
 
 def _walked(plan: Plan, context: LoweringContext) -> Walked | Impossible:
     """Return what each step comes to the first time it is done."""
-    walk: CoreWalk = iterate_core(plan, context)
+    walk: CoreWalk = CoreWalk(plan, context)
     motions: Walked = {}
     closed: set[tuple[int, ...]] = set()
     for item in walk:
