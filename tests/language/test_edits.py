@@ -160,3 +160,7 @@ def test_what_points_at_a_figure_a_side_or_a_step_takes_it_from_before(
 @pytest.mark.parametrize("said", ["do the second step again", "Right. Do that one again."])
 def test_what_points_at_nothing_is_asked_about(said: str) -> None:
     assert done("drive 1 m", said) == "unclear"
+
+
+def test_what_was_meant_is_done_although_it_sounds_like_a_remark() -> None:
+    assert done("turn right 90", "oops I meant left") == "turn left 180 deg"
