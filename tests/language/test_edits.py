@@ -149,6 +149,11 @@ def test_all_that_is_the_whole_sentence_with_its_figures(whole: str, once: str, 
             "turn left 30 deg\ndrive 0.8 m",
         ),
         (("前进一米然后左转九十度", "重复第二步"), "turn left 90 deg"),
+        (("前进一米", "左转九十度", "这两步再来一次"), "drive 1 m\nturn left 90 deg"),
+        (
+            ("0.5 m forward", "turn left 90", "repeat both twice"),
+            "\n".join(["drive 0.5 m", "turn left 90 deg"] * 2),
+        ),
     ],
 )
 def test_what_points_at_a_figure_a_side_or_a_step_takes_it_from_before(

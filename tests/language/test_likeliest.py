@@ -24,7 +24,7 @@ def done(*turns: str) -> str:
         ("这边太窄了 你向左平移20厘米吧", "drive 0.2 m left"),
         ("Sorry to bother you again, but could you scoot forward about forty centimetres?", "drive 0.4 m"),
         ("I was thinking you could maybe turn right by forty five degrees", "turn right 45 deg"),
-        ("mom bought new curtains, drive forward 2.5 m", "drive 2.5 m"),
+        ("lunch is ready so come forward one metre and turn right", "drive 1 m\nturn right 90 deg"),
         ("往前走一米，小心左边", "drive 1 m"),
         ("小心右边", "unclear"),
         ("I'd love it if you turned left ninety degrees", "turn left 90 deg"),

@@ -101,13 +101,15 @@ def _walked(whole: Frame, frames: Sequence[Frame], context: Context, profile: Ro
 
 def _more_of_before(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
     """`a bit more`; `both again`: the last two turns."""
+    both = "both" in whole.flags or any("both" in text.split() for text in whole.texts)
+    if "again" in whole.flags and both and not whole.moves and whole.q.keys() <= {"times"}:
+        count = int(whole.q["times"].number) if whole.q else 1
+        return last_two(context, whole.text, steps="both" in whole.flags) * count
     if whole.moves or whole.q:
         return None
     on = "more" in whole.flags or any(text.endswith(("more", "further", "farther")) for text in whole.texts)
     if on and "bit" in whole.flags <= {"bit", "more"} and not whole.roles:
         return [a_bit_of(steps_of(context.dialogue.last_motion), whole, pace)]
-    if "again" in whole.flags and ("both" in whole.flags or any("both" in t.split() for t in whole.texts)):
-        return last_two(context, whole.text, steps="both" in whole.flags)
     return None
 
 
