@@ -163,7 +163,7 @@ def tokens() -> None:
         assert first is None
         from chatrobot.core.geometry import ORIGIN
 
-        prompt = system_prompt(profile, places), request("forward 1 m", ORIGIN, [], {})
+        prompt = system_prompt(profile, places), request("forward 1 m", ORIGIN, {})
         print(f"prompt tokens of one command {name:33s} {counted(''.join(prompt)):8.0f}     ({how})")
 
 

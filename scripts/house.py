@@ -34,10 +34,12 @@ MORE_IS_BETTER = {
 UNITS = "s ms us ns sec hz m mm m2 mps mps2 mps3 rad radps radps2 radps3 deg degps px percent bytes kb mb usd"
 DIMENSIONLESS = """
 turn number index i j k id pid pidfd fd descriptor port signal code status version sequence epoch seed line column row
-position mask flags opcode count depth steps times tokens rows columns cells beams calls rounds motions chars threads
-tasks descriptors decimals ratio share fraction factor divisor scale weight
+position mask flags opcode sign count depth steps times tokens rows columns cells beams calls rounds motions chars
+threads tasks descriptors decimals ratio share fraction factor divisor scale weight
 """
-"""What numbers a thing, counts things, or is a part of one; the last word of a name decides."""
+"""What numbers a thing, counts things, or is a part of one."""
+OF_ANY_UNIT = "value low high least most"
+"""For helpers whose caller has the unit."""
 
 WALK = """
 import sys, threading
@@ -108,9 +110,9 @@ def figures() -> dict[str, float]:
 
 
 def says_unit(name: str) -> bool:
-    """Return whether the name of a number has its unit, or says that it has none."""
-    last = name.lower().strip("_").rpartition("_")[2]
-    return last in UNITS.split() or last in DIMENSIONLESS.split()
+    """Return whether the last word of a number's name is its unit, or says that it has none; but for `steps_done`."""
+    last = re.sub("_(done|before)$", "", name.lower().strip("_")).rpartition("_")[2]
+    return last in f"{UNITS} {DIMENSIONLESS} {OF_ANY_UNIT}".split()
 
 
 def _numbers(trees: dict[Path, ast.Module]) -> Iterator[tuple[str, str]]:

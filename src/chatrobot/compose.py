@@ -5,6 +5,7 @@ Console, nodes and the Python API all begin here; nothing below knows how it is 
 
 from __future__ import annotations
 
+import contextlib
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -283,12 +284,16 @@ def _connect_wire(prepared: Prepared, on_event: OnEvent) -> Connection:
             raise UsageError("only the simulated robot of --on sim can do that", where=option)
     approve = setup.options.approve or (profile.approval == "plan" and not setup.yes)
     prepared.setup = replace(setup, options=replace(setup.options, approve=approve))
-    if address.startswith(("rosbridge:", "local:")):  # Motion would wait, and could not say for what
-        connect_wire(address, profile.wiring, "chatrobot").close()
     profile_file = profile_argument(setup.robot, profile_dirs(setup.folder))
-    motion = MotionProcess.start(address, profile_file, setup.world, setup.budget, open_loop=setup.open_loop)
-    link = SocketLink(motion)
-    link.wait_until_ready()
+    with contextlib.ExitStack() as held:
+        if address.startswith(("rosbridge:", "local:")):
+            # Motion would wait, and could not say for what. A simulated robot leaves when the last of us has left.
+            held.callback(connect_wire(address, profile.wiring, "chatrobot").close)
+        motion = MotionProcess.start(
+            address, profile_file, setup.world, setup.budget, open_loop=setup.open_loop
+        )
+        link = SocketLink(motion)
+        link.wait_until_ready()
     setup.on_ready()
     session = prepared.session(link, on_event)
     return Connection(session, profile, prepared.world, session.close)

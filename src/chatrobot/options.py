@@ -184,12 +184,14 @@ OF_NODES = (
             "This machine is the robot's own: no network lies between control and base.")),
 )
 """`chatrobot node` alone accepts these."""
-GENERATE_CODE = Parameter("generate_code", _BASE, False,
-    "The tutorial's: have requests for programs answered by a program.")
-REV_CHATGPT = Parameter("revChatGPT", _BASE, False,
-    "The tutorial's: the model's server keeps the conversation, as that service did.")
+TUTORIAL = (
+    Parameter("generate_code", _BASE, False, "The tutorial's: have requests for programs answered by a program."),
+    Parameter("revChatGPT", _BASE, False,
+        "The tutorial's: the model's server keeps the conversation, as that service did."),
+)
+"""The parameters of the tutorial's base node, which the command line takes with -p, too."""
 _PARAMETERS = (
-    GENERATE_CODE, REV_CHATGPT,
+    *TUTORIAL,
     *sorted((each.parameter for each in (*OPTIONS, *OF_NODES) if each.parameter),
         key=lambda parameter: parameter.name != "open_loop"),
     Parameter("diagnostics_period_s", _BOTH, 1.0, "Seconds between two messages on /diagnostics.", (0.1, 60.0)),

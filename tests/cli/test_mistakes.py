@@ -49,9 +49,13 @@ def test_a_wrong_name_of_a_model_is_blamed_on_where_it_stands(
     monkeypatch.setenv("CHATROBOT_MODEL", "clippy:95")
     command = ["do", "hi", "--fast", "--config-dir", str(tmp_path)]
     assert main(command) == 2
-    assert "CHATROBOT_MODEL: “clippy:95”" in capsys.readouterr().err
+    told = capsys.readouterr().err
+    assert "CHATROBOT_MODEL: " in told
+    assert "“clippy:95”" in told
     assert main([*command, "--model", "eliza"]) == 2
-    assert "--model: “eliza”" in capsys.readouterr().err
+    told = capsys.readouterr().err
+    assert "--model: " in told
+    assert "“eliza”" in told
 
 
 def test_where_no_robot_answers_that_is_said_at_once(capsys: pytest.CaptureFixture[str]) -> None:

@@ -211,14 +211,14 @@ def test_a_model_that_does_not_look_costs_the_camera_nothing(
 def test_a_camera_that_is_silent_is_waited_for_a_moment_and_then_told(
     monkeypatch: pytest.MonkeyPatch, robot: Robot
 ) -> None:
-    monkeypatch.setattr("chatrobot.dialogue.llm.round.LOOK_S", 0.05)
+    monkeypatch.setattr("chatrobot.dialogue.llm.looking.LOOK_S", 0.05)
     talk = Talk(monkeypatch, robot, "look camera", 'say "I see nothing"')
     assert talk.do(ASKED).outcome == "answered"
     assert "no camera picture" in talk.model.last
 
 
 def test_a_stop_ends_the_wait_for_a_picture(monkeypatch: pytest.MonkeyPatch, robot: Robot) -> None:
-    monkeypatch.setattr("chatrobot.dialogue.llm.round.LOOK_S", 60.0)
+    monkeypatch.setattr("chatrobot.dialogue.llm.looking.LOOK_S", 60.0)
     talk = Talk(monkeypatch, robot, "look camera")
     turn = talk.session.say(ASKED)
     talk.pump_until(lambda: robot.listeners > 0)

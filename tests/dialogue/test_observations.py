@@ -12,9 +12,8 @@ PLACES = {"dock": Pose(1.0, 2.0, math.pi)}
 
 
 def test_a_model_is_told_where_the_robot_is_and_what_places_there_are() -> None:
-    said = request("go on", Pose(0.5, -1.25, math.pi / 2), ["data: news"], PLACES)
+    said = request("go on", Pose(0.5, -1.25, math.pi / 2), PLACES)
     assert said.splitlines() == [
-        "data: news",
         'data: places, X Y heading: "dock" 1.00 2.00 180 deg',
         "data: the robot is at 0.50 -1.25, heading 90 deg",
         "The person says: go on",
@@ -23,6 +22,6 @@ def test_a_model_is_told_where_the_robot_is_and_what_places_there_are() -> None:
 
 def test_where_the_robot_has_not_said_where_it_is_no_model_is_told_zeros() -> None:
     unknown = "data: where the robot is, is not known"
-    assert unknown in request("go on", None, [], {}).splitlines()
+    assert unknown in request("go on", None, {}).splitlines()
     looked = observation(("pose",), pose=None, places={}, looked=None, finished=None, take=lambda: None)
     assert looked.text.splitlines()[0] == unknown

@@ -130,3 +130,37 @@ def test_a_bare_number_has_the_unit_that_makes_sense_or_is_proposed(turns: list[
 )
 def test_all_that_is_the_whole_sentence_with_its_figures(whole: str, once: str, count: int) -> None:
     assert done(whole) == "\n".join([done(once)] * count)
+
+
+@pytest.mark.parametrize(
+    ("turns", "last"),
+    [
+        (
+            ("make a circle with 50 cm radius to the left", "now one to the right"),
+            "arc right 360 deg radius 0.5 m",
+        ),
+        (("画个半径半米的圆，逆时针", "再画一个顺时针的"), "arc right 360 deg radius 0.5 m"),
+        (("slide left 40 cm", "and now to the right"), "drive 0.4 m right"),
+        (("turn left 30 degrees", "now one to the right"), "turn right 30 deg"),
+        (("drive 2 m and turn right 90", "do the first part again"), "drive 2 m"),
+        (("forward 60 cm", "turn left 30", "forward 80 cm", "repeat just the second"), "turn left 30 deg"),
+        (
+            ("forward 60 cm", "turn left 30", "forward 80 cm", "repeat the last two"),
+            "turn left 30 deg\ndrive 0.8 m",
+        ),
+        (("前进一米然后左转九十度", "重复第二步"), "turn left 90 deg"),
+    ],
+)
+def test_what_points_at_a_figure_a_side_or_a_step_takes_it_from_before(
+    turns: tuple[str, ...], last: str
+) -> None:
+    assert done(*turns) == last
+
+
+@pytest.mark.parametrize("said", ["do the second step again", "Right. Do that one again."])
+def test_what_points_at_nothing_is_asked_about(said: str) -> None:
+    assert done("drive 1 m", said) == "unclear"
+
+
+def test_what_was_meant_is_done_although_it_sounds_like_a_remark() -> None:
+    assert done("turn right 90", "oops I meant left") == "turn left 180 deg"

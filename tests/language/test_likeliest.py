@@ -22,6 +22,11 @@ def done(*turns: str) -> str:
         ("the curtain is open, so drive forward 2.5 m", "drive 2.5 m"),
         ("my shift is over so now you go forward one meter", "drive 1 m"),
         ("这边太窄了 你向左平移20厘米吧", "drive 0.2 m left"),
+        ("Sorry to bother you again, but could you scoot forward about forty centimetres?", "drive 0.4 m"),
+        ("I was thinking you could maybe turn right by forty five degrees", "turn right 45 deg"),
+        ("mom bought new curtains, drive forward 2.5 m", "drive 2.5 m"),
+        ("往前走一米，小心左边", "drive 1 m"),
+        ("小心右边", "unclear"),
         ("I'd love it if you turned left ninety degrees", "turn left 90 deg"),
         ("it would be great if you drove 1 m and then rolled back 50 cm", "drive 1 m\ndrive 0.5 m back"),
     ],
@@ -36,6 +41,8 @@ def test_talk_beside_an_order_is_passed_over(text: str, plan: str) -> None:
         ("go forward 3 m at 0.5 m/s yippeekayay", "drive 3 m at 0.5 m/s"),
         ("back up 2 m zorblaxing", "drive 2 m back"),
         ("能不能往后退半米 我椅子出不来", "drive 0.5 m back"),
+        ("in that case turn left 90 degrees", "turn left 90 deg"),
+        ("go forward 1 m to clear the door", "drive 1 m"),
     ],
 )
 def test_a_strange_word_beside_a_whole_order_is_asked_about_with_the_plan(text: str, plan: str) -> None:
@@ -55,6 +62,8 @@ def test_a_side_that_is_told_of_is_no_turn_before_an_order() -> None:
         "go forward 2 m unless the zorblax rings",
         "the frobnicator went left 2 m",
         "grab the cup and go forward 2 m",
+        "go forward 1 m past the fern and turn to the fern",  # a second order around what is strange
+        "turn left 90 degrees around the fern",
     ],
 )
 def test_nothing_is_proposed_where_what_is_strange_may_be_the_order(text: str) -> None:

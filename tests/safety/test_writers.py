@@ -26,7 +26,8 @@ OTHER_GRAPHS = (
     "testing/",
     "wire/",
 )
-"""The test kit has robots of its own. A program publishes to the box it is in, and what it holds is governed like anything else; a backend is a wire."""
+"""The test kit has robots of its own.
+A program publishes to the box it is in, and what it holds is governed like anything else; a backend is a wire."""
 
 HARMLESS = {"Text", "Flag", "Odometry"}
 

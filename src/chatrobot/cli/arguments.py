@@ -142,7 +142,8 @@ def _expect_quotes(texts: Sequence[str]) -> None:
     are_words = len(texts) > 2 and all(text.isascii() and not re.search(r"\s", text) for text in texts)
     if are_words and any(_PART_OF_SPEECH.fullmatch(text.casefold()) for text in texts):
         raise UsageError(
-            f"{len(texts)} words are {len(texts)} turns", allowed=f'chatrobot do "{" ".join(texts)}"'
+            f"{len(texts)} words without quotes are {len(texts)} turns",
+            allowed=f'chatrobot do "{" ".join(texts)}"',
         )
 
 

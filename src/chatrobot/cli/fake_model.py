@@ -1,4 +1,4 @@
-"""`chatrobot fake-model SCRIPT.yaml`: a scripted stand-in for a language model, until Ctrl-C."""
+"""Runs `chatrobot fake-model SCRIPT.yaml`: a scripted stand-in for a language model."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from chatrobot.models.fake.server import Call, FakeModel
 
 
 def run(args: argparse.Namespace) -> int:
-    """Until Ctrl-C. Beyond loopback callers need a token, which is printed."""
+    """Serve until Ctrl-C. Beyond loopback callers need a token, which is printed."""
     script = load_script(Path(args.script))
     if args.host not in LOOPBACK and not script.keys:
         script = replace(script, keys=(secrets.token_urlsafe(24),))
@@ -25,10 +25,18 @@ def run(args: argparse.Namespace) -> int:
     try:
         fake.start()
     except OSError as error:
-        raise UsageError(
-            f"cannot listen on {args.host}:{args.port}: {error.strerror}", allowed="--port 0"
-        ) from None
-    _tell(fake, script.keys[0] if script.keys else "any", script.models[0], as_json=args.json)
+        problem = f"cannot listen on {args.host}:{args.port}: {error.strerror}"
+        raise UsageError(problem, allowed="--port 0") from None
+    if args.json:
+        _print_json({"event": "listening", "url": fake.url, "model": script.models[0]})
+    else:
+        print(f"a fake model listens on {fake.url}; it ends with Ctrl-C. To use it:")
+        key = script.keys[0] if script.keys else "any"
+        print(f"  export OPENAI_BASE_URL={fake.url}/v1 OPENAI_API_KEY={key}")
+        print(f"  chatrobot --model openai:{script.models[0]}")
+        print(
+            "OpenAI (Chat Completions, Responses), Anthropic, Google and Ollama are understood.", flush=True
+        )
     try:
         fake.closing.wait()
     except KeyboardInterrupt:
@@ -36,23 +44,16 @@ def run(args: argparse.Namespace) -> int:
     return STOPPED
 
 
-def _tell(fake: FakeModel, key: str, model: str, *, as_json: bool) -> None:
-    if as_json:
-        sys.stdout.write(json_line({"event": "listening", "url": fake.url, "model": model}))
-        sys.stdout.flush()
-        return
-    print(f"a fake model listens on {fake.url}; it ends with Ctrl-C. To use it:")
-    print(f"  export OPENAI_BASE_URL={fake.url}/v1 OPENAI_API_KEY={key}")
-    print(f"  chatrobot --model openai:{model}")
-    print("OpenAI (Chat Completions, Responses), Anthropic, Google and Ollama are understood.", flush=True)
-
-
 def _show(call: Call) -> None:
     print(f"{call.path}  {' '.join(_said(call).split())[:100]}", flush=True)
 
 
 def _show_json(call: Call) -> None:
-    sys.stdout.write(json_line({"event": "call", "path": call.path, "said": _said(call)}))
+    _print_json({"event": "call", "path": call.path, "said": _said(call)})
+
+
+def _print_json(event: dict[str, str]) -> None:
+    sys.stdout.write(json_line(event))
     sys.stdout.flush()
 
 

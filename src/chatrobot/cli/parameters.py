@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from chatrobot.core.errors import UsageError
+from chatrobot.options import TUTORIAL
 
-NAMES = ("generate_code", "revChatGPT")
 _VALUES = {"true": True, "false": False}
 
 
@@ -18,7 +18,7 @@ def read_parameters(given: Sequence[str]) -> dict[str, bool]:
     Raises:
         UsageError: there is no such parameter, or no such value.
     """
-    values = dict.fromkeys(NAMES, False)
+    values = {parameter.name: False for parameter in TUTORIAL}
     for parameter in given:
         name, _, value = parameter.partition(":=")
         if name not in values or value.lower() not in _VALUES:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Callable
 from pathlib import Path
 
 from chatrobot.cli.approver import Approver
@@ -18,8 +17,6 @@ from chatrobot.cli.lines import has_keyboard
 from chatrobot.cli.parameters import with_parameter_files
 from chatrobot.core.errors import UsageError
 from chatrobot.dialogue.options import Options
-from chatrobot.dialogue.programs.authoring import Authoring
-from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.programs.library import KeptProgram, Library, clean_name
 from chatrobot.programs.ros_args import RosArgumentsError, check_args
 
@@ -47,35 +44,22 @@ def _new(args: argparse.Namespace) -> int:
 
 
 def _run(args: argparse.Namespace) -> int:
-    path, given = Path(args.name).expanduser(), _given(args)
-    if path.suffix == ".py":
-        source = _read(path)
-        return _drive(
-            args,
-            lambda conversation: _say(conversation, lambda made: made.draft_of_file(path, source), given),
-        )
-    program = _library(args).get(args.name)
-    return _drive(args, lambda conversation: _say(conversation, lambda made: made.draft_of(program), given))
-
-
-def _say(conversation: Conversation, draft_of: Callable[[Authoring], Draft], given: Sequence[str]) -> int:
-    authoring = conversation.session.authoring
-    assert authoring is not None
-    return conversation.session.say_draft(draft_of(authoring).with_args(given))
-
-
-def _given(args: argparse.Namespace) -> list[str]:
-    """Return the program's own command line, its parameter files read: in the sandbox it can open none.
-
-    Raises:
-        InputError: it cannot be given to a program.
-    """
-    given = with_parameter_files(args.program_args)
+    path = Path(args.name).expanduser()
+    source = _read(path) if path.suffix == ".py" else None
+    program = _library(args).get(args.name) if source is None else None
+    given = with_parameter_files(args.program_args)  # in the sandbox it can open none
     try:
         check_args(given)
     except RosArgumentsError as error:
         raise UsageError(str(error), where="behind --") from error
-    return given
+
+    def say(conversation: Conversation) -> int:
+        authoring = conversation.session.authoring
+        assert authoring is not None
+        draft = authoring.draft_of(program) if program else authoring.draft_of_file(path, source or "")
+        return conversation.session.say_draft(draft.with_args(given))
+
+    return _drive(args, say)
 
 
 def _read(path: Path) -> str:
@@ -206,7 +190,7 @@ def _export(args: argparse.Namespace) -> int:
     from chatrobot.programs.export import export, workspace
 
     program = _library(args).get(args.name)
-    folder = export(replace(program), Path(args.dir).expanduser())
+    folder = export(program, Path(args.dir).expanduser())
     for path in sorted(workspace(program)):
         print(f"{args.dir}/{path}")
     print(f"To build and run it where ROS 2 is: {folder}/build_run.sh")
@@ -214,12 +198,6 @@ def _export(args: argparse.Namespace) -> int:
 
 
 _ACTIONS: dict[str, Callable[[argparse.Namespace], int]] = {
-    "new": _new,
-    "list": _list,
-    "show": _show,
-    "run": _run,
-    "edit": _edit,
-    "rename": _rename,
-    "remove": _remove,
-    "export": _export,
-}
+    "new": _new, "list": _list, "show": _show, "run": _run,
+    "edit": _edit, "rename": _rename, "remove": _remove, "export": _export,
+}  # fmt: skip

@@ -80,7 +80,6 @@ class Session:
             understanding,
             self._resuming,
             EarlyAnswers(understanding, self._llm, self._requests, authoring),
-            lambda: self._is_writing,
         )
         self._programs: ProgramRequests | None = None
         if authoring is not None:
@@ -88,6 +87,7 @@ class Session:
             self._programs = ProgramRequests(
                 authoring, understanding, self._requests, self._goals, link, self._emit, is_void, self._finish
             )
+            self._llm.writer = self._programs
         self._dispatch = Dispatch(
             link, self._goals, self._utterances, understanding, self._requests, self._proposals, self._resuming,
             self._llm, self._programs, self._emit, self.stop, self._hears_robot_soon,
@@ -152,15 +152,13 @@ class Session:
     def stop(self, why: str = "") -> None:
         """Stop the robot and drop what was said before this moment."""
         self._link.send("stop", self._utterances.void(why), why=why)
-        self._cancel_asking()
+        self._llm.cancel(self._utterances.stopped_by)
 
     def pause(self, why: str = "") -> None:
         """Stop the robot as `stop` does, and keep what it was told; what cannot be kept ends as with a stop."""
         self._utterances.hold(is_under_way=self.is_moving or self._llm.is_busy)
         self._link.send("stop", why=why, keep=True)
         self._llm.cancel_unmoved(Reason("paused_by", {"why": why}))
-        if self._programs is not None:
-            self._programs.cancel()
 
     def resume(self) -> int:
         """Go on with what is paused; the number of the turn that says so."""
@@ -169,13 +167,7 @@ class Session:
     def emergency_stop(self, why: str = "") -> None:
         """Stop the robot and keep it stopped until `release`."""
         self._link.send("emergency_stop", self._utterances.void(why), why=why)
-        self._cancel_asking()
-
-    def _cancel_asking(self) -> None:
-        """End what models are being asked."""
         self._llm.cancel(self._utterances.stopped_by)
-        if self._programs is not None:
-            self._programs.cancel()
 
     def release(self) -> None:
         """Release an emergency stop. For the local console alone."""
@@ -200,8 +192,7 @@ class Session:
     @property
     def model_wait_s(self) -> float | None:
         """For how long a model has been asked by now, for a plan or a program; None where none is."""
-        writing_at_s = self._programs.asked_at_s if self._programs is not None else None
-        asked_at_s = writing_at_s if writing_at_s is not None else self._llm.asked_at_s
+        asked_at_s = self._llm.asked_at_s
         return time.monotonic() - asked_at_s if asked_at_s is not None else None
 
     @property
@@ -222,18 +213,13 @@ class Session:
     @property
     def waits_for_a_word(self) -> bool:
         """A plan is paused, and nothing happens before somebody says something."""
-        is_asking = self._llm.is_calling or self._is_writing
-        return self.is_paused and not is_asking and self._find_next() is None
+        return self.is_paused and not self._llm.is_calling and self._find_next() is None
 
     @property
     def is_idle(self) -> bool:
         """True where nothing runs, is thought about or waits."""
-        is_thinking = self._llm.is_busy or self._is_writing
+        is_thinking = self._llm.is_busy or self._llm.is_writing
         return not (self._requests.is_any_with_motion or self._utterances.waiting or is_thinking)
-
-    @property
-    def _is_writing(self) -> bool:
-        return self._programs is not None and self._programs.is_writing
 
     # --- the pumping thread ---
 
@@ -253,34 +239,21 @@ class Session:
         Raises:
             LinkError: Motion is gone.
         """
-        self._hear_models()
+        self._llm.pump()
         self._take_texts()
-        if self._link.is_simulated and self._wait_for_model(timeout_s):
-            self._hear_models()
+        stands = self._llm.is_writing or not self._requests.is_any_with_motion
+        if self._llm.is_calling and self._link.is_simulated and stands:
+            self._llm.wait(timeout_s)  # a model thinks in no time at all
+            self._llm.pump()
             timeout_s = 0.0
         event = self._link.next_event(0.0 if self._find_next() is not None else timeout_s)
         while event is not None:
             self._hear(event)
             event = self._link.next_event(0.0)
-        self._hear_models()
+        self._llm.pump()
         if self._link.is_lost:
             raise LinkError("Motion is gone, and its guard sends the robot zeros. Start chatrobot again.")
         self._take_texts()
-
-    def _hear_models(self) -> None:
-        self._llm.pump()
-        if self._programs is not None:
-            self._programs.pump()
-
-    def _wait_for_model(self, timeout_s: float) -> bool:
-        """Wait for a model that thinks or writes, while simulated time stands; False where none does."""
-        if self._programs is not None and self._programs.is_writing:
-            self._programs.wait(timeout_s)
-        elif self._llm.is_calling and not self._requests.is_any_with_motion:
-            self._llm.wait(timeout_s)
-        else:
-            return False
-        return True
 
     def close(self) -> None:
         """Goodbye: what runs is still done."""

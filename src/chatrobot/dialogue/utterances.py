@@ -8,7 +8,7 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
@@ -176,11 +176,7 @@ class UtteranceQueue:
 
 
 class NextUtterance:
-    """Finds the text to take now. Belongs to the pumping thread.
-
-    Args:
-        is_writing: a model writes a program; what is said meanwhile comes after it.
-    """
+    """Finds the text to take now. Belongs to the pumping thread."""
 
     def __init__(
         self,
@@ -190,7 +186,6 @@ class NextUtterance:
         understanding: Understanding,
         resuming: Resuming,
         early: EarlyAnswers,
-        is_writing: Callable[[], bool],
     ) -> None:
         self._utterances = utterance
         self._requests = book
@@ -198,7 +193,6 @@ class NextUtterance:
         self._understanding = understanding
         self._resuming = resuming
         self._early = early
-        self._is_writing = is_writing
 
     def find(self, options: Options, waits_for_end: int | None) -> Utterance | None:
         """The one to take now: the first, unless it has to wait.
@@ -213,7 +207,7 @@ class NextUtterance:
                 return None if is_about_a_pause and self.is_being_paused else utterance
             if self._utterances.is_held(utterance):
                 continue
-            if self.is_being_paused or self._is_writing():
+            if self.is_being_paused or self._llm.is_writing:
                 return None
             replaces = self._resuming.paused is not None or options.while_moving == "replace"
             if replaces and utterance.turn != waits_for_end:

@@ -7,7 +7,8 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from chatrobot.language.edits import Edit, flipped, resized
+from chatrobot.language.edit_words import Edit
+from chatrobot.language.edits import flipped, resized
 from chatrobot.language.frames import DIRECTIONS, GO, SIDES, TURN, Frame
 from chatrobot.language.manner import Pace
 from chatrobot.language.numbers import is_chinese

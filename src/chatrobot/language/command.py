@@ -9,7 +9,8 @@ from chatrobot import reflex
 from chatrobot.language import questions
 from chatrobot.language.acts import orders as is_ordered
 from chatrobot.language.corrections import MEANT
-from chatrobot.language.edits import edited
+from chatrobot.language.edit_words import Edit
+from chatrobot.language.edits import edited, resized
 from chatrobot.language.frames import GO, STILL, TURN, Frame
 from chatrobot.language.heeded import check_heeded
 from chatrobot.language.interpretation import Interpretation, planned, stopped
@@ -17,6 +18,7 @@ from chatrobot.language.names import names_in
 from chatrobot.language.phrases import say
 from chatrobot.language.place_questions import answer_about_places
 from chatrobot.language.reading import Reading, frames_of
+from chatrobot.language.selections import names_a_part, points_at_before, selected, with_another_size
 from chatrobot.language.sounds import mended
 from chatrobot.language.starting import check_start
 from chatrobot.language.tokens import Atom
@@ -91,7 +93,7 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     until = read_until(plain, language)
     if until is not None:
         return _until(until, reading)
-    changed = edited(atoms, reading.context.dialogue)
+    changed = _of_before(plain, atoms, reading)
     if changed is not None:
         return planned(changed, language, append=_appends(atoms))
     rest = next((a for a in atoms if a.kind == "flag" and a.value == "complete"), None)
@@ -109,6 +111,30 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
         check_heeded(atoms, steps, lambda changed: reading.steps(frames_of(changed)))
     plan = planned(steps, language, append=_appends(atoms), walk=walked.walk if walked else None)
     return replace(plan, corrects=corrects)
+
+
+def _of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | None:
+    """What takes its steps from turns before: a part of them, the whole changed, or the same after a motion of its own.
+
+    Raises:
+        Unclear: there is no such part, or two readings are as likely.
+    """
+    dialogue, language = reading.context.dialogue, reading.language
+    part = selected(plain, language, dialogue)
+    if part is not None or dialogue.last_motion is None or dialogue.last_motion.plan is None:
+        return part
+    before = dialogue.last_motion.plan.steps
+    size = with_another_size(plain, atoms, language)
+    if size is not None and len(before) > 1:
+        return resized(list(before), Edit(amounts=[size], roles={"side"}))
+    if len(atoms) > 2 and atoms[-2].kind == "conn" and points_at_before(atoms[-1], language):
+        own = frames_of(atoms[:-2])
+        if any(frame.moves for frame in own):
+            return [*reading.steps_of_their_own(own), *before]
+    changed = edited(atoms, dialogue)
+    if changed is None and any(a.value == "again" for a in atoms) and names_a_part(plain, language):
+        raise Unclear("unclear_motion", plain[:60])  # it wants no more than that part
+    return changed
 
 
 def _answered(plain: str, atoms: list[Atom], reading: Reading) -> Interpretation | None:

@@ -139,6 +139,8 @@ def _whole(frames: Sequence[Frame]) -> Frame | None:
             return None
         if any(name in whole.q for name in frame.q):
             return None
+        if "to_start" in whole.flags and frame.verb == "turn" and not (frame.direction or frame.q):
+            raise Unclear("unclear_motion", whole.text)  # `back to where you were before the turn`
         if "again" in frame.flags and whole.has_extent and whole.moves:
             return None  # a motion of its own, then more of it
         if whole.direction and frame.direction and whole.direction != frame.direction:

@@ -9,31 +9,16 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 
-from chatrobot.language.arithmetic import is_another, sign_of
 from chatrobot.language.context import Dialogue
-from chatrobot.language.frames import DIRECTIONS, GO, SIDES, TURN
+from chatrobot.language.edit_words import ROUND, SCALES, Edit, read_edit
+from chatrobot.language.frames import DIRECTIONS, SIDES
 from chatrobot.language.inverse import inverse
 from chatrobot.language.meant import is_correction
 from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Repeat, Step, Turn, Wait
 
-_IDLE = frozenset({"filler", "glue", "sep", "reason"})
-_POINTING = frozenset({"again", "same_amount", "more", "both", "do_this"})
-_CHANGING = frozenset(
-    {"other_way", "leave_out", "swapped", "complete", "amounts", "overshot", "instead", "all", "first"}
-) | {"until", "original_heading"}
-_ROUND = frozenset({"until", "original_heading"})
-"""`Until the circle is closed`: said of a curve before, it asks for the rest of the circle."""
-_KINDS: dict[str, type[Step]] = {
-    **dict.fromkeys(GO, Drive),
-    "slide": Drive,
-    **dict.fromkeys(TURN, Turn),
-    "curve": Arc,
-}
-_SCALES, _SIZES = ("scale", "fold"), ("length", "angle", "turns", "time", "speed", "rate")
 _TAKERS: dict[str, tuple[type[Step], ...]] = {
     "length": (Drive,), "angle": (Turn,), "turns": (Turn,), "time": (Drive, Turn, Wait),
     "radius": (Arc,), "speed": (Drive, Arc), "rate": (Turn,),
@@ -41,25 +26,6 @@ _TAKERS: dict[str, tuple[type[Step], ...]] = {
 """What a new amount may be for."""
 _OF_ONE = frozenset({"length", "angle", "turns", "time"})
 """Amounts that are for one step, where nothing tells that they are of each."""
-
-
-@dataclass
-class Edit:
-    """What is said of the motion before. `instead` is what stood in place of the amount before it; with `sign` below
-    zero the amount is so much less."""
-
-    flags: set[str] = field(default_factory=set)
-    kinds: list[type[Step]] = field(default_factory=list)
-    amounts: list[Atom] = field(default_factory=list)
-    instead: Atom | None = None
-    roles: set[str] = field(default_factory=set)
-    way: str = ""
-    nth: int = 0
-    slides: bool = False
-    sign: float = 1.0
-
-    def amount(self, *names: str) -> Atom | None:
-        return next((atom for atom in self.amounts if atom.value in names), None)
 
 
 def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
@@ -71,62 +37,32 @@ def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
     last = dialogue.last_motion
     if last is None or last.plan is None or is_correction(last):
         return None
-    edit = _read(atoms)
-    return _applied(edit, list(last.plan.steps)) if edit is not None else None
+    edit = read_edit(atoms)
+    if edit is None:
+        return None
+    if edit.nth and edit.flags == {"again"}:
+        return _nth(edit, dialogue)
+    return _applied(edit, list(last.plan.steps))
 
 
-def _read(atoms: Sequence[Atom]) -> Edit | None:
-    edit, denied = Edit(), False
-    said = {atom.value for atom in atoms if atom.kind == "flag"}
-    for i, atom in enumerate(atoms):
-        sign = sign_of(atom)
-        if "again" in said and sign:
-            edit.flags.add("more")
-            edit.sign = sign
-        elif atom.kind == "q" and atom.number < 0.0:  # `again minus 20 cm`
-            edit.flags.add("more")
-            edit.sign = -1.0
-            edit.amounts.append(quantity(atom.value, -atom.number, atom.text, atom.role))
-        elif atom.kind in _IDLE or (atom.kind == "pace" and any(a.value == "speed" for a in atoms)):
-            continue
-        elif atom.kind == "negation" and edit.amounts and edit.instead is None:
-            denied = True
-        elif is_another(atom):
-            return None  # `again, another 20 cm`: so much more, or a motion of its own?
-        elif atom.kind == "flag" and atom.value in _POINTING | _CHANGING:
-            edit.flags.add(atom.value)
-        elif atom.kind == "q" and denied:
-            edit.instead, denied = atom, False
-        elif atom.kind == "q" and (
-            atom.value in (*_SCALES, *_SIZES) or (atom.value == "number" and _is_told(atoms))
-        ):
-            edit.amounts.append(atom)
-        elif atom.kind == "verb" and atom.value in _KINDS:
-            edit.kinds.append(_KINDS[atom.value])
-            edit.slides |= atom.value == "slide"
-        elif atom.kind in ("dir", "rot") and edit.way in ("", atom.value):
-            edit.way = atom.value
-        elif atom.kind == "role" or (atom.kind == "counter" and atom.value == "side"):
-            edit.roles.add(atom.value)
-        elif atom.kind == "nth":
-            edit.nth = int(atom.value)
-        elif (
-            not (atom.kind == "conn" and (i == 0 or "first" in edit.flags or {"again", "more"} <= said))
-            and atom.value != "make"
-        ):
-            return None
-    return None if denied else edit
+def _nth(edit: Edit, dialogue: Dialogue) -> list[Step]:
+    """`Do the second step again`: of the last motion; of the turns, where each did one thing.
 
-
-def _is_told(atoms: Sequence[Atom]) -> bool:
-    """Whether a bare number may be the one that is to stand for another, or belong to `the two distances`."""
-    return any(atom.kind == "negation" or atom.value == "amounts" for atom in atoms)
+    Raises:
+        Unclear: where there were not as many.
+    """
+    turns = [list(turn.plan.steps) for turn in dialogue.turns if turn.plan is not None]
+    units = turns if len(turns[-1]) == 1 else [[step] for step in turns[-1]]
+    n = edit.nth - 1 if edit.nth > 0 else len(units) - 1
+    if not n < len(units) or edit.amounts or edit.way or edit.kinds:
+        raise Unclear("nothing_before")
+    return units[n]
 
 
 def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
-    flags, scale = edit.flags, edit.amount(*_SCALES)
-    if flags & _ROUND:
-        if flags != _ROUND or edit.amounts or edit.way or Turn in edit.kinds:
+    flags, scale = edit.flags, edit.amount(*SCALES)
+    if flags & ROUND:
+        if flags != ROUND or edit.amounts or edit.way or Turn in edit.kinds:
             return None
         if not isinstance(steps[-1], Arc):
             raise Unclear("nothing_before")
@@ -139,6 +75,9 @@ def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
         return _swapped(steps)
     if "first" in flags:
         return _reordered(steps, edit)
+    if edit.way in SIDES and not (flags - {"again"} or edit.amounts or edit.roles or edit.nth):
+        is_named = "again" in flags or (edit.is_named and not edit.kinds)
+        return _to_side(steps, edit.way == "left", is_named=is_named) if is_named or not edit.kinds else None
     points_back = edit.way == "back" and (scale is not None or edit.slides)
     if flags & {"same_amount", "overshot"} or points_back:
         return _one_way(edit, steps, scale)
@@ -150,8 +89,6 @@ def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
         return _lengthened(steps, edit)
     if "again" not in flags or flags - {"again", "instead", "all"} or scale is not None:
         return None
-    if edit.way in SIDES and len(steps) > 1:
-        return _mirrored(steps, edit.way == "left") if not edit.amounts else None
     return resized(steps, edit) if edit.amounts and not edit.way else None
 
 
@@ -212,6 +149,17 @@ def resized(steps: list[Step], edit: Edit) -> list[Step] | None:
         for i in taken:
             out[i] = _changed_to(out[i], role, number)
     return out
+
+
+def _to_side(steps: list[Step], left: bool, *, is_named: bool) -> list[Step] | None:
+    """`Now to the right` after a slide, `now one to the right` after a figure: in the manner of the motion before."""
+    if len(steps) == 1 and _is_sideways(steps[0]):
+        return steps if _heads_left(steps[0]) == left else [flipped(steps[0])]
+    return _mirrored(steps, left) if is_named else None
+
+
+def _heads_left(step: Step) -> bool:
+    return isinstance(step, Drive) and math.sin(step.direction_rad) > 0.0
 
 
 def _lengthened(steps: list[Step], edit: Edit) -> list[Step] | None:

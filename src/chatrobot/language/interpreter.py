@@ -135,6 +135,8 @@ class OfflineInterpreter:
             return meant
         reads = read_acts(plain, names)
         odds = order_log_odds(reads)
+        if meant.corrects and context.dialogue.turns and context.dialogue.turns[-1].moved:
+            return meant  # `oops, I meant left`: it is said of what was done
         if odds < MAYBE_ORDER:
             raise Unclear("nothing_to_do")
         rest = without_talk(plain, names, doubtful=True)

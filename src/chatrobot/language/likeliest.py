@@ -7,21 +7,26 @@ and its clause says by itself what to do and how much. What was left out is name
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 from chatrobot.core.event import Proposal
 from chatrobot.language.acts import ORDER, Read, order_log_odds, read_acts
+from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.lexicon import cut, lexicon
 from chatrobot.language.phrases import describe_plan, say
-from chatrobot.language.signs import Names
+from chatrobot.language.signs import BINDING, DEPENDING, Clause, Names, Sign
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.text import format_plan
 
 TALK, APART = 1.5, 3.0
 """A clause may be sure talk below these odds, and where the order's are higher by so much."""
+NO_MOTION = -4.0
+"""A clause without any word of motion is sure talk below these odds, whatever its words are."""
 NO_ORDER = 3.5
 """A clause without an amount may be left out of a proposal below these odds."""
 MOST_CLAUSES, MOST_PARTS = 12, 3
@@ -61,7 +66,7 @@ class _Rest:
 
     def with_part(self, part: str) -> Read | None:
         """The clause that was not understood: the last that holds `part`."""
-        squeezed = "".join(part.split())
+        squeezed = "".join(part.split()).rstrip("…")
         held = [read for read in self.kept if squeezed and squeezed in "".join(self.said(read).split())]
         return held[-1] if held else None
 
@@ -88,7 +93,7 @@ def likeliest(
             found = read(rest.text)
         except Unclear as stumbled:
             if not _without(rest, stumbled, best, names):
-                return None
+                return _core(rest, problem, language, read_anew) if not stumbled.refused else None
             is_sure = False
             continue
         if rest.strange and not _means_the_same(found, rest.text, read_anew):
@@ -110,6 +115,43 @@ def proposed(
     return Interpretation("unclear", reply, language, unaccounted=named, code="did_you_mean", proposal=offer)
 
 
+def _core(rest: _Rest, problem: Unclear, language: LanguageCode, read_anew: Reader) -> Interpretation | None:
+    """The motion that one clause names in one piece, proposed where nothing around it can bear on it."""
+    if problem.code != "unknown_part" or problem.refused or len(rest.kept) != 1:
+        return None
+    around, core = _motion_in_one_piece(rest.kept[0].clause, rest.plain)
+    if not core or {sign.label for sign in around} & (BINDING | DEPENDING) - {"request", "please"}:
+        return None
+    if any(sign.text in _relations() for sign in around):
+        return None
+    try:
+        return proposed(read_anew(core), language, (problem.part.rstrip(" …"),))
+    except Unclear:
+        return None
+
+
+def _motion_in_one_piece(clause: Clause, plain: str) -> tuple[list[Sign], str]:
+    """The signs around what is said from the first to the last word of motion, and that text; "" where there are two.
+
+    Between two words of motion stands at most one other: `drive forward for 2 m`.
+    """
+    moving = [i for i, sign in enumerate(clause.signs) if sign.moves and sign.label.isupper()]
+    if not moving or not clause.measures or any(b - a > 2 for a, b in itertools.pairwise(moving)):
+        return [], ""
+    first, last = moving[0], moving[-1] + 1
+    if first and clause.signs[first].label != "VERB":
+        return [], ""  # what stands before it may be the verb
+    stop = clause.signs[last].start if last < len(clause.signs) else clause.stop
+    around = [*clause.signs[:first], *clause.signs[last:]]
+    return around, plain[clause.signs[first].start : stop].strip(" ,.;:!")
+
+
+@lru_cache(maxsize=1)
+def _relations() -> frozenset[str]:
+    """Words that say how a motion lies to something else, or bound it: nothing beside them can be left out."""
+    return frozenset(word for code in LANGUAGES for word in load_table(code, "relations").get("words", ()))
+
+
 def _with_unit(plain: str, number: str, language: LanguageCode, read: Reader) -> Interpretation | None:
     """`Drive 50`: in metres, or in centimetres where that would be far."""
     at = [found.start() for found in re.finditer(rf"(?<![a-z\d_.]){re.escape(number)}(?![a-z\d_.])", plain)]
@@ -125,6 +167,8 @@ def _with_unit(plain: str, number: str, language: LanguageCode, read: Reader) ->
 
 def _is_sure_talk(read: Read, best: float) -> bool:
     clause = read.clause
+    if not (clause.moves or clause.depends or clause.denies) and read.log_odds < min(NO_MOTION, best - APART):
+        return True
     return clause.talks and not clause.binds and read.log_odds < min(TALK, best - APART)
 
 

@@ -85,6 +85,11 @@ class Clause:
         return rest[0].start if is_request and rest and rest[0].moves else self.start
 
     @property
+    def denies(self) -> bool:
+        """`don't do it yet`: whether it begins with a negation, which may bear on what stands beside it."""
+        return next((sign.label for sign in self.signs if sign.label not in _OPENING), "") == "not"
+
+    @property
     def asks(self) -> bool:
         """`don't you …`, `did you …`: whether it begins as a question does."""
         return self.signs[0].label == "ask"

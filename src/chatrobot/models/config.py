@@ -23,7 +23,7 @@ Source = Literal["option", "environment", "stored"]
 
 @dataclass(frozen=True)
 class ModelConfig:
-    """Where settings live and what the environment says.
+    """Settings' folder, and what the environment says.
 
     `folder` holds the choice of a model and the record of usage (None: neither is kept); keys are never in it.
     `session` tells sessions apart in the record. Without `keyring` keys come from the environment alone.
@@ -41,7 +41,7 @@ class ModelConfig:
 
 @dataclass(frozen=True)
 class Choice:
-    """A model by name (`PROVIDER:NAME`) and who chose it."""
+    """Model by name (`PROVIDER:NAME`) and who chose it."""
 
     name: str
     source: Source

@@ -1,4 +1,4 @@
-"""A conversation that the server holds (Responses API): only what it does not know yet is sent.
+"""Goes on with a conversation that the server holds (Responses API): only what it does not know yet is sent.
 
 The place of the first tutorials' second client: a bearer token, any base URL, and a conversation that lives elsewhere.
 """
@@ -17,7 +17,7 @@ VARIABLE = "CHATROBOT_CONVERSATION"
 
 
 class Conversation:
-    """Where a server-held conversation stands. Locked: `forget` may come from another thread than the calls."""
+    """State of a server-held conversation. Locked: `forget` may come from another thread than the calls."""
 
     def __init__(self, config: ModelConfig) -> None:
         given = config.variable(VARIABLE)
@@ -43,7 +43,7 @@ class Conversation:
             self._asking, self._is_settled = _last_said(messages), False
 
     def is_lost(self, error: BaseException) -> bool:
-        """Whether this error says that the server no longer knows what we went on from; then we begin anew."""
+        """Tell whether this error says that the server no longer knows what we went on from; then we begin anew."""
         body = str(getattr(error, "body", ""))
         with self._lock:
             lost = (
@@ -56,7 +56,7 @@ class Conversation:
         return lost
 
     def answered(self, response_id: str) -> None:
-        """The server has kept its reply under that id."""
+        """Note that the server has kept its reply under that id."""
         with self._lock:
             self._heard, self._is_settled = self._asking, True
             if not self._conversation:
@@ -69,7 +69,7 @@ class Conversation:
             self._is_settled = True
 
     def _unknown(self, messages: Sequence[Message]) -> tuple[Message, ...] | None:
-        """The system's messages and what the server has not heard; None where that cannot be told."""
+        """Return the system's messages and what the server has not heard; None where that cannot be told."""
         first = _after(messages, self._heard) if self._heard else None
         if first is None:
             if not self._is_settled and not self._conversation:
@@ -82,7 +82,7 @@ class Conversation:
 
 
 def _after(messages: Sequence[Message], heard: str) -> int | None:
-    """The first message after the one with these words and the answer to it, or None where nobody said them."""
+    """Return the first message after the one with these words and the answer to it, or None where nobody said them."""
     said = [
         index for index, message in enumerate(messages) if message.role == "user" and message.text == heard
     ]

@@ -1,4 +1,4 @@
-"""Model servers on this machine, found by asking the usual ports of loopback, all at once; and what a server lists."""
+"""Finds model servers on this machine, asking the usual ports of loopback all at once; lists the models of a server."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _LOCAL = (*LOCAL, "openai-compatible")
 
 @dataclass(frozen=True)
 class LocalServer:
-    """A server that answered: the provider it is, its base URL and the models it lists."""
+    """One server that answered: the provider it is, its base URL and the models it lists."""
 
     provider: str
     address: str
@@ -30,57 +30,53 @@ class LocalServer:
 
 
 def find_local(config: ModelConfig, *, timeout_s: float = PROBE_S) -> list[LocalServer]:
-    """Every model server on loopback that answers in time, in the order of our table."""
-    places = [(name, providers()[name].address(config)) for name in _LOCAL if name in providers()]
-    found: dict[int, LocalServer] = {}
+    """Return every model server on loopback that answers in time, in the order of our table."""
+    addresses = {name: providers()[name].address(config) for name in _LOCAL if name in providers()}
+    found: dict[str, LocalServer] = {}
 
-    def probe(index: int, provider: str, address: str) -> None:
-        models = _served(urlsplit(address), timeout_s)
+    def probe(name: str, address: str) -> None:
+        models = _listed(urlsplit(address), "/models", {}, timeout_s)
         if models:
-            found[index] = LocalServer(provider, address, models)
+            found[name] = LocalServer(name, address, models)
 
     threads = [
-        threading.Thread(target=probe, args=(index, provider, address), daemon=True)
-        for index, (provider, address) in enumerate(places)
-        if urlsplit(address).hostname in LOOPBACK
+        threading.Thread(target=probe, args=place, daemon=True)
+        for place in addresses.items()
+        if urlsplit(place[1]).hostname in LOOPBACK
     ]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join(2 * timeout_s)
-    return [found[index] for index in sorted(found)]
-
-
-def _served(address: SplitResult, timeout_s: float) -> tuple[str, ...]:
-    body = _get(address, "/models", {}, timeout_s)
-    return _names(body) if body is not None else ()
+    return [found[name] for name in addresses if name in found]
 
 
 def listed_models(provider: Provider, config: ModelConfig, secret: Secret | None) -> tuple[str, ...] | None:
-    """The models that a provider lists for this key, or None where it does not answer or refuses."""
+    """Return the models that a provider lists for this key, or None where it does not answer or refuses."""
     address = urlsplit(provider.address(config))
     key = secret.reveal() if secret else ""
     if provider.wire == "anthropic":
-        return _listed(address, "/v1/models?limit=100", {"x-api-key": key, "anthropic-version": "2023-06-01"})
+        headers = {"x-api-key": key, "anthropic-version": "2023-06-01"}
+        return _listed(address, "/v1/models?limit=100", headers, LIST_S)
     if provider.wire == "google":
-        return _listed(address, "/v1beta/models?pageSize=200", {"x-goog-api-key": key})
-    return _listed(address, "/models", {"Authorization": f"Bearer {key}"} if key else {})
+        return _listed(address, "/v1beta/models?pageSize=200", {"x-goog-api-key": key}, LIST_S)
+    return _listed(address, "/models", {"Authorization": f"Bearer {key}"} if key else {}, LIST_S)
 
 
-def _listed(address: SplitResult, path: str, headers: dict[str, str]) -> tuple[str, ...] | None:
-    body = _get(address, path, headers, LIST_S)
-    return _names(body) if body is not None else None
-
-
-def _names(body: Any) -> tuple[str, ...]:
-    """The names in a list of models, in anyone's form."""
+def _listed(
+    address: SplitResult, path: str, headers: dict[str, str], timeout_s: float
+) -> tuple[str, ...] | None:
+    """Return the names in the list at that path, in anyone's form; None where there is no such list."""
+    body = _get(address, path, headers, timeout_s)
+    if body is None:
+        return None
     rows = (body.get("data") or body.get("models") or []) if isinstance(body, dict) else []
     names = [row.get("id") or row.get("name") for row in rows if isinstance(row, dict)]
     return tuple(str(name).removeprefix("models/") for name in names if name)
 
 
 def _get(address: SplitResult, path: str, headers: dict[str, str], timeout_s: float) -> Any | None:
-    """The JSON at that path, or None. Follows no redirect."""
+    """Return the JSON at that path, or None. Follows no redirect."""
     if not address.hostname:
         return None
     kind = http.client.HTTPSConnection if address.scheme == "https" else http.client.HTTPConnection

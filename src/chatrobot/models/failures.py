@@ -1,4 +1,4 @@
-"""What went wrong in a call, as one clear `Reason`: from the model library's errors, whatever the provider."""
+"""Sorts the errors of the model library, whatever the provider: one clear `Reason` for each call that failed."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _BAD_KEY = ("api key", "api_key", "apikey")
 
 @dataclass(frozen=True)
 class Place:
-    """Where a call went: for the sentences about it. `secret` is taken out of whatever is quoted."""
+    """Address of a call: for the sentences about it. `secret` is taken out of whatever is quoted."""
 
     provider: Provider
     model: str
@@ -37,6 +37,7 @@ class Place:
 
     @property
     def values(self) -> dict[str, Value]:
+        """Return the values of every reason about it."""
         host = urlsplit(self.address).netloc.rpartition("@")[2]
         variable = self.provider.key_variables[0] if self.provider.key_variables else ""
         return {
@@ -45,12 +46,13 @@ class Place:
         }  # fmt: skip
 
     def reason(self, code: str, said: str = "", **values: Value) -> Reason:
+        """Return a reason about it, quoting what was `said`."""
         if said:
             values["said"] = self.quote(said)
         return Reason(code, {**self.values, **values})
 
     def quote(self, text: str) -> str:
-        """What a provider said: one line, short, without the key and without the tags of a web page."""
+        """Return what a provider said: one line, short, without the key and without the tags of a web page."""
         whole = PieceScrubber(self.secret).feed(
             text[:MOST_CHARS]
         )  # a key that was cut is none that scrub knows
@@ -59,7 +61,7 @@ class Place:
 
 
 def reason_of(error: BaseException, place: Place) -> Reason:
-    """The one reason for whatever the library raised."""
+    """Return the one reason for whatever the library raised."""
     chain = list(_chain(error))
     names = {type(link).__name__ for link in chain}
     if "TooManyBytesError" in names:
@@ -120,7 +122,7 @@ def _deepest(chain: list[BaseException]) -> str:
 
 
 def _said(error: BaseException) -> str:
-    """The sentence in a provider's error body, where there is one."""
+    """Return the sentence in a provider's error body, where there is one."""
     body = getattr(error, "body", None)
     if isinstance(body, str):
         try:
@@ -138,7 +140,7 @@ def _said(error: BaseException) -> str:
 
 
 def _retry_after_s(error: BaseException) -> float | None:
-    """Seconds that the provider asked us to wait."""
+    """Return the seconds that the provider asked us to wait."""
     told = getattr(error, "retry_after", None)
     if told is None:
         headers = getattr(error, "headers", None) or {}

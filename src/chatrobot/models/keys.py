@@ -1,4 +1,4 @@
-"""Where keys come from: an environment variable, or the keyring of the user's desktop. Never a plain file.
+"""Finds keys: in an environment variable, or in the keyring of the user's desktop. Never in a plain file.
 
 Without a desktop (over ssh, in a container, on a robot) there is usually no keyring: then the environment is the place.
 """
@@ -17,36 +17,27 @@ SERVICE = "chatrobot"
 
 
 class KeyringError(ChatRobotError):
-    """There is no keyring here, or it does not open. `str` says so without any key."""
+    """Raised where there is no keyring, or it does not open. `str` says so without any key."""
 
 
 def find_key(provider: Provider, config: ModelConfig) -> Secret | None:
-    """The key for that provider: from its environment variable, else from the keyring, else None."""
+    """Return the key for that provider: from its environment variable, else from the keyring, else None."""
     if value := config.variable(*provider.key_variables):
         return Secret(value)
     if not config.keyring or not provider.key_variables:
         return None
     try:
-        return stored_key(provider)
+        value = _call("get_password", provider)
     except KeyringError:
         return None
+    return Secret(value) if value else None
 
 
 def where_key_is(provider: Provider, config: ModelConfig) -> str:
-    """`environment`, `keyring`, or "" for nowhere."""
+    """Return `environment`, `keyring`, or "" for nowhere."""
     if config.variable(*provider.key_variables):
         return "environment"
     return "keyring" if find_key(provider, config) is not None else ""
-
-
-def stored_key(provider: Provider) -> Secret | None:
-    """The key in the keyring, or None.
-
-    Raises:
-        KeyringError: no keyring, or it does not open.
-    """
-    value = _call("get_password", provider.key_variables[0])
-    return Secret(value) if value else None
 
 
 def store_key(provider: Provider, secret: Secret) -> None:
@@ -55,7 +46,7 @@ def store_key(provider: Provider, secret: Secret) -> None:
     Raises:
         KeyringError: no keyring, or it does not open.
     """
-    _call("set_password", provider.key_variables[0], secret.reveal())
+    _call("set_password", provider, secret.reveal())
 
 
 def delete_key(provider: Provider) -> None:
@@ -64,11 +55,11 @@ def delete_key(provider: Provider) -> None:
     Raises:
         KeyringError: no keyring, or nothing in it.
     """
-    _call("delete_password", provider.key_variables[0])
+    _call("delete_password", provider)
 
 
 def keyring_name() -> str:
-    """What the keyring here is called, or "" where there is none that keeps anything safely."""
+    """Return what the keyring here is called, or "" where there is none that keeps anything safely."""
     try:
         keyring = importlib.import_module("keyring")
     except ImportError:
@@ -87,19 +78,18 @@ def _is_unsafe(backend: Any) -> bool:
     )
 
 
-def _call(method: str, *arguments: str) -> Any:
+def _call(method: str, provider: Provider, *arguments: str) -> Any:
     try:
         keyring = importlib.import_module("keyring")
         errors = importlib.import_module("keyring.errors")
     except ImportError:
         raise KeyringError(
-            "no keyring: pip install 'chatrobot[models]', or use the environment variable"
+            "keyring is not installed. Install it (pip install 'chatrobot[models]'), or use the environment variable"
         ) from None
     if _is_unsafe(keyring.get_keyring()):
-        raise KeyringError("this system has no keyring that keeps a key safely; use the environment variable")
+        raise KeyringError("This system has no keyring that keeps a key safely. Use the environment variable")
     try:
-        return getattr(keyring, method)(SERVICE, *arguments)
+        return getattr(keyring, method)(SERVICE, provider.key_variables[0], *arguments)
     except errors.KeyringError as error:
-        raise KeyringError(
-            f"the keyring does not open ({type(error).__name__}); use the environment variable"
-        ) from None
+        kind = type(error).__name__
+        raise KeyringError(f"The keyring does not open ({kind}). Use the environment variable") from None

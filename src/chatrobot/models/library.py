@@ -1,4 +1,4 @@
-"""The model library, and the one file that knows it: builds its models, streams their text.
+"""Knows the model library, alone: builds its models, streams their text.
 
 Imported late and only in the background thread: loading it takes one to three seconds.
 """
@@ -40,7 +40,7 @@ NO_KEY = "none"
 
 @dataclass
 class Ending:
-    """What is known of a call once its stream has ended."""
+    """End of a call: what is known once its stream has ended."""
 
     usage: Usage | None = None
     is_whole: bool = False

@@ -18,7 +18,7 @@ from chatrobot.models.conversation import Conversation
 from chatrobot.models.failures import Place, reason_of
 from chatrobot.models.keys import find_key
 from chatrobot.models.providers import Provider, split_name
-from chatrobot.models.reply import Sink, StreamedReply, in_background
+from chatrobot.models.reply import StreamedReply, in_background
 from chatrobot.models.seam import CallLimits, Message, Model, ModelError, Reply, Usage
 from chatrobot.models.secret import PieceScrubber
 from chatrobot.models.usage import priced, record
@@ -26,12 +26,6 @@ from chatrobot.models.usage import priced, record
 EXTRA = "pip install 'chatrobot[models]'"
 SWITCH_S = 0.0005
 _LIBRARY = "pydantic_ai"
-_CLASSES = {
-    "openai": "openai",
-    "openai-responses": "openai",
-    "anthropic": "anthropic",
-    "google": "google",
-}
 
 
 def make_model(name: str, config: ModelConfig | None = None) -> Model:
@@ -95,7 +89,7 @@ def _load(provider: Provider, model: str) -> Any:
     """
     try:
         with _quiet_import():
-            importlib.import_module(f"{_LIBRARY}.models.{_CLASSES[provider.wire]}")
+            importlib.import_module(f"{_LIBRARY}.models.{provider.wire.partition('-')[0]}")
             priced(Usage(), provider.name, model)
             return importlib.import_module("chatrobot.models.library")
     except ImportError:
@@ -122,7 +116,7 @@ def _quiet_import() -> Iterator[None]:
 
 
 class LibraryModel:
-    """A `Model` (see `seam`) on the model library. What begins with `_` runs in the background thread."""
+    """`Model` (see `seam`) on the model library. What begins with `_` runs in the background thread."""
 
     def __init__(self, provider: Provider, model: str, config: ModelConfig) -> None:
         self._provider = provider
@@ -141,12 +135,8 @@ class LibraryModel:
     def ask(self, messages: Sequence[Message], limits: CallLimits) -> Reply:
         """Begin a call; see `seam.Model`."""
         messages = tuple(messages)
-
-        async def produce(sink: Sink) -> None:
-            await self._produce(messages, limits, sink)
-
         return StreamedReply(
-            produce,
+            lambda sink: self._produce(messages, limits, sink),
             limits,
             prompt_chars=sum(len(message.text) for message in messages),
             price=lambda usage: priced(usage, self._provider.name, self._model, self._config.folder),
@@ -186,14 +176,14 @@ class LibraryModel:
         if self._built is None:
             self._built = self._library.build(place)
 
-    async def _produce(self, messages: Sequence[Message], limits: CallLimits, sink: Sink) -> None:
+    async def _produce(self, messages: Sequence[Message], limits: CallLimits, sink: StreamedReply) -> None:
         place = await self._find_place()
         try:
             self._build(place)
             sink.begin()
             try:
                 await self._stream(messages, limits, sink, place)
-            except Exception as error:
+            except Exception as error:  # of any provider: its conversation knows the one that is tried again
                 if self._conversation is None or not self._conversation.is_lost(error):
                     raise
                 await self._stream(messages, limits, sink, place)
@@ -206,7 +196,7 @@ class LibraryModel:
         raise ModelError(reason)  # out here, so that no provider's error with its headers hangs on to it
 
     async def _stream(
-        self, messages: Sequence[Message], limits: CallLimits, sink: Sink, place: Place
+        self, messages: Sequence[Message], limits: CallLimits, sink: StreamedReply, place: Place
     ) -> None:
         request = self._library.Request(messages, limits)
         if self._conversation is not None:

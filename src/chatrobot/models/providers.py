@@ -1,4 +1,4 @@
-"""Every provider, one row each. Adding one touches this table, or, from outside, `register` or an entry point.
+"""Lists every provider, one row each. Adding one touches this table, or, from outside, `register` or an entry point.
 
 An installed package adds providers by the entry point group `chatrobot.models`: each entry names a `Provider`.
 """
@@ -44,7 +44,7 @@ class Provider:
     make: Callable[[str, ModelConfig], Model] | None = None
 
     def address(self, config: ModelConfig) -> str:
-        """Its base URL: the person's, or the usual one; "" where the library knows it."""
+        """Return its base URL: the person's, or the usual one; "" where the library knows it."""
         given = config.variable(*self.base_url_variables)
         if self.name == "ollama" and given:
             return ollama_address(given)
@@ -133,7 +133,7 @@ def register(provider: Provider) -> None:
 
 
 def providers() -> dict[str, Provider]:
-    """All of them by name: ours, those of installed packages, those registered."""
+    """Return all of them by name: ours, those of installed packages, those registered."""
     return {
         **{provider.name: provider for provider in _BUILT_IN},
         **{provider.name: provider for provider in _installed()},
@@ -150,7 +150,7 @@ def _installed() -> tuple[Provider, ...]:
 
 
 def split_name(text: str) -> tuple[Provider, str]:
-    """`PROVIDER:NAME` taken apart.
+    """Take `PROVIDER:NAME` apart.
 
     Raises:
         ModelError: `model_unknown`, naming the providers there are.
@@ -165,7 +165,7 @@ def split_name(text: str) -> tuple[Provider, str]:
 
 
 def ollama_address(host: str) -> str:
-    """OLLAMA_HOST as its own tools read it (`host`, `host:port`, a URL; 0.0.0.0 is where it listens) → base URL."""
+    """Return the base URL of an OLLAMA_HOST as its own tools read it: `host`, `host:port`, a URL, 0.0.0.0 for here."""
     scheme, _, rest = host.rpartition("://")
     place, slash, path = rest.partition("/")
     name, colon, port = place.rpartition(":")

@@ -11,7 +11,7 @@ import queue
 import threading
 import time
 from collections.abc import Callable, Coroutine, Iterator
-from typing import Any, Protocol
+from typing import Any
 
 from chatrobot.core.reason import Reason
 from chatrobot.models.seam import CallLimits, ModelError, Usage
@@ -39,25 +39,8 @@ def _background() -> asyncio.AbstractEventLoop:
         return _loop
 
 
-class Sink(Protocol):
-    """Where a call puts what it gets. Used in the background thread."""
-
-    def begin(self) -> None:
-        """Begin the call's own time: the request goes out now."""
-
-    def put(self, piece: str) -> None:
-        """Take one piece of text.
-
-        Raises:
-            ModelError: the reply is longer than allowed.
-        """
-
-    def count(self, usage: Usage) -> None:
-        """Take what the provider says the call has used."""
-
-
 class StreamedReply:
-    """A `Reply` (see `seam`) that `produce` fills from the background thread.
+    """`Reply` (see `seam`) that `produce` fills from the background thread.
 
     `prompt_chars` serves the estimate of tokens where a provider counts none; `on_end` hears the usage once, in the
     background thread.
@@ -65,7 +48,7 @@ class StreamedReply:
 
     def __init__(
         self,
-        produce: Callable[[Sink], Coroutine[Any, Any, None]],
+        produce: Callable[[StreamedReply], Coroutine[Any, Any, None]],
         limits: CallLimits,
         *,
         prompt_chars: int = 0,
@@ -136,25 +119,23 @@ class StreamedReply:
         return total_s if self._has_piece else min(total_s, self._began_s + self._limits.first_piece_s)
 
     def _too_late(self) -> ModelError:
-        if self._began_s is None:
-            return ModelError(Reason("model_timeout", {"limit_s": STARTUP_S}))
-        if not self._has_piece and self._limits.first_piece_s < self._limits.total_s:
-            return ModelError(Reason("model_first_piece_timeout", {"limit_s": self._limits.first_piece_s}))
-        return ModelError(Reason("model_timeout", {"limit_s": self._limits.total_s}))
+        limits, code = self._limits, "model_timeout"
+        limit_s = STARTUP_S if self._began_s is None else limits.total_s
+        if self._began_s is not None and not self._has_piece and limits.first_piece_s < limits.total_s:
+            code, limit_s = "model_first_piece_timeout", limits.first_piece_s
+        return ModelError(Reason(code, {"limit_s": limit_s}))
 
     def _keep(self, task: asyncio.Task[None]) -> None:
         self._task = task
-        if self._cancelled:
-            task.cancel()
+        self._end_task()
 
     def _end_task(self) -> None:
-        if self._task is not None:
+        if self._task is not None and self._cancelled:
             self._task.cancel()
 
     async def _run(self) -> None:
-        end: ModelError | None = ModelError(
-            Reason("model_broken_reply", {"host": "?", "said": "?"})
-        )  # whatever else should be raised
+        # For whatever else should be raised:
+        end: ModelError | None = ModelError(Reason("model_broken_reply", {"host": "?", "said": "?"}))
         try:
             await self._produce(self)
             end = None
@@ -171,27 +152,29 @@ class StreamedReply:
             self._ended = True
             self._items.put(end)
 
-    # What follows is the `Sink`.
+    # What `produce` puts in, in the background thread.
 
     def begin(self) -> None:
-        """See `Sink`; a second request of the same call changes nothing."""
+        """Begin the call's own time: its first request goes out now."""
         if self._began_s is None:
             self._began_s = time.monotonic()
             self._items.put("")  # wakes the waiting side, whose time limit has changed
 
     def put(self, piece: str) -> None:
-        """See `Sink`."""
-        if not piece:
-            return
+        """Take one piece of text.
+
+        Raises:
+            ModelError: the reply is longer than allowed.
+        """
         room = self._limits.reply_chars - self._chars
         self._chars += len(piece)
-        if room > 0:
+        if piece and room > 0:
             self._items.put(piece[:room])
         if self._chars > self._limits.reply_chars:
             raise ModelError(Reason("model_too_long", {"limit_chars": self._limits.reply_chars}))
 
     def count(self, usage: Usage) -> None:
-        """See `Sink`."""
+        """Take what the provider says the call has used."""
         self._usage = self._price(usage)
 
     def _estimate(self) -> Usage:

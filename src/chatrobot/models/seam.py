@@ -1,4 +1,4 @@
-"""What the rest of the project knows of a language model: messages in, pieces of text out, or one clear reason.
+"""Declares what the project knows of a language model: messages in, pieces of text out, or one clear reason.
 
 A model proposes; nothing it says is trusted. No provider's library is imported by this file.
 """
@@ -26,7 +26,7 @@ class Message:
 
 @dataclass(frozen=True)
 class CallLimits:
-    """What one call may take: seconds to the first piece and in all, tokens and characters of the reply."""
+    """Bounds of one call: seconds to the first piece and in all, tokens and characters of the reply."""
 
     first_piece_s: float = 20.0
     total_s: float = 60.0
@@ -36,7 +36,7 @@ class CallLimits:
 
 @dataclass(frozen=True)
 class Usage:
-    """What one call used, as the provider counted it; `counted` is False where it did not and we estimated.
+    """Tokens and cost of one call, as the provider counted it; `counted` is False where it did not and we estimated.
 
     `cost_usd` is None where the price is not known.
     """
@@ -49,7 +49,7 @@ class Usage:
 
 
 class ModelError(ChatRobotError):
-    """A call that came to nothing, or to less than a whole reply. `reason` says why and with it the way out.
+    """Raised for a call that came to nothing, or to less than a whole reply. `reason` says why and with it the way out.
 
     Codes: model_missing_extra, model_unknown, model_no_key, model_key_not_ascii, model_key_space, model_wrong_key,
     model_no_network, model_rate_limit, model_first_piece_timeout, model_timeout, model_cut_off, model_empty,
@@ -62,14 +62,14 @@ class ModelError(ChatRobotError):
 
 
 class Reply(Protocol):
-    """A reply under way. Iterate over it for its pieces of text, in one thread; `cancel` it from any."""
+    """Reply under way. Iterate over it for its pieces of text, in one thread; `cancel` it from any."""
 
     @property
     def usage(self) -> Usage | None:
-        """What the call used, once it has ended, however it ended."""
+        """Return what the call used, once it has ended, however it ended."""
 
     def __iter__(self) -> Iterator[str]:
-        """The pieces as they arrive.
+        """Yield the pieces as they arrive.
 
         Raises:
             ModelError: no reply, or not a whole one. The pieces that came before it are valid.
@@ -80,7 +80,7 @@ class Reply(Protocol):
 
 
 class Model(Protocol):
-    """A model that can be asked. Making one touches nothing: the network is used by `ask` alone."""
+    """Model that can be asked. Making one touches nothing: the network is used by `ask` alone."""
 
     @property
     def name(self) -> str:

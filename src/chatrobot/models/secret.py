@@ -1,4 +1,4 @@
-"""Keys and tokens: wrapped so that none is printed by accident, and scrubbed from what providers send back."""
+"""Wraps keys and tokens so that none is printed by accident, and scrubs them from what providers send back."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Flaw = Literal["not_ascii", "space"]
 
 
 class Secret:
-    """A key. `reveal` is the one way to it; printing, formatting, pickling and comparing show nothing.
+    """Key or token. `reveal` is the one way to it; printing, formatting, pickling and comparing show nothing.
 
     Blanks and quotation marks that were pasted around it are no part of it.
     """
@@ -33,12 +33,12 @@ class Secret:
         self._value = _bare(value)
 
     def reveal(self) -> str:
-        """The key itself, for the header of a request and for the keyring."""
+        """Return the key itself, for the header of a request and for the keyring."""
         return self._value
 
     @property
     def flaw(self) -> Flaw | None:
-        """What makes it no key that could be sent; None where it could."""
+        """Return what makes it no key that could be sent; None where it could."""
         if any(letter.isspace() for letter in self._value):
             return "space"
         return None if all("!" <= letter <= "~" for letter in self._value) else "not_ascii"
@@ -66,7 +66,7 @@ def _bare(value: str) -> str:
 
 
 def _forms(value: str) -> tuple[str, ...]:
-    """As a text may show it: as it is, in a URL, in Python's and JSON's quotation marks."""
+    """Return it as a text may show it: as it is, in a URL, in Python's and JSON's quotation marks."""
     return (
         value, quote(value, safe=""), quote(value), value.encode("unicode_escape").decode("ascii"),
         repr(value)[1:-1], json.dumps(value)[1:-1],
@@ -74,7 +74,7 @@ def _forms(value: str) -> tuple[str, ...]:
 
 
 def scrub(text: str, secret: Secret | None) -> str:
-    """The text without the key, however it was quoted, and without anything that looks like one."""
+    """Return the text without the key, however it was quoted, and without anything that looks like one."""
     value = secret.reveal() if secret is not None else ""
     if len(value) >= _SHORTEST:
         for form in _forms(value):
@@ -85,8 +85,7 @@ def scrub(text: str, secret: Secret | None) -> str:
 class PieceScrubber:
     """Takes the key out of a text that arrives in pieces.
 
-    What might be the beginning of the key is held back
-    until the next piece tells; ordinary text passes at once.
+    What might be the beginning of the key is held back until the next piece tells; ordinary text passes at once.
     """
 
     def __init__(self, secret: Secret | None) -> None:
@@ -95,7 +94,7 @@ class PieceScrubber:
         self._held = ""
 
     def feed(self, piece: str) -> str:
-        """What may be shown now."""
+        """Return what may be shown now."""
         if not self._value:
             return piece
         text = (self._held + piece).replace(self._value, HIDDEN)
@@ -103,12 +102,12 @@ class PieceScrubber:
         return text[: len(text) - len(self._held)]
 
     def rest(self) -> str:
-        """What was held back, when nothing follows."""
+        """Return what was held back, when nothing follows."""
         held, self._held = self._held, ""
         return held
 
     def _beginning(self, text: str) -> str:
-        """The longest end of the text that the key begins with."""
+        """Return the longest end of the text that the key begins with."""
         for length in range(min(len(self._value) - 1, len(text)), 0, -1):
             if text.endswith(self._value[:length]):
                 return text[-length:]

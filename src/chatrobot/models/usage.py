@@ -108,7 +108,7 @@ def _table(path: Path) -> dict[str, dict[str, tuple[float, float, float]]]:
 
 @dataclass
 class Total:
-    """A sum over calls. `cost_usd` leaves out the `unpriced` ones; `estimated` counts calls nobody counted for us."""
+    """Sum over calls. `cost_usd` leaves out the `unpriced` ones; `estimated` counts calls nobody counted for us."""
 
     calls: int = 0
     prompt_tokens: int = 0

@@ -1,4 +1,4 @@
-"""The HTTP client under the model library: no redirects with a key in hand, no endless replies, no proxy for loopback.
+"""Makes the HTTP client of the model library: no redirects with a key in hand, no endless replies, no proxy here.
 
 Imports the library's HTTP client: only from the background thread.
 """
@@ -25,15 +25,15 @@ LOOPBACK = frozenset({"127.0.0.1", "localhost", "::1"})
 
 
 class TooManyBytesError(Exception):
-    """The reply is larger than the text that may be in it could ever need."""
+    """Raised where the reply is larger than the text that may be in it could ever need."""
 
 
 class NotAStreamError(Exception):
-    """Something answered that is no model server: a login page, a proxy, a web site."""
+    """Raised where something answered that is no model server: a login page, a proxy, a web site."""
 
 
 class _Capped(httpx2.AsyncByteStream):
-    """A response's body, cut off after so many bytes: silently (an error's text), or with an error."""
+    """Body of a response, cut off after so many bytes: silently (an error's text), or with an error."""
 
     def __init__(self, stream: httpx2.AsyncByteStream, limit_bytes: int, *, silent: bool) -> None:
         self._stream = stream
@@ -60,7 +60,7 @@ def allow(limits: CallLimits) -> None:
 
 
 def web_client(base_url: str) -> httpx2.AsyncClient:
-    """A client for one model; connections are kept between its calls. Each request brings its own time limit."""
+    """Return a client for one model; connections are kept between its calls. Each request brings its own time limit."""
     return httpx2.AsyncClient(
         timeout=httpx2.Timeout(CallLimits().total_s, connect=CONNECT_S),
         follow_redirects=False,  # not every provider's key header is dropped when a redirect leads elsewhere
@@ -71,7 +71,7 @@ def web_client(base_url: str) -> httpx2.AsyncClient:
 
 
 async def _hurry(request: httpx2.Request) -> None:
-    """A call may take a minute, but connecting may not: the libraries give one number for both."""
+    """Let connecting take no minute, though a call may: the libraries give one number for both."""
     timeout = dict(request.extensions.get("timeout") or {})
     request.extensions = {**request.extensions, "timeout": {**timeout, "connect": CONNECT_S}}
 

@@ -7,6 +7,7 @@ for `chatrobot stop`; and a watch for others who drive the same robot. The carri
 
 from __future__ import annotations
 
+import contextlib
 import gc
 import queue
 import signal
@@ -126,11 +127,12 @@ class MotionRunner:
             self.notice,
             accept_others=accept_others,
         )
-        try:
+        with contextlib.ExitStack() as ended_early:
+            ended_early.callback(
+                self._guard.goodbye
+            )  # nothing has been driven that a guard would have to halt
             self._open(said)
-        except BaseException:  # Ctrl-C, too: nothing has been driven that a guard would have to halt
-            self._guard.goodbye()
-            raise
+            ended_early.pop_all()
 
     def _open(self, said: list[Reason]) -> None:
         """Begin to listen, once the guard is there; what a person should know of the robot is told first."""

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from typing import Any
 
 from rich.console import RenderableType
 from rich.text import Text
@@ -44,35 +45,25 @@ class Narrator:
         self._plans: dict[int, events.Interpreted] = {}
         self._streamed: dict[int, int] = {}
         self._programs: set[int] = set()
+        self._handlers: dict[type[Event], Callable[[Any], Iterator[RenderableType]]] = {
+            events.Streamed: self._streamed_step,
+            events.Interpreted: self._interpreted,
+            events.Rehearsed: self._rehearsed,
+            events.ProgramWritten: self._program_written,
+            events.ProgramRehearsed: self._program_rehearsed,
+            events.ProgramLog: lambda event: iter((indented(Text(f"| {event.text}", "dim")),)),
+            events.Limited: self._limited,
+            events.Said: lambda event: iter((marked("»", "magenta", Text(event.text, "bold")),)),
+            events.Remembered: self._remembered,
+            events.Paused: self._paused,
+            events.Notice: self._notice,
+            events.Result: self._result,
+        }
 
     def tell(self, event: Event) -> Iterator[RenderableType]:
         """Give the lines to print for `event`; none for most."""
-        match event:
-            case events.Streamed():
-                return self._streamed_step(event)
-            case events.Interpreted():
-                return self._interpreted(event)
-            case events.Rehearsed():
-                return self._rehearsed(event)
-            case events.ProgramWritten():
-                return self._program_written(event)
-            case events.ProgramRehearsed():
-                return self._program_rehearsed(event)
-            case events.ProgramLog():
-                return iter((indented(Text(f"| {event.text}", "dim")),))
-            case events.Limited():
-                return self._limited(event)
-            case events.Said():
-                return self._said(event)
-            case events.Remembered():
-                return self._remembered(event)
-            case events.Paused():
-                return self._paused(event)
-            case events.Notice():
-                return self._notice(event)
-            case events.Result():
-                return self._result(event)
-        return iter(())
+        handle = self._handlers.get(type(event))
+        return handle(event) if handle is not None else iter(())
 
     def plan(
         self, plan_text: str, rehearsed: events.Rehearsed | None, limit: int | None = None
@@ -80,10 +71,7 @@ class Narrator:
         """Give a plan's numbered lines under its predicted length and duration, and what rehearsal found."""
         head = Text("  ").append(self._words.say("plan"), "bold")
         if rehearsed is not None and rehearsed.ok:
-            facts = self._words.say(
-                "plan_facts", length=f"{rehearsed.length_m:.2f}", duration=f"{rehearsed.duration_s:.1f}"
-            )
-            head.append(f"  {facts}", "dim")
+            head.append(f"  {self._facts(rehearsed)}", "dim")
         yield head
         lines = folded_plan(plan_text)
         shown = lines if limit is None or len(lines) <= limit else lines[: limit - 1]
@@ -92,6 +80,10 @@ class Narrator:
         if len(shown) < len(lines):
             yield Text("       ").append(self._words.say("plan_more", count=len(lines) - len(shown)), "dim")
         yield from self._findings(rehearsed)
+
+    def _facts(self, rehearsed: events.Rehearsed) -> str:
+        length, duration = f"{rehearsed.length_m:.2f}", f"{rehearsed.duration_s:.1f}"
+        return self._words.say("plan_facts", length=length, duration=duration)
 
     def _findings(self, rehearsed: events.Rehearsed | None) -> Iterator[RenderableType]:
         """All but the first refusal: that one is the turn's result."""
@@ -124,10 +116,7 @@ class Narrator:
             yield from self._findings(event)
         elif event.turn in self._programs:
             self._programs.discard(event.turn)
-            facts = self._words.say(
-                "plan_facts", length=f"{event.length_m:.2f}", duration=f"{event.duration_s:.1f}"
-            )
-            yield indented(Text(facts, "dim"))
+            yield indented(Text(self._facts(event), "dim"))
             yield from self._findings(event)
 
     def _streamed_step(self, event: events.Streamed) -> Iterator[RenderableType]:
@@ -153,9 +142,6 @@ class Narrator:
         asked, sent = self._twist(event.asked), self._twist(event.sent)
         yield marked("!", "yellow", self._words.say("limited_to", asked=asked, sent=sent))
 
-    def _said(self, event: events.Said) -> Iterator[RenderableType]:
-        yield marked("»", "magenta", Text(event.text, "bold"))
-
     def _remembered(self, event: events.Remembered) -> Iterator[RenderableType]:
         words = self._words.say("remembered", place=event.place, pose=self._words.pose(event.pose))
         yield marked("·", "cyan", words)
@@ -174,10 +160,8 @@ class Narrator:
         asks = f" {say(self._words.language, 'yes_or_no')}" if event.proposal is not None else ""
         yield marked(mark, style, f"{event.reply}{asks}")
         if event.has_moved:
-            measured = self._words.say(
-                "measured", pose=self._words.pose(event.pose), duration=f"{event.duration_s:.1f}"
-            )
-            yield marked("", "", Text(measured, "dim"))
+            pose, duration = self._words.pose(event.pose), f"{event.duration_s:.1f}"
+            yield marked("", "", Text(self._words.say("measured", pose=pose, duration=duration), "dim"))
 
     def _twist(self, twist: Twist) -> str:
         parts = []

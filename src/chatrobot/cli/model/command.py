@@ -1,4 +1,4 @@
-"""`chatrobot model [setup|list|test|use|key] [PROVIDER[:NAME]]`."""
+"""Runs `chatrobot model [setup|list|test|use|key] [PROVIDER[:NAME]]`."""
 
 from __future__ import annotations
 
@@ -15,14 +15,15 @@ from chatrobot.models.discovery import find_local, listed_models
 from chatrobot.models.keys import KeyringError, delete_key, find_key, keyring_name, store_key, where_key_is
 from chatrobot.models.providers import Provider, providers, split_name
 from chatrobot.models.seam import ModelError
-from chatrobot.models.secret import Flaw, Secret
+from chatrobot.models.secret import Secret
 
 _SHOWN = 40
 NONE = "none"
+_FLAWS = {"not_ascii": "a character that no key has", "space": "a space or a line break within"}
 
 
 def run(args: argparse.Namespace) -> int:
-    """0 where it worked, 1 where the model did not answer."""
+    """Do the action; 0 where it worked, 1 where the model did not answer."""
     config = ModelConfig(folder=config_folder(args), session="model test")
     try:
         return _ACTIONS[args.action](args, config)
@@ -58,25 +59,20 @@ def _list(args: argparse.Namespace, config: ModelConfig) -> int:
 
 
 def _key_state(provider: Provider, config: ModelConfig) -> str:
-    where = where_key_is(provider, config)
-    if where:
+    if where := where_key_is(provider, config):
         return f"key: {where}"
-    if not provider.needs_key:
-        return "needs no key"
-    return f"no key ({provider.key_variables[0]})"
+    return f"no key ({provider.key_variables[0]})" if provider.needs_key else "needs no key"
 
 
 def _list_one(name: str, config: ModelConfig) -> int:
     provider = provider_named(name)
-    secret = find_key(provider, config)
-    _check(provider, secret)
-    models = listed_models(provider, config, secret)
+    models = listed_models(provider, config, _checked(provider, find_key(provider, config)))
     if models is None:
         host = urlsplit(provider.address(config)).netloc.rpartition("@")[
             2
         ]  # without a password in the address
         print(
-            f"{host or provider.name} does not list its models",
+            f"{host or provider.name} does not list its models. Name one: {provider.name}:NAME",
             file=sys.stderr,
         )
         return 1
@@ -98,11 +94,11 @@ def _use(args: argparse.Namespace, config: ModelConfig) -> int:
     from chatrobot.cli.model.trial import try_model
 
     if not args.name:
-        raise UsageError("which model?", allowed="chatrobot model use PROVIDER:NAME, or: use none")
+        raise UsageError("no model is named", allowed="chatrobot model use PROVIDER:NAME, or: use none")
     assert config.folder is not None
     if args.name == NONE:
         store_choice("", config.folder)
-        print("no model is used any more; what is understood offline still works")
+        print("No model is used from now on. What is understood offline still works.")
         return 0
     split_name(args.name)
     path = store_choice(args.name, config.folder)
@@ -110,34 +106,31 @@ def _use(args: argparse.Namespace, config: ModelConfig) -> int:
     return try_model(args.name, config, as_json=args.json)
 
 
-def _key(args: argparse.Namespace, config: ModelConfig) -> int:  # noqa: ARG001 - one form for all actions
+def _key(args: argparse.Namespace, config: ModelConfig) -> int:
+    del config
     if not args.name:
-        raise UsageError("the key of which provider?", allowed="chatrobot model key PROVIDER")
+        raise UsageError("no provider is named", allowed="chatrobot model key PROVIDER")
     provider = provider_named(args.name.partition(":")[0])
     if not provider.key_variables:
         raise UsageError(f"{provider.name} has no key")
+    export = f"export {provider.key_variables[0]}=…"
     if not keyring_name():  # before a key is typed for nothing
-        raise UsageError(
-            "this system has no keyring that keeps a key safely; use the environment variable",
-            allowed=f"export {provider.key_variables[0]}=…",
-        )
+        raise UsageError("this system has no keyring that keeps a key safely", allowed=export)
     try:
         if args.delete:
             delete_key(provider)
-            print(f"the key of {provider.name} is no longer in the keyring")
-            return 0
-        secret = read_secret(provider)
-        if not secret:
-            raise UsageError("no key was given")
-        store_key(provider, secret)
+        elif secret := read_secret(provider):
+            store_key(provider, secret)
+        else:
+            raise UsageError("no key was given", allowed=export)
     except KeyringError as error:
-        raise UsageError(str(error), allowed=f"export {provider.key_variables[0]}=…") from None
-    print(f"the key of {provider.name} is in the keyring")
+        raise UsageError(str(error), allowed=export) from None
+    print(f"the key of {provider.name} is {'no longer' if args.delete else 'now'} in the keyring")
     return 0
 
 
 def read_secret(provider: Provider) -> Secret:
-    """A key typed without being shown, or the first line of standard input where that is a pipe.
+    """Read a key typed without being shown, or the first line of standard input where that is a pipe.
 
     Raises:
         UsageError: what was given can be no key.
@@ -150,28 +143,25 @@ def read_secret(provider: Provider) -> Secret:
             secret = Secret(getpass.getpass(asked))
     except UnicodeDecodeError:  # it would show a character
         raise _flawed(provider, "not_ascii") from None
-    _check(provider, secret)
+    _checked(provider, secret)
     return secret
 
 
-def _check(provider: Provider, secret: Secret | None) -> None:
+def _checked(provider: Provider, secret: Secret | None) -> Secret | None:
     if secret is not None and secret.flaw is not None:
         raise _flawed(provider, secret.flaw)
+    return secret
 
 
-def _flawed(provider: Provider, flaw: Flaw) -> UsageError:
-    wrong = {
-        "not_ascii": "has a character that no key has",
-        "space": "has a space or a line break within",
-    }[flaw]
+def _flawed(provider: Provider, flaw: str) -> UsageError:
     return UsageError(
-        f"the key of {provider.name} {wrong}: copy it again, alone and whole",
+        f"the key of {provider.name} has {_FLAWS[flaw]}. Copy it again, alone and whole",
         allowed="unaccented letters, digits and ASCII signs",
     )
 
 
 def provider_named(name: str) -> Provider:
-    """The provider of that name.
+    """Return the provider of that name.
 
     Raises:
         UsageError: there is none.

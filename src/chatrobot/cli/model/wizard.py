@@ -1,4 +1,4 @@
-"""`chatrobot model` at a terminal: three questions, and a model is set up."""
+"""Sets a model up with three questions: `chatrobot model` at a terminal."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from chatrobot.models.config import ModelConfig, store_choice
 from chatrobot.models.discovery import find_local
 from chatrobot.models.keys import KeyringError, keyring_name, store_key, where_key_is
 from chatrobot.models.providers import LOCAL, Provider, providers
-from chatrobot.models.secret import Secret
 
 
 def set_up(config: ModelConfig) -> int:
@@ -28,7 +27,7 @@ def set_up(config: ModelConfig) -> int:
 
 
 def _choose(config: ModelConfig) -> tuple[str, ModelConfig]:
-    """The model, and the settings with a key that was typed for this once."""
+    """Return the model, and the settings with a key that was typed for this once."""
     print("looking for model servers on this machine…", flush=True)
     servers = find_local(config)
     local = [f"{server.provider}:{name}" for server in servers for name in server.models]
@@ -71,10 +70,6 @@ def _with_key(provider: Provider, config: ModelConfig) -> ModelConfig:
         store_key(provider, secret)
         print(f"kept in the keyring ({keyring_name()})")
     except KeyringError as error:
-        print(f"{error}. For this once it is used; for later: export {variable}=…", file=sys.stderr)
-        return _once(config, variable, secret)
+        print(f"{error}. It is used for this test alone; for later: export {variable}=…", file=sys.stderr)
+        return replace(config, environ={**config.environ, variable: secret.reveal()})
     return config
-
-
-def _once(config: ModelConfig, variable: str, secret: Secret) -> ModelConfig:
-    return replace(config, environ={**config.environ, variable: secret.reveal()})

@@ -20,7 +20,7 @@ CHARS_PER_TOKEN = 4
 
 @dataclass(frozen=True)
 class CallEnd:
-    """How a call ended: `problem` is None where the reply is whole, or the call was cancelled."""
+    """End of a call: `problem` is None where the reply is whole, or the call was cancelled."""
 
     problem: Reason | None
     usage: Usage

@@ -1,4 +1,4 @@
-"""Where pictures for a model come from: a robot's camera on its wire, or whatever the caller of the API passed.
+"""Takes pictures for a model: with a robot's camera on its wire, or with what the caller of the API passed.
 
 Pictures have an end of the wire of their own, open only while a model looks: a megabyte of picture must not stand
 before a stop in a socket, nor cost anything as long as nobody looks.
@@ -37,17 +37,17 @@ class Camera(Protocol):
 
     @property
     def has_picture(self) -> bool:
-        """Whether `take` would give one."""
+        """Tell whether `take` would give one."""
 
     def take(self) -> bytes | None:
-        """What the robot sees now, as JPEG or PNG; None where that is not known."""
+        """Return what the robot sees now, as JPEG or PNG; None where that is not known."""
 
     def end(self) -> None:
         """Look no more. Returns at once."""
 
 
 class PassedCamera:
-    """A function of somebody else's that takes a picture when it is called."""
+    """Calls a function of somebody else's that takes a picture when it is called."""
 
     has_picture = True
 
@@ -55,14 +55,14 @@ class PassedCamera:
         self.take = take
 
     def begin(self) -> None:
-        """It is called when the picture is needed."""
+        """Do nothing: the function is called when the picture is needed."""
 
     def end(self) -> None:
-        """Nothing is open."""
+        """Do nothing: nothing is open."""
 
 
 class WireCamera:
-    """The camera of a robot on a wire.
+    """Camera of a robot on a wire.
 
     Args:
         open_wire: opens an end of the robot's wire, for pictures alone; it may take its time.
@@ -79,18 +79,22 @@ class WireCamera:
         self._view: _View | None = None
 
     def begin(self) -> None:
+        """Open the wire, in a thread of its own."""
         if self._view is None:
             self._view = _View(self._open_wire, self._topic)
 
     @property
     def has_picture(self) -> bool:
+        """Tell whether one came within `FRESH_S`."""
         return self._fresh() is not None
 
     def take(self) -> bytes | None:
+        """Return the newest as JPEG; None where it is too old or cannot be read."""
         picture = self._fresh()
         return as_jpeg(picture) if picture is not None else None
 
     def end(self) -> None:
+        """Close the wire."""
         view, self._view = self._view, None
         if view is not None:
             view.ended.set()
@@ -101,14 +105,14 @@ class WireCamera:
 
 
 def wire_camera(address: str, wiring: Wiring) -> WireCamera | None:
-    """The camera of the robot at that wire's address; None where its profile names none. Opens nothing."""
+    """Return the camera of the robot at that wire's address; None where its profile names none. Opens nothing."""
     if not wiring.camera_topic:
         return None
     return WireCamera(lambda: connect_wire(address, wiring, NODE), wiring.camera_topic)
 
 
 class _View:
-    """An open eye: a thread opens the wire, and closes it when `ended` is set."""
+    """Open eye: a thread opens the wire, and closes it when `ended` is set."""
 
     def __init__(self, open_wire: Callable[[], Wire], topic: str) -> None:
         self.newest: Picture | None = None
@@ -146,8 +150,8 @@ _BROKEN = (OSError, ValueError, SyntaxError, EOFError, IndexError, TypeError, st
 
 
 def as_jpeg(picture: Picture) -> bytes | None:
-    """`picture` as a JPEG file of at most `MOST_SIDE_PX` a side, without what a camera writes into its files besides;
-    None where it cannot be read.
+    """Return `picture` as a JPEG file of at most `MOST_SIDE_PX` a side, without what a camera writes into its files
+    besides; None where it cannot be read.
 
     JPEG, because the PNG of a photograph is ten times as long, and a model waits for it to be sent.
     """

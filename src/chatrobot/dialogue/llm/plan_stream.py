@@ -1,4 +1,4 @@
-"""A model's plan on its way to Motion: step by step as the model says it, or as a whole once all is said."""
+"""Sends a model's plan to Motion: step by step as the model says it, or as a whole once all is said."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class PlanStream:
-    """The plans of one turn, one after the other. Belongs to the pumping thread, but for `cancel`.
+    """Plans of one turn, one after the other. Belongs to the pumping thread, but for `cancel`.
 
     Args:
         mode: what the first plan does to one that is under way; those after it go on where it ended.
@@ -33,24 +33,24 @@ class PlanStream:
         rehearse_only: bool,
         pauses: Callable[[], int],
     ) -> None:
-        self._pauses = pauses
         self._turn = turn
         self._link = link
         self._emit = emit
         self._mode = mode
         self._approve = approve
         self._rehearse_only = rehearse_only
+        self._pauses = pauses
         self._is_cancelled = False
         self.is_open = False
         """Motion has the plan, and has not told its end."""
         self.begin(streams=False)
 
     def cancel(self) -> None:
-        """Nothing more is sent. From any thread."""
+        """Send nothing more. From any thread."""
         self._is_cancelled = True
 
     def begin(self, *, streams: bool) -> None:
-        """Another plan; `streams`: its steps go to Motion as they come."""
+        """Begin another plan; `streams`: its steps go to Motion as they come."""
         self._streams = streams
         self._pauses_before = self._pauses()
         self._held: list[Step] = []
@@ -67,17 +67,17 @@ class PlanStream:
             self._send("\n".join(lines), more=True)
 
     def send_whole(self, plan_text: str, *, unasked: bool = False) -> None:
-        """All of it at once, where nothing of it has been sent. `unasked`: this one needs no approval."""
+        """Send all of it at once, where nothing of it has been sent. `unasked`: this one needs no approval."""
         if plan_text:
             self._send(plan_text, more=False, unasked=unasked)
 
     def close(self) -> None:
-        """No more steps will come."""
+        """Tell Motion that no more steps will come."""
         if self.is_open and not self._is_closed:
             self._send("", more=False)
 
     def end(self) -> None:
-        """Motion has told its end."""
+        """Note that Motion has told its end."""
         self.is_open = False
 
     def say_held(self) -> None:
@@ -93,13 +93,7 @@ class PlanStream:
         self.is_open = True
         self._is_closed = not more
         self._link.send(
-            "plan",
-            self._turn,
-            plan_text=plan_text,
-            mode=mode,
-            more=more,
-            approve=self._approve and not unasked,
-            rehearse_only=self._rehearse_only,
-            pauses=self._pauses_before,
-        )
+            "plan", self._turn, plan_text=plan_text, mode=mode, more=more, approve=self._approve and not unasked,
+            rehearse_only=self._rehearse_only, pauses=self._pauses_before,
+        )  # fmt: skip
         self._mode = "queue"  # what comes later in this turn goes on after it

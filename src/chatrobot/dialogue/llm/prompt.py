@@ -1,5 +1,8 @@
-"""The words a model is given. The first message is the same for a robot in its world, call after call, so that
-providers' caches hit; what changes comes at the end. What the robot can do is told by the registry of primitives."""
+"""Words what a model is told, for plans, for programs and in the tutorial's form.
+
+The first message is the same for a robot in its world, call after call, so that providers' caches hit; what changes
+comes at the end. What the robot can do is told by the registry of primitives.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 
 from chatrobot.core.geometry import Pose
-from chatrobot.core.reason import one_line, quoted
+from chatrobot.core.reason import Reason, one_line, quoted
 from chatrobot.dialogue.llm.reply_reader import LOOKS, REST
 from chatrobot.plan.base import Step
 from chatrobot.plan.registry import primitives
@@ -45,7 +48,7 @@ Each line is held for one second: m/s forward (x) and to the left (y), rad/s cou
 
 
 def system_prompt(profile: RobotProfile, places: Mapping[str, Pose], *, sees: bool = False) -> str:
-    """What a plan is, what this robot can do, and where the places of its world are (odom frame).
+    """Return what a plan is, what this robot can do, and where the places of its world are (odom frame).
 
     `sees`: there is a camera to look through.
     """
@@ -55,7 +58,7 @@ def system_prompt(profile: RobotProfile, places: Mapping[str, Pose], *, sees: bo
 
 
 def tutorial_prompt(profile: RobotProfile) -> str:
-    """For a conversation that was connected to the robot by the tutorial's first instruction."""
+    """Return the rules of a conversation that was connected to the robot by the tutorial's first instruction."""
     return f"{_TUTORIAL}\n{_limits(profile)}"
 
 
@@ -65,7 +68,7 @@ def _usages() -> tuple[tuple[str, str], ...]:
 
 
 def _steps(profile: RobotProfile) -> str:
-    """The grammar, a line a verb."""
+    """Return the grammar, a line a verb."""
     impossible = set() if profile.can_turn_on_the_spot else {"turn", "face"}
     return "\n".join(usage for kind, usage in _usages() if kind not in impossible)
 
@@ -88,7 +91,7 @@ def _limits(profile: RobotProfile) -> str:
 
 
 def place_lines(places: Mapping[str, Pose]) -> list[str]:
-    """Places as data: X Y heading of each, to be used with `go to X Y facing ANGLE named "PLACE"`."""
+    """Return places as data: X Y heading of each, to be used with `go to X Y facing ANGLE named "PLACE"`."""
     shown = list(places.items())[:MAX_PLACES]
     if not shown:
         return []
@@ -99,14 +102,14 @@ def place_lines(places: Mapping[str, Pose]) -> list[str]:
     return [f"data: places, X Y heading: {listed}"]
 
 
-def request(text: str, pose: Pose | None, news: list[str], remembered: Mapping[str, Pose]) -> str:
-    """What a person says, after what has become of the robot since the model last spoke."""
+def request(text: str, pose: Pose | None, remembered: Mapping[str, Pose]) -> str:
+    """Return what a person says, after where the robot and the places that it remembers are."""
     asked = text.strip()[:MAX_REQUEST_CHARS]
-    return "\n".join([*news, *place_lines(remembered), pose_line(pose), f"The person says: {asked}"])
+    return "\n".join([*place_lines(remembered), pose_line(pose), f"The person says: {asked}"])
 
 
 def pose_line(pose: Pose | None) -> str:
-    """Where the robot is, if it has said so."""
+    """Return where the robot is, if it has said so."""
     if pose is None:
         return "data: where the robot is, is not known"
     return (
@@ -114,9 +117,9 @@ def pose_line(pose: Pose | None) -> str:
     )
 
 
-def correction(problem: str, done: list[str], measured: str) -> str:
-    """What was wrong with a reply, what has been done of it, and where to go on."""
-    said = one_line(problem, 400)
+def correction(problem: Reason, done: list[str], measured: str) -> str:
+    """Return what was wrong with a reply, what has been done of it, and where to go on."""
+    said = one_line(_told(problem), 400)
     if not done:
         return f"Your reply was not used: {said}\nNothing of it was done. All of it again, in the form asked for."
     steps = "; ".join(done)
@@ -124,6 +127,14 @@ def correction(problem: str, done: list[str], measured: str) -> str:
         f"Your reply was used up to a mistake: {said}\nDone: {one_line(steps, 600)} (measured: {measured}).\n"
         f"Reply with what is left, from there on, under a first line {REST!r}; with that line alone if nothing is left."
     )
+
+
+def _told(problem: Reason) -> str:
+    """Return a reason as a model is told it: the exact error."""
+    if problem.code == "plan_text":
+        return str(problem.values.get("problem", ""))
+    values = ", ".join(f"{name} {value}" for name, value in problem.values.items() if name != "model")
+    return f"{problem.code}: {values}" if values else problem.code
 
 
 _PROGRAM = """\
@@ -187,14 +198,14 @@ LONGEST_S = 10.0
 
 
 def connects_to_the_robot(text: str) -> bool:
-    """Whether `text` tells a model to answer in the tutorial's form: it asks for it, and shows an example."""
+    """Tell whether `text` tells a model to answer in the tutorial's form: it asks for it, and shows an example."""
     return (
         len(_EXAMPLE.findall(text)) >= _LEAST_ASSIGNMENTS and bool(_ASKS.search(text)) and not is_form(text)
     )
 
 
 def is_form(text: str) -> bool:
-    """Whether `text` is a line of that form itself."""
+    """Tell whether `text` is a line of that form itself."""
     try:
         return read_tutorial_line(text) is not None
     except ImpossibleTwistError:
@@ -202,7 +213,7 @@ def is_form(text: str) -> bool:
 
 
 def is_short_form(steps: Sequence[Step]) -> bool:
-    """Whether a plan consists wholly of the tutorial's twists, and of few: the person has connected the model to the
-    robot for just these."""
+    """Tell whether a plan consists of the tutorial's twists alone, and of few: the person has connected the model to
+    the robot for just these."""
     twists = [step for step in steps if isinstance(step, RawTwist)]
     return 0 < len(twists) == len(steps) and sum(step.duration_s for step in twists) <= LONGEST_S

@@ -41,23 +41,24 @@ class ReplyReader:
 
     @property
     def names_rest(self) -> bool:
-        """It says that it holds only what is left to do."""
+        """True where it says that it holds only what is left to do."""
         first = next((line.strip() for line in self.text.splitlines() if _is_content(line)), "")
         return first.casefold() == REST
 
     @property
     def is_blank(self) -> bool:
-        """There is nothing in it but comments and empty lines."""
+        """True where there is nothing in it but comments and empty lines."""
         lines = (line.strip() for line in self.text.splitlines())
         return not any(line and not line.startswith(("#", _FENCE)) for line in lines)
 
     def feed(self, piece: str) -> list[Step]:
+        """Return the steps that the piece completes."""
         self.text += piece
         *lines, self._rest = (self._rest + piece).split("\n")
         return [step for line in lines for step in self._read(line)]
 
     def finish(self) -> list[Step]:
-        """The reply is over."""
+        """Return the steps that are complete only now that the reply is over."""
         last, self._rest = self._rest, ""
         steps = self._read(last)
         if self.error is not None:
@@ -89,7 +90,7 @@ class ReplyReader:
             return []
 
     def _skips(self, line: str) -> bool:
-        """Thoughts before the reply, and the fence around it."""
+        """Pass over thoughts before the reply, and the fence around it."""
         stripped = line.strip()
         if self._is_thinking or (not self._has_content and stripped.startswith(_THOUGHTS[0])):
             self._is_thinking = _THOUGHTS[1] not in stripped
@@ -126,7 +127,7 @@ class ReplyReader:
         return self._parser.feed(line + "\n")
 
     def _pass_over(self) -> None:
-        """The parser counts lines, too: its errors name them."""
+        """Let the parser count the line: its errors name lines."""
         self._parser.feed("\n")
 
     def _take_looks(self, reader: LineReader) -> None:
@@ -139,7 +140,7 @@ class ReplyReader:
 
 
 def _tutorial_step(reader: LineReader) -> Step | None:
-    """A line that consists wholly of the tutorial's form."""
+    """Return the step of a line that consists wholly of the tutorial's form."""
     if _LEAST_ASSIGNMENT not in reader.line.casefold() and "angular." not in reader.line.casefold():
         return None
     try:

@@ -1,4 +1,4 @@
-"""One turn that a model plans: asked, streamed to Motion step by step, shown what it wants to see, asked again.
+"""Sees one turn through that a model plans: asked, streamed to Motion, shown what it wants to see, asked again.
 
 Nothing that the model says is trusted: Motion rehearses and governs it like any other plan. What it gets wrong goes
 back to it with the error, at most twice; rounds, tokens and time are capped. Belongs to the pumping thread, but for
@@ -11,24 +11,16 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Literal
 
-from chatrobot.core.events import (
-    Event,
-    Finished,
-    Interpreted,
-    Looked,
-    Notice,
-    Outcome,
-    Rehearsed,
-)
+from chatrobot.core.events import Event, Finished, Interpreted, Looked, Notice, Outcome, Rehearsed
 from chatrobot.core.reason import Reason, one_line
+from chatrobot.dialogue.llm.looking import ObservationWait, Surroundings
 from chatrobot.dialogue.llm.plan_stream import PlanStream
 from chatrobot.dialogue.llm.prompt import correction, is_short_form
-from chatrobot.dialogue.llm.round import ModelRound, ObservationWait
-from chatrobot.dialogue.llm.terms import Ended, ModelOptions, Spending, Surroundings, told
+from chatrobot.dialogue.llm.round import ModelRound
+from chatrobot.dialogue.llm.terms import Ended, ModelOptions, Spending
 from chatrobot.dialogue.observations import without_pictures
 from chatrobot.models.seam import Message, Model
 from chatrobot.plan.base import Step
-from chatrobot.plan.primitives.say import Say
 from chatrobot.plan.text import format_step
 from chatrobot.robots.profile import EXCEEDED
 
@@ -38,7 +30,7 @@ if TYPE_CHECKING:
 MAX_RETRIES = 2
 """A bad reply never causes more further calls than these."""
 
-WORTH_ANOTHER_TRY = frozenset({"model_empty", "model_called_tool"})
+WORTH_ANOTHER_TRY = frozenset({"plan_text", "model_empty", "model_called_tool"})
 """What a model did, not what became of the call: it may do better when it is told."""
 
 PICTURE_REFUSED = frozenset({"model_rejected", "model_server_error", "model_not_found"})
@@ -101,10 +93,15 @@ class ModelRequest:
     # --- from any thread ---
 
     def cancel(self, why: Reason) -> None:
-        """A stop: end the call. What runs in Motion is stopped by the stop itself. Returns at once."""
+        """End the call for a stop, which itself stops what runs in Motion. Returns at once."""
         self._cancelled = why
         self._feed.cancel()
         self._round.call.cancel()
+
+    @property
+    def asked_at_s(self) -> float | None:
+        """Since when the model is being asked (monotonic); None where it is not."""
+        return self._round.call.asked_at_s
 
     # --- the pumping thread ---
 
@@ -115,26 +112,21 @@ class ModelRequest:
 
     @property
     def is_moving(self) -> bool:
-        """A plan of it is with Motion."""
+        """True while a plan of it is with Motion."""
         return self._feed.is_open
 
     @property
     def silent_s(self) -> float | None:
-        """How long the model has been silent since it was asked, None where it has spoken or is not being asked."""
+        """Return how long the model has said nothing since it was asked, None where it has, or is not being asked."""
         call = self._round.call
         return time.monotonic() - call.began_s if not (call.has_ended or call.text) else None
 
-    @property
-    def asked_at_s(self) -> float | None:
-        """Since when the model is being asked (monotonic); None where it is not. From any thread."""
-        return self._round.call.asked_at_s
-
     def wait(self, timeout_s: float) -> None:
-        """Until the model says something: where time is simulated, it stands meanwhile."""
+        """Wait until the model says something: where time is simulated, it stands meanwhile."""
         self._round.call.wait(timeout_s)
 
     def replace(self) -> None:
-        """Something else is to be done instead; what runs has been told so, or will be, by Motion."""
+        """Give way to something else; what runs has been told so, or will be, by Motion."""
         why = Reason("replaced")
         self._feed.close()
         self.cancel(why)
@@ -158,7 +150,7 @@ class ModelRequest:
         self._end_look()
 
     def hear(self, event: Event) -> None:
-        """An event of this turn."""
+        """Take in an event of this turn."""
         if self.ended is not None:
             return
         if isinstance(event, Rehearsed) and not event.ok:
@@ -176,15 +168,14 @@ class ModelRequest:
         self._spending.calls += 1
         # A model that has been wrong once is read to its end before anything moves.
         self._feed.begin(streams=not self._comes_whole and not self._spending.retries)
-        self._round = ModelRound(
-            self._model, self._messages, self._options.limits, self._link.wake, self._done
-        )
+        limits = self._options.limits
+        self._round = ModelRound(self._model, self._messages, limits, self._link.wake, self._done)
         if self._cancelled is not None:
             self._round.call.cancel()
 
     @property
     def _listens(self) -> bool:
-        """What the model says now may still count."""
+        """True while what the model says may still count."""
         return self._cancelled is None and not self._round.is_in_vain
 
     def _take(self, steps: list[Step]) -> None:
@@ -194,8 +185,8 @@ class ModelRequest:
 
     def _end_call(self) -> None:
         current = self._round
-        if self._listens:
-            self._take(current.last_steps())
+        if self._listens and current.call_problem is None:
+            self._take(current.reader.finish())
         self._note_usage()
         current.forget_what_is_done()
         plan_text = "" if self._only_talks else current.plan_text
@@ -219,7 +210,7 @@ class ModelRequest:
 
     @property
     def _may_run(self) -> bool:
-        """A plan that came whole: nothing was wrong with it, and it is more than an answer."""
+        """True where nothing is wrong with a plan that came whole, and it is more than an answer."""
         is_wanted = not self._only_talks and self._cancelled is None
         return is_wanted and self._round.problem is None and self._round.moves
 
@@ -235,7 +226,7 @@ class ModelRequest:
             self._round.call.cancel()  # the end of the call ends the round
 
     def _end_round(self) -> None:
-        """The call has ended, and so has its run, if there was one."""
+        """Go on, or end the turn: the call has ended, and so has its run, if there was one."""
         current, run = self._round, self._round.run
         self._all_done = (*self._all_done, *current.steps_done())
         if run is not None and run.outcome in ("stopped", "failed"):
@@ -248,8 +239,9 @@ class ModelRequest:
             # A shorter plan than the person asked for is no correction.
             may_retry = is_the_plans and refused.code not in EXCEEDED
             self._retry("refused", refused) if may_retry else self._conclude("refused", refused)
-        elif self._only_talks:
-            self._end_talk()
+        elif self._only_talks:  # it was only to take note of something
+            problem = current.call_problem
+            self._conclude("answered" if problem is None else "failed", problem)
         elif (problem := current.problem) is not None:
             self._end_with(problem)
         elif current.reader.looks and not self._rehearse_only:
@@ -260,17 +252,11 @@ class ModelRequest:
             self._feed.say_held()
             self._conclude("completed", None)
 
-    def _end_talk(self) -> None:
-        """It was only to take note of something."""
-        end = self._round.call.end
-        problem = end.problem if end is not None else None
-        self._conclude("answered" if problem is None else "failed", problem)
-
     def _end_with(self, problem: Reason) -> None:
-        """The reply could not be used, or only up to a line."""
+        """Go on after a reply that could not be used, or only up to a line."""
         if problem.code == "model_empty" and self._done:
             self._conclude("completed", None)  # nothing is left to do
-        elif problem.code == "plan_text" or problem.code in WORTH_ANOTHER_TRY:
+        elif problem.code in WORTH_ANOTHER_TRY:
             self._retry("unclear", problem)
         elif problem.code in PICTURE_REFUSED and any(message.picture for message in self._messages):
             self._ask_without_pictures()
@@ -278,7 +264,7 @@ class ModelRequest:
             self._conclude("failed", problem)
 
     def _ask_without_pictures(self) -> None:
-        """It may be the picture that this model cannot take: ask once more in words alone, and show it no other."""
+        """Ask once more in words alone, and show no other picture: it may be what this model cannot take."""
         self._surroundings.give_up_looking()
         self._emit(Notice(self.turn, Reason("model_cannot_see", {"model": self._model.name})))
         self._messages = without_pictures(self._messages)
@@ -294,12 +280,12 @@ class ModelRequest:
         done = [format_step(step) for step in self._done]
         tries = {"try": self._spending.retries, "tries": MAX_RETRIES}
         self._emit(Notice(self.turn, Reason("model_corrected", tries)))
-        words = correction(told(problem), done, self._surroundings.measured(self._total))
-        self._go_on(Message("user", words))
+        self._go_on(Message("user", correction(problem, done, self._surroundings.measured(self._total))))
 
     def _begin_look(self) -> None:
         self._feed.say_held()
-        self._look = ObservationWait(self._round.reader.looks, self.turn, self._link, self._surroundings)
+        camera = self._surroundings.camera
+        self._look = ObservationWait(self._round.reader.looks, self.turn, self._link, camera)
         self._end_look()
 
     def _end_look(self) -> None:
@@ -314,12 +300,8 @@ class ModelRequest:
             return
         self._done = ()
         looks = self._round.reader.looks
-        at: dict[str, float | int | str] = {
-            "what": ", ".join(looks),
-            "round": self._spending.rounds + 1,
-            "rounds": self._options.rounds,
-        }
-        self._emit(Notice(self.turn, Reason("model_looks", at)))
+        rounds = {"round": self._spending.rounds + 1, "rounds": self._options.rounds}
+        self._emit(Notice(self.turn, Reason("model_looks", {"what": ", ".join(looks), **rounds})))
         self._go_on(self._surroundings.observation(looks, look.scan, self._round.run))
 
     def _go_on(self, message: Message) -> None:
@@ -335,8 +317,7 @@ class ModelRequest:
             self._round.call.cancel()
             self._note_usage()
         text = self._round.reader.text
-        says = "\n".join(step.text for step in self._round.steps if isinstance(step, Say))
         is_answer = outcome == "answered" and not self._only_talks
-        said = says if is_answer else one_line(text)
+        said = self._round.says if is_answer else one_line(text)
         answer = "\n".join(self._answers) or text
         self.ended = Ended(outcome, reason, self._total, self._all_done, answer, said)

@@ -1,5 +1,4 @@
-"""Sends requests to a model and follows what becomes of them: local first, one conversation, several turns at
-most at once.
+"""Sends requests to a model and follows what becomes of them: local first, one conversation, several turns at once.
 
 Belongs to the pumping thread, but for `cancel`.
 """
@@ -10,26 +9,24 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
-from chatrobot.core.events import Event, Finished, Looked, Notice
-from chatrobot.core.geometry import Pose
+from chatrobot.core.events import Event, Notice
 from chatrobot.core.reason import Reason, one_line
 from chatrobot.dialogue.llm import prompt
-from chatrobot.dialogue.llm.camera import Camera
+from chatrobot.dialogue.llm.looking import Surroundings
 from chatrobot.dialogue.llm.prompt import connects_to_the_robot, is_form
 from chatrobot.dialogue.llm.request import ModelRequest
+from chatrobot.dialogue.llm.setup import ModelSetup
 from chatrobot.dialogue.llm.terms import Ended
-from chatrobot.dialogue.observations import Exchange, History, measured, observation
+from chatrobot.dialogue.observations import Exchange, History, measured
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import say
 from chatrobot.language.sight import asks_to_see
 from chatrobot.models.seam import Message
-from chatrobot.plan.base import Step
 
 if TYPE_CHECKING:
+    from chatrobot.dialogue.programs.requests import ProgramRequests
     from chatrobot.link.motion_link import MotionLink
-
-from chatrobot.dialogue.llm.setup import ModelSetup
 
 Interpreter = Literal["auto", "offline", "model"]
 Approve = Literal["", "models", "all"]
@@ -51,7 +48,7 @@ class _Turn:
 
 
 class ModelRequests:
-    """The turns of a conversation that a model plans.
+    """Turns of a conversation that a model plans.
 
     Args:
         model_setup: None where no model is set up.
@@ -80,53 +77,71 @@ class ModelRequests:
         self._history = History()
         self._turns: dict[int, _Turn] = {}
         self._is_tutorial = False
-        self._shown = _Shown(understanding, model_setup.camera if model_setup is not None else None)
+        self.writer: ProgramRequests | None = None
+        """Asks the model for programs; it is pumped, waited for and cancelled with the rest."""
+        self._surroundings = Surroundings(
+            understanding, model_setup.camera if model_setup is not None else None
+        )
 
     # --- from any thread ---
 
     def cancel(self, why: Reason) -> None:
-        """A stop: end what models are being asked. Returns at once."""
+        """End what models are being asked, for a stop. Returns at once."""
         for turn in tuple(self._turns.values()):
             turn.doing.cancel(why)
+        self._cancel_writing()
 
     def cancel_unmoved(self, why: Reason) -> None:
-        """A pause: end what has no plan with Motion, which would begin after it. Returns at once."""
+        """End what has no plan with Motion, for a pause: it would begin after it. Returns at once."""
         for turn in tuple(self._turns.values()):
             if not turn.doing.is_moving:
                 turn.doing.cancel(why)
+        self._cancel_writing()
+
+    def _cancel_writing(self) -> None:
+        if self.writer is not None:
+            self.writer.cancel()
 
     @property
     def asked_at_s(self) -> float | None:
-        """Since when a model is being asked (monotonic); None where none is."""
+        """Return since when a model is being asked (monotonic); None where none is."""
         asked = [turn.doing.asked_at_s for turn in tuple(self._turns.values())]
+        asked += [self.writer.asked_at_s] if self.writer is not None else []
         return min((at_s for at_s in asked if at_s is not None), default=None)
 
     @property
     def has_model(self) -> bool:
-        """A model may be asked."""
+        """True where a model may be asked."""
         return self._model_setup is not None
 
     def has(self, turn: int) -> bool:
-        """A model plans that turn."""
+        """Tell whether a model plans that turn."""
         return turn in self._turns
 
     @property
     def is_moving(self) -> bool:
-        """A plan of a model is with Motion."""
+        """True while a plan of a model is with Motion."""
         return any(turn.doing.is_moving for turn in tuple(self._turns.values()))
 
     # --- the pumping thread ---
 
     @property
     def is_busy(self) -> bool:
+        """True while a model plans a turn, or its plan is driven."""
         return bool(self._turns)
 
     @property
+    def is_writing(self) -> bool:
+        """True while a model writes a program: what is said then, but for a stop or a pause, waits."""
+        return self.writer is not None and self.writer.is_writing
+
+    @property
     def is_calling(self) -> bool:
+        """True while a model is being asked."""
         return self.asked_at_s is not None
 
     def may_be_overtaken(self, said_s: float) -> bool:
-        """Whether what was said at `said_s` (monotonic) and needs no model goes before the model's turn.
+        """Tell whether what was said at `said_s` (monotonic) and needs no model goes before the model's turn.
 
         A hung model holds nobody up; and yet what came in one go stays in its order.
         """
@@ -139,18 +154,18 @@ class ModelRequests:
         return True
 
     def wants(self, text: str, meant: Interpretation) -> bool:
-        """Whether a model is to be asked: what is understood offline is not its business, nor what was refused."""
+        """Tell whether a model is to be asked: what is understood offline is not its business, nor what was refused."""
         if self._model_setup is None or meant.outcome in ("refused", "stop") or not text.strip():
             return False
         if self._interpreter == "model" or meant.outcome == "unclear":
             return True
-        if meant.outcome == "answered" and self._shown.camera is not None and asks_to_see(text):
+        if meant.outcome == "answered" and self._surroundings.camera is not None and asks_to_see(text):
             return True  # the lidar answers such a question only as long as nobody has eyes
         return self._is_tutorial and meant.outcome == "plan" and not is_form(text)
 
     def without_model(self, text: str, meant: Interpretation) -> Interpretation:
-        """What was not understood, the first time with how to set up a model; the tutorial's first instruction is
-        answered."""
+        """Return what was not understood, the first time with how to set up a model; the tutorial's first instruction
+        is answered."""
         if meant.outcome != "unclear" or meant.proposal is not None or self._model_setup is not None:
             return meant
         if connects_to_the_robot(text):
@@ -185,48 +200,34 @@ class ModelRequests:
             self._emit(Notice(turn, reason, why))
         request, messages = self._messages(model_setup, text)
         doing = ModelRequest(
-            turn,
-            messages,
-            model_setup.model,
-            model_setup.options,
-            self._link,
-            self._shown,
-            self._emit,
-            mode,
-            pauses=self._pauses,
-            approve=approve != "",
-            frees_form=approve == "models" and self._is_tutorial,
-            rehearse_only=rehearse_only,
-            only_talks=connects,
-        )
+            turn, messages, model_setup.model, model_setup.options, self._link, self._surroundings, self._emit, mode,
+            pauses=self._pauses, approve=approve != "", frees_form=approve == "models" and self._is_tutorial,
+            rehearse_only=rehearse_only, only_talks=connects,
+        )  # fmt: skip
         self._turns[turn] = _Turn(text, request, doing, connects)
 
     def _messages(self, model_setup: ModelSetup, text: str) -> tuple[str, list[Message]]:
+        """Return what the person says as the model is told it, and all that the model is told."""
         earlier, news = self._history.messages()
         if self._is_tutorial:
-            request, system = (
-                text.strip()[: prompt.MAX_REQUEST_CHARS],
-                prompt.tutorial_prompt(model_setup.profile),
-            )
+            request, news = text.strip()[: prompt.MAX_REQUEST_CHARS], []
+            system = prompt.tutorial_prompt(model_setup.profile)
         else:
-            understanding = self._understanding
-            request = prompt.request(text, understanding.known_pose, [], understanding.usable_places)
-            system = prompt.system_prompt(
-                model_setup.profile, understanding.main_places, sees=self._shown.camera is not None
-            )
-            news = [line for line in news if line]
-        now = request if self._is_tutorial else "\n".join([*news, request])
+            known, sees = self._understanding, self._surroundings.camera is not None
+            request = prompt.request(text, known.known_pose, known.usable_places)
+            system = prompt.system_prompt(model_setup.profile, known.main_places, sees=sees)
+        now = "\n".join([*filter(None, news), request])
         return request, [Message("system", system), *earlier, Message("user", now)]
 
     def replace(self, but: int = 0) -> None:
-        """Something else is to be done instead of what models are planning (but for the turn `but`)."""
+        """Give up what models are planning for something else (but for the turn `but`)."""
         for number, turn in tuple(self._turns.items()):
             if number != but:
                 turn.doing.replace()
         self._take_ended()
 
     def hear(self, event: Event) -> None:
-        """An event of Motion's."""
+        """Take in an event of Motion's."""
         turn = self._turns.get(event.turn)
         if turn is not None:
             turn.doing.hear(event)
@@ -237,20 +238,23 @@ class ModelRequests:
         for turn in tuple(self._turns.values()):
             turn.doing.pump()
         self._take_ended()
+        if self.writer is not None:
+            self.writer.pump()
 
     def wait(self, timeout_s: float) -> None:
-        """Until a model says something. For simulated time, which stands meanwhile."""
-        for turn in self._turns.values():
-            if turn.doing.asked_at_s is not None:
-                turn.doing.wait(timeout_s)
-                return
+        """Wait until a model says something. For simulated time, which stands meanwhile."""
+        doing = (self.writer, *(turn.doing for turn in self._turns.values()))
+        calling = next((one for one in doing if one is not None and one.asked_at_s is not None), None)
+        if calling is not None:
+            calling.wait(timeout_s)
 
     def note(self, text: str, plan_text: str, end: str) -> None:
-        """A turn that no model was asked about: the next one is told."""
+        """Note a turn that no model was asked about: the next one is told."""
         if self._model_setup is not None:
             self._history.add(Exchange(text, plan_text, end))
 
     def _take_ended(self) -> None:
+        was_busy = self.is_busy
         for number, turn in tuple(self._turns.items()):
             ended = turn.doing.ended
             if ended is None:
@@ -259,53 +263,12 @@ class ModelRequests:
             request = turn.request if ended.answer else ""
             self._history.add(Exchange(turn.text, ended.answer, _end(ended), request), pin=turn.pins)
             self._conclude(number, turn.text, ended)
-        if not self._turns:
-            self._shown.end_looking()
+        if was_busy and not self.is_busy:
+            self._surroundings.end_looking()
 
 
 def _end(ended: Ended) -> str:
-    """What became of a turn, for the model's memory of it."""
+    """Return what became of a turn, for the model's memory of it."""
     why = f" ({ended.reason.code})" if ended.reason is not None else ""
     how = f": {measured(ended.finished)}" if ended.finished is not None else ""
     return f"{ended.outcome}{why}{how}"
-
-
-class _Shown:
-    """`Surroundings`, out of what Understanding knows."""
-
-    def __init__(self, understanding: Understanding, camera: Camera | None) -> None:
-        self._understanding = understanding
-        self.camera = camera
-
-    def describe(self, steps: tuple[Step, ...]) -> str:
-        return self._understanding.describe(steps)
-
-    def observation(
-        self, looks: tuple[str, ...], looked: Looked | None, finished: Finished | None
-    ) -> Message:
-        places: dict[str, Pose] = {**self._understanding.main_places, **self._understanding.usable_places}
-        pose = finished.pose if finished is not None else self._understanding.known_pose
-        return observation(looks, pose=pose, places=places, looked=looked, finished=finished, take=self._take)
-
-    def begin_looking(self) -> None:
-        if self.camera is not None:
-            self.camera.begin()
-
-    @property
-    def has_picture(self) -> bool:
-        return self.camera is None or self.camera.has_picture
-
-    def give_up_looking(self) -> None:
-        self.end_looking()
-        self.camera = None
-
-    def end_looking(self) -> None:
-        """No model is being asked any more."""
-        if self.camera is not None:
-            self.camera.end()
-
-    def _take(self) -> bytes | None:
-        return self.camera.take() if self.camera is not None else None
-
-    def measured(self, finished: Finished | None) -> str:
-        return measured(finished) if finished is not None else "nothing"

@@ -1,4 +1,4 @@
-"""From what a person chose to the model that is asked."""
+"""Makes the model that a person chose."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SERVER_HELD = {"openai": "openai-responses", "openai-compatible": "openai-respon
 
 
 def chosen_model(option: str, folder: Path | None, *, server_held: bool = False) -> Model | None:
-    """The model of `--model`, of CHATROBOT_MODEL or of the settings in `folder`; None where none is set up.
+    """Return the model of `--model`, of CHATROBOT_MODEL or of the settings in `folder`; None where none is set up.
 
     Args:
         server_held: the conversation is to live at the server (`revChatGPT:=True`), where the provider can do that.
@@ -48,7 +48,7 @@ def warm_up(model: Model | None) -> None:
 
 @dataclass(frozen=True)
 class ModelSetup:
-    """A model and how it is used. `camera` takes pictures for it; None where there is none, or it cannot see."""
+    """Model and how it is used. `camera` takes pictures for it; None where there is none, or it cannot see."""
 
     model: Model
     options: ModelOptions

@@ -1,20 +1,19 @@
-"""The terms of a turn that a model plans: how it may be used, what it needs to know, and how it ended."""
+"""Holds the terms of a turn that a model plans: how the model may be used, what it has spent, how the turn ended."""
 
 from __future__ import annotations
 
 import time
 from dataclasses import dataclass, field
-from typing import Protocol
 
-from chatrobot.core.events import Finished, Looked, ModelCalled, Outcome
+from chatrobot.core.events import Finished, ModelCalled, Outcome
 from chatrobot.core.reason import Reason
-from chatrobot.models.seam import CallLimits, Message
+from chatrobot.models.seam import CallLimits
 from chatrobot.plan.base import Step
 
 
 @dataclass(frozen=True)
 class ModelOptions:
-    """How a model is used. `rounds` bounds the calls of one turn that are no corrections, `budget_tokens` what all of
+    """Use of a model. `rounds` bounds the calls of one turn that are no corrections, `budget_tokens` what all of
     its calls may use, `budget_s` how long it may take in all. `streams`: steps run as they come."""
 
     streams: bool = True
@@ -26,7 +25,7 @@ class ModelOptions:
 
 @dataclass(frozen=True)
 class Ended:
-    """What became of the turn. `finished` sums up its runs; None where nothing ran. `steps` are those that were done,
+    """End of a turn. `finished` sums up its runs; None where nothing ran. `steps` are those that were done,
     `answer` all that the model wrote, `said` what of it is for the person."""
 
     outcome: Outcome
@@ -35,45 +34,6 @@ class Ended:
     steps: tuple[Step, ...]
     answer: str
     said: str
-
-
-class Surroundings(Protocol):
-    """What a turn needs of the half that understands."""
-
-    def describe(self, steps: tuple[Step, ...]) -> str:
-        """The steps in a few words, in the person's language."""
-        ...
-
-    def observation(
-        self, looks: tuple[str, ...], looked: Looked | None, finished: Finished | None
-    ) -> Message:
-        """What the model asked to see."""
-        ...
-
-    def begin_looking(self) -> None:
-        """The model wants a picture. Returns at once."""
-        ...
-
-    @property
-    def has_picture(self) -> bool:
-        """Nothing is gained by waiting for one any longer."""
-        ...
-
-    def give_up_looking(self) -> None:
-        """The model cannot see."""
-        ...
-
-    def measured(self, finished: Finished | None) -> str:
-        """What was driven, in words."""
-        ...
-
-
-def told(problem: Reason) -> str:
-    """A reason as a model is told it: the exact error."""
-    if problem.code == "plan_text":
-        return str(problem.values.get("problem", ""))
-    values = ", ".join(f"{name} {value}" for name, value in problem.values.items() if name != "model")
-    return f"{problem.code}: {values}" if values else problem.code
 
 
 class Spending:
@@ -96,7 +56,7 @@ class Spending:
         self._tokens += call.prompt_tokens + call.reply_tokens
 
     def used_up(self) -> Reason | None:
-        """Why no model may be asked any more."""
+        """Return why no model may be asked any more."""
         options = self._options
         if self._tokens >= options.budget_tokens:
             return Reason("model_tokens_used", {"tokens": self._tokens, "budget": options.budget_tokens})
@@ -105,7 +65,7 @@ class Spending:
         return None
 
     def rounds_used_up(self) -> Reason | None:
-        """Why there is no further round."""
+        """Return why there is no further round."""
         if self.rounds >= self._options.rounds:
             return Reason("model_rounds_used", {"rounds": self._options.rounds})
         return None

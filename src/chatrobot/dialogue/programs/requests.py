@@ -131,8 +131,9 @@ class ProgramRequests:
         asked.call.take()
         if asked.call.has_ended:
             self._emit(asked.call.told(asked.turn, asked.number))
-            self._asked = None
             self._go_on(asked.turn, asked.work, asked.number + 1, asked.call)
+            if self._asked is asked:
+                self._asked = None
 
     def _go_on(self, turn: int, work: Writing[None], number: int = 1, ended: ModelCall | None = None) -> None:
         """Go on with a turn's work up to its next question to a model, its call `number`."""

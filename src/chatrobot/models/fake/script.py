@@ -1,15 +1,4 @@
-"""The script of a fake model, in YAML (docs/models.md describes it for users).
-
-model: fake                 # the name it lists
-keys: [sk-test]             # others are answered with 401; left out: anyone may ask
-tokens_per_s: 50            # for all replies; 0 or left out: at once
-replies:
-  - match: "go (\\d+)"       # a regular expression, looked for in what the user said last
-    text: "drive {1} m"     # {1} is the first group
-  - text: "turn left"       # without match: served once, in this order
-    times: 2                #   … or so many times
-  - error: {status: 429, retry_after_s: 20}
-"""
+"""Reads the script of a fake model, in YAML (docs/models.md describes it for users)."""
 
 from __future__ import annotations
 
@@ -28,12 +17,12 @@ _TOP = ("model", "models", "keys", "tokens_per_s", "first_piece_s", "replies", "
 
 
 class ScriptError(InputError):
-    """A script of a fake model cannot be used."""
+    """Raised for a script that cannot be used."""
 
 
 @dataclass(frozen=True)
 class HttpError:
-    """An answer that is an error. `body` replaces the provider's usual form."""
+    """Answer that is an error. `body` replaces the provider's usual form."""
 
     status: int = 500
     message: str = "the script says so"
@@ -44,7 +33,7 @@ class HttpError:
 
 @dataclass(frozen=True)
 class ToolCall:
-    """A call of a tool that nobody offered."""
+    """Call of a tool that nobody offered."""
 
     name: str
     arguments: str = "{}"
@@ -52,7 +41,7 @@ class ToolCall:
 
 @dataclass(frozen=True)
 class Answer:
-    """What one call gets. Counts are in tokens (about four characters), times in seconds."""
+    """Answer to one call. Counts are in tokens (about four characters), times in seconds."""
 
     text: str = ""
     match: re.Pattern[str] | None = None
@@ -73,7 +62,7 @@ class Answer:
     uncounted: bool = False
 
     def tokens(self, said: str) -> list[str]:
-        """The reply to what was said, piece by piece; joined it is the text to the letter."""
+        """Return the reply to what was said, piece by piece; joined it is the text to the letter."""
         text = self.text
         found = self.match.search(said) if self.match is not None else None
         for index, group in enumerate(found.groups() if found else (), start=1):
@@ -82,7 +71,7 @@ class Answer:
 
     @property
     def reason(self) -> str:
-        """Why it ends, in OpenAI's words."""
+        """Return why it ends, in OpenAI's words."""
         if self.refusal:
             return "content_filter"
         return "tool_calls" if self.tool_calls else self.finish
@@ -104,7 +93,7 @@ class Script:
     _lock: threading.Lock = field(default_factory=threading.Lock)
 
     def answer(self, said: str) -> Answer:
-        """The first answer that fits and is not used up."""
+        """Return the first answer that fits and is not used up."""
         with self._lock:
             for index, answer in enumerate(self.answers):
                 limit = answer.times if answer.times is not None else None if answer.match else 1
@@ -134,48 +123,36 @@ def load_script(path: Path) -> Script:
 
 
 def read_script(data: Any, where: str = "script") -> Script:
-    """A script from what YAML gave.
+    """Read a script from what YAML gave.
 
     Raises:
         ScriptError: what is wrong in it and what is allowed.
     """
-    if isinstance(data, list):
-        data = {"replies": data}
-    if not isinstance(data, dict):
-        raise ScriptError("no script", where=where, allowed="replies: a list")
-    _known(data, _TOP, where)
-    usual = {key: data[key] for key in ("tokens_per_s", "first_piece_s") if key in data}
-    rows = data.get("replies", [])
+    given = _mapping({"replies": data} if isinstance(data, list) else data, _TOP, where)
+    usual: dict[str, Any] = {key: given[key] for key in ("tokens_per_s", "first_piece_s") if key in given}
+    rows = given.get("replies", [])
     if not isinstance(rows, list):
         raise ScriptError("replies is no list", where=where, allowed="replies: [{text: …}, …]")
-    answers = tuple(
-        _answer(row, usual, f"{where}: reply {number}") for number, row in enumerate(rows, start=1)
-    )
-    models = data.get("models", [data.get("model", "fake")])
-    script = Script(answers, tuple(map(str, models)), tuple(map(str, data.get("keys", ()))))
-    if "otherwise" in data:
-        script.otherwise = _answer(data["otherwise"], usual, f"{where}: otherwise")
+    answers = (_answer(row, usual, f"{where}: reply {number}") for number, row in enumerate(rows, start=1))
+    models = given.get("models", [given.get("model", "fake")])
+    script = Script(tuple(answers), tuple(map(str, models)), tuple(map(str, given.get("keys", ()))))
+    if "otherwise" in given:
+        script.otherwise = _answer(given["otherwise"], usual, f"{where}: otherwise")
     return script
 
 
 def _answer(row: Any, usual: dict[str, Any], where: str) -> Answer:
-    if isinstance(row, str):
-        row = {"text": row}
-    if not isinstance(row, dict):
-        raise ScriptError("neither a text nor a mapping", where=where, allowed="text: …")
-    _known(row, tuple(entry.name for entry in fields(Answer)), where)
-    values: dict[str, Any] = {**usual, **row}
+    row = _mapping({"text": row} if isinstance(row, str) else row, _names(Answer), where)
+    values: dict[str, Any] = {**usual, **row, "text": str(row.get("text", ""))}
     try:
         if "match" in values:
             values["match"] = re.compile(str(values["match"]), re.IGNORECASE)
         if "error" in values:
-            _known(values["error"], tuple(entry.name for entry in fields(HttpError)), f"{where}: error")
-            values["error"] = HttpError(**values["error"])
+            values["error"] = HttpError(**_mapping(values["error"], _names(HttpError), f"{where}: error"))
         if "tool_calls" in values:
             values["tool_calls"] = tuple(ToolCall(**call) for call in values["tool_calls"])
         for name in ("tokens_per_s", "first_piece_s", "huge_mb"):
             values[name] = float(values.get(name) or 0.0)
-        values["text"] = str(values.get("text", ""))
         return Answer(**values)
     except re.error as error:
         raise ScriptError(f"match is no regular expression: {error}", where=where) from None
@@ -183,9 +160,19 @@ def _answer(row: Any, usual: dict[str, Any], where: str) -> Answer:
         raise ScriptError(str(error), where=where) from None
 
 
-def _known(row: Any, names: tuple[str, ...], where: str) -> None:
+def _names(kind: type[Any]) -> tuple[str, ...]:
+    return tuple(entry.name for entry in fields(kind))
+
+
+def _mapping(row: Any, names: tuple[str, ...], where: str) -> dict[str, Any]:
+    """Return the row, which has no key but those.
+
+    Raises:
+        ScriptError: it is no such mapping.
+    """
     if not isinstance(row, dict):
         raise ScriptError("no mapping", where=where, allowed=", ".join(names))
     for key in row:
         if key not in names:
             raise ScriptError(f"unknown: {key}", where=where, allowed=", ".join(names))
+    return row

@@ -1,4 +1,4 @@
-"""The fake model as an HTTP server: loopback and free of charge.
+"""Serves a script over HTTP: loopback and free of charge.
 
 Tests use it as `with FakeModel(script) as fake: … fake.url …`; `fake.calls` tells what was asked and when.
 """
@@ -18,14 +18,14 @@ from types import TracebackType
 from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
-from chatrobot.models.fake.anthropic import AnthropicMessages
-from chatrobot.models.fake.google import GoogleGenerate
-from chatrobot.models.fake.openai_chat import OpenAIChat
-from chatrobot.models.fake.openai_responses import Conversations, OpenAIResponses, UnknownConversationError
+from chatrobot.models.fake import openai, others
 from chatrobot.models.fake.script import Answer, HttpError, Script
-from chatrobot.models.fake.wires import Asked, Whole, WireFormat, count
+from chatrobot.models.fake.wires import Asked, Conversations, Counted, UnknownConversationError, Wire
 
 BODY_BYTES = 32_000_000
+CHARS_PER_TOKEN = 4
+_WIRES = {**openai.WIRES, **others.WIRES}
+_CONVERSATIONS = "/conversations"
 
 
 @dataclass
@@ -44,7 +44,7 @@ class Call:
 
 
 class FakeModel:
-    """The server. It listens once it has been entered (or `start`ed) and ends with every connection on leaving."""
+    """Server that listens once it has been entered (or `start`ed), and ends with every connection on leaving."""
 
     def __init__(
         self,
@@ -81,7 +81,7 @@ class FakeModel:
         ).start()
 
     def stop(self) -> None:
-        """End it and every call under way."""
+        """End the server and every call under way."""
         assert self._server is not None
         self.closing.set()
         self._server.shutdown()
@@ -112,19 +112,18 @@ class _Handler(BaseHTTPRequestHandler):
     server: _Server
 
     def log_message(self, format: str, *args: Any) -> None:
-        """Nothing: a header in a log is a key in a log."""
+        """Log nothing: a header in a log is a key in a log."""
 
     def do_GET(self) -> None:
+        """List the models, as OpenAI and Ollama do."""
         path = urlsplit(self.path).path.rstrip("/")
         models = self.server.fake.script.models
+        rows = [{"id": name, "object": "model", "created": 0, "owned_by": "fake-model"} for name in models]
         if path.endswith("/api/tags"):
             self._json(200, {"models": [{"name": name, "model": name, "details": {}} for name in models]})
         elif path.endswith("/api/version"):
             self._json(200, {"version": "0.0.0-fake"})
         elif path.endswith("/models"):
-            rows = [
-                {"id": name, "object": "model", "created": 0, "owned_by": "fake-model"} for name in models
-            ]
             self._json(200, {"object": "list", "data": rows})
         elif path in ("", "/health"):
             self._json(200, {"status": "ok"})
@@ -132,41 +131,39 @@ class _Handler(BaseHTTPRequestHandler):
             self._json(404, {"error": {"message": f"nothing at {path}"}})
 
     def do_POST(self) -> None:
-        path = urlsplit(self.path).path.rstrip("/")
-        body = self._read_body()
+        """Answer a call with what the script says."""
+        fake, path, body = self.server.fake, urlsplit(self.path).path.rstrip("/"), self._read_body()
+        wire = next((wire for end, wire in _WIRES.items() if path.endswith(end)), None)
         if body is None:
             self._json(400, {"error": {"message": "the body is no JSON object"}})
-            return
-        fake = self.server.fake
-        wire = self._wire(path)
-        call = Call(
-            self.path, {name.lower(): value for name, value in self.headers.items()}, body, time.monotonic()
-        )
-        if wire is None and not path.endswith("/conversations"):
+        elif wire is None and not path.endswith(_CONVERSATIONS):
             self._json(404, {"error": {"message": f"nothing at {path}"}})
         elif not self._may():
             error = HttpError(401, f"Incorrect API key provided: {self._key()}", "invalid_api_key")
-            self._json(401, (wire or OpenAIChat()).error(error))
+            self._json(401, (wire or Wire).error(error))
         elif wire is None:
             self._json(200, {"id": fake.conversations.begin(), "object": "conversation"})
         else:
+            headers = {name.lower(): value for name, value in self.headers.items()}
+            call = Call(self.path, headers, body, time.monotonic())
             fake.calls.append(call)
             self._answer(wire, call)
 
-    def _answer(self, wire: WireFormat, call: Call) -> None:
-        script = self.server.fake.script
+    def _answer(self, kind: type[Wire], call: Call) -> None:
+        fake = self.server.fake
         try:
-            asked = call.asked = wire.read(call.body, self.path)
+            wire = kind(call.body, self.path, fake.conversations)
         except UnknownConversationError as error:
             message = f"Previous response with id '{error}' not found."
-            self._json(400, wire.error(HttpError(400, message, "previous_response_not_found")))
+            self._json(400, kind.error(HttpError(400, message, "previous_response_not_found")))
             return
-        self.server.fake.on_call(call)
-        if asked.model not in script.models:
+        asked = call.asked = wire.asked
+        fake.on_call(call)
+        if asked.model not in fake.script.models:
             message = f"The model `{asked.model}` does not exist"
             self._json(404, wire.error(HttpError(404, message, "model_not_found")))
             return
-        answer = script.answer(asked.said)
+        answer = fake.script.answer(asked.said)
         if not self._wait(answer.first_piece_s, call):
             return
         if answer.error is not None:
@@ -174,70 +171,59 @@ class _Handler(BaseHTTPRequestHandler):
         elif answer.raw is not None:
             self._send(200, answer.raw.encode(), answer.content_type)
         elif asked.stream:
-            self._stream(wire, asked, answer, call)
+            self._stream(wire, answer, call)
         else:
-            self._whole(wire, asked, answer, call)
+            self._whole(wire, answer, call)
 
-    def _error(self, wire: WireFormat, error: HttpError) -> None:
+    def _error(self, wire: Wire, error: HttpError) -> None:
         headers = {"Retry-After": f"{error.retry_after_s:g}"} if error.retry_after_s is not None else {}
         if error.body is not None:
             self._send(error.status, error.body.encode(), "text/html", headers)
         else:
             self._json(error.status, wire.error(error), headers)
 
-    def _whole(self, wire: WireFormat, asked: Asked, answer: Answer, call: Call) -> None:
-        tokens = answer.tokens(asked.said)
-        if answer.hang_after is not None:
-            self._wait(float("inf"), call)
-            return
-        if answer.tokens_per_s and not self._wait(len(tokens) / answer.tokens_per_s, call):
-            return
-        reply = Whole(
-            "".join(tokens), answer.tool_calls, answer.refusal, answer.reason, count(asked, answer, tokens)
-        )
-        self._json(200, wire.whole(asked, reply))
-        call.sent_s.append(time.monotonic())
+    def _whole(self, wire: Wire, answer: Answer, call: Call) -> None:
+        tokens = answer.tokens(wire.asked.said)
+        waits_s = len(tokens) / answer.tokens_per_s if answer.tokens_per_s else 0.0
+        if self._wait(waits_s if answer.hang_after is None else float("inf"), call):
+            self._json(200, wire.whole("".join(tokens), answer, _count(wire.asked, answer, tokens)))
+            call.sent_s.append(time.monotonic())
 
-    def _stream(self, wire: WireFormat, asked: Asked, answer: Answer, call: Call) -> None:
+    def _stream(self, wire: Wire, answer: Answer, call: Call) -> None:
         self.send_response(200)
         self.send_header("Content-Type", "text/event-stream")
         self.send_header("Transfer-Encoding", "chunked")
         self.end_headers()
         try:
-            tokens = self._stream_tokens(wire, asked, answer, call)
-            if tokens is None:
-                self.close_connection = (
-                    True  # without the last chunk: the other side sees that it was cut off
-                )
+            tokens = self._stream_tokens(wire, answer, call)
+            if tokens is None:  # without the last chunk: the other side sees that it was cut off
+                self.close_connection = True
                 return
             end = b"".join(wire.tool(index, tool) for index, tool in enumerate(answer.tool_calls))
             end += wire.refuse(answer.refusal) if answer.refusal else b""
-            self._chunk(end + wire.finish(answer.reason, count(asked, answer, tokens)))
+            self._chunk(end + wire.finish(answer.reason, _count(wire.asked, answer, tokens)))
             self.wfile.write(b"0\r\n\r\n")
         except OSError:
             call.gone_s = time.monotonic()
             self.close_connection = True
 
-    def _stream_tokens(self, wire: WireFormat, asked: Asked, answer: Answer, call: Call) -> list[str] | None:
+    def _stream_tokens(self, wire: Wire, answer: Answer, call: Call) -> list[str] | None:
         """Send the text; None where the reply ends before its end."""
-        self._chunk(wire.start(asked))
+        self._chunk(wire.start())
         begun_s = time.monotonic()
-        sent: list[str] = []
-        for token in answer.tokens(asked.said):
-            if answer.hang_after == len(sent):
-                self._wait(float("inf"), call)
-                return None
-            if answer.cut_off_after == len(sent):
-                return None
-            due_s = begun_s + len(sent) / answer.tokens_per_s if answer.tokens_per_s else begun_s
+        tokens = answer.tokens(wire.asked.said)
+        ends = [after for after in (answer.hang_after, answer.cut_off_after) if after is not None]
+        for number, token in enumerate(tokens[: min(ends, default=len(tokens))]):
+            due_s = begun_s + number / answer.tokens_per_s if answer.tokens_per_s else begun_s
             if not self._wait(due_s - time.monotonic(), call):
                 return None
             self._chunk(wire.token(token))
             call.sent_s.append(time.monotonic())
-            sent.append(token)
-        if answer.hang_after is not None:
+        if answer.hang_after is not None and answer.hang_after == min(ends):
             self._wait(float("inf"), call)
-        return None if answer.hang_after is not None or answer.cut_off_after is not None else sent
+        if ends:
+            return None
+        return tokens
 
     def _wait(self, duration_s: float, call: Call) -> bool:
         """Wait; False where the client hung up, or the server ends, meanwhile."""
@@ -285,15 +271,6 @@ class _Handler(BaseHTTPRequestHandler):
             return None
         return body if isinstance(body, dict) else None
 
-    def _wire(self, path: str) -> WireFormat | None:
-        if path.endswith("/chat/completions"):
-            return OpenAIChat()
-        if path.endswith("/responses"):
-            return OpenAIResponses(self.server.fake.conversations)
-        if path.endswith("/messages"):
-            return AnthropicMessages()
-        return GoogleGenerate() if path.endswith((":generateContent", ":streamGenerateContent")) else None
-
     def _key(self) -> str:
         bearer = self.headers.get("Authorization", "").removeprefix("Bearer ")
         given = bearer or self.headers.get("x-api-key") or self.headers.get("x-goog-api-key")
@@ -302,3 +279,12 @@ class _Handler(BaseHTTPRequestHandler):
     def _may(self) -> bool:
         keys = self.server.fake.script.keys
         return not keys or any(hmac.compare_digest(self._key().encode(), key.encode()) for key in keys)
+
+
+def _count(asked: Asked, answer: Answer, tokens: list[str]) -> Counted | None:
+    """Count prompt tokens as the script says, or one for four characters; None where nothing is to be counted."""
+    if answer.uncounted:
+        return None
+    chars = sum(len(text) for _, text in asked.turns)
+    prompt = answer.prompt_tokens if answer.prompt_tokens is not None else -(-chars // CHARS_PER_TOKEN)
+    return Counted(prompt, min(answer.cached_tokens, prompt), len(tokens))

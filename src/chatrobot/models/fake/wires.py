@@ -1,22 +1,26 @@
-"""How each provider writes things down: what a request asks, and the events and bodies of a reply.
+"""Speaks each provider's form: reads what a request asks, writes the events and bodies of a reply.
 
-A new instance serves one call. Bytes that `start`, `token`, `tool`, `refuse` and `finish` return go out as they are.
+A wire serves one call. Bytes that `start`, `token`, `tool`, `refuse` and `finish` return go out as they are; `whole` is
+the reply to a request that wants no stream.
 """
 
 from __future__ import annotations
 
 import itertools
 import json
+import threading
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 from chatrobot.models.fake.script import Answer, HttpError, ToolCall
 
-CHARS_PER_TOKEN = 4
+Turns = tuple[tuple[str, str], ...]
 _ids = itertools.count(1)
 
 
 def new_id(prefix: str) -> str:
+    """Return an identifier that no other call has."""
     return f"{prefix}_{next(_ids):08d}"
 
 
@@ -24,86 +28,133 @@ def new_id(prefix: str) -> str:
 class Counted:
     """Tokens of one call."""
 
-    prompt: int
-    cached: int
-    reply: int
+    prompt: int = 0
+    cached: int = 0
+    reply: int = 0
 
 
 @dataclass(frozen=True)
 class Asked:
-    """What a request asks for. `said` is what the user said last; `turns` are all turns as (role, text)."""
+    """Request as it was read. `turns` are all turns as (role, text)."""
 
     model: str
     stream: bool
-    turns: tuple[tuple[str, str], ...]
+    turns: Turns
     images: int = 0
 
     @property
     def said(self) -> str:
+        """Return what the user said last."""
         return next((text for role, text in reversed(self.turns) if role == "user"), "")
 
 
-@dataclass(frozen=True)
-class Whole:
-    """A reply in one piece."""
-
-    text: str
-    tools: tuple[ToolCall, ...]
-    refusal: str
-    finish: str
-    counted: Counted | None
+class UnknownConversationError(Exception):
+    """Raised for a request that goes on from something this server never said."""
 
 
-class WireFormat(Protocol):
-    """One call in one provider's form."""
+class Conversations:
+    """Holds what was said: turns by response id and by conversation id."""
 
-    def read(self, body: dict[str, Any], path: str) -> Asked: ...
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._turns: dict[str, Turns] = {}
 
-    def start(self, asked: Asked) -> bytes: ...
+    def begin(self) -> str:
+        """Begin a conversation without a word in it, and return its id."""
+        self.keep(conversation := new_id("conv"), ())
+        return conversation
 
-    def token(self, text: str) -> bytes: ...
+    def drop(self) -> None:
+        """Forget everything, as servers do after some weeks."""
+        with self._lock:
+            self._turns.clear()
 
-    def tool(self, index: int, call: ToolCall) -> bytes: ...
+    def known(self, name: str) -> Turns:
+        """Return the turns of that response or conversation.
 
-    def refuse(self, text: str) -> bytes: ...
+        Raises:
+            UnknownConversationError: there is none.
+        """
+        with self._lock:
+            if name not in self._turns:
+                raise UnknownConversationError(name)
+            return self._turns[name]
 
-    def finish(self, reason: str, counted: Counted | None) -> bytes: ...
+    def keep(self, name: str, turns: Turns) -> None:
+        """Keep them under that id."""
+        with self._lock:
+            self._turns[name] = turns
 
-    def whole(self, asked: Asked, reply: Whole) -> dict[str, Any]: ...
 
-    def error(self, error: HttpError) -> dict[str, Any]: ...
+class Wire(ABC):
+    """One call in one provider's form.
+
+    Raises:
+        UnknownConversationError: it goes on from what `held` does not hold.
+    """
+
+    prefix = ""
+
+    def __init__(self, body: dict[str, Any], path: str, held: Conversations) -> None:
+        self._held = held
+        self._id = new_id(self.prefix)
+        self.asked = self._read(body, path)
+
+    @abstractmethod
+    def _read(self, body: dict[str, Any], path: str) -> Asked: ...
+
+    def start(self) -> bytes:
+        """Write what comes before the first token."""
+        return b""
+
+    @abstractmethod
+    def token(self, text: str) -> bytes:
+        """Write a piece of text."""
+
+    @abstractmethod
+    def tool(self, index: int, call: ToolCall) -> bytes:
+        """Write a call of a tool, the `index`-th of this reply."""
+
+    def refuse(self, text: str) -> bytes:
+        """Write why it declines."""
+        return self.token(text)
+
+    @abstractmethod
+    def finish(self, reason: str, counted: Counted | None) -> bytes:
+        """Write the end; `reason` in OpenAI's words."""
+
+    @abstractmethod
+    def whole(self, text: str, answer: Answer, counted: Counted | None) -> dict[str, Any]:
+        """Return the body of a reply in one piece; `text` is that of `answer`."""
+
+    @staticmethod
+    def error(error: HttpError) -> dict[str, Any]:
+        """Return the body of an error, in OpenAI's form unless the provider has another."""
+        kind = "invalid_request_error" if error.status < 500 else "server_error"
+        return {"error": {"message": error.message, "type": kind, "param": None, "code": error.code or None}}
 
 
 def sse(data: dict[str, Any] | str, event: str = "") -> bytes:
-    """One server-sent event."""
+    """Return one server-sent event."""
     text = data if isinstance(data, str) else json.dumps(data, ensure_ascii=False)
     return ((f"event: {event}\n" if event else "") + f"data: {text}\n\n").encode()
 
 
-def count(asked: Asked, answer: Answer, tokens: list[str]) -> Counted | None:
-    """Prompt tokens as the script says, or one for four characters; None where nothing is to be counted."""
-    if answer.uncounted:
-        return None
-    chars = sum(len(text) for _, text in asked.turns)
-    prompt = answer.prompt_tokens if answer.prompt_tokens is not None else -(-chars // CHARS_PER_TOKEN)
-    return Counted(prompt, min(answer.cached_tokens, prompt), len(tokens))
-
-
-def plain_text(content: Any) -> tuple[str, int]:
-    """The text of a message's content, which may be a string or a list of parts, and how many pictures are in it."""
-    if isinstance(content, str):
-        return content, 0
-    parts = content if isinstance(content, list) else []
-    texts = [str(part["text"]) for part in parts if isinstance(part, dict) and "text" in part]
-    return "\n".join(texts), len(parts) - len(texts)
-
-
-def turns_of(messages: Any) -> tuple[tuple[tuple[str, str], ...], int]:
-    """(role, text) of each message with a role, and how many pictures there are in all."""
-    turns, images = [], 0
+def read_asked(body: dict[str, Any], messages: Any, system: Any = None) -> Asked:
+    """Return what is asked with those messages, each of them a role with a text or a list of parts."""
+    turns, images = [("system", plain_text(system)[0])] if system else [], 0
     for message in messages if isinstance(messages, list) else []:
         if isinstance(message, dict) and "role" in message:
             text, more = plain_text(message.get("content"))
             turns.append((str(message["role"]), text))
             images += more
-    return tuple(turns), images
+    return Asked(str(body.get("model", "")), bool(body.get("stream")), tuple(turns), images)
+
+
+def plain_text(content: Any) -> tuple[str, int]:
+    """Return the text of a message's content, and how many pictures are in it."""
+    if isinstance(content, str):
+        return content, 0
+    parts = content if isinstance(content, list) else []
+    texts = [str(part["text"]) for part in parts if isinstance(part, dict) and "text" in part]
+    return "\n".join(texts), len(parts) - len(texts)

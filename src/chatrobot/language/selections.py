@@ -1,0 +1,99 @@
+"""What points at a part of what was done, and wants it again: `repeat the last step`, `do the second leg again`.
+
+The forms and their words are `data/<code>/selections.toml`. Where the last motion was one step, the turns are counted
+instead. The same file has the words by which an amount or a shape takes the place of the one before.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from functools import cache
+from typing import Any
+
+from chatrobot.language.context import Dialogue
+from chatrobot.language.data_files import load_table
+from chatrobot.language.tokens import Atom
+from chatrobot.language.unclear import Unclear
+from chatrobot.plan.base import Block
+from chatrobot.plan.steps import Arc, Drive, Step, Turn
+
+_KINDS: dict[str, tuple[type[Step], ...]] = {
+    "step": (Step,),
+    "turn": (Turn,),
+    "leg": (Drive, Arc),
+    "said": (Step,),
+}
+
+
+def selected(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
+    """The steps of earlier turns that a normalised text points at; None where it points at no part of them.
+
+    Raises:
+        Unclear: there is no such part.
+    """
+    found = next(filter(None, (form.fullmatch(plain.strip(" .!,")) for form in _forms(language))), None)
+    if found is None or dialogue.last_motion is None:
+        return None
+    table, said = load_table(language, "selections"), found.groupdict(default="")
+    kind = next((kind for kind, words in table["kinds"].items() if said.get("kind", "") in words), "step")
+    units = _units(dialogue, kind)
+    ordinal, count = said.get("nth", ""), _number(said.get("count", ""), table) or 1
+    if not ordinal:
+        chosen = units if said.get("all") or len(units) == 1 else []
+    else:
+        at = _number(ordinal, table) or 1
+        first = at - 1 if at > 0 else len(units) + at - (count - 1 if at == -1 else 0)
+        chosen = units[first : first + count] if 0 <= first <= len(units) - count else []
+    if not chosen:
+        raise Unclear("nothing_before", plain)
+    return [step for unit in chosen for step in unit]
+
+
+def _units(dialogue: Dialogue, kind: str) -> list[list[Step]]:
+    """What is counted: the steps of that kind of the last motion, or the turns that moved."""
+    turns = [list(turn.plan.steps) for turn in dialogue.turns if turn.plan is not None]
+    if kind == "said" or len(turns[-1]) == 1:
+        return [turn for turn in turns if kind == "said" or isinstance(turn[0], _KINDS[kind])]
+    if any(isinstance(step, Block) for step in turns[-1]):
+        return []
+    return [[step] for step in turns[-1] if isinstance(step, _KINDS[kind])]
+
+
+def _number(word: str, table: dict[str, Any]) -> int:
+    """The number of an ordinal or a count; 0 for none. The last is -1, the one before it -2."""
+    return int(word) if word.isdecimal() else int(table["numbers"].get(word, 0))
+
+
+def names_a_part(plain: str, language: str) -> bool:
+    """Whether a text names a part of what was done, whatever else it says."""
+    return any(form.search(plain) for form in _forms(language, "mentions"))
+
+
+@cache
+def _forms(language: str, name: str = "forms") -> tuple[re.Pattern[str], ...]:
+    table = load_table(language, "selections")
+    parts = {
+        name: "|".join(sorted(words, key=len, reverse=True)) for name, words in table.get("parts", {}).items()
+    }
+    parts["kind"] = "|".join(
+        sorted((w for words in table.get("kinds", {}).values() for w in words), key=len, reverse=True)
+    )
+    parts["number"] = "|".join([*sorted(table.get("numbers", {}), key=len, reverse=True), r"\d{1,2}"])
+    return tuple(
+        re.compile(re.sub(r"(?<!\?P)<(\w+)>", lambda m: f"(?:{parts[m[1]]})", form))
+        for form in table.get(name, ())
+    )
+
+
+def points_at_before(atom: Atom, language: str) -> bool:
+    """Whether `again` points at the motion before, not at what is told beside it: `turn around and do the same`."""
+    return atom.text in load_table(language, "selections").get("same", ())
+
+
+def with_another_size(plain: str, atoms: Sequence[Atom], language: str) -> Atom | None:
+    """The one length of `now with 50 cm`, which takes the place of the one before; None for anything else."""
+    sized = [atom for atom in atoms if atom.kind == "q"]
+    others = [atom for atom in atoms if atom.kind not in ("q", "filler", "glue", "sep")]
+    opened = plain.startswith(tuple(load_table(language, "selections").get("with", ())))
+    return sized[0] if opened and not others and len(sized) == 1 and sized[0].value == "length" else None
