@@ -8,10 +8,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import chatrobot
+from chatrobot.guard import __main__ as guard_process
 from chatrobot.link.envelope import PAYLOADS
+from chatrobot.wire.messages import TwistMessage
 
 SOURCE = Path(chatrobot.__file__).parent
-WRITERS = {"transports/transport.py", "guard/__main__.py", "link/in_process.py"}
+WRITERS = {"motion/safety/stop.py", "guard/__main__.py", "link/in_process.py"}
 """The transport; the guard, which knows zeros alone; the guard's rule on simulated time."""
 
 CARRIERS = {"motion/safety/connection_monitor.py", "sim/network_wire.py", "sim/robot.py"}
@@ -21,9 +23,11 @@ OTHER_GRAPHS = (
     "programs/",
     "motion/programs/rehearsal_environment.py",
     "motion/programs/execution.py",
+    "testing/",
     "wire/",
 )
-"""A program publishes to the box it is in, and what it holds is governed like anything else; a backend is a wire."""
+"""The test kit has robots of its own.
+A program publishes to the box it is in, and what it holds is governed like anything else; a backend is a wire."""
 
 HARMLESS = {"Text", "Flag", "Odometry"}
 
@@ -51,17 +55,25 @@ def test_the_writers_of_velocities_are_counted() -> None:
         ):
             found[file] += 1
     assert set(found) == WRITERS
-    assert found == {"transports/transport.py": 3, "guard/__main__.py": 1, "link/in_process.py": 1}
+    assert found == {"motion/safety/stop.py": 3, "guard/__main__.py": 1, "link/in_process.py": 1}
 
 
 def test_the_guard_can_make_no_velocity_but_zero() -> None:
-    tree = ast.parse((SOURCE / "guard" / "__main__.py").read_text(encoding="utf-8"))
-    made = [
-        [ast.literal_eval(argument) for argument in node.args]
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "TwistMessage"
-    ]
-    assert made == [[0.0, 0.0, 0.0]]
+    sent = [call.args[1] for file, call in calls("publish") if file.startswith("guard/")]
+    assert [ast.unparse(message) for message in sent] == ["ZERO"]
+    for file in (SOURCE / "guard").glob("*.py"):
+        tree = ast.parse(file.read_text(encoding="utf-8"))
+        assert not [
+            node
+            for node in ast.walk(tree)
+            if getattr(getattr(node, "func", None), "id", "") == "TwistMessage"
+        ]
+        assert not [node for node in ast.walk(tree) if getattr(node, "id", "") == "ZERO" and is_stored(node)]
+    assert TwistMessage(0.0, 0.0, 0.0) == guard_process.ZERO
+
+
+def is_stored(node: ast.AST) -> bool:
+    return isinstance(getattr(node, "ctx", None), ast.Store)
 
 
 def test_every_word_that_the_source_sends_is_listed_with_all_its_fields() -> None:

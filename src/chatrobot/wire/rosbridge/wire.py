@@ -94,7 +94,8 @@ class RosbridgeWire(Wire):
             connection = self._connect()
         except (OSError, WebSocketException) as error:
             raise WireError(
-                f"no rosbridge answers at {self._place}; start rosbridge_server on the robot, or check host and port ({error})"
+                f"no rosbridge answers at {self._place}; start rosbridge_server on the robot, or check"
+                f" host and port ({error})"
             ) from error
         self._thread = threading.Thread(target=self._run, args=(connection,), name="rosbridge", daemon=True)
         self._thread.start()
