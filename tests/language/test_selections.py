@@ -26,6 +26,8 @@ def done(*turns: str) -> str:
         ((THREE, "first leg again"), "drive 1 m"),
         ((THREE, "repeat step 2"), "turn left 90 deg"),
         ((THREE, "repeat the turn"), "turn left 90 deg"),
+        ((THREE, "hmm, do just the first part again, twice"), "drive 1 m; drive 1 m"),
+        ((THREE, "do the last two again"), "turn left 90 deg; drive 2 m"),
         ((THREE_ZH, "重复最后一步"), "drive 2 m"),
         ((THREE_ZH, "第二步再做一遍"), "turn left 90 deg"),
         ((THREE_ZH, "前两步再来一遍"), "drive 1 m; turn left 90 deg"),

@@ -120,7 +120,7 @@ def _of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | 
         Unclear: there is no such part, or two readings are as likely.
     """
     dialogue, language = reading.context.dialogue, reading.language
-    part = selected(plain, language, dialogue)
+    part = selected(plain, language, dialogue, reading.atoms)
     if part is not None or dialogue.last_motion is None or dialogue.last_motion.plan is None:
         return part
     before = dialogue.last_motion.plan.steps

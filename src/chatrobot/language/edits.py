@@ -38,25 +38,7 @@ def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
     if last is None or last.plan is None or is_correction(last):
         return None
     edit = read_edit(atoms)
-    if edit is None:
-        return None
-    if edit.nth and edit.flags == {"again"}:
-        return _nth(edit, dialogue)
-    return _applied(edit, list(last.plan.steps))
-
-
-def _nth(edit: Edit, dialogue: Dialogue) -> list[Step]:
-    """`Do the second step again`: of the last motion; of the turns, where each did one thing.
-
-    Raises:
-        Unclear: where there were not as many.
-    """
-    turns = [list(turn.plan.steps) for turn in dialogue.turns if turn.plan is not None]
-    units = turns if len(turns[-1]) == 1 else [[step] for step in turns[-1]]
-    n = edit.nth - 1 if edit.nth > 0 else len(units) - 1
-    if not n < len(units) or edit.amounts or edit.way or edit.kinds:
-        raise Unclear("nothing_before")
-    return units[n]
+    return _applied(edit, list(last.plan.steps)) if edit is not None else None
 
 
 def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:

@@ -7,7 +7,7 @@ instead. The same file has the words by which an amount or a shape takes the pla
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Any
 
@@ -15,7 +15,6 @@ from chatrobot.language.context import Dialogue
 from chatrobot.language.data_files import load_table
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.base import Block
 from chatrobot.plan.steps import Arc, Drive, Step, Turn
 
 _KINDS: dict[str, tuple[type[Step], ...]] = {
@@ -23,22 +22,39 @@ _KINDS: dict[str, tuple[type[Step], ...]] = {
     "turn": (Turn,),
     "leg": (Drive, Arc),
     "said": (Step,),
+    "move": (Step,),
 }
 
+_SAYING_NOTHING = frozenset({"sep", "conn", "filler", "glue", "reason"})
 
-def selected(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
+
+def selected(
+    plain: str, language: str, dialogue: Dialogue, atoms_of: Callable[[str], list[Atom]]
+) -> list[Step] | None:
     """The steps of earlier turns that a normalised text points at; None where it points at no part of them.
+
+    Args:
+        atoms_of: the atoms of a text; what stands around tells at most how often, and joins nothing on.
 
     Raises:
         Unclear: there is no such part.
     """
-    found = next(filter(None, (form.fullmatch(plain.strip(" .!,")) for form in _forms(language))), None)
-    if found is None or dialogue.last_motion is None:
+    if dialogue.last_motion is None:
+        return None
+    found = next(filter(None, (form.search(plain) for form in _forms(language))), None)
+    if found is None:
+        return None
+    around = *atoms_of(plain[: found.start()]), *(after := atoms_of(plain[found.end() :]))
+    counts = [int(a.number) for a in around if (a.kind, a.value) == ("q", "times")]
+    silent = sum(a.kind in _SAYING_NOTHING for a in around) + len(counts) == len(around)
+    if not silent or len(counts) > 1 or any(a.kind == "conn" for a in after):
         return None
     table, said = load_table(language, "selections"), found.groupdict(default="")
     kind = next((kind for kind, words in table["kinds"].items() if said.get("kind", "") in words), "step")
     units = _units(dialogue, kind)
     ordinal, count = said.get("nth", ""), _number(said.get("count", ""), table) or 1
+    if (kind == "move" or not said.get("kind")) and (_number(ordinal, table), count) == (-1, 1):
+        return None  # `the last move` is the whole of the last motion
     if not ordinal:
         chosen = units if said.get("all") or len(units) == 1 else []
     else:
@@ -47,7 +63,7 @@ def selected(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None
         chosen = units[first : first + count] if 0 <= first <= len(units) - count else []
     if not chosen:
         raise Unclear("nothing_before", plain)
-    return [step for unit in chosen for step in unit]
+    return [step for unit in chosen for step in unit] * (counts or [1])[0]
 
 
 def _units(dialogue: Dialogue, kind: str) -> list[list[Step]]:
@@ -55,8 +71,6 @@ def _units(dialogue: Dialogue, kind: str) -> list[list[Step]]:
     turns = [list(turn.plan.steps) for turn in dialogue.turns if turn.plan is not None]
     if kind == "said" or len(turns[-1]) == 1:
         return [turn for turn in turns if kind == "said" or isinstance(turn[0], _KINDS[kind])]
-    if any(isinstance(step, Block) for step in turns[-1]):
-        return []
     return [[step] for step in turns[-1] if isinstance(step, _KINDS[kind])]
 
 
