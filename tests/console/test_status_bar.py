@@ -46,7 +46,7 @@ def test_a_motion_has_its_way_its_trail_and_its_progress():
     assert motion_view.is_moving
     assert motion_view.path == ((0.0, 0.0), (1.0, 0.0))
     assert motion_view.trail == ((0.0, 0.0), (0.5, 0.0))
-    assert (motion_view.step, motion_view.of, motion_view.fraction) == (2, 4, 0.5)
+    assert (motion_view.step_number, motion_view.step_count, motion_view.fraction) == (2, 4, 0.5)
 
 
 def test_the_end_of_another_turn_does_not_end_the_motion():

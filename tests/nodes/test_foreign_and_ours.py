@@ -23,8 +23,8 @@ class Runner:
     def motion(self) -> Runner:
         return self
 
-    def receive(self, envelope: Envelope, said_in: int | None = None) -> None:
-        self.received.append((envelope, said_in))
+    def receive(self, envelope: Envelope, said_in_epoch: int | None = None) -> None:
+        self.received.append((envelope, said_in_epoch))
 
     def notice(self, reason: Any) -> None:
         self.notices.append(reason.code)
@@ -68,5 +68,5 @@ def test_foreign_text_of_before_a_stop_belongs_to_before_it() -> None:
     runner: Any = Runner()
     runner.stops = 7
     Foreign(runner, lambda: False).hear("drive 1 m")
-    ((_, _), (plan, said_in)) = runner.received
-    assert (plan.word, said_in) == ("plan", 7)
+    ((_, _), (plan, said_in_epoch)) = runner.received
+    assert (plan.word, said_in_epoch) == ("plan", 7)

@@ -204,7 +204,7 @@ def test_the_walk_chains_ideal_ends_through_repeats() -> None:
     planned = [item for item in items if isinstance(item, PlannedMotion)]
     assert [item.index for item in planned] == [(0, 0), (0, 1)] * 4 + [(1,)]
     assert [item.number for item in planned] == list(range(1, 10))
-    assert {item.total for item in planned} == {9}
+    assert {item.total_steps for item in planned} == {9}
     assert planned[-1].end == pytest.approx((0, 0, 2 * math.pi), abs=1e-9)
     for before, after in itertools.pairwise(planned):
         assert before.end == after.start

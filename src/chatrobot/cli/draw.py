@@ -49,7 +49,7 @@ def draw_plan(
 class _Picture:
     """One picture on its way: an extent of the world on a canvas, and the labels that already stand there."""
 
-    def __init__(self, extent: Extent, orientation: Orientation, findings: int) -> None:
+    def __init__(self, extent: Extent, orientation: Orientation, finding_count: int) -> None:
         self._extent = extent
         self._orientation = orientation
         self._px_per_m = min(MAP_WIDTH_PX / extent.width_m, MAX_MAP_HEIGHT_PX / extent.height_m)
@@ -57,7 +57,7 @@ class _Picture:
         self._map_h = max(MIN_MAP_HEIGHT_PX, round(extent.height_m * self._px_per_m))
         self._off_x = LEFT_PX + (self._map_w - extent.width_m * self._px_per_m) / 2.0
         self._off_y = TOP_PX + (self._map_h - extent.height_m * self._px_per_m) / 2.0
-        height = TOP_PX + self._map_h + FOOT_PX + LINE_PX * findings
+        height = TOP_PX + self._map_h + FOOT_PX + LINE_PX * finding_count
         self.canvas = Canvas(LEFT_PX + self._map_w + RIGHT_PX, height, PAPER)
         self._taken: list[Box] = []
 

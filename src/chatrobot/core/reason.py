@@ -44,15 +44,15 @@ _NOISE = 1e-6
 """What is smaller is rounding of floats, and nothing that anybody has asked for."""
 
 
-def fixed(value: float, places: int) -> str:
+def fixed(value: float, decimals: int) -> str:
     """`value` with exactly so many decimals; what is rounded to nothing has no sign."""
-    text = f"{value:.{places}f}"
+    text = f"{value:.{decimals}f}"
     return text.lstrip("-") if not float(text) else text
 
 
-def number(value: float, places: int = LENGTH_PLACES) -> str:
+def number(value: float, decimals: int = LENGTH_PLACES) -> str:
     """`value` with at most so many decimals. One that is smaller, and no noise, keeps its first digit."""
-    text = fixed(value, places)
+    text = fixed(value, decimals)
     if not float(text) and abs(value) >= _NOISE:
         return fixed(value, -_exponent(value))
     return text.rstrip("0").rstrip(".") if "." in text else text
@@ -66,12 +66,12 @@ def _exponent(value: float) -> int:
 SHOWN_CHARS = 300
 
 
-def one_line(text: str, limit: int = SHOWN_CHARS) -> str:
+def one_line(text: str, max_chars: int = SHOWN_CHARS) -> str:
     """Printable text on one line: control characters, line breaks and direction marks become spaces."""
-    tidy = " ".join("".join(char if char.isprintable() else " " for char in text[: 4 * limit]).split())
-    return tidy if len(tidy) <= limit else f"{tidy[: limit - 1]}…"
+    tidy = " ".join("".join(char if char.isprintable() else " " for char in text[: 4 * max_chars]).split())
+    return tidy if len(tidy) <= max_chars else f"{tidy[: max_chars - 1]}…"
 
 
-def quoted(text: str, limit: int = 40) -> str:
+def quoted(text: str, max_chars: int = 40) -> str:
     """A name from outside as a quoted string: it cannot end its quotation, nor begin a line of its own."""
-    return json.dumps(one_line(text, limit), ensure_ascii=False)
+    return json.dumps(one_line(text, max_chars), ensure_ascii=False)

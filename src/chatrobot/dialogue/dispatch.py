@@ -48,7 +48,7 @@ class Dispatch:
     _emit: Callable[[Event], None]
     _stop: Callable[[str], None]
     _hears_robot_soon: Callable[[], bool]
-    waits_for_end: int = field(default=0, init=False)
+    waiting_turn: int = field(default=0, init=False)
     """The turn that is read again once what is under way has ended."""
 
     def take(self, utterance: Utterance) -> None:
@@ -170,7 +170,7 @@ class Dispatch:
     def _end_turn_before(self, utterance: Utterance) -> None:
         """Stop what is under way, because `utterance` is about it; read `utterance` again once that has ended."""
         self._utterances.put_back(utterance)
-        self.waits_for_end = utterance.turn
+        self.waiting_turn = utterance.turn
         self._llm.replace()
         self._link.send("stop", utterance.turn - 1, why=utterance.text[:80])
 

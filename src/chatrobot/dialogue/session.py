@@ -256,7 +256,7 @@ class Session:
 
     def _find_next(self) -> Utterance | None:
         """The text to take now, if any."""
-        return self._next.find(self.options, self._dispatch.waits_for_end)
+        return self._next.find(self.options, self._dispatch.waiting_turn)
 
     def _take_texts(self) -> None:
         for one in self._utterances.take_too_many():

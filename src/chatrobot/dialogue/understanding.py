@@ -260,14 +260,19 @@ class Understanding:
         self._dialogue = replace(self._dialogue, pending=pending)
 
     def note_finished(
-        self, text: str, meant: Interpretation, finished: Finished, rehearse_only: bool, program: int = 0
+        self,
+        text: str,
+        meant: Interpretation,
+        finished: Finished,
+        rehearse_only: bool,
+        program_number: int = 0,
     ) -> str:
         """Remember a turn of a plan or a program as it really went; return the reply."""
         outcome = finished.outcome
         if outcome == "completed":
             self._learn(meant)
         plan = meant.plan if outcome in ("completed", "stopped", "failed") and not rehearse_only else None
-        self._note_end(TurnRecord(text, outcome, plan, walk=meant.walk, program=program), finished)
+        self._note_end(TurnRecord(text, outcome, plan, walk=meant.walk, program=program_number), finished)
         if rehearse_only and outcome == "completed":
             return say(meant.language, "only_rehearsed")
         return describe_end(finished, meant.language, meant.plan.steps if meant.plan is not None else ())

@@ -183,11 +183,11 @@ class NextUtterance:
     _resuming: Resuming
     _early: EarlyAnswers
 
-    def find(self, options: Options, waits_for_end: int | None) -> Utterance | None:
+    def find(self, options: Options, waiting_turn: int | None) -> Utterance | None:
         """Return the one to take now: the first, unless it has to wait.
 
         Args:
-            waits_for_end: the turn that is read again once what is under way has ended.
+            waiting_turn: the turn that is read again once what is under way has ended.
         """
         waiting = self._utterances.waiting
         for number, utterance in enumerate(waiting):
@@ -199,7 +199,7 @@ class NextUtterance:
             if self.is_being_paused or self._llm.is_writing:
                 return None
             replaces = self._resuming.paused is not None or options.while_moving == "replace"
-            if replaces and utterance.turn != waits_for_end:
+            if replaces and utterance.turn != waiting_turn:
                 return utterance
             if self._requests.is_any_with_motion:
                 return self._early.find(waiting[number:])

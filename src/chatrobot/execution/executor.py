@@ -188,7 +188,7 @@ class Executor:
         if isinstance(item, Impossible):
             self._end("failed", item.reason)
         else:
-            self.step, self.steps = item.number, item.total
+            self.step, self.steps = item.number, item.total_steps
             self._reference.reference = item.start
             self._tally.begin(item)
             self._begin_motion(item.motion, now_s)

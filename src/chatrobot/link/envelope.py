@@ -201,10 +201,10 @@ def _is_allowed(word: Word, payload: Any) -> bool:
 _LONGEST_S = 1e6
 
 
-def seconds(value: object, otherwise: float) -> float:
-    """A payload's duration; `otherwise` where it is none."""
+def seconds(value: object, otherwise_s: float) -> float:
+    """A payload's duration; `otherwise_s` where it is none."""
     is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    return float(value) if is_number and 0.0 <= value <= _LONGEST_S else otherwise  # type: ignore[arg-type,operator]
+    return float(value) if is_number and 0.0 <= value <= _LONGEST_S else otherwise_s  # type: ignore[arg-type,operator]
 
 
 _READY = b"ready"

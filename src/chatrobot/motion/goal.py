@@ -188,7 +188,7 @@ class PartedWalk:
     def _counted(self, item: PlannedMotion) -> PlannedMotion:
         """Numbered as a step of the whole."""
         index = (self._steps_before + item.index[0], *item.index[1:])
-        return replace(item, index=index, number=self._numbers_before + item.number, total=self._total)
+        return replace(item, index=index, number=self._numbers_before + item.number, total_steps=self._total)
 
 
 @dataclass

@@ -111,11 +111,11 @@ class Motion:
         """Have `action` done on the control thread with the next tick."""
         self._inbox.post(action)
 
-    def receive(self, envelope: Envelope, said_in: int | None = None) -> None:
+    def receive(self, envelope: Envelope, said_in_epoch: int | None = None) -> None:
         """Take in an envelope. A stop is out before this returns; the rest is done with the next tick.
 
         Args:
-            said_in: what `stops` was when it was said, where that was before it came here.
+            said_in_epoch: what `stops` was when it was said, where that was before it came here.
         """
         if envelope.word == "emergency_stop":
             self._emergency = envelope
@@ -123,7 +123,7 @@ class Motion:
         if envelope.word in ("stop", "emergency_stop"):
             self._heed_stop(envelope)
         # What was said before a stop must not run after it, however late it is handled.
-        epoch = self._stops.count if said_in is None else said_in
+        epoch = self._stops.count if said_in_epoch is None else said_in_epoch
         emergency = self._emergency
         came_s = self._clock.now_s()
         self.post(lambda: self._handle(envelope, epoch, emergency, came_s))

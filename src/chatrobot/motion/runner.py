@@ -184,9 +184,9 @@ class MotionRunner:
 
     # --- from any thread ---
 
-    def receive(self, envelope: Envelope, said_in: int | None = None) -> None:
-        """Take in an envelope; a stop is out before this returns. `said_in`: see `Motion.receive`."""
-        self.motion.receive(envelope, said_in)
+    def receive(self, envelope: Envelope, said_in_epoch: int | None = None) -> None:
+        """Take in an envelope; a stop is out before this returns. `said_in_epoch`: see `Motion.receive`."""
+        self.motion.receive(envelope, said_in_epoch)
         self._competitors.note_source(envelope.lease)
         if envelope.word != "beat":
             self._wake.set()

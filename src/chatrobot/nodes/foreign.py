@@ -66,7 +66,7 @@ class Foreign:
         with self._lock:
             self._waiting = max(0, self._waiting - 1)
 
-    def _judge(self, text: str, stops: int) -> None:
+    def _judge(self, text: str, stop_count: int) -> None:
         shown = text.strip()[:_SHOWN]
         try:
             plan_text = read_foreign(text)
@@ -79,12 +79,12 @@ class Foreign:
             self._runner.notice(Reason("foreign_busy", {"text": shown}))
         elif self._waiting >= MAX_WAITING:
             self._runner.notice(Reason("foreign_full", {"text": shown, "limit": MAX_WAITING}))
-        elif stops == self._runner.motion.stops:
+        elif stop_count == self._runner.motion.stops:
             with self._lock:
                 self._waiting += 1
             self._runner.receive(self._beat_envelope())
             plan = {"plan_text": plan_text, "mode": "queue", "longest_s": LONGEST_S}
-            self._runner.receive(self._sender.envelope("plan", TURN, **plan), said_in=stops)
+            self._runner.receive(self._sender.envelope("plan", TURN, **plan), said_in_epoch=stop_count)
 
 
 def read_foreign(text: str) -> str | None:

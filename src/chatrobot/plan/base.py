@@ -37,17 +37,17 @@ def require_finite(step: object, *names: str) -> None:
 _SHORTEST = 1e-3
 
 
-def divide_extent(extent: float, share: float) -> tuple[float, float]:
-    """Return the part of `extent` (m, s) that is done, to a tenth of a millimetre, and the rest of it.
+def divide_extent(value: float, share: float) -> tuple[float, float]:
+    """Return the part of `value` (m, s) that is done, to a tenth of a millimetre, and the rest of it.
 
     What is shorter than a millimetre is no part of its own.
     """
-    done = round(extent * share, 4)
+    done = round(value * share, 4)
     if done < _SHORTEST:
-        return 0.0, extent
-    if extent - done < _SHORTEST:
-        return extent, 0.0
-    return done, round(extent - done, 9)
+        return 0.0, value
+    if value - done < _SHORTEST:
+        return value, 0.0
+    return done, round(value - done, 9)
 
 
 def divide_angle(angle_rad: float, share: float) -> tuple[float, float]:

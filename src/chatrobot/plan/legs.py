@@ -54,54 +54,56 @@ def curve_to_pose(start: Pose, goal: Pose, radius_m: float) -> Curve | None:
     return min((curve for curve in curves if curve is not None), key=_length_m, default=None)
 
 
-def _center(pose: Pose, radius_m: float, side: float) -> Point:
+def _center(pose: Pose, radius_m: float, side_sign: float) -> Point:
     """Of the turning circle on the left (side 1) or right (side -1)."""
     return (
-        pose.x_m - side * radius_m * math.sin(pose.yaw_rad),
-        pose.y_m + side * radius_m * math.cos(pose.yaw_rad),
+        pose.x_m - side_sign * radius_m * math.sin(pose.yaw_rad),
+        pose.y_m + side_sign * radius_m * math.cos(pose.yaw_rad),
     )
 
 
-def _bend(from_rad: float, to_rad: float, side: float, radius_m: float) -> Piece:
-    """Turn from one heading to another, going round to `side` only."""
-    angle = (side * (to_rad - from_rad)) % (2.0 * math.pi)
+def _bend(from_rad: float, to_rad: float, side_sign: float, radius_m: float) -> Piece:
+    """Turn from one heading to another, going round to `side_sign` only."""
+    angle = (side_sign * (to_rad - from_rad)) % (2.0 * math.pi)
     if angle > 2.0 * math.pi - _TINY or angle < _TINY:
         angle = 0.0
-    return side * angle, radius_m * angle
+    return side_sign * angle, radius_m * angle
 
 
 def _pieces(*pieces: Piece) -> Curve:
     return tuple(piece for piece in pieces if piece[1] > _TINY)
 
 
-def _bend_then_straight(start: Pose, goal: Point, radius_m: float, side: float) -> Curve | None:
-    cx, cy = _center(start, radius_m, side)
+def _bend_then_straight(start: Pose, goal: Point, radius_m: float, side_sign: float) -> Curve | None:
+    cx, cy = _center(start, radius_m, side_sign)
     dx, dy = goal[0] - cx, goal[1] - cy
     distance = math.hypot(dx, dy)
     if distance < radius_m - _TINY:
         return None
     straight = math.sqrt(max(0.0, distance * distance - radius_m * radius_m))
     # seen along the tangent, the centre lies `radius` to the side: this angle turns the line centre-goal into it
-    heading = math.atan2(dy, dx) + side * math.atan2(radius_m, straight)
-    return _pieces(_bend(start.yaw_rad, heading, side, radius_m), (0.0, straight))
+    heading = math.atan2(dy, dx) + side_sign * math.atan2(radius_m, straight)
+    return _pieces(_bend(start.yaw_rad, heading, side_sign, radius_m), (0.0, straight))
 
 
-def _bend_straight_bend(start: Pose, goal: Pose, radius_m: float, first: float, last: float) -> Curve | None:
-    ax, ay = _center(start, radius_m, first)
-    bx, by = _center(goal, radius_m, last)
+def _bend_straight_bend(
+    start: Pose, goal: Pose, radius_m: float, first_sign: float, last_sign: float
+) -> Curve | None:
+    ax, ay = _center(start, radius_m, first_sign)
+    bx, by = _center(goal, radius_m, last_sign)
     dx, dy = bx - ax, by - ay
     distance = math.hypot(dx, dy)
-    across = 0.0 if first == last else 2.0 * radius_m
+    across = 0.0 if first_sign == last_sign else 2.0 * radius_m
     if distance < across - _TINY:
         return None
     straight = math.sqrt(max(0.0, distance * distance - across * across))
     if straight < _TINY and across == 0.0:
-        return _pieces(_bend(start.yaw_rad, goal.yaw_rad, first, radius_m))
-    heading = math.atan2(dy, dx) + first * math.atan2(across, straight)
+        return _pieces(_bend(start.yaw_rad, goal.yaw_rad, first_sign, radius_m))
+    heading = math.atan2(dy, dx) + first_sign * math.atan2(across, straight)
     return _pieces(
-        _bend(start.yaw_rad, heading, first, radius_m),
+        _bend(start.yaw_rad, heading, first_sign, radius_m),
         (0.0, straight),
-        _bend(heading, goal.yaw_rad, last, radius_m),
+        _bend(heading, goal.yaw_rad, last_sign, radius_m),
     )
 
 

@@ -50,7 +50,7 @@ class PlannedMotion:
 
     index: tuple[int, ...]
     number: int
-    total: int
+    total_steps: int
     step: Step
     motion: CoreMotion | None
     start: Pose

@@ -300,10 +300,10 @@ def _a_star(cost: Floats, start: tuple[int, int], goal: tuple[int, int]) -> list
     return None
 
 
-def _trace(came_from: list[int], last: int, width: int) -> list[tuple[int, int]]:
+def _trace(came_from: list[int], last_index: int, columns: int) -> list[tuple[int, int]]:
     cells = []
-    here = last
+    here = last_index
     while here >= 0:
-        cells.append((here // width - 1, here % width - 1))
+        cells.append((here // columns - 1, here % columns - 1))
         here = came_from[here]
     return cells[::-1]

@@ -133,8 +133,8 @@ class _Split:
             return False
         return None
 
-    def _some_early(self, before: int, last: int) -> bool:
-        return bisect_right(self._early, before) < bisect_right(self._early, last)
+    def _some_early(self, first_number: int, last_number: int) -> bool:
+        return bisect_right(self._early, first_number) < bisect_right(self._early, last_number)
 
     def _block(self, block: Block) -> Divided:
         count = count_steps(block.steps)

@@ -111,14 +111,14 @@ class Mistyped:
                     reached[end] = reached.get(end, False) or reached[begin] or is_stop
         return reached.get(len(units), False)
 
-    def _found(self, units: Phrase, begin: int) -> Iterator[tuple[int, bool]]:
+    def _found(self, units: Phrase, begin_index: int) -> Iterator[tuple[int, bool]]:
         """Return where the phrases end that begin there, and whether each is a stop."""
-        for phrase in matches(units, begin, self._stops):
-            yield begin + len(phrase), True
-        for phrase in matches(units, begin, self._fillers):
-            yield begin + len(phrase), False
-        for end in range(begin + 1, min(begin + self._most_units, len(units)) + 1):
-            window = units[begin:end]
+        for phrase in matches(units, begin_index, self._stops):
+            yield begin_index + len(phrase), True
+        for phrase in matches(units, begin_index, self._fillers):
+            yield begin_index + len(phrase), False
+        for end in range(begin_index + 1, min(begin_index + self._most_units, len(units)) + 1):
+            window = units[begin_index:end]
             if not all(unit.isascii() for unit in window):
                 if self._sounds_like_a_stop(window):
                     yield end, True
@@ -264,11 +264,11 @@ def _mistyped_pause() -> Mistyped:
     )
 
 
-def _is_other_word(units: Phrase, begin: int) -> bool:
+def _is_other_word(units: Phrase, begin_index: int) -> bool:
     """停车场 and 不停: a longer word than the stop in it."""
     return any(
-        not any(len(stop) >= len(word) for stop in matches(units, begin, _STOP))
-        for word in matches(units, begin, _OTHER_WORDS)
+        not any(len(stop) >= len(word) for stop in matches(units, begin_index, _STOP))
+        for word in matches(units, begin_index, _OTHER_WORDS)
     )
 
 

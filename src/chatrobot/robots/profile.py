@@ -83,9 +83,9 @@ def read_limit(value: object) -> float:
     return float(value)
 
 
-def limit_text(limit: float | None) -> str:
+def limit_text(value: float | None) -> str:
     """For another process: `read_limit_text` reads it. Empty: not chosen."""
-    return "" if limit is None else NONE if math.isinf(limit) else repr(limit)
+    return "" if value is None else NONE if math.isinf(value) else repr(value)
 
 
 def read_limit_text(text: str) -> float | None:

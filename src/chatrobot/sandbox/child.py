@@ -39,7 +39,7 @@ class Doors:
     machine: Machine
     filter: Filter
     has_landlock: bool
-    empty: int
+    empty_fd: int
     base_bytes: int
     other_tasks: int
     server_pid: int
@@ -52,8 +52,8 @@ class Order:
     entry: str
     payload: bytes
     limits: SandboxLimits
-    channel: int
-    log: int
+    channel_fd: int
+    log_fd: int
     page: mmap.mmap
 
 
@@ -61,7 +61,7 @@ def run(order: Order, doors: Doors) -> NoReturn:
     """Never returns, whatever happens."""
     code = CRASHED
     try:
-        _take_descriptors(order.channel, order.log, doors.empty)
+        _take_descriptors(order.channel_fd, order.log_fd, doors.empty_fd)
         function = _entry(order.entry)
         _leave_the_server(doors)
         _limit(order.limits, doors)
@@ -73,10 +73,10 @@ def run(order: Order, doors: Doors) -> NoReturn:
         os._exit(code)
 
 
-def _take_descriptors(channel: int, log: int, empty: int) -> None:
+def _take_descriptors(channel_fd: int, log_fd: int, empty_fd: int) -> None:
     """0 empty, 1 and 2 the log, 3 the channel, and no other one."""
     high = 64
-    kept = [os.dup2(each, high + place) for place, each in enumerate((empty, log, log, channel))]
+    kept = [os.dup2(each, high + place) for place, each in enumerate((empty_fd, log_fd, log_fd, channel_fd))]
     for wanted, each in enumerate(kept):
         os.dup2(each, wanted, inheritable=False)
     os.closerange(CHANNEL + 1, os.sysconf("SC_OPEN_MAX"))

@@ -82,12 +82,12 @@ def receive_message(line: socket.socket) -> tuple[dict[str, Any], bytes, list[in
     return json.loads(_exactly(line, text_bytes)), _exactly(line, raw_bytes), descriptors
 
 
-def _exactly(line: socket.socket, wanted: int) -> bytes:
+def _exactly(line: socket.socket, wanted_bytes: int) -> bytes:
     parts: list[bytes] = []
-    while wanted > 0:
-        part = line.recv(min(wanted, 1 << 20))
+    while wanted_bytes > 0:
+        part = line.recv(min(wanted_bytes, 1 << 20))
         if not part:
             raise EOFError
         parts.append(part)
-        wanted -= len(part)
+        wanted_bytes -= len(part)
     return b"".join(parts)

@@ -135,13 +135,13 @@ class SandboxedProcess:
     """
 
     def __init__(
-        self, channel: socket.socket, log: int, report: socket.socket, limits: SandboxLimits
+        self, channel: socket.socket, log_fd: int, report: socket.socket, limits: SandboxLimits
     ) -> None:
         self.channel = channel
         self.pid = 0
         self._report = report
         self._limits = limits
-        self._logs = LogDrain(log, limits.log_bytes)
+        self._logs = LogDrain(log_fd, limits.log_bytes)
         self._pidfd: int | None = None
         self._was_killed = False
         self._ended: ExitReport | None = None

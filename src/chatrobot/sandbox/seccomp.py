@@ -58,21 +58,21 @@ class Rule:
 
     Args:
         names: system calls; one that a machine does not have is left out there.
-        action: what the kernel answers.
+        action_code: what the kernel answers.
         when: any of these sets of tests must hold as a whole; empty: always.
-        otherwise: the answer where none holds.
+        otherwise_code: the answer where none holds.
     """
 
     names: tuple[str, ...]
-    action: int = ALLOW
+    action_code: int = ALLOW
     when: tuple[tuple[Test, ...], ...] = ()
-    otherwise: int = REFUSE
+    otherwise_code: int = REFUSE
 
 
 Code = list[tuple[int, int, int, int]]
 
 
-def assemble(machine: Machine, rules: Iterable[Rule], default: int = REFUSE) -> bytes:
+def assemble(machine: Machine, rules: Iterable[Rule], default_code: int = REFUSE) -> bytes:
     """The filter as an array of `struct sock_filter`.
 
     Calls of another machine's kind, which would have other numbers, kill.
@@ -80,7 +80,7 @@ def assemble(machine: Machine, rules: Iterable[Rule], default: int = REFUSE) -> 
     Args:
         machine: whose numbers to use.
         rules: the first that names a call counts.
-        default: the answer to what no rule names.
+        default_code: the answer to what no rule names.
     """
     code: Code = [
         (_LOAD, 0, 0, _ARCH_AT),
@@ -98,7 +98,7 @@ def assemble(machine: Machine, rules: Iterable[Rule], default: int = REFUSE) -> 
     code += [
         (_JUMP_GREATER_EQUAL, 0, 1, NEWEST),
         (_RETURN, 0, 0, NOT_THERE),
-        (_RETURN, 0, 0, default),
+        (_RETURN, 0, 0, default_code),
     ]
     return b"".join(INSTRUCTION.pack(*each) for each in code)
 
@@ -106,12 +106,12 @@ def assemble(machine: Machine, rules: Iterable[Rule], default: int = REFUSE) -> 
 def _answer(rule: Rule) -> Code:
     code: Code = []
     for tests in rule.when:
-        code += _all_of(tests, rule.action)
-    return [*code, (_RETURN, 0, 0, rule.otherwise if rule.when else rule.action)]
+        code += _all_of(tests, rule.action_code)
+    return [*code, (_RETURN, 0, 0, rule.otherwise_code if rule.when else rule.action_code)]
 
 
-def _all_of(tests: Sequence[Test], action: int) -> Code:
-    """Return `action` if all tests hold, else fall through behind the last instruction."""
+def _all_of(tests: Sequence[Test], action_code: int) -> Code:
+    """Return `action_code` if all tests hold, else fall through behind the last instruction."""
     steps: list[tuple[tuple[int, int, int, int], bool]] = []
     for test in tests:
         low_at = _ARGUMENTS_AT + 8 * test.index
@@ -126,7 +126,7 @@ def _all_of(tests: Sequence[Test], action: int) -> Code:
     for place, ((operation, _, _, operand), is_test) in enumerate(steps):
         to_the_end = len(steps) - place if is_test else 0
         code.append((operation, 0, to_the_end, operand))
-    return [*code, (_RETURN, 0, 0, action)]
+    return [*code, (_RETURN, 0, 0, action_code)]
 
 
 OWN_PID = 0x5EC0_0B0C

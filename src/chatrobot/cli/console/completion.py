@@ -126,7 +126,7 @@ def _size_of_beginning(text: str, name: str) -> int:
     return next((n for n in range(min(len(whole), len(typed)), 0, -1) if _begins(typed, whole, n)), 0)
 
 
-def _begins(typed: str, whole: str, size: int) -> bool:
-    at = len(typed) - size
+def _begins(typed: str, whole: str, char_count: int) -> bool:
+    at = len(typed) - char_count
     within_word = at > 0 and typed[at - 1].isalnum() and typed[at - 1].isascii() and whole[0].isascii()
-    return not within_word and size < len(whole) and whole.startswith(typed[at:])
+    return not within_word and char_count < len(whole) and whole.startswith(typed[at:])

@@ -44,17 +44,17 @@ def marked(mark: str, style: str, text: str | Text) -> RenderableType:
     )
 
 
-def wrapped(text: Text, width: int) -> list[Text]:
-    """Break `text` into lines of at most `width` cells, broken at blanks and between Chinese characters."""
+def wrapped(text: Text, columns: int) -> list[Text]:
+    """Break `text` into lines of at most `columns` cells, broken at blanks and between Chinese characters."""
     lines: list[Text] = []
     for line in text.split("\n", allow_blank=True):
-        lines += line.divide(_breaks(line.plain, width))
+        lines += line.divide(_breaks(line.plain, columns))
     for line in lines:
         line.rstrip()
     return lines
 
 
-def _breaks(line: str, width: int) -> list[int]:
+def _breaks(line: str, columns: int) -> list[int]:
     """List where a new line begins."""
     breaks: list[int] = []
     cells, begin, may_break = 0, 0, 0
@@ -62,7 +62,7 @@ def _breaks(line: str, width: int) -> list[int]:
         if number and _may_part(line[number - 1], char):
             may_break = number
         cells += cell_len(char)
-        if cells > width and not char.isspace():
+        if cells > columns and not char.isspace():
             begin = may_break if may_break > begin else number
             breaks.append(begin)
             cells = cell_len(line[begin : number + 1])

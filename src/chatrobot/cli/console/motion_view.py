@@ -25,8 +25,8 @@ class MotionView:
     twist: Twist = ZERO_TWIST
     is_moving: bool = False
     is_paused: bool = False
-    step: int = 0
-    of: int = 0
+    step_number: int = 0
+    step_count: int = 0
     fraction: float | None = 0.0
     nearest_m: float | None = None
     battery_percent: float | None = None
@@ -37,7 +37,7 @@ class MotionView:
     rehearsed: events.Rehearsed | None = None
     turn: int = 0
     is_measured: bool = True
-    _streamed: int = 0
+    _streamed_turn: int = 0
 
     def hear(self, event: Event) -> None:
         """Take one event in."""
@@ -46,7 +46,7 @@ class MotionView:
             self.nearest_m, self.battery_percent = event.nearest_obstacle_m, event.battery_percent
             self._follow(event.pose)
         elif isinstance(event, events.Progress):
-            self.step, self.of, self.fraction = event.step, event.of, event.fraction
+            self.step_number, self.step_count, self.fraction = event.step, event.of, event.fraction
         elif isinstance(event, events.Streamed):
             self._grow(event)
         elif isinstance(event, events.Interpreted) and event.plan_text:
@@ -56,10 +56,10 @@ class MotionView:
         elif isinstance(event, events.Rehearsed):
             self.rehearsed = event
             path = tuple((x, y) for x, y, _ in event.path)
-            goes_on = event.turn == self._streamed and self.is_moving
+            goes_on = event.turn == self._streamed_turn and self.is_moving
             self.path = (*self.path, *path) if goes_on else path
         elif isinstance(event, events.Started):
-            self.turn, self.is_moving, self.step, self.of = event.turn, True, 0, 0
+            self.turn, self.is_moving, self.step_number, self.step_count = event.turn, True, 0, 0
             self.is_paused = False
             self.fraction = None if self.rehearsed is not None and self.rehearsed.open_ended else 0.0
             self.pose, self.trail = event.pose, ((event.pose.x_m, event.pose.y_m),)
@@ -75,9 +75,9 @@ class MotionView:
 
     def _grow(self, event: events.Streamed) -> None:
         """Take in a step of a plan that comes step by step."""
-        goes_on = event.turn == self._streamed
+        goes_on = event.turn == self._streamed_turn
         self.plan_text = f"{self.plan_text}\n{event.plan_text}" if goes_on else event.plan_text
-        self._streamed, self.program = event.turn, None
+        self._streamed_turn, self.program = event.turn, None
 
     def _follow(self, pose: Pose) -> None:
         here = (pose.x_m, pose.y_m)

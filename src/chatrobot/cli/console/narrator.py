@@ -65,7 +65,7 @@ class Narrator:
         return handle(event) if handle is not None else iter(())
 
     def plan(
-        self, plan_text: str, rehearsed: events.Rehearsed | None, limit: int | None = None
+        self, plan_text: str, rehearsed: events.Rehearsed | None, line_count: int | None = None
     ) -> Iterator[RenderableType]:
         """Give a plan's numbered lines under its predicted length and duration, and what rehearsal found."""
         head = Text("  ").append(self._words.say("plan"), "bold")
@@ -73,7 +73,7 @@ class Narrator:
             head.append(f"  {self._facts(rehearsed)}", "dim")
         yield head
         lines = folded_plan(plan_text)
-        shown = lines if limit is None or len(lines) <= limit else lines[: limit - 1]
+        shown = lines if line_count is None or len(lines) <= line_count else lines[: line_count - 1]
         for number, line in shown:
             yield Text("  ").append(f"{number:>3}  ", "dim").append_text(_plan_line(line))
         if len(shown) < len(lines):

@@ -50,8 +50,8 @@ class StatusBar:
         self._map: MapText | None = None
         self._map_of: tuple[XY, ...] | None = None
 
-    def fragments(self, width: int, latched: bool = False, model_wait_s: float | None = None) -> Fragments:
-        """Draw the bar in `width` cells: one line while the robot stands, the map's height while it moves.
+    def fragments(self, columns: int, latched: bool = False, model_wait_s: float | None = None) -> Fragments:
+        """Draw the bar in `columns` cells: one line while the robot stands, the map's height while it moves.
 
         Args:
             model_wait_s: for how long a model has been asked; None where none is.
@@ -60,9 +60,9 @@ class StatusBar:
             return [("class:status-bar.alarm", f" {self._words.say('latched')} ")]
         thinking = "" if model_wait_s is None else self._words.say("thinking", seconds=int(model_wait_s))
         if not self._view.is_moving:
-            return self._standing(width, thinking)
-        has_map = self.shows_map and self._view.is_measured and width >= LEAST_WIDTH
-        room = width - MAP_COLUMNS - 2 if has_map else width
+            return self._standing(columns, thinking)
+        has_map = self.shows_map and self._view.is_measured and columns >= LEAST_WIDTH
+        room = columns - MAP_COLUMNS - 2 if has_map else columns
         lines = [_cut(line, room) for line in self._moving(room, thinking)]
         if has_map:
             beside = [[], *lines, *([] for _ in range(MAP_ROWS))]
@@ -73,16 +73,16 @@ class StatusBar:
             joined += ([("", "\n")] if number else []) + line
         return joined
 
-    def _standing(self, width: int, state: str) -> Fragments:
+    def _standing(self, columns: int, state: str) -> Fragments:
         view, say = self._view, self._words.say
         if not state and (view.is_measured or view.is_paused):
             state = say("paused" if view.is_paused else "standing")
         where = self._words.pose(view.pose) if view.is_measured else say("not_measured")
         words = f" {state} · {where}" if state else f" {where}"
         hints = say("strip_idle").split("  ")
-        while hints and cell_len(f"{words}   {'  '.join(hints)}") > width:
+        while hints and cell_len(f"{words}   {'  '.join(hints)}") > columns:
             hints.pop()
-        return _cut([(_DIM, f"{words}   {'  '.join(hints)}".rstrip())], width)
+        return _cut([(_DIM, f"{words}   {'  '.join(hints)}".rstrip())], columns)
 
     def _moving(self, room: int, thinking: str) -> list[Fragments]:
         view, say = self._view, self._words.say
@@ -106,8 +106,8 @@ class StatusBar:
         if view.fraction is not None:  # of what has no known end there is no share
             cells = room - cell_len(label) - PERCENT_CELLS
             head += _bar(view.fraction, max(LEAST_BAR_CELLS, min(BAR_CELLS, cells)))
-        if view.of > 1:
-            head.append(("", f"  {say('step', step=max(1, view.step), of=view.of)}"))
+        if view.step_count > 1:
+            head.append(("", f"  {say('step', step=max(1, view.step_number), of=view.step_count)}"))
         lines: list[Fragments] = [head, [("", f" {' · '.join(facts)}")]]
         return [*lines, *([(_DIM, f" {line}")] for line in (" · ".join(more), say("strip_hint")) if line)]
 
@@ -138,9 +138,9 @@ def _bar(fraction: float, cells: int) -> Fragments:
     ]
 
 
-def _cut(line: Fragments, width: int) -> Fragments:
-    """Cut the line to `width` cells: a toolbar that wraps would push the prompt about."""
-    left, cut = width, Fragments()
+def _cut(line: Fragments, columns: int) -> Fragments:
+    """Cut the line to `columns` cells: a toolbar that wraps would push the prompt about."""
+    left, cut = columns, Fragments()
     for style, text in line:
         kept = text
         while cell_len(kept) > left:

@@ -122,10 +122,10 @@ BIG_COLUMNS, BIG_ROWS = 100, 30
 WAY_COLUMNS, WAY_ROWS = 60, 14
 
 
-def big_map(motion_view: MotionView, world: World, width: int) -> Text:
+def big_map(motion_view: MotionView, world: World, columns: int) -> Text:
     """Draw the whole world with its names, the last plan's way and what was driven of it."""
     extent = extent_of_world(world, (*motion_view.path, *motion_view.trail), margin_m=0.1, least_m=3.0)
-    return _draw(motion_view, world, extent, min(width - 4, BIG_COLUMNS), BIG_ROWS)
+    return _draw(motion_view, world, extent, min(columns - 4, BIG_COLUMNS), BIG_ROWS)
 
 
 def way_map(motion_view: MotionView, world: World) -> Text:

@@ -57,8 +57,8 @@ class _Progress:
     The line is there while it is entered.
     """
 
-    def __init__(self, total: int, began_s: float) -> None:
-        self._total = total
+    def __init__(self, total_count: int, began_s: float) -> None:
+        self._total = total_count
         self._began_s = self._shown_s = began_s
         self._is_shown = sys.stderr.isatty()
 
@@ -69,12 +69,12 @@ class _Progress:
     def __exit__(self, *_: object) -> None:
         self.clear()
 
-    def show(self, done: int) -> None:
+    def show(self, done_count: int) -> None:
         now_s = time.monotonic()
         if now_s - self._shown_s >= _REPORTED_EVERY_S:
             self._shown_s = now_s
-            left_s = (now_s - self._began_s) / done * (self._total - done)
-            self._write(f"{done} of {self._total}, {left_s:.0f} s to go ")
+            left_s = (now_s - self._began_s) / done_count * (self._total - done_count)
+            self._write(f"{done_count} of {self._total}, {left_s:.0f} s to go ")
 
     def clear(self) -> None:
         self._write("")

@@ -127,15 +127,15 @@ def _motion_problems(expect: Expect, measured: Measured) -> Iterator[str]:
         yield f"it ended {measured.distance_m:.3f} m from where it began"
 
 
-def _holds(key: str, wanted: float, actual: float) -> bool:
+def _holds(key: str, wanted_value: float, actual_value: float) -> bool:
     if key == "stays_within_m":
-        return actual <= wanted + _ROUNDING
+        return actual_value <= wanted_value + _ROUNDING
     if key == "yaw_deg":
-        return abs(math.remainder(actual - wanted, 360.0)) <= HEADING_DEG + _ROUNDING
-    return abs(actual - wanted) <= _tolerance(key, abs(wanted)) + _ROUNDING
+        return abs(math.remainder(actual_value - wanted_value, 360.0)) <= HEADING_DEG + _ROUNDING
+    return abs(actual_value - wanted_value) <= _tolerance(key, abs(wanted_value)) + _ROUNDING
 
 
-def _tolerance(key: str, wanted: float) -> float:
+def _tolerance(key: str, wanted_value: float) -> float:
     """Return how far off a number may be. A share of nothing would be nothing: zero has a tolerance of its own."""
     at_least = {
         "x": (POSITION_M, 0.05),
@@ -145,9 +145,9 @@ def _tolerance(key: str, wanted: float) -> float:
     }
     if key in at_least:
         least, share = at_least[key]
-        return max(least, share * wanted)
+        return max(least, share * wanted_value)
     share, of_zero = {"turned_deg": (0.03, 1.0), "path_m": (0.05, 0.05)}.get(key, (0.10, 0.01))
-    return share * wanted or of_zero
+    return share * wanted_value or of_zero
 
 
 _MAX_STEPS_LEFT_OUT_OF = 60
@@ -164,23 +164,23 @@ def misfit(meant: Meant, driven: Measured, profile: RobotProfile) -> tuple[str, 
     return min(found, key=len, default=("this robot can do none of the plans",))
 
 
-def fits_in_part(meant: Meant, driven: Measured, gaps: int, profile: RobotProfile) -> bool:
-    """Tell whether what was driven is one of the plans with up to `gaps` stretches of its steps left out."""
+def fits_in_part(meant: Meant, driven: Measured, gap_count: int, profile: RobotProfile) -> bool:
+    """Tell whether what was driven is one of the plans with up to `gap_count` stretches of its steps left out."""
     for plan in meant.plans:
         listed = list(expanded(plan.steps))
         if len(listed) > _MAX_STEPS_LEFT_OUT_OF:
             continue
-        for kept in _left_out(listed, min(gaps, 2)):
+        for kept in _left_out(listed, min(gap_count, 2)):
             if any(not any(_problems(wanted, driven)) for wanted in _wanted(kept, meant, profile)):
                 return True
     return False
 
 
-def _left_out(steps: list[Step], gaps: int) -> Iterator[list[Step]]:
+def _left_out(steps: list[Step], gap_count: int) -> Iterator[list[Step]]:
     """`steps` with one stretch left out, then with two: each way once."""
     seen: set[tuple[int, ...]] = set()
     stretches = list(itertools.combinations(range(len(steps) + 1), 2))
-    for chosen in itertools.combinations_with_replacement(stretches, gaps if len(steps) <= 12 else 1):
+    for chosen in itertools.combinations_with_replacement(stretches, gap_count if len(steps) <= 12 else 1):
         kept = tuple(i for i in range(len(steps)) if not any(a <= i < b for a, b in chosen))
         if kept not in seen:
             seen.add(kept)

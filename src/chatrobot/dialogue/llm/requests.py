@@ -219,10 +219,10 @@ class ModelRequests:
         now = "\n".join([*filter(None, news), request])
         return request, [Message("system", system), *earlier, Message("user", now)]
 
-    def replace(self, but: int = 0) -> None:
-        """Give up what models are planning for something else (but for the turn `but`)."""
+    def replace(self, but_turn: int = 0) -> None:
+        """Give up what models are planning for something else (but for the turn `but_turn`)."""
         for number, turn in tuple(self._turns.items()):
-            if number != but:
+            if number != but_turn:
                 turn.doing.replace()
         self._take_ended()
 

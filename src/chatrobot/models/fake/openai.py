@@ -60,10 +60,10 @@ def _function(call: ToolCall) -> dict[str, Any]:
 def _chat_usage(counted: Counted) -> dict[str, Any]:
     return {
         "usage": {
-            "prompt_tokens": counted.prompt,
-            "completion_tokens": counted.reply,
-            "total_tokens": counted.prompt + counted.reply,
-            "prompt_tokens_details": {"cached_tokens": counted.cached},
+            "prompt_tokens": counted.prompt_tokens,
+            "completion_tokens": counted.reply_tokens,
+            "total_tokens": counted.prompt_tokens + counted.reply_tokens,
+            "prompt_tokens_details": {"cached_tokens": counted.cached_tokens},
         }
     }
 
@@ -147,9 +147,9 @@ class _Responses(Wire):
             body["conversation"] = {"id": self._conversation}
         if counted is not None:
             body["usage"] = {
-                "input_tokens": counted.prompt, "input_tokens_details": {"cached_tokens": counted.cached},
-                "output_tokens": counted.reply, "output_tokens_details": {"reasoning_tokens": 0},
-                "total_tokens": counted.prompt + counted.reply,
+                "input_tokens": counted.prompt_tokens, "input_tokens_details": {"cached_tokens": counted.cached_tokens},
+                "output_tokens": counted.reply_tokens, "output_tokens_details": {"reasoning_tokens": 0},
+                "total_tokens": counted.prompt_tokens + counted.reply_tokens,
             }  # fmt: skip
         return body
 

@@ -92,8 +92,9 @@ class _Messages(Wire):
     def _usage(counted: Counted | None) -> dict[str, Any]:
         counted = counted or Counted()
         return {
-            "input_tokens": counted.prompt - counted.cached, "cache_read_input_tokens": counted.cached,
-            "cache_creation_input_tokens": 0, "output_tokens": counted.reply,
+            "input_tokens": counted.prompt_tokens - counted.cached_tokens,
+            "cache_read_input_tokens": counted.cached_tokens,
+            "cache_creation_input_tokens": 0, "output_tokens": counted.reply_tokens,
         }  # fmt: skip
 
 
@@ -150,8 +151,9 @@ class _Generate(Wire):
         if counted is None:
             return body
         usage = {
-            "promptTokenCount": counted.prompt, "cachedContentTokenCount": counted.cached,
-            "candidatesTokenCount": counted.reply, "totalTokenCount": counted.prompt + counted.reply,
+            "promptTokenCount": counted.prompt_tokens, "cachedContentTokenCount": counted.cached_tokens,
+            "candidatesTokenCount": counted.reply_tokens,
+            "totalTokenCount": counted.prompt_tokens + counted.reply_tokens,
         }  # fmt: skip
         return {**body, "usageMetadata": usage}
 

@@ -28,9 +28,9 @@ def new_id(prefix: str) -> str:
 class Counted:
     """Tokens of one call."""
 
-    prompt: int = 0
-    cached: int = 0
-    reply: int = 0
+    prompt_tokens: int = 0
+    cached_tokens: int = 0
+    reply_tokens: int = 0
 
 
 @dataclass(frozen=True)
