@@ -42,6 +42,29 @@ def without_chatter(atoms: Sequence[Atom]) -> list[Atom]:
     return _without_vocative(out)
 
 
+def without_cautions(atoms: Sequence[Atom]) -> list[Atom]:
+    """The atoms without `and don't hit anything`, `without bumping into a chair`: no motion is to do that."""
+    out: list[Atom] = []
+    for clause, separator in _clauses(list(atoms)):
+        at = next((i for i, atom in enumerate(clause) if atom.kind == "negation"), None)
+        if at is not None and _is_caution(clause[at + 1 :]):
+            clause = clause[:at]
+        out += clause
+        if separator is not None:
+            out.append(separator)
+    while out and out[-1].kind in ("sep", "conn") and len(out) < len(atoms):
+        out.pop()
+    return out
+
+
+def _is_caution(denied: Sequence[Atom]) -> bool:
+    """Whether what is denied is to harm something, and no motion."""
+    told = [atom for atom in denied if atom.kind not in ("filler", "glue", "verb", "num")]
+    harms = [atom for atom in told if atom.value == "harm" or atom.text in _words()["harming"]]
+    things = [atom for atom in told if atom not in harms]
+    return bool(harms) and all(atom.text in _words()["harmed"] for atom in things)
+
+
 def _clauses(atoms: list[Atom]) -> list[tuple[list[Atom], Atom | None]]:
     clauses: list[tuple[list[Atom], Atom | None]] = []
     clause: list[Atom] = []

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from chatrobot.language.announced import with_announced
 from chatrobot.language.brackets import unrolled
-from chatrobot.language.chatter import without_chatter
+from chatrobot.language.chatter import without_cautions, without_chatter
 from chatrobot.language.clauses import read_frames
 from chatrobot.language.compass import with_headings
 from chatrobot.language.conditions import settle_condition
@@ -72,7 +72,7 @@ class Reading:
         atoms = tokenise(plain, lexicon(), names_in(self.context), by_ear=self.by_ear)
         atoms = without_restated(with_multiples(read_quantities(atoms)))
         atoms = back_to_places(with_headings(atoms, self.facing_rad))
-        atoms = with_words_counted(atoms, self.context.dialogue.words)
+        atoms = without_cautions(with_words_counted(atoms, self.context.dialogue.words))
         if any(a.kind == "role" and a.value == "apart" for a in atoms):  # rows side by side, no garden work
             atoms = [Atom("shape", "lawn", a.text) if a.text == "mow the lawn" else a for a in atoms]
         return atoms

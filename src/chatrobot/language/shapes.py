@@ -15,6 +15,19 @@ from chatrobot.plan.steps import Step
 _TITLES = frozenset({"letter_l", "letter_u", "letter_z", "stairs", "plus", "zigzag", "square", "rectangle"})
 """Shapes whose moves may be spelt out after their name."""
 
+_STRAIGHT = (
+    "square",
+    "triangle",
+    "right_triangle",
+    "polygon",
+    "rectangle",
+    "star",
+    "rhombus",
+    "zigzag",
+    "stairs",
+)
+"""Shapes that have no circle for a part: one that is named beside them is a shape of its own."""
+
 
 def draw(frames: list[Frame], i: int, pace: Pace) -> tuple[int, list[Step]]:
     """The steps of the shape named in `frames[i]`, and the index of the first frame that is no part of it.
@@ -51,7 +64,8 @@ def _is_part(head: Frame, frame: Frame) -> bool:
         "remember",
     ):
         return False
-    if frame.shape and frame.shape not in ("half_circle", "quarter_circle", "circle"):
+    is_straight = head.shape.startswith(_STRAIGHT)
+    if frame.shape and (is_straight or frame.shape not in ("half_circle", "quarter_circle", "circle")):
         return False
     if head.shape in _TITLES and frame.has_extent and (frame.direction or frame.verb in GO):
         return True

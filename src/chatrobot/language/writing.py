@@ -40,6 +40,8 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
     frames = arranged(frames)
     _check_amounts(frames)
     _check_opener(frames)
+    if frames and frames[0].verb in TURN and not frames[0].q.keys() & {"length", "radius", "speed"}:
+        frames[0].flags.discard("while")  # `meanwhile turn left`: beside nothing that is said
     legs = paced_legs(frames, pace)
     if legs is not None:
         return legs
