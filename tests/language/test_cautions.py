@@ -1,4 +1,4 @@
-"""A caution beside an order changes nothing: no motion is to hit anything anyway. Alone, or as an order, it moves nothing."""
+"""A caution beside an order changes nothing: nothing is to be hit anyway. Alone it moves nothing."""
 
 from __future__ import annotations
 
