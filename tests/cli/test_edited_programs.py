@@ -101,7 +101,7 @@ def test_an_edit_that_is_no_python_leaves_the_program_as_it_was_and_asks_again(t
     with command(tmp_path, "sed -i s/^import.time/import:time/", *NEW) as terminal:
         terminal.wait_for(QUESTION)
         terminal.enter("e")
-        terminal.wait_for("as it was before")
+        terminal.wait_for("version before it stays")
         terminal.wait_for(QUESTION, times=2)
         terminal.enter("n")
         assert terminal.wait_for_end() == 4
@@ -112,7 +112,7 @@ def test_an_edit_that_is_no_plan_leaves_the_plan_as_it_was_and_asks_again(tmp_pa
     with command(tmp_path, "sed -i s/drive/fly/", "do", "forward 1 m", "--approve", "--fast") as terminal:
         terminal.wait_for(QUESTION)
         terminal.enter("e")
-        terminal.wait_for("as it was before")
+        terminal.wait_for("version before it stays")
         terminal.wait_for(QUESTION, times=2)
         terminal.enter("y")
         assert terminal.wait_for_end() == 0

@@ -24,7 +24,7 @@ from chatrobot.core.errors import UsageError
         (["do", "hi", "--budget-s", "abc"], "'abc' is not a number"),
         (["do", "hi", "--rounds", "1.5"], "'1.5' is not a whole number"),
         (["fake-model", "x.yaml", "--port", "99999"], "0 to 65535"),
-        (["model", "key"], "the key of which provider?"),
+        (["model", "key"], "no provider is named"),
         (["program", "run", "no-such.py"], "no-such.py: cannot be read"),
     ],
 )

@@ -39,7 +39,7 @@ def test_what_was_not_done_ends_the_rest_and_its_exit_code_is_the_commands(
 
 def test_what_was_not_begun_is_named_in_a_sentence(chatrobot: Command) -> None:
     done = chatrobot("do", "fly to the moon", "forward 1 m", *FAST)
-    assert "this is not begun: “forward 1 m”" in done.out
+    assert "these were not started: “forward 1 m”" in done.out
     assert "--keep-going" in done.out
     assert "所以下面的没有开始：“前进一米”" in chatrobot("do", "飞到月球去", "前进一米", *FAST).out
 

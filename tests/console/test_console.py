@@ -247,7 +247,7 @@ def test_an_edited_plan_with_a_mistake_is_asked_about_as_it_was(tmp_path):
         chat.enter("e")
         chat.wait_for("plan› drive 0.3 m")
         chat.type("\x15fly 3 m\x1b\r")
-        chat.wait_for(r"as it was before: .*fly")
+        chat.wait_for(r"version before it stays: .*fly")
         chat.wait_for("Do it?", times=2)
         chat.enter("e")
         chat.wait_for("plan› fly 3 m")

@@ -59,7 +59,7 @@ def test_what_is_there_may_be_imported() -> None:
 def test_a_field_refuses_another_type(kind: Any, field: str, value: Any, words: str) -> None:
     with pytest.raises(AssertionError) as refused:
         setattr(kind(), field, value)
-    assert str(refused.value) == words
+    assert str(refused.value).splitlines()[0] == words  # pytest writes below it what it compared
     with pytest.raises(AssertionError):
         kind(**{field: value})
 

@@ -23,8 +23,8 @@ machine = this_machine()
 machine.numbers.update(prctl={"x86_64": 157, "aarch64": 167}[machine.name])
 rules = [Rule((name,), ERRNO | number) for name, number in missing.items()]
 if not has_filters:
-    rules.append(Rule(("prctl",), ERRNO | 22, when=((Is(0, 22),),), otherwise=ALLOW))
-install(assemble(machine, rules, default=ALLOW))
+    rules.append(Rule(("prctl",), ERRNO | 22, when=((Is(0, 22),),), otherwise_code=ALLOW))
+install(assemble(machine, rules, default_code=ALLOW))
 
 from pathlib import Path
 from chatrobot.sandbox.warm_server import probe
