@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
+import marshal
+import os
 import re
 import sys
+import zlib
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -17,6 +22,8 @@ else:
 DATA = Path(__file__).parent / "data"
 LANGUAGES = ("en", "zh")
 
+Compiled = TypeVar("Compiled")
+_CHECK_BYTES = 4
 _BRACES = re.compile(r"\{([^{}]*)\}")
 
 
@@ -36,3 +43,43 @@ def expand(pattern: str) -> list[str]:
         return [pattern]
     choices = [part.split(",") if i % 2 else [part] for i, part in enumerate(parts)]
     return [" ".join("".join(chosen).split()) for chosen in itertools.product(*choices)]
+
+
+def compiled(name: str, build: Callable[[], Compiled]) -> Compiled:
+    """Return what `build` makes of the data files: from the user's cache folder, where a start before has left it.
+
+    What is left there is of the very same files of this package, or is built anew, as where it is broken or the folder
+    cannot be written. `build` returns what `marshal` takes.
+    """
+    from platformdirs import user_cache_path
+
+    folder = user_cache_path("chatrobot")
+    file = folder / f"{name}-{_fingerprint():08x}.bin"
+    with contextlib.suppress(OSError, ValueError, EOFError, TypeError):
+        kept = file.read_bytes()
+        if zlib.crc32(kept[_CHECK_BYTES:]) == int.from_bytes(kept[:_CHECK_BYTES], "big"):
+            found: Compiled = marshal.loads(kept[_CHECK_BYTES:])
+            return found
+    made = build()
+    with contextlib.suppress(OSError):
+        _leave(file, made)
+        for old in folder.glob(f"{name}-*.bin"):
+            if old != file:
+                old.unlink()
+    return made
+
+
+def _leave(file: Path, made: Any) -> None:
+    written = marshal.dumps(made)
+    file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+    beside = file.with_suffix(f".{os.getpid()}")
+    beside.write_bytes(zlib.crc32(written).to_bytes(_CHECK_BYTES, "big") + written)
+    beside.replace(file)
+
+
+@cache
+def _fingerprint() -> int:
+    """A number for the state of every file of the language, and the Python that reads them."""
+    files = sorted([*DATA.rglob("*.toml"), *Path(__file__).parent.glob("*.py")])
+    states = [(str(file), (state := file.stat()).st_size, state.st_mtime_ns) for file in files]
+    return zlib.crc32(repr((sys.version, states)).encode())

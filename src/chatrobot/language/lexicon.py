@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from chatrobot.language.data_files import LANGUAGES, expand, load_table
+from chatrobot.language.data_files import LANGUAGES, compiled, expand, load_table
 
 FILES = (
     "numbers", "units", "motion", "shapes", "dialogue", "refusals", "corrections", "asides", "compass",
@@ -87,6 +87,11 @@ def cut(text: str) -> Key:
 @lru_cache(maxsize=1)
 def lexicon() -> Lexicon:
     """The words of every language, read once."""
+    return Lexicon(*compiled("lexicon", _parts))
+
+
+def _parts() -> tuple[Any, ...]:
+    """The fields of the lexicon, from the data files."""
     words: dict[Key, Meaning] = {}
     for name in FILES:
         for language in LANGUAGES:
@@ -116,7 +121,7 @@ def lexicon() -> Lexicon:
         for value, listed in load_table("en", "homophones")["before_unit"].items()
         for word in listed
     }
-    return Lexicon(words, guesses, longest, core | _POLITE, latin, latin | ordinary, before)
+    return words, guesses, longest, core | _POLITE, latin, latin | ordinary, before
 
 
 def _keys(patterns: list[str]) -> list[Key]:

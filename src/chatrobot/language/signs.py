@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
-from chatrobot.language.data_files import LANGUAGES, expand, load_table
+from chatrobot.language.data_files import LANGUAGES, compiled, expand, load_table
 from chatrobot.language.lexicon import UNIT, Key, lexicon
 
 _STRONG, _WEAK = frozenset(".!?;。…\n"), frozenset(",:、—~")
@@ -201,6 +201,10 @@ def _signs(units: list[Unit], names: Names) -> Iterator[Sign]:
 
 @lru_cache(maxsize=1)
 def _table() -> tuple[dict[Key, tuple[str, bool]], dict[str, int]]:
+    return compiled("signs", _labels)
+
+
+def _labels() -> tuple[dict[Key, tuple[str, bool]], dict[str, int]]:
     """(label and whether it is a word of motion, by written form; the longest form, by its first unit)."""
     words = lexicon()
     table: dict[Key, tuple[str, bool]] = {}

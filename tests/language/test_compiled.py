@@ -1,0 +1,75 @@
+"""Tables made of the data files are left in the cache folder, and built anew whenever that cannot be trusted."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from chatrobot.language import data_files
+from chatrobot.language.data_files import compiled
+
+TABLE = {("go", "on"): (("verb", "go"),)}
+
+
+class Build:
+    """Makes the table, and counts how often."""
+
+    def __init__(self) -> None:
+        self.times = 0
+
+    def __call__(self) -> dict[tuple[str, ...], tuple[tuple[str, str], ...]]:
+        self.times += 1
+        return TABLE
+
+
+@pytest.fixture
+def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    return tmp_path / "chatrobot"
+
+
+def test_a_table_is_built_once(cache: Path) -> None:
+    build = Build()
+    assert [compiled("words", build), compiled("words", build)] == [TABLE, TABLE]
+    assert build.times == 1
+    assert len(list(cache.iterdir())) == 1
+
+
+@pytest.mark.parametrize("kept", [b"", b"half", b"\0" * 40])
+def test_a_broken_file_is_built_anew(cache: Path, kept: bytes) -> None:
+    build = Build()
+    compiled("words", build)
+    (file,) = cache.iterdir()
+    file.write_bytes(kept)
+    assert compiled("words", build) == TABLE
+    assert build.times == 2
+    assert compiled("words", build) == TABLE
+    assert build.times == 2
+
+
+def test_a_file_of_another_state_is_replaced(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    build = Build()
+    compiled("words", build)
+    monkeypatch.setattr(data_files, "_fingerprint", lambda: 7)
+    compiled("words", build)
+    assert build.times == 2
+    assert [file.name for file in cache.iterdir()] == ["words-00000007.bin"]
+
+
+def test_without_a_folder_to_write_to_it_is_built(cache: Path) -> None:
+    cache.write_text("a file stands where the folder would be")
+    build = Build()
+    assert compiled("words", build) == TABLE
+    assert build.times == 1
+
+
+def test_the_state_is_of_every_data_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(data_files, "DATA", tmp_path)
+    states = set()
+    for text in ("", "a = 1", "a = 12"):
+        (tmp_path / "words.toml").write_text(text)
+        data_files._fingerprint.cache_clear()
+        states.add(data_files._fingerprint())
+    data_files._fingerprint.cache_clear()
+    assert len(states) == 3
