@@ -9,10 +9,10 @@ from typing import Any
 
 from chatrobot.models.config import ModelConfig
 from chatrobot.models.fake.script import read_script
+from chatrobot.models.fake.server import FakeModel
 from chatrobot.models.make import make_model
 from chatrobot.models.providers import providers
 from chatrobot.models.seam import CallLimits, Message, Model, ModelError, Usage
-from tests.models.fake_provider import FakeProvider
 
 KEY = "sk-test-0123456789abcdef"
 MODEL = "org/fake"
@@ -24,9 +24,9 @@ _ROOTED = ("anthropic", "google", "ollama", "deepseek")
 
 
 @contextmanager
-def serving(replies: Any, **top: Any) -> Iterator[FakeProvider]:
+def serving(replies: Any, **top: Any) -> Iterator[FakeModel]:
     script = read_script({"models": [MODEL, "fake"], "replies": replies, **top})
-    with FakeProvider(script) as fake:
+    with FakeModel(script) as fake:
         yield fake
 
 

@@ -25,7 +25,8 @@ from chatrobot.core.reason import Reason
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.phrases import render_reason
 from chatrobot.link.in_process import InProcessLink
-from chatrobot.models.fake.chat import Chat
+from chatrobot.models.fake import openai
+from chatrobot.models.fake.wires import Conversations
 from chatrobot.motion.safety import watchdog
 from chatrobot.motion.safety.watchdog import SimulatedGuard, StallDetector
 
@@ -80,7 +81,7 @@ def test_a_connection_that_is_cut_in_mid_reply_is_told_as_that(wire: str) -> Non
 def a_server_that_resets() -> Iterator[str]:
     """Answers one call with two lines of a plan, and resets the connection in the middle of the third."""
     listener = socket.create_server(("127.0.0.1", 0))
-    chat = Chat({"model": "fake"}, "")
+    chat = openai.WIRES["/chat/completions"]({"model": "fake"}, "", Conversations())
 
     def serve() -> None:
         line, _ = listener.accept()

@@ -33,7 +33,10 @@ def run(args: argparse.Namespace) -> int:
         print(f"a fake model listens on {fake.url}; it ends with Ctrl-C. To use it:")
         key = script.keys[0] if script.keys else "any"
         print(f"  export OPENAI_BASE_URL={fake.url}/v1 OPENAI_API_KEY={key}")
-        print(f"  chatrobot --model openai:{script.models[0]}", flush=True)
+        print(f"  chatrobot --model openai:{script.models[0]}")
+        print(
+            "OpenAI (Chat Completions, Responses), Anthropic, Google and Ollama are understood.", flush=True
+        )
     try:
         fake.closing.wait()
     except KeyboardInterrupt:

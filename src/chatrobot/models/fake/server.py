@@ -14,14 +14,18 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
-from typing import Any, ClassVar
-from urllib.parse import urlsplit
+from types import TracebackType
+from typing import Any
+from urllib.parse import parse_qs, urlsplit
 
-from chatrobot.models.fake.chat import Asked, Chat, Counted
+from chatrobot.models.fake import openai, others
 from chatrobot.models.fake.script import Answer, HttpError, Script
+from chatrobot.models.fake.wires import Asked, Conversations, Counted, UnknownConversationError, Wire
 
 BODY_BYTES = 32_000_000
 CHARS_PER_TOKEN = 4
+_WIRES = {**openai.WIRES, **others.WIRES}
+_CONVERSATIONS = "/conversations"
 
 
 @dataclass
@@ -39,14 +43,73 @@ class Call:
     """When the client hung up before the end."""
 
 
-class Handler(BaseHTTPRequestHandler):
-    """One connection: lists the models, answers calls."""
+class FakeModel:
+    """Server that listens once it has been entered (or `start`ed), and ends with every connection on leaving."""
 
+    def __init__(
+        self,
+        script: Script,
+        *,
+        host: str = "127.0.0.1",
+        port: int = 0,
+        on_call: Callable[[Call], None] = lambda _: None,
+    ) -> None:
+        self.script = script
+        self.calls: list[Call] = []
+        self.conversations = Conversations()
+        self.closing = threading.Event()
+        self.on_call = on_call
+        self._place = (host, port)
+        self._server: _Server | None = None
+
+    @property
+    def url(self) -> str:
+        """`http://HOST:PORT`, without a path."""
+        assert self._server is not None
+        host, port = self._server.server_address[:2]
+        return f"http://{host!s}:{port}"
+
+    def start(self) -> None:
+        """Listen, and serve in threads of its own.
+
+        Raises:
+            OSError: the port is taken.
+        """
+        self._server = _Server(self._place, self)
+        threading.Thread(
+            target=self._server.serve_forever, args=(0.05,), name="fake-model", daemon=True
+        ).start()
+
+    def stop(self) -> None:
+        """End the server and every call under way."""
+        assert self._server is not None
+        self.closing.set()
+        self._server.shutdown()
+        self._server.server_close()
+
+    def __enter__(self) -> FakeModel:
+        self.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.stop()
+
+
+class _Server(ThreadingHTTPServer):
+    daemon_threads = True
+    block_on_close = False
+
+    def __init__(self, place: tuple[str, int], fake: FakeModel) -> None:
+        self.fake = fake
+        super().__init__(place, _Handler)
+
+
+class _Handler(BaseHTTPRequestHandler):
     protocol_version = "HTTP/1.1"
     disable_nagle_algorithm = True
     server: _Server
-    wires: ClassVar[dict[str, type[Chat]]] = {"/chat/completions": Chat}
-    """By the ends of their paths."""
 
     def log_message(self, format: str, *args: Any) -> None:
         """Log nothing: a header in a log is a key in a log."""
@@ -70,25 +133,30 @@ class Handler(BaseHTTPRequestHandler):
     def do_POST(self) -> None:
         """Answer a call with what the script says."""
         fake, path, body = self.server.fake, urlsplit(self.path).path.rstrip("/"), self._read_body()
-        wire = next((wire for end, wire in self.wires.items() if path.endswith(end)), None)
+        wire = next((wire for end, wire in _WIRES.items() if path.endswith(end)), None)
         if body is None:
             self._json(400, {"error": {"message": "the body is no JSON object"}})
-        elif wire is None:
+        elif wire is None and not path.endswith(_CONVERSATIONS):
             self._json(404, {"error": {"message": f"nothing at {path}"}})
         elif not self._may():
             error = HttpError(401, f"Incorrect API key provided: {self._key()}", "invalid_api_key")
-            self._json(401, wire.error(error))
+            self._json(401, (wire or Wire).error(error))
+        elif wire is None:
+            self._json(200, {"id": fake.conversations.begin(), "object": "conversation"})
         else:
             headers = {name.lower(): value for name, value in self.headers.items()}
             call = Call(self.path, headers, body, time.monotonic())
             fake.calls.append(call)
             self._answer(wire, call)
 
-    def _open(self, kind: type[Chat], call: Call) -> Chat:
-        return kind(call.body, self.path)
-
-    def _answer(self, kind: type[Chat], call: Call) -> None:
-        fake, wire = self.server.fake, self._open(kind, call)
+    def _answer(self, kind: type[Wire], call: Call) -> None:
+        fake = self.server.fake
+        try:
+            wire = kind(call.body, self.path, fake.conversations)
+        except UnknownConversationError as error:
+            message = f"Previous response with id '{error}' not found."
+            self._json(400, kind.error(HttpError(400, message, "previous_response_not_found")))
+            return
         asked = call.asked = wire.asked
         fake.on_call(call)
         if asked.model not in fake.script.models:
@@ -107,21 +175,21 @@ class Handler(BaseHTTPRequestHandler):
         else:
             self._whole(wire, answer, call)
 
-    def _error(self, wire: Chat, error: HttpError) -> None:
+    def _error(self, wire: Wire, error: HttpError) -> None:
         headers = {"Retry-After": f"{error.retry_after_s:g}"} if error.retry_after_s is not None else {}
         if error.body is not None:
             self._send(error.status, error.body.encode(), "text/html", headers)
         else:
             self._json(error.status, wire.error(error), headers)
 
-    def _whole(self, wire: Chat, answer: Answer, call: Call) -> None:
+    def _whole(self, wire: Wire, answer: Answer, call: Call) -> None:
         tokens = answer.tokens(wire.asked.said)
         waits_s = len(tokens) / answer.tokens_per_s if answer.tokens_per_s else 0.0
         if self._wait(waits_s if answer.hang_after is None else float("inf"), call):
             self._json(200, wire.whole("".join(tokens), answer, _count(wire.asked, answer, tokens)))
             call.sent_s.append(time.monotonic())
 
-    def _stream(self, wire: Chat, answer: Answer, call: Call) -> None:
+    def _stream(self, wire: Wire, answer: Answer, call: Call) -> None:
         self.send_response(200)
         self.send_header("Content-Type", "text/event-stream")
         self.send_header("Transfer-Encoding", "chunked")
@@ -139,7 +207,7 @@ class Handler(BaseHTTPRequestHandler):
             call.gone_s = time.monotonic()
             self.close_connection = True
 
-    def _stream_tokens(self, wire: Chat, answer: Answer, call: Call) -> list[str] | None:
+    def _stream_tokens(self, wire: Wire, answer: Answer, call: Call) -> list[str] | None:
         """Send the text; None where the reply ends before its end."""
         self._chunk(wire.start())
         begun_s = time.monotonic()
@@ -204,73 +272,13 @@ class Handler(BaseHTTPRequestHandler):
         return body if isinstance(body, dict) else None
 
     def _key(self) -> str:
-        return str(self.headers.get("Authorization", "")).removeprefix("Bearer ")
+        bearer = self.headers.get("Authorization", "").removeprefix("Bearer ")
+        given = bearer or self.headers.get("x-api-key") or self.headers.get("x-goog-api-key")
+        return given or next(iter(parse_qs(urlsplit(self.path).query).get("key", [])), "")
 
     def _may(self) -> bool:
         keys = self.server.fake.script.keys
         return not keys or any(hmac.compare_digest(self._key().encode(), key.encode()) for key in keys)
-
-
-class _Server(ThreadingHTTPServer):
-    daemon_threads = True
-    block_on_close = False
-
-    def __init__(self, place: tuple[str, int], fake: FakeModel) -> None:
-        self.fake = fake
-        super().__init__(place, fake.handler)
-
-
-class FakeModel:
-    """Server that listens once it has been entered (or `start`ed), and ends with every connection on leaving."""
-
-    handler = Handler
-
-    def __init__(
-        self,
-        script: Script,
-        *,
-        host: str = "127.0.0.1",
-        port: int = 0,
-        on_call: Callable[[Call], None] = lambda _: None,
-    ) -> None:
-        self.script = script
-        self.calls: list[Call] = []
-        self.closing = threading.Event()
-        self.on_call = on_call
-        self._place = (host, port)
-        self._server: _Server | None = None
-
-    @property
-    def url(self) -> str:
-        """`http://HOST:PORT`, without a path."""
-        assert self._server is not None
-        host, port = self._server.server_address[:2]
-        return f"http://{host!s}:{port}"
-
-    def start(self) -> None:
-        """Listen, and serve in threads of its own.
-
-        Raises:
-            OSError: the port is taken.
-        """
-        self._server = _Server(self._place, self)
-        threading.Thread(
-            target=self._server.serve_forever, args=(0.05,), name="fake-model", daemon=True
-        ).start()
-
-    def stop(self) -> None:
-        """End the server and every call under way."""
-        assert self._server is not None
-        self.closing.set()
-        self._server.shutdown()
-        self._server.server_close()
-
-    def __enter__(self) -> FakeModel:
-        self.start()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.stop()
 
 
 def _count(asked: Asked, answer: Answer, tokens: list[str]) -> Counted | None:

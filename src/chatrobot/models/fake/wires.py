@@ -1,15 +1,21 @@
-"""OpenAI's Chat Completions from the server's side: reads a request, writes the events and bodies of a reply."""
+"""Speaks each provider's form: reads what a request asks, writes the events and bodies of a reply.
+
+A wire serves one call. Bytes that `start`, `token`, `tool`, `refuse` and `finish` return go out as they are; `whole` is
+the reply to a request that wants no stream.
+"""
 
 from __future__ import annotations
 
 import itertools
 import json
-import time
+import threading
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any
 
 from chatrobot.models.fake.script import Answer, HttpError, ToolCall
 
+Turns = tuple[tuple[str, str], ...]
 _ids = itertools.count(1)
 
 
@@ -33,7 +39,7 @@ class Asked:
 
     model: str
     stream: bool
-    turns: tuple[tuple[str, str], ...]
+    turns: Turns
     images: int = 0
 
     @property
@@ -42,79 +48,90 @@ class Asked:
         return next((text for role, text in reversed(self.turns) if role == "user"), "")
 
 
-class Chat:
-    """One call. What `start`, `token`, `tool`, `refuse` and `finish` return goes out as it is."""
+class UnknownConversationError(Exception):
+    """Raised for a request that goes on from something this server never said."""
 
-    prefix = "chatcmpl"
 
-    def __init__(self, body: dict[str, Any], path: str) -> None:
+class Conversations:
+    """Holds what was said: turns by response id and by conversation id."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._turns: dict[str, Turns] = {}
+
+    def begin(self) -> str:
+        """Begin a conversation without a word in it, and return its id."""
+        self.keep(conversation := new_id("conv"), ())
+        return conversation
+
+    def drop(self) -> None:
+        """Forget everything, as servers do after some weeks."""
+        with self._lock:
+            self._turns.clear()
+
+    def known(self, name: str) -> Turns:
+        """Return the turns of that response or conversation.
+
+        Raises:
+            UnknownConversationError: there is none.
+        """
+        with self._lock:
+            if name not in self._turns:
+                raise UnknownConversationError(name)
+            return self._turns[name]
+
+    def keep(self, name: str, turns: Turns) -> None:
+        """Keep them under that id."""
+        with self._lock:
+            self._turns[name] = turns
+
+
+class Wire(ABC):
+    """One call in one provider's form.
+
+    Raises:
+        UnknownConversationError: it goes on from what `held` does not hold.
+    """
+
+    prefix = ""
+
+    def __init__(self, body: dict[str, Any], path: str, held: Conversations) -> None:
+        self._held = held
         self._id = new_id(self.prefix)
         self.asked = self._read(body, path)
 
-    def _read(self, body: dict[str, Any], path: str) -> Asked:
-        del path
-        return read_asked(body, body.get("messages"))
+    @abstractmethod
+    def _read(self, body: dict[str, Any], path: str) -> Asked: ...
 
     def start(self) -> bytes:
         """Write what comes before the first token."""
-        return self._chunk({"role": "assistant", "content": ""})
+        return b""
 
+    @abstractmethod
     def token(self, text: str) -> bytes:
         """Write a piece of text."""
-        return self._chunk({"content": text})
 
+    @abstractmethod
     def tool(self, index: int, call: ToolCall) -> bytes:
         """Write a call of a tool, the `index`-th of this reply."""
-        return self._chunk({"tool_calls": [{"index": index, **_function(call)}]})
 
     def refuse(self, text: str) -> bytes:
         """Write why it declines."""
-        return self._chunk({"refusal": text})
+        return self.token(text)
 
+    @abstractmethod
     def finish(self, reason: str, counted: Counted | None) -> bytes:
         """Write the end; `reason` in OpenAI's words."""
-        end = self._chunk({}, reason)
-        if counted is not None:
-            end += sse({**self._head("chat.completion.chunk"), "choices": [], **_chat_usage(counted)})
-        return end + sse("[DONE]")
 
+    @abstractmethod
     def whole(self, text: str, answer: Answer, counted: Counted | None) -> dict[str, Any]:
         """Return the body of a reply in one piece; `text` is that of `answer`."""
-        message: dict[str, Any] = {"role": "assistant", "content": text or None}
-        message.update({"refusal": answer.refusal} if answer.refusal else {})
-        message.update({"tool_calls": list(map(_function, answer.tool_calls))} if answer.tool_calls else {})
-        choice = {"index": 0, "message": message, "finish_reason": answer.reason}
-        usage = _chat_usage(counted) if counted is not None else {}
-        return {**self._head("chat.completion"), "choices": [choice], **usage}
 
     @staticmethod
     def error(error: HttpError) -> dict[str, Any]:
-        """Return the body of an error."""
+        """Return the body of an error, in OpenAI's form unless the provider has another."""
         kind = "invalid_request_error" if error.status < 500 else "server_error"
         return {"error": {"message": error.message, "type": kind, "param": None, "code": error.code or None}}
-
-    def _head(self, kind: str) -> dict[str, Any]:
-        return {"id": self._id, "object": kind, "created": int(time.time()), "model": self.asked.model}
-
-    def _chunk(self, delta: dict[str, Any], finish: str | None = None) -> bytes:
-        choice = {"index": 0, "delta": delta, "finish_reason": finish}
-        return sse({**self._head("chat.completion.chunk"), "choices": [choice]})
-
-
-def _function(call: ToolCall) -> dict[str, Any]:
-    function = {"name": call.name, "arguments": call.arguments}
-    return {"id": new_id("call"), "type": "function", "function": function}
-
-
-def _chat_usage(counted: Counted) -> dict[str, Any]:
-    return {
-        "usage": {
-            "prompt_tokens": counted.prompt_tokens,
-            "completion_tokens": counted.reply_tokens,
-            "total_tokens": counted.prompt_tokens + counted.reply_tokens,
-            "prompt_tokens_details": {"cached_tokens": counted.cached_tokens},
-        }
-    }
 
 
 def sse(data: dict[str, Any] | str, event: str = "") -> bytes:
