@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from chatrobot.cli.editing import edited_text
+from chatrobot.cli.approval import edited_text
 from chatrobot.core.errors import UsageError
 
 

@@ -7,8 +7,7 @@ import queue
 import sys
 import threading
 
-from chatrobot.cli.approval import Approval
-from chatrobot.cli.editing import edited_text
+from chatrobot.cli.approval import Approval, edited_text
 from chatrobot.core.errors import UsageError
 from chatrobot.core.events import Event
 from chatrobot.dialogue.session import Session

@@ -6,10 +6,10 @@ import argparse
 from collections.abc import Callable
 from pathlib import Path
 
+from chatrobot.cli.approval import edited_text
 from chatrobot.cli.approver import Approver
 from chatrobot.cli.choices import setup_from
 from chatrobot.cli.conversation import Conversation
-from chatrobot.cli.editing import edited_text
 from chatrobot.cli.folders import config_folder, profile_folders
 from chatrobot.cli.json_lines import json_line, printer_for
 from chatrobot.cli.keyboard import Keyboard
