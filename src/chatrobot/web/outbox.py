@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import json
 import math
 import threading
@@ -86,12 +87,9 @@ class Outbox:
             if is_overfull:
                 self._waiting.clear()
             wakes, self._is_awake = not self._is_awake, True
-        if self._loop.is_closed():
-            return
-        if is_overfull:
-            self._loop.call_soon_threadsafe(self._on_overfull)
-        elif wakes:
-            self._loop.call_soon_threadsafe(self._has_more.set)
+        if is_overfull or wakes:
+            with contextlib.suppress(RuntimeError):  # the loop has ended, and with it the page
+                self._loop.call_soon_threadsafe(self._on_overfull if is_overfull else self._has_more.set)
 
     def _make_room(self, message: Message) -> bool:
         """Leave out the oldest that may be left out; False where that is the new one itself."""

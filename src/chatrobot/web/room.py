@@ -14,9 +14,7 @@ from typing import Any, Protocol
 from chatrobot.compose import Connection
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import Event, Interpreted, Notice, Remembered, Result
-from chatrobot.core.geometry import Twist
 from chatrobot.dialogue.question import Question
-from chatrobot.dialogue.session import Session
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.plan.steps import Go, Plan
 from chatrobot.plan.text import format_plan
@@ -82,7 +80,7 @@ class Room:
         """
         self.connection, self.session = connection, connection.session
         self._is_simulated = is_simulated
-        self.steering = Steering(_Robot(self.session), self._has_work, self._tell_lost)
+        self.steering = Steering(self.session, self._has_work, self._tell_lost)
         self.programs = Programs(self.session, connection.profile, post)
 
     # --- what happens ---
@@ -303,17 +301,3 @@ class Room:
                 self._turns[turn] = face.id
             if text:
                 self._tell(told("said", turn=turn, text=text, by=face.id, name=face.name), is_kept=True)
-
-
-class _Robot:
-    """The session, as far as a stick needs it."""
-
-    def __init__(self, session: Session) -> None:
-        self._session = session
-        self.stop = session.stop
-
-    def steer(self, twist: Twist) -> None:
-        """Ask for a velocity, where this session can be asked for one."""
-        steer = getattr(self._session, "steer", None)
-        if steer is not None:
-            steer(twist)
