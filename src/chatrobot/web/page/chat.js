@@ -114,11 +114,12 @@ const heard = {
   },
   rehearsed(entry, event, text) {
     const texts = [].concat(text || []);
-    const items = texts.map((one, at) => make("li", (event.findings[at] || {}).severity || "note", one));
-    entry.found.replaceChildren(...items);
+    forgetRehearsal(entry);
+    const severity = (at) => (event.findings[at] || {}).severity || "note";
+    entry.found.append(...texts.map((one, at) => make("li", `rehearsal ${severity(at)}`, one)));
     if (event.ok && event.duration_s > 0) {
       const figures = { length: event.length_m.toFixed(2), duration: event.duration_s.toFixed(0) };
-      entry.found.prepend(make("li", "note", t(event.open_ended ? "rehearsed_open" : "rehearsed", figures)));
+      entry.found.prepend(make("li", "rehearsal note", t(event.open_ended ? "rehearsed_open" : "rehearsed", figures)));
     }
     entry.robot.hidden = false;
     if (event.needs_approval) askApproval(entry);
@@ -150,7 +151,7 @@ const heard = {
     unask(entry);
     entry.bar.hidden = true;
     if (event.reply) say(entry, event.reply, event.outcome);
-    if (event.outcome === "completed") entry.found.replaceChildren();
+    forgetRehearsal(entry);
     if (event.proposal) {
       const yes = sayButton(entry, t("yes"), t("say_yes"), "small main");
       ask(entry, [yes, sayButton(entry, t("no"), t("say_no"), "small")]);
@@ -168,6 +169,11 @@ function note(entry, text) {
   entry.found.append(make("li", "note", text));
 }
 
+/** What was rehearsed is told by what came of it. */
+function forgetRehearsal(entry) {
+  for (const item of entry.found.querySelectorAll(".rehearsal")) item.remove();
+}
+
 function noteLine(text) {
   change(() => list.append(make("li", "line", text)));
 }
@@ -181,7 +187,8 @@ export function startChat() {
     if (asking) unask(asking);
     entry.you.hidden = false;
     const isMine = state.hello && message.by === state.hello.you;
-    setText(entry.you, isMine || !message.name ? message.text : `${message.name}: ${message.text}`);
+    const who = isMine || !message.name ? [] : [make("span", "who", message.name)];
+    entry.you.replaceChildren(...who, message.text);
     showHistory(message);
   }));
   on("event", (message) => {

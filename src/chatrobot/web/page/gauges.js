@@ -13,10 +13,10 @@ let limitedTimer = 0;
 let isLatched = false;
 let isPaused = false;
 
-function show(id, value, most, text, limit = "") {
+function show(id, value, most, text) {
   const gauge = byId(id);
   const meter = gauge.querySelector("i");
-  setText(gauge.querySelector("b"), limit ? `${text} / ${limit}` : text);
+  setText(gauge.querySelector("b"), text);
   const share = most > 0 && value !== null ? Math.max(0, Math.min(1, value / most)) : 0;
   meter.style.setProperty("--share", share);
   meter.setAttribute("aria-valuemin", "0");
@@ -32,8 +32,9 @@ function draw() {
   const speed = Math.hypot(twist.vx_mps, twist.vy_mps);
   const rate = (Math.abs(twist.wz_radps) * 180) / Math.PI;
   const mostRate = (limits.max_rate_radps * 180) / Math.PI;
-  show("gauge-speed", speed, limits.max_speed_mps, t("mps", { value: speed.toFixed(2) }), limits.max_speed_mps.toFixed(2));
-  show("gauge-rate", rate, mostRate, t("degps", { value: rate.toFixed(0) }), mostRate.toFixed(0));
+  const of = (value, most, digits) => ({ value: value.toFixed(digits), most: most.toFixed(digits) });
+  show("gauge-speed", speed, limits.max_speed_mps, t("mps", of(speed, limits.max_speed_mps, 2)));
+  show("gauge-rate", rate, mostRate, t("degps", of(rate, mostRate, 0)));
   const near = telemetry ? telemetry.nearest_obstacle_m : null;
   show("gauge-near", near, NEAR_M, near === null ? t("nothing_near") : t("metres", { value: near.toFixed(2) }));
   byId("gauge-near").hidden = !state.hello.robot.has_lidar;

@@ -5,7 +5,7 @@ import { obstacleName, placeName } from "./places.js";
 const WALL_M = 0.16;
 const COLOURS = [
   "floor", "grid", "area", "wall", "thing", "thing-edge", "label", "place", "driven", "rehearsed", "lidar", "robot",
-  "robot-edge", "target", "halo",
+  "robot-edge", "ring", "target", "halo",
 ];
 
 /** Return the colours of the style that holds now. */
@@ -141,8 +141,18 @@ export class Drawing {
       this.fill("robot");
       this.stroke("robot-edge", 2);
     }
-    const size = Math.max(9, footprint.radius_m * view.scale * 0.55);
     const [right, down] = view.toScreen(pose.x_m, pose.y_m);
+    this.arrow(right, down, pose, Math.max(9, footprint.radius_m * view.scale * 0.55), isGhost);
+  }
+
+  /** Which way it looks; in a ring, so that it is found on a large map. */
+  arrow(right, down, pose, size, isGhost) {
+    const { context, view } = this;
+    if (!isGhost) {
+      context.beginPath();
+      context.arc(right, down, Math.max(20, size * 2.4), 0, 2 * Math.PI);
+      this.fill("ring");
+    }
     context.save();
     context.translate(right, down);
     context.rotate(view.angle(pose.yaw_rad));

@@ -2,7 +2,7 @@
 
 const LEAST_SCALE = 8;
 const MOST_SCALE = 600;
-const MARGIN = 1.12;
+const INSET_PX = { top: 62, right: 58, bottom: 40, left: 24 }; // for the buttons and the scale bar
 
 export class View {
   constructor() {
@@ -61,9 +61,11 @@ export class View {
     const turned = points.map(([x, y]) => [this.cos * x - this.sin * y, this.sin * x + this.cos * y]);
     const [xs, ys] = [turned.map((one) => one[0]), turned.map((one) => one[1])];
     const [left, right, low, high] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
-    [this.x, this.y] = [(left + right) / 2, (low + high) / 2];
-    const across = this.width / (Math.max(right - left, 1) * MARGIN);
-    const up = this.height / (Math.max(high - low, 1) * MARGIN);
+    const { top, right: end, bottom, left: begin } = INSET_PX;
+    const across = (this.width - begin - end) / Math.max(right - left, 1);
+    const up = (this.height - top - bottom) / Math.max(high - low, 1);
     this.scale = Math.max(LEAST_SCALE, Math.min(MOST_SCALE, across, up));
+    this.x = (left + right + (end - begin) / this.scale) / 2;
+    this.y = (low + high + (top - bottom) / this.scale) / 2;
   }
 }
