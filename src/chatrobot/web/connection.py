@@ -14,12 +14,14 @@ from chatrobot.core.errors import LinkError
 from chatrobot.core.geometry import Twist
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.web.access import Pass
-from chatrobot.web.limits import Rate
+from chatrobot.web.limits import ABORT, Rate
 from chatrobot.web.outbox import Message, Outbox
 from chatrobot.web.protocol import MalformedError, read_message
 from chatrobot.web.room import Room
 from chatrobot.web.words import refused, web_words
 
+CLOSE_S = 0.5
+"""So long a page may take to read why it is closed."""
 MOST_MALFORMED = 10
 """A page that says so much that is not understood is none of ours."""
 UNSUPPORTED, POLICY, TRY_LATER = 1003, 1008, 1013
@@ -90,9 +92,13 @@ class PageConnection:
                 raise result
 
     async def _close(self) -> None:
-        if self._socket.application_state is WebSocketState.CONNECTED:
-            with contextlib.suppress(RuntimeError, WebSocketDisconnect, OSError):  # the page was faster
-                await self._socket.close(self._code)
+        if self._socket.application_state is not WebSocketState.CONNECTED:
+            return
+        with contextlib.suppress(RuntimeError, WebSocketDisconnect, OSError):  # the page was faster
+            try:
+                await asyncio.wait_for(self._socket.close(self._code), CLOSE_S)
+            except asyncio.TimeoutError:  # it does not read
+                self._socket.scope["extensions"][ABORT]()
 
     async def _send(self) -> None:
         while True:
@@ -125,7 +131,8 @@ class PageConnection:
         if not self._rates.get(do, self._rates[""]).allows() and do not in ("stop", "emergency_stop"):
             page.put(refused("too_many", do))
             return False
-        room.steering.beat(page)
+        if do in _BEATS:
+            room.steering.beat(page)
         why = why_not(room, page, do)
         if why:
             page.put(refused(why, do))
@@ -137,6 +144,7 @@ class PageConnection:
         return True
 
 
+_BEATS = ("beat", "steer")
 _FREE = frozenset({"stop", "emergency_stop", "beat", "programs", "program", "language", "history"})
 """What anybody may say who may see the robot."""
 _NEEDS_BEATS = frozenset({"say", "say_plan", "edit", "go", "resume", "run_program", "edit_program"})

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from uvicorn.protocols.http.h11_impl import H11Protocol
+from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 
 MOST_CONNECTIONS, MOST_AN_ADDRESS = 100, 20
 MESSAGES_HZ = 60
@@ -82,6 +83,21 @@ class LimitedProtocol(H11Protocol):
         has_asked = getattr(self, "scope", None) is not None
         if not has_asked:
             self.transport.abort()
+
+
+ABORT = "chatrobot.abort"
+"""The extension of a scope that ends its connection at once, unread as it may be."""
+
+
+class AbortableWebSocket(WebSocketsSansIOProtocol):
+    """A WebSocket as uvicorn speaks it, which need not wait for its reader to end."""
+
+    def handle_connect(self, event: Any) -> None:
+        """Begin to serve it."""
+        super().handle_connect(event)
+        scope: Any = getattr(self, "scope", None)
+        if scope is not None:
+            scope["extensions"][ABORT] = self.transport.abort
 
 
 def is_loopback_address(address: str) -> bool:

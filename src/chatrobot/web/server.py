@@ -29,7 +29,7 @@ from chatrobot.core.errors import ChatRobotError
 from chatrobot.core.process import wake_promptly
 from chatrobot.web.access import Access, Pass, Refusal, address_of
 from chatrobot.web.connection import Page, PageConnection
-from chatrobot.web.limits import LimitedProtocol
+from chatrobot.web.limits import AbortableWebSocket, LimitedProtocol
 from chatrobot.web.protocol import MOST_BYTES
 from chatrobot.web.room import Room
 from chatrobot.web.steering import Watchdog
@@ -255,6 +255,7 @@ class _ServerThread:
         config = uvicorn.Config(
             app,
             http=LimitedProtocol,
+            ws=AbortableWebSocket,
             loop="asyncio",
             lifespan="off",
             log_config=None,
