@@ -6,6 +6,8 @@ import { onLanguage, t } from "./words.js";
 
 const NEAR_M = 3;
 const LIMITED_MS = 2500;
+const LEAST_MPS = 0.01;
+const LEAST_RADPS = 0.02;
 
 const limited = byId("limited");
 let telemetry = null;
@@ -45,12 +47,19 @@ function draw() {
   byId("gauge-battery").classList.toggle("warn", battery !== null && battery < 20);
 }
 
+/** By what it does or by what is being done: a stick moves it without a plan. */
+function isMoving() {
+  if (!telemetry) return false;
+  const { vx_mps: x, vy_mps: y, wz_radps: turn } = telemetry.twist;
+  return telemetry.moving || Math.hypot(x, y) > LEAST_MPS || Math.abs(turn) > LEAST_RADPS;
+}
+
 function drawState() {
   const chip = byId("robot-state");
   let key = "state_standing";
   if (!state.isOpen) key = "state_unknown";
   else if (isLatched) key = "state_emergency";
-  else if (telemetry && telemetry.moving) key = "state_moving";
+  else if (isMoving()) key = "state_moving";
   else if (isPaused) key = "state_paused";
   chip.dataset.state = key;
   setText(chip, t(key));

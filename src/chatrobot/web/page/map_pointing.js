@@ -32,7 +32,8 @@ export function startPointing({ view, known, redraw, go, release }) {
 
   function turnTo(place) {
     const [x, y] = view.toFloor(...place);
-    known.target.yaw = Math.atan2(y - known.target.y, x - known.target.x);
+    const degrees = (Math.atan2(y - known.target.y, x - known.target.x) * 180) / Math.PI;
+    known.target.yaw = (Math.round(degrees) * Math.PI) / 180; // a plan with round numbers reads better
     redraw();
   }
 

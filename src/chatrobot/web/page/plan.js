@@ -8,7 +8,7 @@ const lines = byId("plan-lines");
 const text = byId("plan-text");
 const about = byId("plan-about");
 
-const plan = { turn: 0, lines: [], step: 0, outcome: "", waits: false, streams: false, isEdited: false };
+const plan = { turn: 0, lines: [], step: 0, outcome: "", waits: false, streams: false, isEdited: false, isProgram: false };
 
 /** The lines of a plan by its steps: a repeat is one step with all its lines. */
 function stepsOfLines(all) {
@@ -42,6 +42,7 @@ function draw() {
 
 function describe() {
   let key = "plan_none";
+  if (plan.isProgram) key = "plan_program";
   if (plan.lines.length) key = plan.waits ? "plan_waits" : plan.step ? "plan_runs" : "plan_last";
   if (plan.isEdited) key = "plan_help";
   setText(about, t(key));
@@ -83,7 +84,7 @@ function drop() {
 }
 
 function show(turn, planLines) {
-  Object.assign(plan, { turn, lines: planLines, step: 0, outcome: "", waits: false });
+  Object.assign(plan, { turn, lines: planLines, step: 0, outcome: "", waits: false, isProgram: false });
 }
 
 const heard = {
@@ -98,6 +99,10 @@ const heard = {
     const step = event.turn === plan.turn ? plan.step : 0;
     show(event.turn, event.plan_text.split("\n"));
     plan.step = step;
+  },
+  program_written(event) {
+    show(event.turn, []);
+    plan.isProgram = true;
   },
   rehearsed(event) {
     if (event.turn === plan.turn) plan.waits = event.needs_approval;

@@ -31,7 +31,7 @@ function drawList() {
 /** Show a program; `marks` are `{line, severity, text}`. */
 function show(program) {
   shown = program;
-  byId("program").hidden = false;
+  byId("programs").hidden = byId("program").hidden = false;
   setText(byId("program-name"), program.name);
   setText(byId("program-about"), program.about || program.description || "");
   const marks = new Map();
@@ -45,6 +45,7 @@ function show(program) {
     return item;
   }));
   edit(false);
+  if (!state.isReplaying) byId("program").scrollIntoView({ block: "nearest" });
 }
 
 function edit(isOn) {
@@ -57,10 +58,11 @@ function edit(isOn) {
 }
 
 function logLine(line, level = "") {
-  const isAtEnd = log.scrollHeight - log.scrollTop - log.clientHeight < 40;
+  const box = log.parentElement;
+  const isAtEnd = box.scrollHeight - box.scrollTop - box.clientHeight < 40;
   log.append(make("li", level.toLowerCase(), line));
   while (log.children.length > MOST_LOG_LINES) log.firstElementChild.remove();
-  if (isAtEnd) log.scrollTop = log.scrollHeight;
+  if (isAtEnd) box.scrollTop = box.scrollHeight;
 }
 
 const heard = {

@@ -8,6 +8,7 @@ import { onLanguage, t } from "./words.js";
 const NOTICE_MS = 6000;
 const STOP_SAID_MS = 2500;
 const STOP_LINE_MS = 2000;
+const STEERERS = ["send", "pause", "resume", "heading", "ask-taps", "stick-speed", "side-left", "side-right"];
 
 let by = null;
 let name = "";
@@ -28,7 +29,7 @@ function drawSteering() {
   const isWatching = state.isOpen && !state.steers;
   setBanner(byId("watching-banner"), isWatching ? t(mayTake ? "watching_may_take" : "watching") : "");
   document.body.classList.toggle("watching", !state.steers);
-  for (const id of ["send", "pause", "resume", "heading", "ask-taps"]) byId(id).disabled = !state.steers;
+  for (const id of STEERERS) byId(id).disabled = !state.steers;
 }
 
 /** Say something for a moment. */
