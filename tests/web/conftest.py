@@ -6,7 +6,10 @@ from collections.abc import Iterator
 
 import pytest
 
+from tests.cli.running import chatrobot
 from tests.web.rig import WebRig, serving
+
+__all__ = ["chatrobot", "rig"]
 
 
 @pytest.fixture
