@@ -114,6 +114,8 @@ def _line_of(event: Event, language: LanguageCode) -> str:
             return (
                 f"{event.reply} {say(language, 'yes_or_no')}" if event.proposal is not None else event.reply
             )
+        case events.Ordered():
+            return f"  {event.source}: {event.program or event.plan_text}"
         case events.Said():
             return f"  “{event.text}”"
         case events.Remembered():

@@ -41,12 +41,13 @@ class Narrator:
 
     def __init__(self, words: Words) -> None:
         self._words = words
-        self._plans: dict[int, events.Interpreted] = {}
+        self._plans: dict[int, str] = {}
         self._streamed: dict[int, int] = {}
         self._programs: set[int] = set()
         self._handlers: dict[type[Event], Callable[[Any], Iterator[RenderableType]]] = {
             events.Streamed: self._streamed_step,
             events.Interpreted: self._interpreted,
+            events.Ordered: self._ordered,
             events.Rehearsed: self._rehearsed,
             events.ProgramWritten: self._program_written,
             events.ProgramRehearsed: self._program_rehearsed,
@@ -101,16 +102,24 @@ class Narrator:
 
     def _interpreted(self, event: events.Interpreted) -> Iterator[RenderableType]:
         if event.plan_text and event.turn not in self._streamed:
-            self._plans[event.turn] = event
+            self._plans[event.turn] = event.plan_text
             if event.reply and (
                 event.by == "model" or self._words.language != "en"
             ):  # a plan is English already
                 yield indented(Text(event.reply, "cyan"))
 
+    def _ordered(self, event: events.Ordered) -> Iterator[RenderableType]:
+        if event.plan_text:
+            self._plans[event.turn] = event.plan_text
+        values = {"source": event.source, "program": event.program}
+        yield marked(
+            "!", "cyan", self._words.say("asked_by" if event.plan_text else "program_asked_by", **values)
+        )
+
     def _rehearsed(self, event: events.Rehearsed) -> Iterator[RenderableType]:
-        understood = self._plans.pop(event.turn, None)
-        if understood is not None:
-            yield from self.plan(understood.plan_text, event, PLAN_LINES)
+        plan_text = self._plans.pop(event.turn, None)
+        if plan_text is not None:
+            yield from self.plan(plan_text, event, PLAN_LINES)
         elif event.turn in self._streamed:
             yield from self._findings(event)
         elif event.turn in self._programs:
