@@ -22,7 +22,7 @@ LEVELS = {
     "link.in_process": 7,
     "compose": 8,
     "nodes": 9,
-    "cli": 10, "api": 10,
+    "cli": 10, "api": 10, "mcp_server": 10,
     "__init__": 11, "__main__": 11,
     "testing": 11,
 }  # fmt: skip

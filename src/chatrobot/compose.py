@@ -58,6 +58,7 @@ class Setup:
         folder: where places, programs and history live; None keeps nothing.
         model: the language model to ask, None for none; `model_options`: how it is used.
         camera: takes pictures for it, as JPEG or PNG, in place of the robot's own camera.
+        source: in whose name it speaks to Motion, which decides its priority and what it may (`governor/lease.py`).
         processes: those of a simulated robot in real time that have been started ahead.
         on_ready: called once the robot is ready.
     """
@@ -77,6 +78,7 @@ class Setup:
     model: Model | None = None
     model_options: ModelOptions = field(default_factory=ModelOptions)
     camera: Callable[[], bytes | None] | None = None
+    source: str = "console"
     processes: Processes | None = None
     on_ready: Callable[[], None] = lambda: None
 
@@ -93,12 +95,16 @@ class Setup:
 
 @dataclass
 class Connection:
-    """A session and what it stands on. Close it: a robot in motion finishes what it was told, orderly."""
+    """A session and what it stands on. Close it: a robot in motion finishes what it was told, orderly.
+
+    `camera` is one of its own, beside the one through which a model looks; None where there is none.
+    """
 
     session: Session
     profile: RobotProfile
     world: World
     close: Callable[[], None]
+    camera: Camera | None = None
 
 
 class Prepared:
@@ -247,7 +253,7 @@ def _connect_real_time(prepared: Prepared, on_event: OnEvent) -> Connection:
         profile_file, setup.world, setup.sim, setup.budget, open_loop=setup.open_loop
     )
     processes.is_taken = True
-    link = SocketLink(processes.motion)
+    link = SocketLink(processes.motion, setup.source)
     try:
         prepared.understanding.warm()
         link.wait_until_ready()
@@ -267,7 +273,7 @@ def _connect_real_time(prepared: Prepared, on_event: OnEvent) -> Connection:
         trace = LocalWire(processes.wire_path)
         trace.subscribe(TRUTH_TOPIC, Odometry, _tracer(one_at_a_time))
         close = _in_turn(session.close, trace.close)
-    return Connection(session, prepared.profile, prepared.world, close)
+    return Connection(session, prepared.profile, prepared.world, close, _camera(setup, prepared.profile))
 
 
 # --- a robot on a wire: Motion and the guard are processes ---
@@ -291,11 +297,11 @@ def _connect_wire(prepared: Prepared, on_event: OnEvent) -> Connection:
         motion = MotionProcess.start(
             address, profile_file, setup.world, setup.budget, open_loop=setup.open_loop
         )
-        link = SocketLink(motion)
+        link = SocketLink(motion, setup.source)
         link.wait_until_ready()
     setup.on_ready()
     session = prepared.session(link, on_event)
-    return Connection(session, profile, prepared.world, session.close)
+    return Connection(session, profile, prepared.world, session.close, _camera(setup, profile))
 
 
 def _in_turn(*closes: Callable[[], None]) -> Callable[[], None]:

@@ -15,7 +15,7 @@ from chatrobot.robots.profile import MotionBudget
 if TYPE_CHECKING:
     from chatrobot.robots.profile import RobotProfile
 
-COMMANDS = ("", "do")
+COMMANDS = ("", "do", "mcp")
 STDOUT = 1
 _CLEAR_LINE = "\r\x1b[K"
 
@@ -31,7 +31,7 @@ class Early:
         if not args.command and not args.json and has_keyboard():
             self.typed_ahead.start()
         profile = self._checked(args)
-        if not args.json and os.isatty(STDOUT):
+        if args.command != "mcp" and not args.json and os.isatty(STDOUT):
             self._show(profile.title)
 
     def _checked(self, args: argparse.Namespace) -> RobotProfile:
