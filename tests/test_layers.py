@@ -21,8 +21,8 @@ LEVELS = {
     "motion": 6, "dialogue": 6,
     "link.in_process": 7,
     "compose": 8,
-    "nodes": 9,
-    "cli": 10, "api": 10, "mcp_server": 10,
+    "nodes": 9, "mcp_server": 9,
+    "cli": 10, "api": 10,
     "__init__": 11, "__main__": 11,
     "testing": 11,
 }  # fmt: skip
