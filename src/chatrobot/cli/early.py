@@ -87,7 +87,12 @@ class Early:
 @contextmanager
 def started_early(args: argparse.Namespace) -> Iterator[None]:
     """Within it `args.early` is there for a command that moves a robot in real time."""
-    early = Early(args) if args.command in COMMANDS and not args.fast else None
+    if args.command == "mcp":
+        from chatrobot.cli.attach import attachable
+
+        args.host_line = attachable(args)
+    needs_robot = args.command in COMMANDS and not args.fast and getattr(args, "host_line", None) is None
+    early = Early(args) if needs_robot else None
     args.early = early
     try:
         yield

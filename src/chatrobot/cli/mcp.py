@@ -10,15 +10,12 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from chatrobot.cli.choices import setup_from
 from chatrobot.cli.entry import STOPPED
-from chatrobot.cli.signals import SignalWatch
-from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.errors import UsageError
-from chatrobot.core.events import Event
-from chatrobot.link.processes import SIMULATED
 
 if TYPE_CHECKING:
+    from chatrobot.compose import Connection, Setup
+    from chatrobot.core.events import Event
     from chatrobot.mcp_server.robot import AgentRobot
 
 _PARTED = "asked to end"
@@ -31,7 +28,18 @@ def run(args: argparse.Namespace) -> int:
     Raises:
         UsageError: an option cannot be used.
     """
+    if args.host_line is not None:
+        from chatrobot.cli.attach import pass_on
+
+        return pass_on(args.host_line)
     _check(args)
+    return _run_own(args)
+
+
+def _run_own(args: argparse.Namespace) -> int:
+    """Serve a robot of our own."""
+    from chatrobot.cli.choices import setup_from
+    from chatrobot.cli.signals import SignalWatch
     from chatrobot.mcp_server.robot import SOURCE, AgentRobot
 
     setup = replace(setup_from(args, named_model=True, programs=True), source=SOURCE)
@@ -62,6 +70,8 @@ def _check(args: argparse.Namespace) -> None:
 
 def _connector(setup: Setup) -> Callable[[Callable[[Event], None]], Connection]:
     """Return what meets the robot; the processes that were started ahead are used once."""
+    from chatrobot.compose import connect
+
     ahead = [setup]
 
     def meet(on_event: Callable[[Event], None]) -> Connection:
@@ -74,6 +84,7 @@ async def _serve(
     args: argparse.Namespace, setup: Setup, robot: AgentRobot, is_leaving: Callable[[], bool]
 ) -> None:
     _hint_at_terminal(args)
+    from chatrobot.link.processes import SIMULATED
     from chatrobot.mcp_server.server import build_server
 
     server = build_server(robot, setup.profile, is_simulated=setup.on in SIMULATED)

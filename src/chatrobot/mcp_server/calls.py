@@ -103,8 +103,6 @@ class Calls:
 
     def __init__(self, robot: AgentRobot) -> None:
         self._robot = robot
-        self._turns = asyncio.Lock()
-        self._waiting = 0
 
     async def do(
         self,
@@ -134,16 +132,17 @@ class Calls:
             return await self._see_through(session, say, report, line, rehearse_only=rehearse_only)
         if self._robot.waiting_turn is not None:
             return Course("waiting", self._robot.waiting_turn)
-        if self._waiting >= MOST_WAITING:
+        turns = self._robot.turns
+        if turns.waiting >= MOST_WAITING:
             return Course("busy")
-        self._waiting += 1
+        turns.waiting += 1
         try:
-            async with self._turns:
+            async with turns.lock:
                 if self._robot.setbacks != setbacks or (line is not None and line.is_gone):
                     return Course("dropped")
                 return await self._see_through(session, say, report, line, rehearse_only=rehearse_only)
         finally:
-            self._waiting -= 1
+            turns.waiting -= 1
 
     async def _see_through(
         self,

@@ -23,6 +23,14 @@ Listener = Callable[[Event | None], None]
 _POLL_S = 0.02
 
 
+class Turns:
+    """Whose turn it is: one instruction at a time, of all clients of a robot."""
+
+    def __init__(self) -> None:
+        self.lock = asyncio.Lock()
+        self.waiting = 0
+
+
 class RobotGoneError(ChatRobotError):
     """There is no robot to talk to; the message says why, and the way out."""
 
@@ -39,6 +47,7 @@ class AgentRobot:
         self._connect = connect
         self.approval_address = approval_address
         self.record = Record()
+        self.turns = Turns()
         self.setbacks = 0
         """Steps with each stop and each instruction that was not done: what was asked for before it is not begun."""
         self.waiting_turn: int | None = None

@@ -26,6 +26,7 @@ from chatrobot.reflex import is_release
 MOST_TEXT_CHARS = 4_000
 MOST_PLAN_CHARS = 20_000
 LOOK_S = 0.5
+NEWS_S = 0.3
 STAND_S = 2.0
 """So long `stop` waits to see the robot stand; the zero is out long before."""
 LINE = "chatrobot.line"
@@ -127,8 +128,12 @@ class Tools:
 
     async def _observe(self, *, picture: bool) -> CallToolResult:
         connection = await self._robot.ready()
-        record = self._robot.record
+        began_s, record = time.monotonic(), self._robot.record
         sectors = surroundings.sectors_told(await self._look(connection.session))
+        while record.heard_at_s < began_s and time.monotonic() - began_s < NEWS_S:
+            await asyncio.sleep(
+                0.01
+            )  # what was heard before it asked may be of a motion that has ended since
         data: dict[str, Any] = surroundings.motion_told(record.telemetry, record.heard_at_s)
         pose = record.telemetry.pose if record.telemetry is not None else None
         data["free_way_m"] = sectors
