@@ -114,7 +114,8 @@ def course_told(course: Course, language: str, approval_address: str) -> CallToo
         return _waiting_told(data, approval_address)
     if course.state == "paused":
         return _paused_told(course, data, language)
-    assert course.result is not None
+    if course.result is None:  # nobody is left to hear it
+        return error("The client has left, and the robot was stopped.", "client_gone")
     return _end_told(course, course.result, data, language)
 
 
