@@ -21,10 +21,11 @@ from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring
 from chatrobot.dialogue.session import Session
 from chatrobot.dialogue.understanding import Understanding
+from chatrobot.governor.lease import Priority, priority_of
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.phrases import say
 from chatrobot.link.in_process import InProcessLink
-from chatrobot.link.motion_link import MotionLink
+from chatrobot.link.motion_link import MotionLink, SecondLinks
 from chatrobot.link.processes import SIMULATED, MotionProcess, Processes
 from chatrobot.models.seam import Model
 from chatrobot.programs.library import Library
@@ -104,7 +105,32 @@ class Connection:
     profile: RobotProfile
     world: World
     close: Callable[[], None]
+    prepared: Prepared
+    link: SecondLinks
     camera: Camera | None = None
+
+    def second_session(self, source: str, on_event: OnEvent, options: Options | None = None) -> Connection:
+        """Return a session of an agent on the same robot, beside this one, which is a person's.
+
+        It hears of its own turns, and of notices and telemetry; this one hears of its turns, too, under numbers of
+        their own (`ordered` comes first), and `approve` answers what waits for a yes. It approves and releases nothing.
+        What a person chose to approve is asked about whatever `options` say. One at a time; pump it in any thread,
+        and close it before this one.
+
+        Raises:
+            UsageError: that source is a person's.
+            LinkError: there was one already, or Motion is gone.
+        """
+        if priority_of(source) >= Priority.PLAN:
+            raise UsageError(f'a second session speaks for an agent, which "{source}" is not', where="source")
+        chosen = self.prepared.setup.options
+        options = options or chosen
+        asks, asks_models = options.approve or chosen.approve, options.approve_models or chosen.approve_models
+        options = replace(options, approve=asks, approve_models=asks_models)
+        prepared = Prepared(replace(self.prepared.setup, options=options), self.profile)
+        session = prepared.session(self.link.second(source), on_event)
+        self.close = _in_turn(session.close, self.close)
+        return replace(self, session=session, close=session.close, prepared=prepared)
 
 
 class Prepared:
@@ -237,7 +263,7 @@ def _connect_simulated(prepared: Prepared, on_event: OnEvent) -> Connection:
         hub.connect().subscribe(TRUTH_TOPIC, Odometry, _tracer(on_event))
         link.step()  # the trace begins before anything moves
     session = prepared.session(link, on_event)
-    return Connection(session, profile, world, _in_turn(session.close, programs.close))
+    return Connection(session, profile, world, _in_turn(session.close, programs.close), prepared, link)
 
 
 # --- real time: the simulated robot, Motion and the guard are processes ---
@@ -273,7 +299,8 @@ def _connect_real_time(prepared: Prepared, on_event: OnEvent) -> Connection:
         trace = LocalWire(processes.wire_path)
         trace.subscribe(TRUTH_TOPIC, Odometry, _tracer(one_at_a_time))
         close = _in_turn(session.close, trace.close)
-    return Connection(session, prepared.profile, prepared.world, close, _camera(setup, prepared.profile))
+    camera = _camera(setup, prepared.profile)
+    return Connection(session, prepared.profile, prepared.world, close, prepared, link, camera)
 
 
 # --- a robot on a wire: Motion and the guard are processes ---
@@ -301,7 +328,8 @@ def _connect_wire(prepared: Prepared, on_event: OnEvent) -> Connection:
         link.wait_until_ready()
     setup.on_ready()
     session = prepared.session(link, on_event)
-    return Connection(session, profile, prepared.world, session.close, _camera(setup, profile))
+    camera = _camera(setup, profile)
+    return Connection(session, profile, prepared.world, session.close, prepared, link, camera)
 
 
 def _in_turn(*closes: Callable[[], None]) -> Callable[[], None]:

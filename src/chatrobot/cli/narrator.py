@@ -68,6 +68,12 @@ class Narrator:
                 yield from self._streamed_step(event)
             case events.Interpreted():
                 yield from self._interpreted(event)
+            case events.Ordered():
+                if event.plan_text:
+                    self._plans[event.turn] = event.plan_text
+                code = "asked_by" if event.plan_text else "program_asked_by"
+                asked = self._words.say(code, source=event.source, program=event.program)
+                yield _marked("!", "cyan", asked)
             case events.Rehearsed():
                 yield from self._rehearsed(event)
             case events.ProgramWritten():

@@ -52,6 +52,18 @@ class MotionLink(Protocol):
         ...
 
 
+class SecondLinks(Protocol):
+    """A link that makes room for another client."""
+
+    def second(self, source: str) -> MotionLink:
+        """Return a link of another client, an agent, to the same Motion.
+
+        Raises:
+            LinkError: there was one already, or Motion is gone.
+        """
+        ...
+
+
 class Sender:
     """Makes the envelopes of one source."""
 

@@ -309,6 +309,17 @@ class GoalServer:
         for goal in self._goal_queue.take_void(self._stops.count):
             self._outcomes.tell_unmoved(goal, "stopped", why)
 
+    def end_of(self, lease: str, why: Reason) -> None:
+        """End the goals of that lease, stopping the robot where one of them moves it."""
+        if (goal := self._executor.goal) is not None and goal.lease == lease:
+            self._stops.halt(why)  # all that waits is of that source, or of one that comes after it
+            return
+        self._pausing.drop(why, lease)
+        if self._preparing is not None and self._preparing.lease == lease:
+            self._drop_prepared("stopped", why)
+        for goal in self._goal_queue.take([goal for goal in self._goal_queue.goals if goal.lease == lease]):
+            self._outcomes.tell_unmoved(goal, "stopped", why)
+
     def hand_over(self, to: str) -> None:
         """End all goals, and tell it: somebody of higher priority takes command."""
         goals = self._all()

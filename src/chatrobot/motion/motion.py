@@ -133,8 +133,16 @@ class Motion:
 
     def lose(self, lease: str) -> None:
         """Stop: the source behind `lease` is gone without a goodbye."""
-        self.halt(Reason("source_lost", {"source": self._governor.leases.source_of(lease)}))
+        self.halt(self._lost(lease))
         self._clients.lose(lease)
+
+    def lose_second(self, lease: str) -> None:
+        """End what is done for the source behind `lease`, which is gone without a goodbye; others go on."""
+        self._clients.lose(lease)
+        self.post(lambda: self.goals.end_of(lease, self._lost(lease)))
+
+    def _lost(self, lease: str) -> Reason:
+        return Reason("source_lost", {"source": self._governor.leases.source_of(lease)})
 
     # --- control thread --------------------------------------------------------------------------------------
 
@@ -168,11 +176,6 @@ class Motion:
     def latched(self) -> Reason | None:
         """Return the emergency stop that has not been released."""
         return self._governor.latched
-
-    @property
-    def has_left(self) -> bool:
-        """True once a source has gone, and all is done."""
-        return self._clients.some_have_left and not self.is_busy
 
     def see_it_stand(self) -> None:
         """Send zeros until the robot stands: nobody knows what it has heard last."""
