@@ -16,8 +16,8 @@ READ_BYTES = 65_536
 CONNECT_S = 2.0
 END_S = 2.0
 _NOTHING_CHOSEN = {
-    "on": "auto", "world": "", "sim": "", "model": "", "http": False, "open_loop": False, "yes": False, "approve": False,
-    "max_distance": None, "max_time": None,
+    "on": "auto", "world": "", "sim": "", "model": "", "http": False, "open_loop": False, "yes": False,
+    "approve": False, "max_distance": None, "max_time": None,
 }  # fmt: skip
 """With anything else a person has chosen a robot of their own, or how it is to be driven."""
 

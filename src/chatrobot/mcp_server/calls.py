@@ -12,6 +12,7 @@ from collections.abc import Awaitable, Callable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
+from chatrobot.core.errors import LinkError
 from chatrobot.core.events import (
     Event,
     Interpreted,
@@ -99,10 +100,22 @@ class Course:
 
 
 class Calls:
-    """Takes instructions one after the other, in the order they come. Belongs to the server's thread."""
+    """Takes the instructions of one client, each when its turn has come. Belongs to the server's thread."""
 
     def __init__(self, robot: AgentRobot) -> None:
         self._robot = robot
+        self._left_open: set[int] = set()
+        """Turns whose calls have returned before their end: they wait for a yes, have had it, or are paused."""
+
+    def leave(self) -> None:
+        """The client is gone, and with it what it has asked for."""
+        session = self._robot.session
+        unfinished = [turn for turn in self._left_open if session is not None and turn not in session.results]
+        if unfinished == [self._robot.waiting_turn] and session is not None:
+            with contextlib.suppress(LinkError):  # Motion is gone: nothing waits there any more
+                session.approve(unfinished[0], yes=False)
+        elif unfinished:
+            self._robot.stop(CLIENT_GONE)
 
     async def do(
         self,
@@ -168,6 +181,8 @@ class Calls:
                 else:
                     self._take(event, course, session)
                     await progress.tell(event)
+        if course.state != "done":
+            self._left_open.add(course.turn)
         course.is_emergency = self._robot.record.emergency is not None
         if course.result is not None and course.result.outcome not in ("completed", "answered"):
             self._robot.setbacks += 1

@@ -87,16 +87,19 @@ class AgentHost:
     async def _serve_one(self, connection: socket.socket) -> None:
         from chatrobot.mcp_server.server import build_server
         from chatrobot.mcp_server.streams import LineStream, serve_lines
+        from chatrobot.mcp_server.tools import Tools
 
         connection.setblocking(True)
         with connection:
             self._robot.start()
             # One server a client: it keeps what its client has agreed to. The robot, and the order of calls, is one.
-            server = build_server(self._robot, self._profile, is_simulated=self._is_simulated)
+            tools = Tools(self._robot)
+            server = build_server(self._robot, self._profile, is_simulated=self._is_simulated, tools=tools)
             number = connection.fileno()
             try:
                 await serve_lines(server, LineStream(number, number, lambda: None))
             finally:
+                tools.leave()
                 with contextlib.suppress(OSError):
                     connection.shutdown(socket.SHUT_RDWR)  # ends the thread that reads
 

@@ -62,8 +62,10 @@ _STOPS = ToolAnnotations(
 )
 
 
-def build_server(robot: AgentRobot, profile: RobotProfile, *, is_simulated: bool) -> MCPServer[Any]:
-    """Make the server. It starts nothing: `AgentRobot.start` meets the robot."""
+def build_server(
+    robot: AgentRobot, profile: RobotProfile, *, is_simulated: bool, tools: Tools | None = None
+) -> MCPServer[Any]:
+    """Make the server, with tools of its own where none are given. `AgentRobot.start` meets the robot."""
     kind = "simulated" if is_simulated else "real: mind people and things"
     server: MCPServer[Any] = MCPServer(
         "chatrobot",
@@ -72,7 +74,7 @@ def build_server(robot: AgentRobot, profile: RobotProfile, *, is_simulated: bool
         instructions=_INSTRUCTIONS.format(title=profile.title, kind=kind, robot=robot_line(profile)),
         log_level="WARNING",
     )
-    tools = Tools(robot)
+    tools = tools or Tools(robot)
     for tool, hints in (
         (tools.instruct, _MOVES),
         (tools.rehearse, _READS),

@@ -40,6 +40,7 @@ class Tools:
         self._robot = robot
         self._calls = Calls(robot)
         self._programs = ProgramTool(robot, self._calls)
+        self.leave = self._calls.leave
 
     async def instruct(self, ctx: Context[Any, Any], text: str = "", plan: str = "") -> CallToolResult:
         """Do what is said, or a plan; return once it has ended."""
