@@ -53,3 +53,25 @@ def test_how_long_the_last_motion_took_is_told_as_it_was_timed(asked: str, unit:
     assert [meant.outcome for meant in told] == ["answered", "answered"]
     assert unit in told[0].reply
     assert "3.5" not in told[1].reply
+
+
+@pytest.mark.parametrize(
+    ("said", "plan"),
+    [
+        ("go forward 1 m, but don't do it yet", "drive 1 m"),
+        ("on my mark, turn left 90 degrees", "turn left 90 deg"),
+        ("等我口令，左转九十度", "turn left 90 deg"),
+        ("前进一米，先别动", "drive 1 m"),
+    ],
+)
+def test_what_is_held_back_waits_for_a_yes(said: str, plan: str) -> None:
+    meant = conversation().say(said)
+    assert (meant.outcome, meant.plan, meant.code) == ("unclear", None, "held")
+    assert meant.proposal is not None
+    assert meant.proposal.plan_text == plan
+
+
+@pytest.mark.parametrize("said", ["don't go yet", "not yet", "left, right, I always mix them up", "左，右"])
+def test_what_only_holds_back_or_names_the_sides_moves_nothing(said: str) -> None:
+    meant = conversation().say(said)
+    assert (meant.plan, meant.proposal) == (None, None)

@@ -39,6 +39,7 @@ from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
 from chatrobot.language.rephrase import is_item, rephrased
 from chatrobot.language.sides import is_side, with_side
+from chatrobot.language.starting import without_hold
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import tokenise
 from chatrobot.language.tutorial_form import read_twists
@@ -130,6 +131,9 @@ class OfflineInterpreter:
         told = answer_about_places(plain, language, context)
         if told is not None:
             return told
+        held = without_hold(plain, language)
+        if held and (found := proposed(self._ordered(held, language, context), language, code="held")):
+            return found
         names = names_in(context)
         rest = without_talk(plain, names)
         if rest:

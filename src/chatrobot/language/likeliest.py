@@ -112,16 +112,16 @@ def likeliest(
 
 
 def proposed(
-    found: Interpretation, language: LanguageCode, left_out: Sequence[str] = ()
+    found: Interpretation, language: LanguageCode, left_out: Sequence[str] = (), *, code: str = "did_you_mean"
 ) -> Interpretation | None:
     """The question whether that is meant; None where there is nothing to do."""
     if found.plan is None:
         return None
-    ask = say(language, "did_you_mean", text=describe_plan(found.plan, language))
+    ask = say(language, code, text=describe_plan(found.plan, language))
     named = max(left_out, key=len, default="")
     reply = f"{say(language, 'left_out', part=named)} {ask}" if named else ask
     offer = Proposal(format_plan(found.plan), ask)
-    return Interpretation("unclear", reply, language, unaccounted=named, code="did_you_mean", proposal=offer)
+    return Interpretation("unclear", reply, language, unaccounted=named, code=code, proposal=offer)
 
 
 def _core(rest: _Rest, problem: Unclear, language: LanguageCode, read_anew: Reader) -> Interpretation | None:
@@ -161,7 +161,9 @@ def _relations() -> frozenset[str]:
     return frozenset(word for code in LANGUAGES for word in load_table(code, "relations").get("words", ()))
 
 
-def _with_unit(plain: str, number: str, language: LanguageCode, read: Reader, unit: str) -> Interpretation | None:
+def _with_unit(
+    plain: str, number: str, language: LanguageCode, read: Reader, unit: str
+) -> Interpretation | None:
     """`Drive 50`: in metres, or in centimetres where that would be far; a number alone in the unit used before."""
     at = [found.start() for found in re.finditer(rf"(?<![a-z\d_.]){re.escape(number)}(?![a-z\d_.])", plain)]
     if len(at) != 1 or not _DECIMAL.fullmatch(number):

@@ -121,6 +121,13 @@ def _check_opener(frames: list[Frame]) -> None:
     Raises:
         Unclear: where it is the only side named so.
     """
+    sides = {
+        frame.direction for frame in frames if len(frame.texts) == 1 and frame.joined in ("start", "weak")
+    }
+    if len(frames) == 2 and sides == set(SIDES) and not any(f.verb or f.q for f in frames):
+        raise Unclear(
+            "unclear_motion", ", ".join(f.text for f in frames)
+        )  # `left, right …`: named, or turned to?
     if len(frames) < 2 or frames[0].texts != ["right"] or frames[0].q or frames[1].joined != "weak":
         return
     named = [frame for frame in frames if frame.direction in SIDES and not (frame.verb or frame.has_extent)]
