@@ -14,6 +14,7 @@ from chatrobot import __version__
 from chatrobot.cli.options import Parser, add_defaults, add_options, offer, port
 from chatrobot.core.errors import UsageError
 from chatrobot.options import NO_ODOMETRY, OF_NODES, OPTIONS
+from chatrobot.programs.ros_args import split_ros_args
 
 COMMANDS = {
     "do": "one instruction, or a dialogue turn by turn, then exit",
@@ -147,21 +148,6 @@ def _expect_quotes(texts: Sequence[str]) -> None:
             f"{len(texts)} words without quotes are {len(texts)} turns",
             allowed=f'chatrobot do "{" ".join(texts)}"',
         )
-
-
-def split_ros_args(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
-    """Part what stands between each `--ros-args` and `--` or the end, as ROS has it, from the rest, which is first."""
-    ours: list[str] = []
-    theirs: list[str] = []
-    taking = ours
-    for argument in arguments:
-        if argument == "--ros-args":
-            taking = theirs
-        elif argument == "--" and taking is theirs:
-            taking = ours
-        else:
-            taking.append(argument)
-    return ours, theirs
 
 
 def _split_program_args(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
