@@ -98,8 +98,7 @@ class Setup:
 class Connection:
     """A session and what it stands on. Close it: a robot in motion finishes what it was told, orderly.
 
-    `camera` is one of its own, beside the one through which a model looks; None where there is none.
-    """
+    `camera` is one beside that of a model; None where there is none."""
 
     session: Session
     profile: RobotProfile
