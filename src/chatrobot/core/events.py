@@ -18,6 +18,7 @@ from chatrobot.core.event import event_from_json as event_from_json
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.core.sensed_events import Looked as Looked
+from chatrobot.core.sensed_events import Scan as Scan
 from chatrobot.core.sensed_events import Telemetry as Telemetry
 from chatrobot.core.sensed_events import TruePose as TruePose
 

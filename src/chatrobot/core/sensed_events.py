@@ -38,6 +38,14 @@ class TruePose(Event, name="pose"):
 
 
 @dataclass(frozen=True)
+class Scan(Event, name="scan"):
+    """What the lidar sees, for a map: at most 180 points and 5 a second, and only while a display watches."""
+
+    pose: Pose
+    points_m: tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True)
 class Looked(Event, name="looked"):
     """What the lidar sees, by eight sectors of 45 degrees, from straight ahead counter-clockwise.
 

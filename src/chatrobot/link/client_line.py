@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from chatrobot.core.events import Event, Notice, Ordered, Remembered, Telemetry
+from chatrobot.core.events import Event, Notice, Ordered, Remembered, Scan, Telemetry
 from chatrobot.governor.lease import Priority, priority_of
 from chatrobot.link.envelope import Envelope
 
@@ -29,6 +29,7 @@ class ClientLine:
     def __init__(self, number: int) -> None:
         self._number = number
         self._first = number * TURNS
+        self._watches_scans = False
 
     @property
     def is_persons(self) -> bool:
@@ -38,6 +39,8 @@ class ClientLine:
     def inward(self, envelope: Envelope) -> Envelope | None:
         """Return what Motion hears; None for what may not be said on this line. A stop is heard in any case."""
         is_stop, turn = envelope.word in _STOPS, envelope.turn
+        if envelope.word == "watch":
+            self._watches_scans = envelope.payload.get("scans") is True
         if self.is_persons:
             return envelope if envelope.word not in _ORDERS or turn < TURNS else None
         is_a_persons = priority_of(envelope.source) >= Priority.PLAN
@@ -47,6 +50,8 @@ class ClientLine:
 
     def outward(self, event: Event) -> Event | None:
         """Return what this client hears of an event; None where it is none of its business."""
+        if isinstance(event, Scan) and not self._watches_scans:
+            return None
         if self.is_persons:
             return event
         turn = event.turn - self._first

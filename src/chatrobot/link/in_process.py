@@ -100,8 +100,9 @@ class InProcessLink(MotionLink):
     def step(self) -> None:
         """One period: the sources beat, Motion ticks, the robot moves. Threads take turns."""
         with self._stepping:
-            self._end.beats = self.beats
-            for end in self._ends:
+            if self.beats:
+                self.send("beat", age_s=self.age_s())
+            for end in self._ends[1:]:
                 if end.beats:
                     self.send_from(end, "beat")
             self._motion.tick()

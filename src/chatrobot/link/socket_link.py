@@ -115,7 +115,7 @@ class SocketLink(EventQueue, MotionLink):
             next_s = max(next_s + period_s, time.monotonic())
             try:
                 if self.beats:
-                    self.send("beat")
+                    self.send("beat", age_s=self.age_s())
             except LinkError:
                 return
 

@@ -279,10 +279,9 @@ class GoalServer:
             return
         is_a_persons = self._robot.governor.leases.priority_of(goal.lease) >= Priority.PLAN
         is_own, yes = goal.lease == envelope.lease, bool(envelope.payload.get("yes"))
-        if is_a_persons and not is_own:
-            return  # another person was asked, about another plan that happens to have this number
-        if priority_of(envelope.source) < Priority.PLAN and (yes or not is_own):
-            return
+        by_person = priority_of(envelope.source) >= Priority.PLAN
+        if not (is_own or (by_person and not is_a_persons)) or (yes and not by_person):
+            return  # or another person was asked, about another plan that happens to have this number
         lapse = goal.approval.lapsed(self._clock.now_s(), self._robot.pose)
         if not yes or lapse is not None:
             self._drop_prepared("refused", lapse or Reason("not_approved"))
@@ -307,17 +306,6 @@ class GoalServer:
         self._pausing.end(why)
         self._drop_prepared("stopped", why)
         for goal in self._goal_queue.take_void(self._stops.count):
-            self._outcomes.tell_unmoved(goal, "stopped", why)
-
-    def end_of(self, lease: str, why: Reason) -> None:
-        """End the goals of that lease, stopping the robot where one of them moves it."""
-        if (goal := self._executor.goal) is not None and goal.lease == lease:
-            self._stops.halt(why)  # all that waits is of that source, or of one that comes after it
-            return
-        self._pausing.drop(why, lease)
-        if self._preparing is not None and self._preparing.lease == lease:
-            self._drop_prepared("stopped", why)
-        for goal in self._goal_queue.take([goal for goal in self._goal_queue.goals if goal.lease == lease]):
             self._outcomes.tell_unmoved(goal, "stopped", why)
 
     def hand_over(self, to: str) -> None:

@@ -16,7 +16,7 @@ from collections import deque
 from collections.abc import Callable, Sequence
 
 from chatrobot.core.errors import WireError
-from chatrobot.core.events import Event, Telemetry
+from chatrobot.core.events import Event, Scan, Telemetry
 from chatrobot.link.client_line import ClientLine
 from chatrobot.link.envelope import Envelope, ready
 from chatrobot.motion.runner import MotionRunner
@@ -38,8 +38,8 @@ class Outbox:
         self._waiting: deque[Event] = deque()
 
     def put(self, event: Event) -> None:
-        """Queue `event`, if this client is to hear it; telemetry is dropped where too much waits."""
-        if isinstance(event, Telemetry) and len(self._waiting) > OUTBOX_LIMIT:
+        """Queue `event`, if this client is to hear it; telemetry and scans are dropped where too much waits."""
+        if isinstance(event, (Telemetry, Scan)) and len(self._waiting) > OUTBOX_LIMIT:
             return
         heard = self._client.outward(event)
         if heard is not None:
