@@ -8,12 +8,14 @@ import importlib.util
 import sys
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from chatrobot.cli.entry import STOPPED
 from chatrobot.core.errors import UsageError
 
 if TYPE_CHECKING:
+    from mcp.server.mcpserver import MCPServer
+
     from chatrobot.compose import Connection, Setup
     from chatrobot.core.events import Event
     from chatrobot.mcp_server.robot import AgentRobot
@@ -91,29 +93,31 @@ async def _serve(
     # A moment later: the client's first request comes at once, and loading the words takes the interpreter.
     asyncio.get_running_loop().call_later(MEET_AFTER_S, robot.start)
     if args.http:
-        from chatrobot.mcp_server.http import (
-            LEAST_TOKEN_CHARS,
-            PATH,
-            guarded_app,
-            listen,
-            new_token,
-            serve_http,
-        )
+        await _serve_http(args, server, is_leaving)
+    else:
+        await _serve_stdio(server, robot, is_leaving)
 
-        if args.token is not None and len(args.token) < LEAST_TOKEN_CHARS:
-            raise UsageError(
-                f"the token is shorter than {LEAST_TOKEN_CHARS} characters",
-                where="--token",
-                allowed="a longer one, or leave it out: one is made and printed",
-            )
-        host, token = args.host or "127.0.0.1", args.token or new_token()
-        with listen(host, args.port) as listener:
-            port = listener.getsockname()[1]
-            shown = f"[{host}]" if ":" in host else host
-            made = "" if args.token else f"  token: {token}"
-            print(f"MCP server: http://{shown}:{port}{PATH}{made}", flush=True)
-            await serve_http(guarded_app(server, token, host, port), listener, is_leaving)
-        return
+
+async def _serve_http(
+    args: argparse.Namespace, server: MCPServer[Any], is_leaving: Callable[[], bool]
+) -> None:
+    from chatrobot.mcp_server.http import LEAST_TOKEN_CHARS, PATH, guarded_app, listen, new_token, serve_http
+
+    if args.token is not None and len(args.token) < LEAST_TOKEN_CHARS:
+        problem = f"the token is shorter than {LEAST_TOKEN_CHARS} characters"
+        raise UsageError(
+            problem, where="--token", allowed="a longer one, or leave it out: one is made and printed"
+        )
+    host, token = args.host or "127.0.0.1", args.token or new_token()
+    with listen(host, args.port) as listener:
+        port = listener.getsockname()[1]
+        shown = f"[{host}]" if ":" in host else host
+        made = "" if args.token else f"  token: {token}"
+        print(f"MCP server: http://{shown}:{port}{PATH}{made}", flush=True)
+        await serve_http(guarded_app(server, token, host, port), listener, is_leaving)
+
+
+async def _serve_stdio(server: MCPServer[Any], robot: AgentRobot, is_leaving: Callable[[], bool]) -> None:
     from chatrobot.mcp_server.streams import LineStream, private_stdio, serve_lines
 
     with private_stdio() as (read_fd, write_fd):

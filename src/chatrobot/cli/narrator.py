@@ -69,9 +69,7 @@ class Narrator:
             case events.Interpreted():
                 yield from self._interpreted(event)
             case events.Ordered():
-                code = "asked_by" if event.plan_text else "program_asked_by"
-                yield _marked("!", "cyan", self._words.say(code, source=event.source, program=event.program))
-                yield from self._take_plan(event.turn, event.plan_text)
+                yield from self._ordered(event)
             case events.Rehearsed():
                 yield from self._rehearsed(event)
             case events.ProgramWritten():
@@ -151,6 +149,11 @@ class Narrator:
             yield from (self._step(number, line) for number, line in folded_plan(plan_text))
         elif plan_text:
             self._plans[turn] = plan_text
+
+    def _ordered(self, event: events.Ordered) -> Iterator[Line]:
+        code = "program_asked_by" if event.program else "asked_by"
+        yield _marked("!", "cyan", self._words.say(code, source=event.source, program=event.program))
+        yield from self._take_plan(event.turn, event.plan_text)
 
     def _rehearsed(self, event: events.Rehearsed) -> Iterator[Line]:
         plan_text = self._plans.pop(event.turn, "")

@@ -210,8 +210,7 @@ class Session:
     @property
     def model_wait_s(self) -> float | None:
         """Return how long a model has been asked by now, for a plan or a program; None where none is."""
-        asked_at_s = self._llm.asked_at_s
-        return time.monotonic() - asked_at_s if asked_at_s is not None else None
+        return time.monotonic() - at_s if (at_s := self._llm.asked_at_s) is not None else None
 
     @property
     def is_paused(self) -> bool:
@@ -271,10 +270,9 @@ class Session:
         self._take_texts()
 
     def _hear_events(self, timeout_s: float) -> None:
-        event = self._link.next_event(timeout_s)
-        while event is not None:
+        while (event := self._link.next_event(timeout_s)) is not None:
             self._hear(event)
-            event = self._link.next_event(0.0)
+            timeout_s = 0.0
 
     def close(self) -> None:
         """Say goodbye: what runs is still done."""

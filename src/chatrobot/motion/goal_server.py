@@ -279,10 +279,9 @@ class GoalServer:
             return
         is_a_persons = self._robot.governor.leases.priority_of(goal.lease) >= Priority.PLAN
         is_own, yes = goal.lease == envelope.lease, bool(envelope.payload.get("yes"))
-        if is_a_persons and not is_own:
-            return  # another person was asked, about another plan that happens to have this number
-        if priority_of(envelope.source) < Priority.PLAN and (yes or not is_own):
-            return
+        by_person = priority_of(envelope.source) >= Priority.PLAN
+        if not (is_own or (by_person and not is_a_persons)) or (yes and not by_person):
+            return  # or another person was asked, about another plan that happens to have this number
         lapse = goal.approval.lapsed(self._clock.now_s(), self._robot.pose)
         if not yes or lapse is not None:
             self._drop_prepared("refused", lapse or Reason("not_approved"))
