@@ -41,6 +41,20 @@ def square(side: str, way: str = "left") -> str:
             ("drive 1 m\nturn left 120 deg\n" * 3).strip(),
         ),
         (["forward 2 m", "never mind, go back"], "drive 2 m back"),
+        (["forward 80 cm", "same, backwards"], "drive 0.8 m back"),
+        (["forward 1 m, right 90", "again, but turn first"], "turn right 90 deg\ndrive 1 m"),
+        (["forward 1 m, right 90", "now the same in the opposite order"], "turn right 90 deg\ndrive 1 m"),
+        (["forward 1 m, right 90", "now only the first part"], "drive 1 m"),
+        (["forward 1 m, right 90", "now only the turn again"], "turn right 90 deg"),
+        (["前进一米", "一共要三米"], "drive 2 m"),
+        (["turn right 60", "undo that, turn left 30"], "turn left 60 deg\nturn left 30 deg"),
+        (["前进八十厘米", "再走二十"], "drive 0.2 m"),
+        (["forward a bit", "now back the same amount"], "drive 0.25 m back"),
+        (["turn right 45", "the same amount left"], "turn left 45 deg"),
+        (
+            ["half a circle to the right, radius 1 m", "the second half, please"],
+            "arc right 180 deg radius 1 m",
+        ),
         (["turn left 90", "no, the other way"], "turn right 180 deg"),
         (["turn left 30", "turn right by a quarter"], "turn right 90 deg"),
         (["slide left 50 cm", "the same distance in the opposite direction"], "drive 0.5 m right"),
@@ -102,6 +116,9 @@ def test_the_motion_before_is_changed_as_said(turns: list[str], plan: str) -> No
         ["forward 1 m, left 90, forward 2 m", "again with 3 m"],  # which of them?
         ["forward 1 m, left 90, forward 2 m", "undo the last step"],  # of the turn, or all of it?
         ["forward 30 cm", "3 more"],  # centimetres or rounds?
+        ["前进八十厘米", "再走二"],
+        ["forward 1 m, left 90", "the turn again"],  # and what of the drive?
+        ["forward 1 m, slide left 1 m", "and back a metre"],  # to where it came from, or backwards?
         ["turn left 30", "five more"],
         ["forward 1 m", "10 degrees back"],
         ["a rectangle of 1 m by 2 m", "the same but a triangle"],

@@ -74,6 +74,8 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
         usual = pace.speed_mps or pace.profile.defaults.speed_mps
         whole.q[name] = quantity(name, fold.number * (usual if name == "speed" else 1.0), fold.text)
     before, whole = _mirrored(before, whole)
+    if whole.verb in TURN and not all(isinstance(step, (Turn, Arc, Wait)) for step in _leaves(before)):
+        raise Unclear("nothing_before", whole.text)  # `the turn again`, of what drove as well
     factor = whole.q["scale"].number if "scale" in whole.q else 1.0
     if "percent" in whole.q and not whole.pace:
         factor = whole.q["percent"].number
@@ -92,19 +94,13 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
 
 
 def _factors(steps: Sequence[Step], whole: Frame, factor: float) -> Factors:
-    """`Twice as big`: distances and radii; the angles of a motion that only turned, or where the angle is named.
-
-    Raises:
-        Unclear: for `turn half of that` where the motion also drove.
-    """
+    """`Twice as big`: distances and radii; the angles of a motion that only turned, or where the angle is named."""
     only_turned = all(isinstance(step, (Turn, Wait)) for step in _leaves(steps))
     scale = whole.q.get("scale")
     if scale is not None and any(word in scale.text for word in ("angle", "角")):
         return Factors(1.0, factor)
     if only_turned or factor == 1.0:
         return Factors(factor, factor)
-    if whole.verb in TURN:
-        raise Unclear("nothing_before", whole.text)
     return Factors(factor, 1.0)
 
 

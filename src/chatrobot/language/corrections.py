@@ -25,6 +25,7 @@ MEANT = "meant"
 """The flag of what corrects the turn before."""
 CORRECTING = frozenset({MEANT, "short_of"})
 """The flags of what puts the turn before right: by what was meant, or by the total that was meant."""
+_TOTALS = frozenset({"total", "until"})
 _OPPOSITE = ("other_way", "mirrored")
 _BEFORE_MEANT = frozenset({"sep", "filler", "glue", "negation", "correction"})
 
@@ -66,7 +67,9 @@ def _of_the_turn_before(atoms: list[Atom]) -> list[Atom]:
     meant = any(a.text not in _ONLY_AFTER for a in said) and (
         ways or any(a.kind in ("verb", "shape", "place") for a in real)
     )
-    amounts = bool(real) and all(a.kind == "q" for a in real)
+    totals = any((a.kind, a.value) == ("flag", "total") for a in real)
+    sizes = [a for a in real if a.kind != "flag" or a.value not in _TOTALS]
+    amounts = bool(sizes) and all(a.kind == "q" for a in sizes) and (totals or sizes == real)
     swapped = any((a.kind, a.value) == ("flag", "instead") for a in real)
     lone = amounts or (
         ways and all(a.kind in ("dir", "rot", "q", "negation") or a.value == "instead" for a in real)
@@ -76,7 +79,7 @@ def _of_the_turn_before(atoms: list[Atom]) -> list[Atom]:
     opposite = [a for a in atoms[:at] if a.value in _OPPOSITE]
     if (said or denied) and opposite and not real:
         return [Atom("flag", MEANT, (said or atoms)[0].text), opposite[0]]  # 不对，反方向
-    if amounts and (said or denied):
+    if amounts and (said or denied or totals):
         return [Atom("flag", "short_of", atoms[0].text), *atoms[at:]]
     if meant or (lone and ways and (denied or negated or swapped or atoms[0].text == "i said")):
         start = at if meant or not negated else 0

@@ -78,10 +78,14 @@ def read_edit(atoms: Sequence[Atom]) -> Edit | None:
             edit.slides |= atom.value == "slide"
         elif atom.kind in ("dir", "rot") and edit.way in ("", atom.value) and not _is_apart(atoms, i):
             edit.way = atom.value
+        elif (atom.kind, atom.value) == ("verb", "return") and "same_amount" in said:
+            edit.way = "back"
         elif atom.kind == "role" or (atom.kind == "counter" and atom.value == "side"):
             edit.roles.add(atom.value)
         elif atom.kind == "nth":
             edit.nth = int(atom.value)
+        elif (atom.kind, atom.value) == ("order", "reverse"):
+            edit.flags.add("reversed")
         elif atom.value == "make" or _is_one(atom):
             edit.is_named = True
         elif not (atom.kind == "conn" and (i == 0 or "first" in edit.flags or {"again", "more"} <= said)):

@@ -53,6 +53,12 @@ def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
         return _rest_of_shape(steps, edit.nth)
     if "leave_out" in flags:
         return _without(steps, edit)
+    if "reversed" in flags:
+        return (
+            list(reversed(steps))
+            if flags == {"again", "reversed"} and not edit.amounts and not edit.way
+            else None
+        )
     if "swapped" in flags:
         return _swapped(steps)
     if "first" in flags:
@@ -83,6 +89,8 @@ def _one_way(edit: Edit, steps: list[Step], scale: Atom | None) -> list[Step] | 
         return None
     if len(edit.amounts) > 1 or (len(steps) > 1 and len({type(step) for step in steps}) == 1):
         return None
+    if edit.way in SIDES and (isinstance(step, Turn) or _is_sideways(step)) and "same_amount" in edit.flags:
+        return _to_side([step], edit.way == "left", is_named=True, goes_on=True)
     if edit.way not in ("", "back") or (edit.slides and not _is_sideways(step)):
         return None
     if "other_way" in edit.flags or edit.way == "back" or "overshot" in edit.flags:
@@ -98,12 +106,22 @@ def _is_sideways(step: Step) -> bool:
     return isinstance(step, Drive) and step.direction_rad not in (DIRECTIONS["forward"], DIRECTIONS["back"])
 
 
-def _reordered(steps: list[Step], edit: Edit) -> list[Step] | None:
-    """`Now turn first and then drive`: the same steps in the order in which they are named now."""
+def _reordered(steps: list[Step], edit: Edit) -> list[Step]:
+    """`Now turn first and then drive`: the same steps in the order in which they are named now.
+
+    Raises:
+        Unclear: where these are others, or more is said.
+    """
     kinds = [type(step) for step in steps]
-    alike = len(set(kinds)) == len(kinds) and set(kinds) == set(edit.kinds) and len(edit.kinds) == len(kinds)
-    plain = not (edit.amounts or edit.way or edit.roles)
-    return [steps[kinds.index(kind)] for kind in edit.kinds] if alike and plain else None
+    named = (
+        edit.kinds
+        if len(edit.kinds) > 1
+        else [*edit.kinds, *(kind for kind in kinds if kind not in edit.kinds)]
+    )
+    alike = len(set(kinds)) == len(kinds) and set(kinds) == set(named) and len(named) == len(kinds)
+    if not alike or edit.amounts or edit.way or edit.roles:
+        raise Unclear("unclear_motion", "")
+    return [steps[kinds.index(kind)] for kind in named]
 
 
 def _scaled(step: Step, factor: float) -> Step:

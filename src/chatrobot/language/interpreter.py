@@ -63,6 +63,9 @@ _OF_AN_ORDER = frozenset(
 )
 """What is asked back about an order, and never about a remark: `nice turn` leaves no question open."""
 
+_REFERRING = frozenset({"same_amount", "again", "more"})
+"""Flags of what points at the motion before, and answers no question."""
+
 
 class OfflineInterpreter:
     """Understands English and Chinese by rules over data. Keeps no state.
@@ -274,7 +277,7 @@ def _pending(plain: str, reading: Reading) -> Interpretation | None:
     atoms = tidy(reading.atoms(plain))
     ways = [k for k, a in enumerate(atoms) if k and a.kind == "dir" and atoms[k - 1].text == a.text]
     verbs = [a for k, a in enumerate(atoms) if k + 1 not in ways and a.text not in ("say",)]
-    if any(a.kind in ("verb", "shape", "place") for a in verbs):
+    if any(a.kind in ("verb", "shape", "place") or a.value in _REFERRING for a in verbs):
         return None
     amended = with_answered_amount(before, plain, reading)
     if amended is not None:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 from chatrobot.language.context import Context
 from chatrobot.language.ellipsis import State
 from chatrobot.language.frames import DIRECTIONS
 from chatrobot.language.ledger import TurnRecord
-from chatrobot.language.lexicon import cut, lexicon
+from chatrobot.language.lexicon import lexicon
 from chatrobot.language.normalise import normalise
-from chatrobot.language.tokens import quantity
+from chatrobot.language.quantities import read_quantities
+from chatrobot.language.tokens import quantity, tokenise
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Step, Turn
 
@@ -29,24 +31,22 @@ def steps_of(record: TurnRecord | None) -> tuple[Step, ...]:
     return record.plan.steps
 
 
+@lru_cache(maxsize=128)
 def said_unit_m(text: str) -> float | None:
     """The last unit of length in what was said: `another 30` after `50 cm` are centimetres."""
-    words = lexicon().words
-    units = [
-        float(value)
-        for unit in cut(normalise(text))
-        for kind, value in words.get((unit,), ())
-        if kind == "unit_length"
-    ]
+    atoms = read_quantities(tokenise(normalise(text), lexicon(), {}))
+    units = [float(atom.role) for atom in atoms if atom.value == "length" and atom.role]
     return units[-1] if units else None
 
 
 def unit_after(context: Context) -> str:
     """The unit that a bare number most likely has after the last motion; an empty string where that tells none."""
-    state = state_after(context)
+    state, last = state_after(context), context.dialogue.last_motion
+    if last is not None and last.plan is not None and getattr(last.plan.steps[-1], "duration_s", None):
+        return "s"
     if state.last == "turn":
         return "deg"
-    return {0.01: "cm", 1.0: "m"}.get(state.unit_m or 0.0, "")
+    return {0.01: "cm", 0.0254: "in", 0.3048: "ft", 1.0: "m"}.get(state.unit_m or 0.0, "")
 
 
 def state_after(context: Context) -> State:

@@ -120,5 +120,7 @@ class Reading:
 
 
 def _goes_on_after_undo(frames: Sequence[Frame]) -> bool:
-    on = len(frames) > 1 and frames[0].verb == "undo" and (frames[1].has_extent or frames[1].direction)
-    return bool(on and frames[1].joined in ("and", "then"))
+    if len(frames) < 2 or frames[0].verb != "undo":
+        return False
+    after, told = frames[1], frames[1].has_extent or "number" in frames[1].q
+    return bool((told or after.direction) and (after.joined in ("and", "then") or (told and after.moves)))

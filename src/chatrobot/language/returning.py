@@ -74,10 +74,11 @@ def partly_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
     """
     if "length" in frame.q:
         angle = DIRECTIONS[state.direction] if state.last == "drive" else 0.0
-        if _has_turned_about(state) and not is_chinese(frame.text):  # 退 is backwards, whichever way it looks
-            if frame.text.startswith(("and back", "now back", "back")):
+        if not is_chinese(frame.text):  # 退 is backwards, whichever way it looks
+            about, aside = _has_turned_about(state), state.last == "drive" and state.direction in SIDES
+            if (about or aside) and frame.text.startswith(("and back", "now back", "back")):
                 raise Unclear("which_way", frame.text)
-            angle = math.pi
+            angle = math.pi if about else angle
         opposite = math.remainder(angle + math.pi, 2 * math.pi)
         return [Drive(frame.q["length"].number, direction_rad=opposite, speed_mps=pace.speed(frame))]
     if state.left is None or state.last != "turn":
