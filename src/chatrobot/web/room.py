@@ -232,10 +232,8 @@ class Room:
             return [message.object_in(language) for message in self._history]
 
     def _watch_scans(self) -> None:
-        watch = getattr(self.session, "watch_scans", None)
-        if watch is not None:
-            with contextlib.suppress(LinkError):  # nothing is there to be looked at
-                watch(bool(self._faces))
+        with contextlib.suppress(LinkError):  # nothing is there to be looked at
+            self.session.watch_scans(bool(self._faces))
 
     def _has_work(self) -> bool:
         return bool(self._turns)
