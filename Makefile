@@ -24,7 +24,7 @@ setup:
 	@PYTHON="$(PYTHON)" scripts/setup.sh
 
 run: setup
-	@$(BIN)/chatrobot
+	@$(BIN)/chatrobot --web
 
 lint: setup
 	$(BIN)/ruff check src tests examples scripts bench ros

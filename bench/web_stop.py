@@ -24,7 +24,7 @@ from tests.processes import RunningRobot
 
 from bench.latency import percentile
 
-REPETITIONS = 10
+REPETITIONS = 100
 WATCHERS = 20
 MEDIAN_S, P99_S = 0.015, 0.040
 COST_S = 10.0

@@ -137,6 +137,7 @@ OPTIONS = (
     Option("--approve", "ask before each plan", (*FACES, "node"), COMMON, False),
     Option("--json", "one JSON object a line", (*DRIVE, *_JSON), COMMON, False,
         helps={"": "text in, events out: one JSON object a line"}),
+    Option("--web", "at a terminal: show the conversation in a browser, too", ("",), COMMON, False),
     Option("--config-dir", "where places, programs and robot profiles live",
         (*PLAN, "calibrate", "sim", "doctor", "robots", "model", "usage", *_KEPT), COMMON, None, "DIR",
         offers="folders", parameter=Parameter("config_dir", _BASE, "",

@@ -181,7 +181,7 @@ class WebRig:
         return self._open.enter_context(httpx.Client(base_url=self.origin, trust_env=False, **how))
 
     def dial(self, path: str = "/ws", port: int = 0, **how: Any) -> ClientConnection:
-        how = {"origin": self.origin, "proxy": None, "max_size": 2**22, **how}
+        how = {"origin": self.origin, "proxy": None, "max_size": 2**22, "close_timeout": 0.5, **how}
         address = f"ws://127.0.0.1:{port or self.access.port}{path}"
         return self._open.enter_context(connect(address, **how))
 

@@ -22,7 +22,8 @@ def run(args: argparse.Namespace) -> int:
     if sys.stdin.isatty() and not args.json:
         from chatrobot.cli.console.app import run_console
 
-        return run_console(setup, args.early.typed_ahead if args.early is not None else TypedAhead())
+        typed_ahead = args.early.typed_ahead if args.early is not None else TypedAhead()
+        return run_console(setup, typed_ahead, has_page=args.web)
     printer = printer_for(args)
     approver = Approver(can_ask=False, others_answer=args.json)
     with Conversation(setup, printer, approver) as conversation:

@@ -108,18 +108,24 @@ class Room:
         is_ours = notice.reason.values.get("source") == "console"
         return notice.reason.code == "released" and (self._release_is_due or not is_ours)
 
+    def note_alarm(self, is_set: bool) -> None:
+        """Take note that another face of the session has set the emergency stop, or had it released."""
+        with self._lock:
+            self._set_alarm(is_set)
+
     def lose(self, error: Exception) -> None:
         """Tell everybody that the robot is gone."""
         self.is_over = True
         with self._lock:
             self._tell_gone("motion", "robot_gone", problem=str(error))
 
-    def end(self) -> None:
-        """Stop the robot and tell everybody that nobody serves them any more."""
+    def end(self, *, stops: bool) -> None:
+        """Stop the robot, unless somebody else sees to it; tell everybody that nobody serves them any more."""
         with contextlib.suppress(LinkError):  # Motion is gone, and its guard halts the robot
-            self.session.stop("the web console has ended")
+            if stops:
+                self.session.stop("the web console has ended")
         with self._lock:
-            self._tell_gone("server", "server_ends")
+            self._tell_gone("server", "server_ends" if stops else "server_leaves")
 
     def _tell_gone(self, what: str, code: str, **values: object) -> None:
         self._tell(
@@ -226,10 +232,8 @@ class Room:
             return [message.object_in(language) for message in self._history]
 
     def _watch_scans(self) -> None:
-        watch = getattr(self.session, "watch_scans", None)
-        if watch is not None:
-            with contextlib.suppress(LinkError):  # nothing is there to be looked at
-                watch(bool(self._faces))
+        with contextlib.suppress(LinkError):  # nothing is there to be looked at
+            self.session.watch_scans(bool(self._faces))
 
     def _has_work(self) -> bool:
         return bool(self._turns)
@@ -300,4 +304,9 @@ class Room:
             if turn not in self.session.results:
                 self._turns[turn] = face.id
             if text:
-                self._tell(told("said", turn=turn, text=text, by=face.id, name=face.name), is_kept=True)
+                self.note_said(turn, text, face.id, face.name)
+
+    def note_said(self, turn: int, text: str, by: str, name: str) -> None:
+        """Tell everybody what somebody said."""
+        with self._lock:
+            self._tell(told("said", turn=turn, text=text, by=by, name=name), is_kept=True)

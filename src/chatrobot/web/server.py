@@ -128,10 +128,10 @@ class WebServer:
                 if isinstance(face, Page):
                     self.call(face.close)
 
-    def close(self) -> None:
-        """Stop the robots, tell the pages, and end."""
+    def close(self, *, stops: bool = True) -> None:
+        """Stop the robots, unless somebody else sees to them; tell the pages, and end."""
         for room in self.rooms.values():
-            room.end()
+            room.end(stops=stops)
         time.sleep(0.05)  # the pages are told
         for thread in reversed(self._threads):
             thread.stop()

@@ -6,6 +6,7 @@ import contextlib
 import os
 import shutil
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 
 from rich.console import RenderableType
@@ -14,6 +15,7 @@ from rich.text import Text
 from chatrobot.cli.console import commands, plain
 from chatrobot.cli.console.controller import ChatController
 from chatrobot.cli.console.lines import indented
+from chatrobot.cli.console.page import PageBeside
 from chatrobot.cli.console.tables import example_place, place_in
 from chatrobot.cli.console.words import Words, language_of_environment
 from chatrobot.cli.lines import TypedAhead
@@ -26,11 +28,12 @@ from chatrobot.link.processes import SIMULATED
 HISTORY_FILE = "history"
 
 
-def run_console(setup: Setup, typed_ahead: TypedAhead) -> int:
+def run_console(setup: Setup, typed_ahead: TypedAhead, *, has_page: bool = False) -> int:
     """Talk to the robot until somebody leaves. What is said while it moves replaces what it does.
 
     Args:
         typed_ahead: has what was typed while the robot started.
+        has_page: show it in a browser, too.
 
     Raises:
         InputError: the setup is wrong.
@@ -45,12 +48,19 @@ def run_console(setup: Setup, typed_ahead: TypedAhead) -> int:
     def hear(event: Event) -> None:
         assert controller is not None  # nothing is heard before it is pumped
         controller.hear(event)
+        if page is not None:
+            page.hear(event)
 
+    page: PageBeside | None = None
     connection = connect(setup, hear)
     controller = ChatController(connection, words, RealClock(), commands.run)
+    if has_page:
+        page = PageBeside(controller, is_simulated=setup.on in SIMULATED)
     try:
-        code = _converse(controller, setup, typed_ahead)
+        code = _converse(controller, setup, typed_ahead, page.start if page is not None else lambda: None)
     finally:
+        if page is not None:
+            page.close()
         connection.close()
     return code
 
@@ -66,7 +76,9 @@ def can_chat() -> bool:
     )
 
 
-def _converse(controller: ChatController, setup: Setup, typed_ahead: TypedAhead) -> int:
+def _converse(
+    controller: ChatController, setup: Setup, typed_ahead: TypedAhead, on_prompt: Callable[[], None]
+) -> int:
     def hang_up() -> None:
         with contextlib.suppress(LinkError):  # nothing is said: nobody is there to read it
             controller.session.stop("terminal closed")
@@ -85,6 +97,7 @@ def _converse(controller: ChatController, setup: Setup, typed_ahead: TypedAhead)
         controller.enter(text)
     if typed_ahead.has_ended:
         controller.leave()
+    on_prompt()
     code = display.run()
     if code != 0:
         with contextlib.suppress(LinkError):

@@ -67,6 +67,7 @@ class ChatController:
         self.status_bar = StatusBar(self.motion_view, words, connection.world)
         self.narrator = Narrator(words)
         self.pump = Pump(self.session, self._end)
+        self.on_said: Callable[[int, str], None] = lambda _, __: None
         self.latched = False
         self.has_parted = False
         """The person said goodbye in words, and was answered."""
@@ -225,8 +226,13 @@ class ChatController:
 
     def _say_in_order(self, text: str, *, is_pasted: bool = False) -> None:
         self.words.follow(text)
-        self.attempt(lambda: self._pasted.follow(self.session.say(text)))
+        self.attempt(lambda: self._say_one(text))
         self._echo(text, anew=is_pasted)
+
+    def _say_one(self, text: str) -> None:
+        turn = self.session.say(text)
+        self._pasted.follow(turn)
+        self.on_said(turn, text)
 
     def _is_stop(self, text: str) -> bool:
         return leads_with_stop(text) if self.session.is_moving else is_stop(text)
