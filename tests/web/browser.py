@@ -109,10 +109,12 @@ def count_pixels(page: Page, colour: str) -> int:
     return found
 
 
-def say(page: Page, text: str) -> None:
-    """Type it and press Enter."""
+def say(page: Page, rig: WebRig, text: str) -> None:
+    """Type it and press Enter, and wait until it is heard: what it brings about comes after it."""
     page.locator("#say").fill(text)
     page.keyboard.press("Enter")
+    rig.session.wait_for("say", text)
+    expect(page.locator("#turns .you").last).to_have_text(text)
 
 
 def rehearse(rig: WebRig, turn: int = 1) -> None:

@@ -28,8 +28,7 @@ EVIL = '<img src=x onerror="document.title=1"><b id="evil">&amp;</b>'
 
 
 def test_a_plan_that_waits_is_answered_by_a_button(page: Page, rig: WebRig) -> None:
-    say(page, "drive half a metre")
-    rig.session.wait_for("say", "drive half a metre")
+    say(page, rig, "drive half a metre")
     rehearse(rig)
     chat = page.get_by_role("log", name="What was said")
     expect(chat).to_contain_text("Rehearsed: 0.95 m in 8 s.")
@@ -40,7 +39,7 @@ def test_a_plan_that_waits_is_answered_by_a_button(page: Page, rig: WebRig) -> N
 
 
 def test_an_edited_plan_goes_in_the_place_of_the_one_that_waits(page: Page, rig: WebRig) -> None:
-    say(page, "drive half a metre")
+    say(page, rig, "drive half a metre")
     rehearse(rig)
     page.get_by_role("log", name="What was said").get_by_role("button", name="Edit").click()
     page.get_by_label("The plan, one step a line").fill("drive 0.2 m")
@@ -49,8 +48,7 @@ def test_an_edited_plan_goes_in_the_place_of_the_one_that_waits(page: Page, rig:
 
 
 def test_a_question_is_answered_by_yes_or_no(page: Page, rig: WebRig) -> None:
-    say(page, "forwrd 1 m")
-    rig.session.wait_for("say", "forwrd 1 m")
+    say(page, rig, "forwrd 1 m")
     rig.tell(Result(1, "unclear", "Did you mean “forward 1 m”?", proposal=Proposal("drive 1 m", "Did you?")))
     page.get_by_role("button", name="Yes").click()
     rig.session.wait_for("say", "yes")
@@ -68,8 +66,7 @@ def test_a_question_is_answered_by_yes_or_no(page: Page, rig: WebRig) -> None:
 def test_a_question_that_offers_answers_has_a_button_for_each(
     page: Page, rig: WebRig, question: str, answers: list[str]
 ) -> None:
-    say(page, "turn")
-    rig.session.wait_for("say", "turn")
+    say(page, rig, "turn")
     rig.tell(Result(1, "unclear", question))
     chat = page.get_by_role("log", name="What was said")
     expect(chat).to_contain_text(question)
@@ -78,7 +75,7 @@ def test_a_question_that_offers_answers_has_a_button_for_each(
 
 def test_what_was_said_before_comes_back_with_arrow_up(page: Page, rig: WebRig) -> None:
     for turn, text in enumerate(("forward 1 m", "turn left"), start=1):
-        say(page, text)
+        say(page, rig, text)
         rig.tell(Result(turn, "completed", "Done."))
     box = page.get_by_label("Say something to the robot")
     box.press("ArrowUp")
@@ -89,8 +86,7 @@ def test_what_was_said_before_comes_back_with_arrow_up(page: Page, rig: WebRig) 
 
 
 def test_a_page_that_comes_later_sees_what_was_said(page: Page, rig: WebRig, browser: Browser) -> None:
-    say(page, "forward 1 m")
-    rig.session.wait_for("say", "forward 1 m")
+    say(page, rig, "forward 1 m")
     rig.tell(Result(1, "completed", "Done: drove 1.00 m."))
     later = open_page(browser, rig.origin)
     expect(later.get_by_role("log", name="What was said")).to_contain_text("Done: drove 1.00 m.")
@@ -101,7 +97,7 @@ def test_a_page_that_comes_later_sees_what_was_said(page: Page, rig: WebRig, bro
 
 
 def test_the_running_step_is_marked(page: Page, rig: WebRig) -> None:
-    say(page, "drive half a metre")
+    say(page, rig, "drive half a metre")
     rehearse(rig)
     rig.tell(Started(1))
     rig.tell(Progress(1, 2, 3, 0.4, ORIGIN, Twist(0.1, 0.0, 0.0)))
@@ -120,7 +116,7 @@ def test_gauges_say_how_fast_how_near_and_what_is_limited(page: Page, rig: WebRi
 
 
 def test_a_program_is_shown_with_its_log(page: Page, rig: WebRig) -> None:
-    say(page, "write a program")
+    say(page, rig, "write a program")
     write_program(rig, "import rclpy\nprint('hello')\n")
     rig.tell(Started(1))
     rig.tell(ProgramLog(1, 0.5, "INFO", "hello there"))
@@ -130,8 +126,7 @@ def test_a_program_is_shown_with_its_log(page: Page, rig: WebRig) -> None:
 
 
 def test_what_others_wrote_is_text_and_never_markup(page: Page, rig: WebRig) -> None:
-    say(page, EVIL)
-    rig.session.wait_for("say", EVIL)
+    say(page, rig, EVIL)
     rig.tell(Interpreted(1, "model", EVIL, EVIL))
     expect(page.locator("#plan-lines")).to_have_text(EVIL)
     rig.tell(ProgramWritten(1, EVIL, "model", EVIL, EVIL))

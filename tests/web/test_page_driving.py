@@ -40,6 +40,17 @@ def test_stop_goes_out_when_the_finger_comes_down_on_both_lines(page: Page, rig:
     assert rig.session.log.count(("stop", "the Stop button")) == 2
 
 
+def test_a_key_on_the_stop_button_stops_after_a_finger_slid_off_it(page: Page, rig: WebRig) -> None:
+    button = page.get_by_role("button", name="Stop", exact=True)
+    button.hover()
+    page.mouse.down()
+    page.mouse.move(400, 300)
+    page.mouse.up()
+    wait_until(lambda: len(rig.session.log) == 2)
+    button.press("Enter")
+    wait_until(lambda: len(rig.session.log) == 4)
+
+
 def test_an_emergency_stop_is_its_own_button_and_is_released_by_another(page: Page, rig: WebRig) -> None:
     release = page.get_by_role("button", name="Release emergency stop")
     expect(release).to_be_hidden()
@@ -62,14 +73,15 @@ def test_a_key_drives_while_it_is_held_and_lets_go_once(page: Page, rig: WebRig)
     assert len(rig.session.log) == count
 
 
-def test_the_pad_lets_go_when_the_page_is_left(page: Page, rig: WebRig) -> None:
+@pytest.mark.parametrize("event", ["blur", "contextmenu", "pagehide"])
+def test_the_pad_lets_go_when_the_page_is_left(page: Page, rig: WebRig, event: str) -> None:
     pad = page.locator("#pad").bounding_box()
     assert pad is not None
     page.mouse.move(pad["x"] + pad["width"] / 2, pad["y"] + pad["height"] / 2)
     page.mouse.down()
     page.mouse.move(pad["x"] + pad["width"] / 2, pad["y"] + 4)
     wait_until(lambda: any(one[0] == "steer" and one[1] > 0.2 for one in rig.session.log))
-    page.evaluate("dispatchEvent(new Event('blur'))")
+    page.evaluate("(name) => dispatchEvent(new Event(name))", event)
     rig.session.wait_for("steer", 0.0, 0.0, 0.0)
 
 
