@@ -73,8 +73,13 @@ def open_page(
     *,
     dark: bool = False,
     locale: str = "en-GB",
+    sent: list[str] | None = None,
 ) -> Page:
-    """Open a page as a person with that screen and language does, and wait until it is in."""
+    """Open a page as a person with that screen and language does, and wait until it is in.
+
+    Args:
+        sent: what the page says to the server is added there.
+    """
     context = browser.new_context(
         viewport={"width": size[0], "height": size[1]},
         color_scheme="dark" if dark else "light",
@@ -83,6 +88,8 @@ def open_page(
     )
     context.set_default_timeout(PATIENCE_MS)
     page = context.new_page()
+    if sent is not None:
+        page.on("websocket", lambda line: line.on("framesent", lambda frame: sent.append(str(frame))))
     page.goto(address)
     expect(page.locator("#robot-title")).not_to_have_text("ChatRobot")
     return page

@@ -7,16 +7,19 @@ from playwright.sync_api import Browser, Page, expect
 
 from chatrobot.core.event import Proposal
 from chatrobot.core.events import (
+    FindingSeen,
     Interpreted,
     Limited,
     ProgramLog,
     ProgramWritten,
     Progress,
+    Rehearsed,
     Result,
     Started,
     Telemetry,
 )
 from chatrobot.core.geometry import ORIGIN, Twist
+from chatrobot.core.reason import Reason
 from tests.web.browser import PLAN, browser, count_pixels, open_page, page, rehearse, say, write_program
 from tests.web.rig import WebRig, wait_until
 
@@ -36,6 +39,15 @@ def test_a_plan_that_waits_is_answered_by_a_button(page: Page, rig: WebRig) -> N
     chat.get_by_role("button", name="Do it").click()
     rig.session.wait_for("approve", 1, True)
     expect(chat.get_by_role("button")).to_have_count(0)
+
+
+def test_what_rehearsal_found_is_said(page: Page, rig: WebRig) -> None:
+    say(page, rig, "drive ten metres")
+    found = FindingSeen(1, "warn", Reason("leaves_area", {"distance_m": 5.0, "total_m": 10.0}))
+    rig.tell(Rehearsed(1, True, 30.0, 10.0, ORIGIN, findings=(found,), needs_approval=True))
+    expect(page.get_by_role("log", name="What was said")).to_contain_text(
+        "leave the allowed area after 5.00 m"
+    )
 
 
 def test_an_edited_plan_goes_in_the_place_of_the_one_that_waits(page: Page, rig: WebRig) -> None:
