@@ -10,6 +10,10 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
+from chatrobot.core.events import Interpreted, ProgramWritten, Rehearsed
+from chatrobot.core.geometry import Pose
+from tests.web.rig import WebRig
+
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 ARGUMENTS = (
     "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
@@ -21,6 +25,8 @@ WAY_OUT = (
     "no Chromium or Chrome is here, so the page of the web console is not tested: apt-get install chromium"
 )
 PATIENCE_MS = 15_000
+PLAN = "drive 0.5 m\nrepeat 2\n  turn left 90 deg\nend\nwait 1 s"
+PATH = tuple((0.05 * step, 0.0, 0.0) for step in range(20))
 
 DESKTOP, PROJECTOR, TABLET, PHONE = (1280, 800), (1920, 1080), (820, 1180), (390, 844)
 
@@ -52,6 +58,14 @@ def browser() -> Iterator[Browser]:
         found.close()
 
 
+@pytest.fixture
+def page(browser: Browser, rig: WebRig) -> Iterator[Page]:
+    """A page in English, which steers."""
+    opened = open_page(browser, rig.origin)
+    yield opened
+    opened.context.close()
+
+
 def open_page(
     browser: Browser,
     address: str,
@@ -59,8 +73,13 @@ def open_page(
     *,
     dark: bool = False,
     locale: str = "en-GB",
+    sent: list[str] | None = None,
 ) -> Page:
-    """Open a page as a person with that screen and language does, and wait until it is in."""
+    """Open a page as a person with that screen and language does, and wait until it is in.
+
+    Args:
+        sent: what the page says to the server is added there.
+    """
     context = browser.new_context(
         viewport={"width": size[0], "height": size[1]},
         color_scheme="dark" if dark else "light",
@@ -69,6 +88,8 @@ def open_page(
     )
     context.set_default_timeout(PATIENCE_MS)
     page = context.new_page()
+    if sent is not None:
+        page.on("websocket", lambda line: line.on("framesent", lambda frame: sent.append(str(frame))))
     page.goto(address)
     expect(page.locator("#robot-title")).not_to_have_text("ChatRobot")
     return page
@@ -93,3 +114,22 @@ def count_pixels(page: Page, colour: str) -> int:
         colour,
     )
     return found
+
+
+def say(page: Page, rig: WebRig, text: str) -> None:
+    """Type it and press Enter, and wait until it is heard: what it brings about comes after it."""
+    page.locator("#say").fill(text)
+    page.keyboard.press("Enter")
+    rig.session.wait_for("say", text)
+    expect(page.locator("#turns .you").last).to_have_text(text)
+
+
+def rehearse(rig: WebRig, turn: int = 1) -> None:
+    """Have a plan rehearsed that waits for a yes."""
+    rig.tell(Interpreted(turn, "offline", PLAN, "drive, turn"))
+    rig.tell(Rehearsed(turn, True, 8.0, 0.95, Pose(0.95, 0.0, 0.0), path=PATH, needs_approval=True))
+
+
+def write_program(rig: WebRig, source: str, turn: int = 1) -> None:
+    """Have a program written."""
+    rig.tell(ProgramWritten(turn, "square", "offline", source, "drives a square"))

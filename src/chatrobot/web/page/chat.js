@@ -2,7 +2,7 @@
 
 import { choicesOf } from "./choices.js";
 import { on, send, state } from "./connection.js";
-import { byId, isField, make, makeButton, setText } from "./dom.js";
+import { byId, make, makeButton, setText } from "./dom.js";
 import { showHistory } from "./say_box.js";
 import { speak } from "./speech.js";
 import { language, t } from "./words.js";
@@ -78,9 +78,6 @@ function ask(entry, buttons) {
   if (asking && asking !== entry) asking.buttons.replaceChildren();
   asking = entry;
   entry.buttons.replaceChildren(...buttons);
-  // Whoever uses the keyboard gets to the answer with one key, unless they are writing.
-  const isFree = document.activeElement === document.body || document.activeElement === byId("send");
-  if (!state.isReplaying && isFree && !isField(document.activeElement)) buttons[0].focus({ preventScroll: true });
 }
 
 function unask(entry) {

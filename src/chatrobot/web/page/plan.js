@@ -1,6 +1,6 @@
 /** The plan as lines: the one that runs is marked, and all of them can be edited. */
 
-import { on, send, state } from "./connection.js";
+import { on, send } from "./connection.js";
 import { byId, make, setText } from "./dom.js";
 import { onLanguage, t } from "./words.js";
 
@@ -132,6 +132,5 @@ export function startPlan() {
   byId("plan-edit").addEventListener("click", editPlan);
   byId("plan-run").addEventListener("click", run);
   byId("plan-drop").addEventListener("click", drop);
-  on("steering", () => (byId("plan-edit").disabled = byId("plan-run").disabled = !state.steers));
   onLanguage(describe);
 }

@@ -8,7 +8,10 @@ import { onLanguage, t } from "./words.js";
 const NOTICE_MS = 6000;
 const STOP_SAID_MS = 2500;
 const STOP_LINE_MS = 2000;
-const STEERERS = ["send", "pause", "resume", "heading", "ask-taps", "stick-speed", "side-left", "side-right"];
+const STEERERS = [
+  "send", "pause", "resume", "heading", "ask-taps", "stick-speed", "side-left", "side-right", "plan-run", "plan-edit",
+  "program-run", "program-edit", "program-save",
+];
 
 let by = null;
 let name = "";

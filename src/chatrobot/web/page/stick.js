@@ -52,7 +52,7 @@ function update() {
     send(wanted());
   } else if (isHeld) {
     isHeld = false;
-    send({ do: "steer", vx_mps: 0, vy_mps: 0, wz_radps: 0 });
+    if (state.steers) send({ do: "steer", vx_mps: 0, vy_mps: 0, wz_radps: 0 });
   }
   pad.classList.toggle("held", isHeld);
 }
@@ -73,8 +73,11 @@ function beat() {
 }
 
 function keyDown(event) {
-  const isOurs = event.code in KEYS && !event.ctrlKey && !event.metaKey && !event.altKey;
-  if (!isOurs || isField(event.target) || event.isComposing) return;
+  if (event.ctrlKey || event.metaKey || event.altKey) {
+    if (held.size) release(); // some systems tell no key coming up beside these
+    return;
+  }
+  if (!(event.code in KEYS) || isField(event.target) || event.isComposing) return;
   if (event.code.startsWith("Arrow") && event.target.closest("[role=application], [tabindex]")) return;
   event.preventDefault();
   if (event.repeat || held.has(event.code)) return;
@@ -133,6 +136,7 @@ export function startStick() {
   addEventListener("keyup", keyUp);
   addEventListener("blur", release);
   addEventListener("pagehide", release);
+  addEventListener("contextmenu", release); // a menu takes the keys, and tells nobody
   document.addEventListener("freeze", release);
   document.addEventListener("visibilitychange", () => document.hidden && release());
   document.addEventListener("focusin", (event) => isField(event.target) && held.size && release());

@@ -65,14 +65,16 @@ function open() {
 /** The word goes out when the finger comes down, not when it leaves; a click without a finger is a key or a reader. */
 function stopWith(button, what) {
   let isDown = false;
+  const end = () => setTimeout(() => (isDown = false)); // after the click that the finger makes
   button.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;
     stop(what);
     isDown = true;
   });
-  button.addEventListener("click", () => {
-    if (!isDown) stop(what);
-    isDown = false;
+  addEventListener("pointerup", end);
+  addEventListener("pointercancel", end);
+  button.addEventListener("click", (event) => {
+    if (event.detail === 0 || !isDown) stop(what);
   });
 }
 
