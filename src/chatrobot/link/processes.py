@@ -19,10 +19,14 @@ SIMULATED = ("auto", "sim")
 
 @dataclass
 class MotionProcess:
-    """Motion in a session of its own, so that no terminal signal reaches it, and our end of the line to it."""
+    """Motion in a session of its own, so that no terminal signal reaches it, and our end of the line to it.
+
+    `is_shared`: the Motions of other robots are in the same process, which goes on when this line is left.
+    """
 
     process: subprocess.Popen[bytes]
     line: socket.socket
+    is_shared: bool = False
 
     @classmethod
     def start(
@@ -35,16 +39,24 @@ class MotionProcess:
         open_loop: bool = False,
     ) -> MotionProcess:
         """`budget` is the motion budget as the command line chose it, `open_loop` that it chose open loop."""
-        return cls(
-            *spawn_with_line(
-                "chatrobot.motion.process",
-                *("--profile", profile, "--world", world, "--wire", wire),
-                *("--max-distance", limit_text(budget.max_distance_m)),
-                *("--max-time", limit_text(budget.max_time_s)),
-                *("--open-loop", "yes" if open_loop else ""),
-                kind=socket.SOCK_SEQPACKET,
-            )
+        return cls.start_for([wire], profile, world, budget, open_loop=open_loop)[0]
+
+    @classmethod
+    def start_for(
+        cls, wires: Sequence[str], profile: str, world: str, budget: MotionBudget, *, open_loop: bool
+    ) -> list[MotionProcess]:
+        """Start one process for the robots on those wires, all of one profile; return the line to each."""
+        process, lines = spawn_with_lines(
+            "chatrobot.motion.process",
+            *("--profile", profile, "--world", world),
+            *("--max-distance", limit_text(budget.max_distance_m)),
+            *("--max-time", limit_text(budget.max_time_s)),
+            *("--open-loop", "yes" if open_loop else ""),
+            *(word for wire in wires for word in ("--wire", wire)),
+            kind=socket.SOCK_SEQPACKET,
+            count=len(wires),
         )
+        return [cls(process, line, is_shared=len(lines) > 1) for line in lines]
 
 
 @dataclass
@@ -61,14 +73,25 @@ class Processes:
         cls, profile: str, world: str, sim: str, budget: MotionBudget, *, open_loop: bool = False
     ) -> Processes:
         """Both at once: Motion loads while the robot does."""
-        wire_path = runtime_dir() / f"sim-{uuid.uuid4().hex[:12]}.wire"
+        return cls.start_class(1, profile, world, sim, budget, open_loop=open_loop)[0]
+
+    @classmethod
+    def start_class(
+        cls, count: int, profile: str, world: str, sim: str, budget: MotionBudget, *, open_loop: bool = False
+    ) -> list[Processes]:
+        """Start so many robots, none of which meets another: one process for all robots, one for all Motions."""
+        name = uuid.uuid4().hex[:12]
+        paths = [
+            runtime_dir() / f"sim-{name}{f'-{place}' if count > 1 else ''}.wire" for place in range(count)
+        ]
+        wires = [str(path) for path in paths]
         robot = spawn(
             "chatrobot.sim",
-            *("--socket", str(wire_path), "--profile", profile),
-            *("--world", world, "--sim", sim),
+            *(word for wire in wires for word in ("--socket", wire)),
+            *("--profile", profile, "--world", world, "--sim", sim),
         )
-        motion = MotionProcess.start(str(wire_path), profile, world, budget, open_loop=open_loop)
-        return cls(wire_path, robot, motion)
+        motions = MotionProcess.start_for(wires, profile, world, budget, open_loop=open_loop)
+        return [cls(path, robot, motion) for path, motion in zip(paths, motions)]
 
     def end(self) -> None:
         """Nobody needs them: nothing has been asked of them, so nothing moves."""
@@ -91,11 +114,14 @@ def spawn(module: str, *arguments: str, pass_fds: Sequence[int] = ()) -> subproc
     )
 
 
-def spawn_with_line(
-    module: str, *arguments: str, kind: socket.SocketKind
-) -> tuple[subprocess.Popen[bytes], socket.socket]:
-    """The same with a line to talk over: our end of a socket pair. The child is told its own by `--fd`."""
-    ours, theirs = socket.socketpair(socket.AF_UNIX, kind)
-    with theirs:
-        number = theirs.fileno()
-        return spawn(module, *arguments, "--fd", str(number), pass_fds=(number,)), ours
+def spawn_with_lines(
+    module: str, *arguments: str, kind: socket.SocketKind, count: int = 1
+) -> tuple[subprocess.Popen[bytes], list[socket.socket]]:
+    """The same with lines to talk over: our ends of so many socket pairs. The child is told its own by `--fd`, each."""
+    pairs = [socket.socketpair(socket.AF_UNIX, kind) for _ in range(count)]
+    numbers = [theirs.fileno() for _, theirs in pairs]
+    told = [word for number in numbers for word in ("--fd", str(number))]
+    process = spawn(module, *arguments, *told, pass_fds=numbers)
+    for _, theirs in pairs:
+        theirs.close()
+    return process, [ours for ours, _ in pairs]

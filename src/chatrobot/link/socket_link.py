@@ -37,7 +37,8 @@ class SocketLink(EventQueue, MotionLink):
         super().__init__()
         self._sender = Sender(source)
         self._closed = threading.Event()
-        self.process, self._line = motion.process, motion.line
+        self.process, self._line, self._is_shared = motion.process, motion.line, motion.is_shared
+        self._reader = threading.Thread(target=self._read, name="link", daemon=True)
 
     def wait_until_ready(self) -> None:
         """Block until Motion has its robot and its guard; then begin to beat."""
@@ -58,7 +59,7 @@ class SocketLink(EventQueue, MotionLink):
         self._line.settimeout(None)
         self.send("hello", term_s=LOCAL_TERM_S, process=own_identity())
         threading.Thread(target=self._beat, name="beat", daemon=True).start()
-        threading.Thread(target=self._read, name="link", daemon=True).start()
+        self._reader.start()
 
     def send(self, word: Word, turn: int = 0, **payload: Any) -> None:
         packet = self._sender.envelope(word, turn, **payload).to_bytes()
@@ -78,8 +79,11 @@ class SocketLink(EventQueue, MotionLink):
         with contextlib.suppress(LinkError):
             self.send("goodbye")
         self._closed.set()
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            self.process.wait(END_TIMEOUT_S)
+        if self._is_shared:  # it goes on with others; our line ends once what was queued is done
+            self._reader.join(END_TIMEOUT_S)
+        else:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self.process.wait(END_TIMEOUT_S)
         self._line.close()
 
     def _beat(self) -> None:

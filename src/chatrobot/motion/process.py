@@ -1,7 +1,8 @@
-"""Motion's process under a console: `python -m chatrobot.motion.process --profile … --world … --wire …
---max-distance … --max-time … --open-loop yes|"" --fd N`.
+"""Motion's process under a console: `python -m chatrobot.motion.process --profile … --world … --max-distance …
+--max-time … --open-loop yes|"" --wire … --fd N`.
 
-Envelopes come over an inherited socket, and events go back over it; `MotionRunner` does the rest.
+Envelopes come over an inherited socket, and events go back over it; `MotionRunner` does the rest. The Motions of a
+class are one process: `--wire` and `--fd` come once for each robot.
 """
 
 from __future__ import annotations
@@ -12,12 +13,18 @@ import socket
 import sys
 import threading
 from collections import deque
+from collections.abc import Mapping, Sequence
 
+from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Telemetry
 from chatrobot.link.envelope import Envelope, ready
-from chatrobot.motion.runner import MotionRunner
+from chatrobot.motion.control_loop import ControlLoop
+from chatrobot.motion.runner import MotionRunner, Shared
+from chatrobot.motion.safety.watchdog import start_guard
+from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import MotionBudget, read_limit_text
+from chatrobot.sim.load import load_world
 from chatrobot.wire.local import PACKET_BYTES
 
 OUTBOX_LIMIT = 200
@@ -82,25 +89,46 @@ def main(arguments: list[str]) -> int:
     """Run Motion on the inherited socket; return the exit code."""
     for name in ("SIGINT", "SIGTSTP", "SIGHUP", "SIGPIPE"):
         signal.signal(getattr(signal, name), signal.SIG_IGN)
-    options = dict(zip(arguments[::2], arguments[1::2]))
-    line = socket.socket(fileno=int(options["--fd"]))
-    outbox = Outbox(line)
+    given = list(zip(arguments[::2], arguments[1::2]))
+    options = dict(given)
+    addresses, numbers = ([value for name, value in given if name == wanted] for wanted in ("--wire", "--fd"))
+    lines = [socket.socket(fileno=int(number)) for number in numbers]
     try:
-        budget = MotionBudget(*(read_limit_text(options[name]) for name in ("--max-distance", "--max-time")))
-        runner = MotionRunner(
-            options["--wire"],
-            options["--profile"],
-            options["--world"],
-            outbox.put,
-            budget=budget,
-            open_loop=bool(options["--open-loop"]),
-        )
-        threading.Thread(target=SocketReader(line, runner).run, name="link", daemon=True).start()
-        line.send(ready())
-        runner.run(lambda: runner.motion.has_left, outbox.flush)
+        shared = _shared(addresses, options)
+        runners = [_begin(*one, options) for one in zip(addresses, lines, shared)]
+        for line in lines:
+            line.send(ready())
+        shared[0].loop.run(runners)
     except WireError:
         return 1  # the robot's end is gone
     return 0
+
+
+def _shared(addresses: Sequence[str], options: Mapping[str, str]) -> list[Shared]:
+    loop = ControlLoop()
+    if len(addresses) == 1:
+        return [Shared(loop)]
+    world, wiring = load_world(options["--world"]), load_profile(options["--profile"]).wiring
+    guards = start_guard(addresses, wiring, RealClock(), is_near=True)
+    return [Shared(loop, world, guard) for guard in guards]
+
+
+def _begin(address: str, line: socket.socket, shared: Shared, options: Mapping[str, str]) -> MotionRunner:
+    """Meet that robot, and begin to listen to whoever speaks for it over `line`."""
+    budget = MotionBudget(*(read_limit_text(options[name]) for name in ("--max-distance", "--max-time")))
+    outbox = Outbox(line)
+    runner = MotionRunner(
+        address,
+        options["--profile"],
+        options["--world"],
+        outbox.put,
+        budget=budget,
+        open_loop=bool(options["--open-loop"]),
+        shared=shared,
+    )
+    threading.Thread(target=SocketReader(line, runner).run, name="link", daemon=True).start()
+    runner.begin(lambda: runner.motion.has_left, outbox.flush, lambda: line.shutdown(socket.SHUT_RDWR))
+    return runner
 
 
 if __name__ == "__main__":

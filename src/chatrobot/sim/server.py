@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import math
 import signal
+from collections.abc import Sequence
 from types import FrameType
 from typing import Any
 
@@ -13,7 +14,7 @@ from chatrobot.core.clock import Clock
 from chatrobot.sim.network_wire import MarshalledWire
 from chatrobot.sim.robot import TICK_S, SimRobot
 from chatrobot.sim.shapes import Circle, Shape, polygon
-from chatrobot.wire.local import LocalHub
+from chatrobot.wire.local import LocalHub, poll_all
 from chatrobot.wire.messages import Text
 from chatrobot.wire.wire import Wire
 
@@ -24,6 +25,8 @@ FIRST_CLIENT_S = 15.0
 GAP_S = 0.5
 """A pause this long was a frozen process (Ctrl-Z, a sleeping laptop): physics resumes where it was. A shorter
 one was a busy machine: physics catches up."""
+_SLACK = 1e-6
+"""Sums of steps and multiples of ticks differ by rounding; of a tick."""
 
 
 class SimServer:
@@ -32,9 +35,8 @@ class SimServer:
 
     def __init__(self, robot: SimRobot, hub: LocalHub | MarshalledWire, clock: Clock) -> None:
         self._robot = robot
-        self._hub = hub
+        self.hub = hub
         self._clock = clock
-        self._terminated = False
         self._alone_since_s = clock.now_s()
 
     def catch_up(self) -> None:
@@ -46,44 +48,68 @@ class SimServer:
         elif behind_s > 0.0:
             self._robot.step(behind_s)
 
+    @property
+    def until_next_tick_s(self) -> float:
+        """Return how long until its sensors measure next; not above zero where they should have by now."""
+        lived_s = self._robot.now_s - self._robot.start_s
+        due_s = self._robot.start_s + (math.floor(lived_s / TICK_S + _SLACK) + 1) * TICK_S
+        return due_s - self._clock.now_s()
+
+    @property
+    def is_deserted(self) -> bool:
+        """True where everybody has left, or nobody came."""
+        if not isinstance(self.hub, LocalHub):
+            return False
+        now_s = self._clock.now_s()
+        if self.hub.client_count:
+            self._alone_since_s = now_s
+            return False
+        patience_s = LAST_CLIENT_GONE_S if self.hub.ever_connected else FIRST_CLIENT_S
+        return now_s - self._alone_since_s > patience_s
+
+
+class Simulation:
+    """The simulated robots of this process: one, or those of a class, each on a hub of its own."""
+
+    def __init__(self, servers: Sequence[SimServer]) -> None:
+        self._servers = list(servers)
+        self._is_terminated = False
+
     def run(self) -> None:
-        """Run until everybody has left, nobody came or SIGTERM; the hub is closed then.
+        """Run until everybody has left, nobody came or SIGTERM; the hubs are closed then.
 
         A terminal's signals are for whoever talks to a person: the robot goes on, as a real one would. Only where
         nobody has to be there, it is a person who ends it.
         """
         for ignored in (signal.SIGINT, signal.SIGTSTP, signal.SIGHUP):
             signal.signal(ignored, signal.SIG_IGN)
-        ends_by = (
-            [signal.SIGTERM]
-            if isinstance(self._hub, LocalHub)
-            else [signal.SIGTERM, signal.SIGINT, signal.SIGHUP]
-        )
-        for ending in ends_by:
+        has_hub = all(isinstance(server.hub, LocalHub) for server in self._servers)
+        for ending in [signal.SIGTERM] if has_hub else [signal.SIGTERM, signal.SIGINT, signal.SIGHUP]:
             signal.signal(ending, self._on_terminate)
         try:
-            while not self._terminated and not self._deserted():
-                self.catch_up()
-                self._hub.poll(self._until_next_tick_s())
+            while self._servers and not self._is_terminated:
+                self._live()
         finally:
-            self._hub.close()
+            for server in self._servers:
+                server.hub.close()
 
-    def _until_next_tick_s(self) -> float:
-        elapsed_s = self._clock.now_s() - self._robot.start_s
-        return (math.floor(elapsed_s / TICK_S) + 1) * TICK_S - elapsed_s
-
-    def _deserted(self) -> bool:
-        if not isinstance(self._hub, LocalHub):
-            return False
-        now_s = self._clock.now_s()
-        if self._hub.client_count:
-            self._alone_since_s = now_s
-            return False
-        patience_s = LAST_CLIENT_GONE_S if self._hub.ever_connected else FIRST_CLIENT_S
-        return now_s - self._alone_since_s > patience_s
+    def _live(self) -> None:
+        """Step the robot that is due most, if any is, then route what has been said: who commands does not wait for
+        all the others' physics."""
+        due = min(self._servers, key=lambda server: server.until_next_tick_s)
+        if due.until_next_tick_s <= 0.0:
+            due.catch_up()
+        left_s = min(server.until_next_tick_s for server in self._servers)
+        if len(self._servers) == 1:
+            due.hub.poll(left_s)
+        else:
+            poll_all([server.hub for server in self._servers if isinstance(server.hub, LocalHub)], left_s)
+        for server in [server for server in self._servers if server.is_deserted]:
+            server.hub.close()
+            self._servers.remove(server)
 
     def _on_terminate(self, _signal: int, _frame: FrameType | None) -> None:
-        self._terminated = True
+        self._is_terminated = True
 
 
 CONTROL_TOPIC = "chatrobot/sim/control"

@@ -11,7 +11,7 @@ import errno
 import select
 import socket
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -126,8 +126,8 @@ class LocalHub(Wire):
             self.path.unlink()
         self._listener.bind(str(self.path))
         self._listener.listen(16)
-        self._poller = select.poll()
-        self._poller.register(self._listener, select.POLLIN)
+        self._poller = select.epoll()
+        self._poller.register(self._listener, select.EPOLLIN)
         self.ever_connected = False
         self._closed = False
 
@@ -153,7 +153,7 @@ class LocalHub(Wire):
 
     def poll(self, timeout_s: float) -> None:
         """Wait up to `timeout_s` for packets and route all that are there."""
-        for descriptor, _ in self._poller.poll(max(0.0, timeout_s) * 1000.0):
+        for descriptor, _ in self._poller.poll(max(0.0, timeout_s)):
             if descriptor == self._listener.fileno():
                 self._accept()
             elif descriptor in self._clients:
@@ -165,15 +165,20 @@ class LocalHub(Wire):
         self._closed = True
         for descriptor in tuple(self._clients):
             self._drop(descriptor)
+        self._poller.close()
         self._listener.close()
         with contextlib.suppress(FileNotFoundError):
             self.path.unlink()
+
+    def fileno(self) -> int:
+        """Return what is readable while there is something to route: `poll_all` waits for it."""
+        return self._poller.fileno()
 
     def _accept(self) -> None:
         client, _ = self._listener.accept()
         client.setblocking(False)
         self._clients[client.fileno()] = (client, set())
-        self._poller.register(client, select.POLLIN)
+        self._poller.register(client, select.EPOLLIN)
         self.ever_connected = True
 
     def _receive(self, descriptor: int) -> None:
@@ -211,6 +216,17 @@ class LocalHub(Wire):
         client, _ = self._clients.pop(descriptor)
         self._poller.unregister(descriptor)
         client.close()
+
+
+def poll_all(hubs: Sequence[LocalHub], timeout_s: float) -> None:
+    """Wait up to `timeout_s` until any of the hubs has packets, and have each that has some route them."""
+    poller = select.poll()
+    for hub in hubs:
+        poller.register(hub, select.POLLIN)
+    ready = {descriptor for descriptor, _ in poller.poll(max(0.0, timeout_s) * 1000.0)}
+    for hub in hubs:
+        if hub.fileno() in ready:
+            hub.poll(0.0)
 
 
 def _connect(address: str, _: Wiring, __: str) -> Wire:

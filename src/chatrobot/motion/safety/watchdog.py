@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import contextlib
 import socket
+import subprocess
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Protocol
 
 from chatrobot.core.clock import TICK_S, Clock
 from chatrobot.core.process import is_machine_busy
 from chatrobot.core.reason import Reason
 from chatrobot.guard.watch import BEAT, ECHO_LOST_S, GOODBYE, HANDSHAKE, MISSED_S, TRIPPED, Watch
-from chatrobot.link.processes import spawn_with_line
+from chatrobot.link.processes import spawn_with_lines
 from chatrobot.robots.profile import Wiring
 
 if TYPE_CHECKING:  # the process that talks loads this module for its guard, and no numpy
@@ -45,9 +46,13 @@ class GuardLine:
 
     Args:
         line: our end of a stream socket; never blocks.
+        process: the guard's, where we have started it.
     """
 
-    def __init__(self, line: socket.socket, clock: Clock) -> None:
+    def __init__(
+        self, line: socket.socket, clock: Clock, process: subprocess.Popen[bytes] | None = None
+    ) -> None:
+        self.process = process
         self._clock = clock
         self._line = line
         self._line.setblocking(False)
@@ -111,25 +116,26 @@ class GuardLine:
         self._tripped = self._tripped or TRIPPED in answers
 
 
-class GuardProcess(GuardLine):
-    """A guard in a process and session of its own.
+def start_guard(
+    addresses: Sequence[str], wiring: Wiring, clock: Clock, *, is_near: bool = False
+) -> list[GuardLine]:
+    """Start a guard in a process and session of its own; return the line to it of each robot.
 
     Args:
-        wire_address: the robot's wire (`chatrobot.wire.connect`).
+        addresses: of the wires of the robots that this process drives (`chatrobot.wire.connect`).
         wiring: names the topics it halts and watches, and the namespace it lives in.
-        is_near: the robot's process is on this machine.
+        is_near: the robots' process is on this machine.
     """
-
-    def __init__(self, wire_address: str, wiring: Wiring, clock: Clock, *, is_near: bool = False) -> None:
-        self.process, line = spawn_with_line(
-            "chatrobot.guard",
-            *("--wire", wire_address),
-            *("--topic", wiring.cmd_vel_topic, "--type", wiring.cmd_vel_type),
-            *("--odom", wiring.odom_topic, "--odom-type", wiring.odom_type),
-            *("--namespace", wiring.namespace, "--near", "yes" if is_near else "no"),
-            kind=socket.SOCK_STREAM,
-        )
-        super().__init__(line, clock)
+    process, lines = spawn_with_lines(
+        "chatrobot.guard",
+        *("--topic", wiring.cmd_vel_topic, "--type", wiring.cmd_vel_type),
+        *("--odom", wiring.odom_topic, "--odom-type", wiring.odom_type),
+        *("--namespace", wiring.namespace, "--near", "yes" if is_near else "no"),
+        *(word for address in addresses for word in ("--wire", address)),
+        kind=socket.SOCK_STREAM,
+        count=len(addresses),
+    )
+    return [GuardLine(line, clock, process) for line in lines]
 
 
 class SimulatedGuard:
