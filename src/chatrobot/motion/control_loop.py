@@ -8,17 +8,23 @@ from __future__ import annotations
 
 import contextlib
 import gc
+import os
+import select
 import signal
 import sys
 import threading
 import time
 from collections.abc import Sequence
+from operator import itemgetter
 from typing import Protocol
 
 from chatrobot.core.clock import PRESENCE_S, TICK_S
 from chatrobot.core.errors import WireError
 from chatrobot.core.process import MOTION, prefer, wake_promptly
+from chatrobot.core.wiring import Wiring
 from chatrobot.motion.safety.stop import remove_stop_socket, serve_stop
+from chatrobot.wire.local import LocalWire
+from chatrobot.wire.wire import Wire
 
 SWITCH_INTERVAL_S = 0.0005
 """How long a thread may keep the interpreter: the reader must get in between the lines of a rehearsal."""
@@ -72,12 +78,19 @@ class ControlLoop:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         prefer(MOTION)
         wake_promptly()
-        self._wake = threading.Event()
+        self._wake = os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC)
+        self._wires: list[LocalWire] = []
         self._due_s: dict[Driven, float] = {}
 
     def wake(self) -> None:
         """Have those that are woken ticked at once. From any thread."""
-        self._wake.set()
+        os.eventfd_write(self._wake, 1)
+
+    def connect(self, path: str, _wiring: Wiring, _node: str) -> Wire:
+        """Open the local wire of one of many robots, and read it between the ticks: with a thread for each of them
+        the interpreter would go from hand to hand at every message."""
+        self._wires.append(LocalWire(path, has_thread=False))
+        return self._wires[-1]
 
     def run(self, robots: Sequence[Driven]) -> None:
         """Tick until all have left.
@@ -96,15 +109,16 @@ class ControlLoop:
         lost: WireError | None = None
         try:
             while self._due_s:
-                self._wake.wait(max(0.0, min(self._due_s.values()) - time.monotonic()))
-                self._wake.clear()
-                for robot in tuple(self._due_s):
-                    try:
-                        self._tick_where_due(robot)
-                    except WireError as error:
-                        del self._due_s[robot]
-                        robot.give_up()
-                        lost = error
+                self._listen()
+                robot = self._next()
+                if robot is None:
+                    continue
+                try:
+                    self._tick(robot)
+                except WireError as error:
+                    del self._due_s[robot]
+                    robot.give_up()
+                    lost = error
         finally:
             for robot in robots:
                 robot.close()
@@ -112,17 +126,40 @@ class ControlLoop:
         if lost is not None:
             raise lost
 
-    def _tick_where_due(self, robot: Driven) -> None:
-        due_s = self._due_s[robot]
-        if time.monotonic() < due_s and not robot.is_woken:
-            return
+    def _listen(self) -> None:
+        """Wait until a tick is due, a robot is woken or a wire has news; take in the news."""
+        self._wires = [wire for wire in self._wires if not wire.is_over]
+        wait_s = (
+            0.0 if any(robot.is_woken for robot in self._due_s) else self._next_due_s() - time.monotonic()
+        )
+        listened: list[int | LocalWire] = [self._wake, *self._wires]
+        readable, _, _ = select.select(listened, [], [], max(0.0, wait_s))
+        for one in readable:
+            if isinstance(one, LocalWire):
+                one.deliver()
+            else:
+                os.eventfd_read(self._wake)
+
+    def _next_due_s(self) -> float:
+        return min(self._due_s.values())
+
+    def _next(self) -> Driven | None:
+        """The robot that is woken, or due first; None where none is."""
+        for robot in self._due_s:
+            if robot.is_woken:
+                return robot
+        robot, due_s = min(self._due_s.items(), key=itemgetter(1))
+        return robot if time.monotonic() >= due_s else None
+
+    def _tick(self, robot: Driven) -> None:
         robot.is_woken = False
         robot.tick()
+        due_s, now_s = self._due_s[robot], time.monotonic()
         if robot.has_left:
             del self._due_s[robot]
             robot.leave()
-        elif time.monotonic() >= due_s:  # not where an event drove this tick before its time
-            self._due_s[robot] = max(due_s, time.monotonic() - TICK_S) + TICK_S
+        elif now_s >= due_s:  # not where an event drove this tick before its time
+            self._due_s[robot] = max(due_s, now_s - TICK_S) + TICK_S
 
 
 def _thaw(robots: Sequence[Driven]) -> None:

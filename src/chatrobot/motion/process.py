@@ -25,6 +25,7 @@ from chatrobot.motion.safety.watchdog import start_guard
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import MotionBudget, read_limit_text
 from chatrobot.sim.load import load_world
+from chatrobot.wire.connect import connect_wire
 from chatrobot.wire.local import PACKET_BYTES
 
 OUTBOX_LIMIT = 200
@@ -124,6 +125,7 @@ def _begin(address: str, line: socket.socket, shared: Shared, options: Mapping[s
         outbox.put,
         budget=budget,
         open_loop=bool(options["--open-loop"]),
+        connect=shared.loop.connect if shared.guard is not None else connect_wire,
         shared=shared,
     )
     threading.Thread(target=SocketReader(line, runner).run, name="link", daemon=True).start()

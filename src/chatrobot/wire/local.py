@@ -50,13 +50,19 @@ class _Subscriptions:
 class LocalWire(Wire):
     """A process's end of the local wire. Connects at once; a thread of its own delivers.
 
+    Args:
+        has_thread: False where whoever owns it waits for `fileno` and calls `deliver`.
+
     Raises:
         WireError: nobody serves that socket.
     """
 
-    def __init__(self, path: Path | str) -> None:
+    def __init__(self, path: Path | str, *, has_thread: bool = True) -> None:
         self._subscriptions = _Subscriptions()
         self._closed = False
+        self._has_thread = has_thread
+        self.is_over = False
+        """Nothing more comes: either end has been closed."""
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         try:
             self._socket.connect(str(path))
@@ -84,31 +90,46 @@ class LocalWire(Wire):
             self._socket.send(SUBSCRIBE + topic.encode(), socket.MSG_NOSIGNAL)
         except OSError as error:
             raise WireError("the other end of the wire is gone") from error
-        if self._reader is None:
+        if self._reader is None and self._has_thread:
             self._reader = threading.Thread(target=self._read, name="wire", daemon=True)
             self._reader.start()
 
     def close(self) -> None:
         if self._closed:
             return
-        self._closed = True
+        self._closed = self.is_over = True
         with contextlib.suppress(OSError):
             self._socket.shutdown(socket.SHUT_RDWR)
         if self._reader is not None and self._reader is not threading.current_thread():
             self._reader.join()
         self._socket.close()
 
+    def fileno(self) -> int:
+        """Return what is readable while there is something to deliver."""
+        return self._socket.fileno()
+
+    def deliver(self) -> None:
+        """Deliver what has come, without waiting for anything."""
+        for _ in range(_PACKETS_A_TURN):
+            if not self._deliver_one(socket.MSG_DONTWAIT):
+                return
+
     def _read(self) -> None:
-        while True:
-            try:
-                packet = self._socket.recv(PACKET_BYTES)
-            except OSError:
-                return
-            if not packet:
-                return
-            message = decode(packet)
-            if message is not None:
-                self._subscriptions.deliver(topic_of(packet), message)
+        while self._deliver_one(0):
+            pass
+
+    def _deliver_one(self, flags: int) -> bool:
+        try:
+            packet = self._socket.recv(PACKET_BYTES, flags)
+        except BlockingIOError:
+            return False
+        except OSError:
+            packet = b""
+        self.is_over = not packet
+        message = decode(packet)
+        if message is not None:
+            self._subscriptions.deliver(topic_of(packet), message)
+        return bool(packet)
 
 
 class LocalHub(Wire):
