@@ -22,7 +22,9 @@ from chatrobot.link.envelope import Envelope, ready
 from chatrobot.motion.control_loop import ControlLoop
 from chatrobot.motion.runner import MotionRunner, Shared
 from chatrobot.motion.safety.watchdog import start_guard
+from chatrobot.programs.sandboxed import warm_server
 from chatrobot.robots.load import load_profile
+from chatrobot.robots.open_loop import as_chosen
 from chatrobot.robots.profile import MotionBudget, read_limit_text
 from chatrobot.sim.load import load_world
 from chatrobot.wire.connect import connect_wire
@@ -109,21 +111,33 @@ def _shared(addresses: Sequence[str], options: Mapping[str, str]) -> list[Shared
     loop = ControlLoop()
     if len(addresses) == 1:
         return [Shared(loop)]
-    world, wiring = load_world(options["--world"]), load_profile(options["--profile"]).wiring
-    guards = start_guard(addresses, wiring, RealClock(), is_near=True)
-    return [Shared(loop, world, guard) for guard in guards]
+    from chatrobot.motion.planning_process import RemoteProgramHost, start_planning
+
+    profile = as_chosen(
+        load_profile(options["--profile"]), _budget(options), open_loop=bool(options["--open-loop"])
+    )
+    guards = start_guard(addresses, profile.wiring, RealClock(), is_near=True)
+    planners = start_planning(profile, load_world(options["--world"]), len(addresses))
+    server = warm_server()
+    return [
+        Shared(loop, guard, planner, RemoteProgramHost(profile, planner, server))
+        for guard, planner in zip(guards, planners)
+    ]
+
+
+def _budget(options: Mapping[str, str]) -> MotionBudget:
+    return MotionBudget(*(read_limit_text(options[name]) for name in ("--max-distance", "--max-time")))
 
 
 def _begin(address: str, line: socket.socket, shared: Shared, options: Mapping[str, str]) -> MotionRunner:
     """Meet that robot, and begin to listen to whoever speaks for it over `line`."""
-    budget = MotionBudget(*(read_limit_text(options[name]) for name in ("--max-distance", "--max-time")))
     outbox = Outbox(line)
     runner = MotionRunner(
         address,
         options["--profile"],
         options["--world"],
         outbox.put,
-        budget=budget,
+        budget=_budget(options),
         open_loop=bool(options["--open-loop"]),
         connect=shared.loop.connect if shared.guard is not None else connect_wire,
         shared=shared,

@@ -37,7 +37,7 @@ from chatrobot.robots.load import load_profile
 from chatrobot.robots.open_loop import as_chosen, drives_on_alone, slowed
 from chatrobot.robots.profile import NOT_CHOSEN, MotionBudget, RobotProfile
 from chatrobot.sim.load import load_world
-from chatrobot.sim.world import World, check_known
+from chatrobot.sim.world import check_known
 from chatrobot.wire.connect import (
     Connect,
     connect_wire,
@@ -51,12 +51,12 @@ GUARD_S = 20.0
 
 @dataclass(frozen=True)
 class Shared:
-    """What the robots of one process have in common; the line to the guard is this robot's own. What is None a
-    robot makes for itself."""
+    """What the robots of one process have in common, and this one's share of it. What is None a robot makes itself."""
 
     loop: ControlLoop
-    world: World | None = None
     guard: GuardLine | None = None
+    planner: Planner | None = None
+    programs: ProgramHost | None = None
 
 
 class MotionRunner:
@@ -100,7 +100,7 @@ class MotionRunner:
         shared = shared or Shared(ControlLoop())
         self._loop = shared.loop
         given = as_chosen(load_profile(profile), budget, open_loop=open_loop)
-        known_world = shared.world or load_world(world)
+        known_world = shared.planner.world if shared.planner is not None else load_world(world)
         check_known(known_world, given)
         self.wire, self.profile, said = _meet(connect, address, given, node, on_robot=on_robot)
         self._emit = emit
@@ -109,7 +109,7 @@ class MotionRunner:
         self._each_tick: Callable[[], None] = lambda: None
         self._at_end: Callable[[], None] = lambda: None
         self._plans: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
-        self.programs = ProgramHost(self.profile, is_in_step=False)
+        self.programs = shared.programs or ProgramHost(self.profile, is_in_step=False)
         is_near = on_robot or is_on_this_machine(address)
         wiring = _as_others_name_it(self.wire, self.profile.wiring)
         self._guard = shared.guard or start_guard([address], wiring, RealClock(), is_near=is_near)[0]
@@ -118,7 +118,7 @@ class MotionRunner:
             self.profile,
             self.wire,
             self.wire.clock,
-            Planner(self.profile, known_world),
+            shared.planner or Planner(self.profile, known_world),
             self._guard,
             emit,
             self._plans.put,
