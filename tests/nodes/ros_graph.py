@@ -53,9 +53,9 @@ def guards(monkeypatch: pytest.MonkeyPatch) -> list[Guard]:
     monkeypatch.setattr(stop, "PATIENCE_S", 0.2)
     made: list[Guard] = []
 
-    def make(addresses: Sequence[str], wiring: Any, clock: Any, *, is_near: bool) -> list[Guard]:
-        made.extend(Guard(address, wiring, clock, is_near=is_near) for address in addresses)
-        return made[-len(addresses) :]
+    def make(addresses: Sequence[str], wiring: Any, clock: Any, *, is_near: bool) -> Guard:
+        made.append(Guard(addresses[0], wiring, clock, is_near=is_near))
+        return made[-1]
 
     monkeypatch.setattr(runner, "start_guard", make)
     return made

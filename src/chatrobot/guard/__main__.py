@@ -1,7 +1,7 @@
-"""The guard's process: `python -m chatrobot.guard --topic cmd_vel --odom odom --near yes --wire ADDRESS --fd N`.
+"""The guard's process: `python -m chatrobot.guard --wire ADDRESS --topic cmd_vel --odom odom --near yes --fd N`.
 
 Started by Motion in a session of its own, so that neither Ctrl-C, Ctrl-Z nor a closed terminal reaches it. Where one
-process holds the Motions of several robots, `--wire ADDRESS --fd N` comes once for each: a line and a wire of its own.
+process drives the robots of a class, `--wire` comes once for each: one line, and all of them are halted together.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ import select
 import signal
 import socket
 import sys
+import time
 from collections.abc import Callable, Sequence
-from functools import partial
 
 from chatrobot.core.clock import TICK_S, awake_or_not_s
 from chatrobot.core.errors import WireError
@@ -49,61 +49,33 @@ class Standing:
         return 0.0 if self._since_s is None else now_s - self._since_s
 
 
-class Guard:
-    """Reads Motion's words from `line`, halts over `wire`."""
+class HaltedRobot:
+    """One robot that the guard can halt, and whether it stands."""
 
-    def __init__(
-        self, line: socket.socket, wire: Wire, cmd_vel_topic: str, odom_topic: str, *, is_near: bool = False
-    ) -> None:
-        self._line = line
+    def __init__(self, wire: Wire, cmd_vel_topic: str, odom_topic: str, *, is_near: bool = False) -> None:
         self._wire = wire
         self._topic = cmd_vel_topic
-        self._watch = Watch()
         self._standing = Standing()
         self._departure = Departure(wire, cmd_vel_topic, odom_topic, is_near=is_near)
-        self._motion_is_gone = False
-        self._tripped_at_s: float | None = None
-        self.on_loss: Callable[[], None] = lambda: None
-        """Called once when Motion is gone without a goodbye."""
         wire.advertise(cmd_vel_topic, TwistMessage)
         self._unheard_odom_topic = odom_topic
 
-    def run(self) -> None:
-        """Until Motion says goodbye, or is gone and the robot stands or is gone, too."""
-        guard_all([self])
-
     @property
-    def line(self) -> socket.socket | None:
-        """Return where Motion speaks; None once it is gone."""
-        return None if self._motion_is_gone else self._line
+    def is_within_reach(self) -> bool:
+        """Return whether its wire is there."""
+        return self._wire.is_connected
 
-    def seconds_left(self, now_s: float) -> float:
-        """Return how long until `halt_where_due` may have something to do."""
-        return TICK_S if self._motion_is_gone else self._watch.seconds_left(now_s)
-
-    def halt_where_due(self, now_s: float) -> bool:
-        """Halt a robot whose Motion misses its beats; True once the work is done."""
-        if not self._watch.must_halt(now_s):
-            self._tripped_at_s = None
-            return False
-        self._tripped_at_s = now_s if self._tripped_at_s is None else self._tripped_at_s
-        self._halt()
-        return self._motion_is_gone and self._may_leave(now_s, self._tripped_at_s)
-
-    def let_go(self) -> None:
-        """Close the line: Motion takes a guard that is gone for what it is."""
-        self._line.close()
-
-    def _halt(self) -> None:
+    def halt(self) -> bool:
+        """Send it a zero; False where it is gone for good."""
         try:
             self._wire.publish(self._topic, ZERO)
         except WireError:
-            if not self._wire.comes_back:
-                raise
+            return self._wire.comes_back
+        return True
 
-    def _may_leave(self, now_s: float, tripped_at_s: float) -> bool:
+    def needs_no_zeros(self, now_s: float, halted_s: float) -> bool:
+        """Return whether it has been seen standing, or gone, after zeros for so long."""
         self._hear_odometry()
-        halted_s = now_s - tripped_at_s
         return (
             halted_s > GIVE_UP_S
             or (halted_s > STANDING_S and self._standing.for_s(now_s) > STANDING_S)
@@ -116,8 +88,53 @@ class Guard:
         if topic:
             self._wire.subscribe(topic, Odometry, self._standing.on_odometry)
 
-    def hear(self) -> bool:
-        """Take in what Motion has said; True for a goodbye."""
+
+class Guard:
+    """Reads Motion's words from `line`, halts `robots`."""
+
+    def __init__(self, line: socket.socket, robots: Sequence[HaltedRobot]) -> None:
+        self._line = line
+        self._robots = list(robots)
+        self._watch = Watch()
+        self._motion_is_gone = False
+        self.on_loss: Callable[[], None] = lambda: None
+        """Called once when Motion is gone without a goodbye."""
+
+    def run(self) -> None:
+        """Until Motion says goodbye, or is gone and the robot stands or is gone, too."""
+        tripped_at_s: float | None = None
+        while True:
+            now_s = awake_or_not_s()
+            if self._watch.must_halt(now_s):
+                tripped_at_s = now_s if tripped_at_s is None else tripped_at_s
+                self._halt()
+                if self._motion_is_gone and self._may_leave(now_s, tripped_at_s):
+                    return
+            else:
+                tripped_at_s = None
+            if self._listen(self._watch.seconds_left(now_s)):
+                return
+
+    def _halt(self) -> None:
+        self._robots = [robot for robot in self._robots if robot.halt()]
+        if not self._robots:
+            raise WireError("every robot's end is gone")
+
+    def _may_leave(self, now_s: float, tripped_at_s: float) -> bool:
+        halted_s = now_s - tripped_at_s
+        done = [
+            robot.needs_no_zeros(now_s, halted_s) for robot in self._robots
+        ]  # each begins to look at once
+        return all(done)
+
+    def _listen(self, timeout_s: float) -> bool:
+        """Take in Motion's words for up to `timeout_s`; True for a goodbye."""
+        if self._motion_is_gone:
+            time.sleep(TICK_S)
+            return False
+        readable, _, _ = select.select([self._line], [], [], timeout_s)
+        if not readable:
+            return False
         try:
             words = self._line.recv(256)
         except OSError:
@@ -131,42 +148,13 @@ class Guard:
             return True
         for word in words:
             self._watch.hear(bytes([word]), awake_or_not_s())
-        if not self._wire.is_connected:
+        if not all(robot.is_within_reach for robot in self._robots):
             return False  # Motion takes our silence for what it is: nobody would halt the robot in its place
         echo = HANDSHAKE if HANDSHAKE in words else words[-1:]
         answer = TRIPPED if self._watch.state == "tripped" else echo
         with contextlib.suppress(OSError):
             self._line.send(answer, socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
         return False
-
-
-def guard_all(guards: Sequence[Guard]) -> None:
-    """Until the work of each is done. One that cannot halt its robot any more lets go of its Motion, which then stops.
-
-    Raises:
-        WireError: a robot's end was gone, and its wire does not come back.
-    """
-    watched, lost = list(guards), list[WireError]()
-    while watched:
-        now_s = awake_or_not_s()
-        done = [guard for guard in watched if _is_done(guard, partial(guard.halt_where_due, now_s), lost)]
-        watched = [guard for guard in watched if guard not in done]
-        lines = {guard.line: guard for guard in watched if guard.line is not None}
-        timeout_s = min((guard.seconds_left(now_s) for guard in watched), default=0.0)
-        readable, _, _ = select.select(list(lines), [], [], timeout_s)
-        done = [lines[line] for line in readable if _is_done(lines[line], lines[line].hear, lost)]
-        watched = [guard for guard in watched if guard not in done]
-    if lost:
-        raise lost[0]
-
-
-def _is_done(guard: Guard, act: Callable[[], bool], lost: list[WireError]) -> bool:
-    try:
-        return act()
-    except WireError as error:
-        lost.append(error)
-        guard.let_go()
-        return True
 
 
 def _let_go_of_output() -> None:
@@ -189,24 +177,24 @@ def _wiring(options: dict[str, str]) -> Wiring:
 
 def main(arguments: list[str]) -> int:
     """Guard until there is nothing left to do; the exit code."""
-    given = list(zip(arguments[::2], arguments[1::2]))
-    options = dict(given)
-    wires, numbers = ([value for name, value in given if name == wanted] for wanted in ("--wire", "--fd"))
+    options = dict(zip(arguments[::2], arguments[1::2]))
+    addresses = [value for name, value in zip(arguments[::2], arguments[1::2]) if name == "--wire"]
     for name in ("SIGINT", "SIGTSTP", "SIGHUP", "SIGTTIN", "SIGTTOU", "SIGPIPE", "SIGTERM"):
         signal.signal(getattr(signal, name), signal.SIG_IGN)
     prefer(*GUARD)
     wake_promptly()
+    line = socket.socket(fileno=int(options["--fd"]))
     wiring, is_near = _wiring(options), options.get("--near") == "yes"
     try:
         with contextlib.ExitStack() as opened:
-            guards = []
-            for address, number in zip(wires, numbers):
+            robots = []
+            for address in addresses:
                 wire = connect_wire(address, wiring, "chatrobot_guard")
                 opened.callback(wire.close)  # else its node stays on the graph until its lease ends
-                line = socket.socket(fileno=int(number))
-                guards.append(Guard(line, wire, wiring.cmd_vel_topic, wiring.odom_topic, is_near=is_near))
-                guards[-1].on_loss = _let_go_of_output
-            guard_all(guards)
+                robots.append(HaltedRobot(wire, wiring.cmd_vel_topic, wiring.odom_topic, is_near=is_near))
+            guard = Guard(line, robots)
+            guard.on_loss = _let_go_of_output
+            guard.run()
     except WireError:
         return 1  # the robot's end is gone: there is nothing left to halt
     return 0

@@ -36,9 +36,6 @@ _FOUND = ("standing", "unseen", "waiting", "moving")
 class Driven(Protocol):
     """One robot of this process, as the control loop sees it."""
 
-    is_woken: bool
-    """Something came that its next tick is to be early for."""
-
     @property
     def has_left(self) -> bool:
         """True once all is done, and nobody is there who may ask for more."""
@@ -79,18 +76,24 @@ class ControlLoop:
         prefer(MOTION)
         wake_promptly()
         self._wake = os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC)
-        self._wires: list[LocalWire] = []
+        self._wires: dict[int, LocalWire] = {}
+        self._poller = select.epoll()
+        self._poller.register(self._wake, select.EPOLLIN)
         self._due_s: dict[Driven, float] = {}
+        self._woken: set[Driven] = set()
 
-    def wake(self) -> None:
-        """Have those that are woken ticked at once. From any thread."""
+    def wake(self, robot: Driven) -> None:
+        """Have that robot ticked at once. From any thread."""
+        self._woken.add(robot)
         os.eventfd_write(self._wake, 1)
 
     def connect(self, path: str, _wiring: Wiring, _node: str) -> Wire:
         """Open the local wire of one of many robots, and read it between the ticks: with a thread for each of them
         the interpreter would go from hand to hand at every message."""
-        self._wires.append(LocalWire(path, has_thread=False))
-        return self._wires[-1]
+        wire = LocalWire(path, has_thread=False)
+        self._wires[wire.fileno()] = wire
+        self._poller.register(wire, select.EPOLLIN)
+        return wire
 
     def run(self, robots: Sequence[Driven]) -> None:
         """Tick until all have left.
@@ -128,31 +131,28 @@ class ControlLoop:
 
     def _listen(self) -> None:
         """Wait until a tick is due, a robot is woken or a wire has news; take in the news."""
-        self._wires = [wire for wire in self._wires if not wire.is_over]
-        wait_s = (
-            0.0 if any(robot.is_woken for robot in self._due_s) else self._next_due_s() - time.monotonic()
-        )
-        listened: list[int | LocalWire] = [self._wake, *self._wires]
-        readable, _, _ = select.select(listened, [], [], max(0.0, wait_s))
-        for one in readable:
-            if isinstance(one, LocalWire):
-                one.deliver()
-            else:
+        wait_s = max(0.0, min(self._due_s.values()) - time.monotonic())
+        select.select([self._poller], [], [], wait_s)  # by itself the poller waits for whole milliseconds
+        for descriptor, _ in self._poller.poll(0.0):
+            if descriptor == self._wake:
                 os.eventfd_read(self._wake)
-
-    def _next_due_s(self) -> float:
-        return min(self._due_s.values())
+                continue
+            wire = self._wires[descriptor]
+            wire.deliver()
+            if wire.is_over:
+                self._poller.unregister(descriptor)
 
     def _next(self) -> Driven | None:
         """The robot that is woken, or due first; None where none is."""
-        for robot in self._due_s:
-            if robot.is_woken:
-                return robot
+        if self._woken:
+            return self._woken.pop()
         robot, due_s = min(self._due_s.items(), key=itemgetter(1))
         return robot if time.monotonic() >= due_s else None
 
     def _tick(self, robot: Driven) -> None:
-        robot.is_woken = False
+        if robot not in self._due_s:
+            return  # it has left
+        self._woken.discard(robot)
         robot.tick()
         due_s, now_s = self._due_s[robot], time.monotonic()
         if robot.has_left:

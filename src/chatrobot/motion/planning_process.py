@@ -126,15 +126,15 @@ class RemoteProgramHost(ProgramHost):
 
     def __init__(self, profile: RobotProfile, planner: RemotePlanner, server: WarmServer) -> None:
         super().__init__(profile, is_in_step=False, server=server)
-        self._planner = planner
+        self._elsewhere = planner
 
-    def rehearse(self, goal: ProgramGoal, planner: Planner, seen: RememberedObstacles | None) -> Planned:
+    def rehearse(self, goal: ProgramGoal, _: Planner, seen: RememberedObstacles | None) -> Planned:
         """Run it on virtual time over there."""
         try:
             self.warm()  # here, and not on the control thread when it is launched
         except SandboxError as error:
             return Planned(goal.turn, None, error.reason)
-        return self._planner.plan_program(goal, seen)
+        return self._elsewhere.plan_program(goal, seen)
 
 
 def start_planning(profile: RobotProfile, world: World, count: int) -> list[RemotePlanner]:

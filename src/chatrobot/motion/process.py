@@ -21,7 +21,7 @@ from chatrobot.core.events import Event, Telemetry
 from chatrobot.link.envelope import Envelope, ready
 from chatrobot.motion.control_loop import ControlLoop
 from chatrobot.motion.runner import MotionRunner, Shared
-from chatrobot.motion.safety.watchdog import start_guard
+from chatrobot.motion.safety.watchdog import SharedGuard, start_guard
 from chatrobot.programs.sandboxed import warm_server
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.open_loop import as_chosen
@@ -116,12 +116,13 @@ def _shared(addresses: Sequence[str], options: Mapping[str, str]) -> list[Shared
     profile = as_chosen(
         load_profile(options["--profile"]), _budget(options), open_loop=bool(options["--open-loop"])
     )
-    guards = start_guard(addresses, profile.wiring, RealClock(), is_near=True)
+    clock = RealClock()
+    guard = SharedGuard(start_guard(addresses, profile.wiring, clock, is_near=True), clock)
     planners = start_planning(profile, load_world(options["--world"]), len(addresses))
     server = warm_server()
     return [
-        Shared(loop, guard, planner, RemoteProgramHost(profile, planner, server))
-        for guard, planner in zip(guards, planners)
+        Shared(loop, guard.share(), planner, RemoteProgramHost(profile, planner, server))
+        for planner in planners
     ]
 
 

@@ -31,7 +31,7 @@ from chatrobot.motion.programs.host import ProgramHost
 from chatrobot.motion.safety.competing_controllers import CompetingControllers
 from chatrobot.motion.safety.connection_monitor import ConnectionMonitor, ReconnectingWire, reach
 from chatrobot.motion.safety.stop import PAUSED
-from chatrobot.motion.safety.watchdog import GuardLine, start_guard
+from chatrobot.motion.safety.watchdog import GuardShare, start_guard
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.open_loop import as_chosen, drives_on_alone, slowed
@@ -54,7 +54,7 @@ class Shared:
     """What the robots of one process have in common, and this one's share of it. What is None a robot makes itself."""
 
     loop: ControlLoop
-    guard: GuardLine | None = None
+    guard: GuardShare | None = None
     planner: Planner | None = None
     programs: ProgramHost | None = None
 
@@ -104,7 +104,6 @@ class MotionRunner:
         check_known(known_world, given)
         self.wire, self.profile, said = _meet(connect, address, given, node, on_robot=on_robot)
         self._emit = emit
-        self.is_woken = False
         self._is_over: Callable[[], bool] = lambda: False
         self._each_tick: Callable[[], None] = lambda: None
         self._at_end: Callable[[], None] = lambda: None
@@ -112,7 +111,9 @@ class MotionRunner:
         self.programs = shared.programs or ProgramHost(self.profile, is_in_step=False)
         is_near = on_robot or is_on_this_machine(address)
         wiring = _as_others_name_it(self.wire, self.profile.wiring)
-        self._guard = shared.guard or start_guard([address], wiring, RealClock(), is_near=is_near)[0]
+        self._guard: GuardLine | GuardShare = shared.guard or start_guard(
+            [address], wiring, RealClock(), is_near=is_near
+        )
         self._departure = Departure(self.wire, wiring.cmd_vel_topic, wiring.odom_topic, is_near=is_near)
         self.motion = Motion(
             self.profile,
@@ -245,8 +246,7 @@ class MotionRunner:
     # --- threads of its own ---
 
     def _wake(self) -> None:
-        self.is_woken = True
-        self._loop.wake()
+        self._loop.wake(self)
 
     def _plan(self) -> None:
         while True:

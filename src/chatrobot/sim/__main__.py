@@ -75,7 +75,7 @@ def _serve(options: argparse.Namespace) -> None:
     os.write(options.ready_fd, b"ready\n")
     if options.ready_fd > 2:
         os.close(options.ready_fd)
-    Simulation(servers).run()
+    Simulation(servers, RealClock()).run()
 
 
 def _server(

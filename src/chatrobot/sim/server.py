@@ -7,6 +7,7 @@ import json
 import math
 import signal
 from collections.abc import Sequence
+from operator import itemgetter
 from types import FrameType
 from typing import Any
 
@@ -14,7 +15,7 @@ from chatrobot.core.clock import Clock
 from chatrobot.sim.network_wire import MarshalledWire
 from chatrobot.sim.robot import TICK_S, SimRobot
 from chatrobot.sim.shapes import Circle, Shape, polygon
-from chatrobot.wire.local import LocalHub, poll_all
+from chatrobot.wire.local import LocalHub, LocalHubs
 from chatrobot.wire.messages import Text
 from chatrobot.wire.wire import Wire
 
@@ -49,11 +50,10 @@ class SimServer:
             self._robot.step(behind_s)
 
     @property
-    def until_next_tick_s(self) -> float:
-        """Return how long until its sensors measure next; not above zero where they should have by now."""
+    def next_tick_s(self) -> float:
+        """Return when its sensors measure next, by the clock."""
         lived_s = self._robot.now_s - self._robot.start_s
-        due_s = self._robot.start_s + (math.floor(lived_s / TICK_S + _SLACK) + 1) * TICK_S
-        return due_s - self._clock.now_s()
+        return self._robot.start_s + (math.floor(lived_s / TICK_S + _SLACK) + 1) * TICK_S
 
     @property
     def is_deserted(self) -> bool:
@@ -71,8 +71,10 @@ class SimServer:
 class Simulation:
     """The simulated robots of this process: one, or those of a class, each on a hub of its own."""
 
-    def __init__(self, servers: Sequence[SimServer]) -> None:
-        self._servers = list(servers)
+    def __init__(self, servers: Sequence[SimServer], clock: Clock) -> None:
+        self._clock = clock
+        self._due_s = {server: server.next_tick_s for server in servers}
+        self._hubs = LocalHubs([server.hub for server in servers if isinstance(server.hub, LocalHub)])
         self._is_terminated = False
 
     def run(self) -> None:
@@ -83,30 +85,28 @@ class Simulation:
         """
         for ignored in (signal.SIGINT, signal.SIGTSTP, signal.SIGHUP):
             signal.signal(ignored, signal.SIG_IGN)
-        has_hub = all(isinstance(server.hub, LocalHub) for server in self._servers)
+        has_hub = all(isinstance(server.hub, LocalHub) for server in self._due_s)
         for ending in [signal.SIGTERM] if has_hub else [signal.SIGTERM, signal.SIGINT, signal.SIGHUP]:
             signal.signal(ending, self._on_terminate)
         try:
-            while self._servers and not self._is_terminated:
+            while self._due_s and not self._is_terminated:
                 self._live()
         finally:
-            for server in self._servers:
+            for server in self._due_s:
                 server.hub.close()
 
     def _live(self) -> None:
         """Step the robot that is due most, if any is, then route what has been said: who commands does not wait for
         all the others' physics."""
-        due = min(self._servers, key=lambda server: server.until_next_tick_s)
-        if due.until_next_tick_s <= 0.0:
-            due.catch_up()
-        left_s = min(server.until_next_tick_s for server in self._servers)
-        if len(self._servers) == 1:
-            due.hub.poll(left_s)
-        else:
-            poll_all([server.hub for server in self._servers if isinstance(server.hub, LocalHub)], left_s)
-        for server in [server for server in self._servers if server.is_deserted]:
-            server.hub.close()
-            self._servers.remove(server)
+        server, due_s = min(self._due_s.items(), key=itemgetter(1))
+        if due_s <= self._clock.now_s():
+            server.catch_up()
+            self._due_s[server] = server.next_tick_s
+            if server.is_deserted:
+                server.hub.close()
+                del self._due_s[server]
+        wait_s = min(self._due_s.values(), default=0.0) - self._clock.now_s()
+        (server.hub if len(self._due_s) == 1 else self._hubs).poll(wait_s)
 
     def _on_terminate(self, _signal: int, _frame: FrameType | None) -> None:
         self._is_terminated = True

@@ -192,7 +192,7 @@ class LocalHub(Wire):
             self.path.unlink()
 
     def fileno(self) -> int:
-        """Return what is readable while there is something to route: `poll_all` waits for it."""
+        """Return what is readable while there is something to route: `LocalHubs` waits for it."""
         return self._poller.fileno()
 
     def _accept(self) -> None:
@@ -239,15 +239,19 @@ class LocalHub(Wire):
         client.close()
 
 
-def poll_all(hubs: Sequence[LocalHub], timeout_s: float) -> None:
-    """Wait up to `timeout_s` until any of the hubs has packets, and have each that has some route them."""
-    poller = select.poll()
-    for hub in hubs:
-        poller.register(hub, select.POLLIN)
-    ready = {descriptor for descriptor, _ in poller.poll(max(0.0, timeout_s) * 1000.0)}
-    for hub in hubs:
-        if hub.fileno() in ready:
-            hub.poll(0.0)
+class LocalHubs:
+    """Many hubs of one process, waited for at once."""
+
+    def __init__(self, hubs: Sequence[LocalHub]) -> None:
+        self._hubs = {hub.fileno(): hub for hub in hubs}
+        self._poller = select.epoll()
+        for hub in hubs:
+            self._poller.register(hub, select.EPOLLIN)
+
+    def poll(self, timeout_s: float) -> None:
+        """Wait up to `timeout_s` for packets and route all that are there. A closed hub has none."""
+        for descriptor, _ in self._poller.poll(max(0.0, timeout_s)):
+            self._hubs[descriptor].poll(0.0)
 
 
 def _connect(address: str, _: Wiring, __: str) -> Wire:
