@@ -111,9 +111,7 @@ class MotionRunner:
         self.programs = shared.programs or ProgramHost(self.profile, is_in_step=False)
         is_near = on_robot or is_on_this_machine(address)
         wiring = _as_others_name_it(self.wire, self.profile.wiring)
-        self._guard: GuardLine | GuardShare = shared.guard or start_guard(
-            [address], wiring, RealClock(), is_near=is_near
-        )
+        self._guard = shared.guard or start_guard([address], wiring, RealClock(), is_near=is_near)
         self._departure = Departure(self.wire, wiring.cmd_vel_topic, wiring.odom_topic, is_near=is_near)
         self.motion = Motion(
             self.profile,

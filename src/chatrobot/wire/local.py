@@ -25,6 +25,7 @@ from chatrobot.wire.wire import M, Wire
 PACKET_BYTES = 262_144
 _PACKETS_A_TURN = 64
 """How many packets the hub takes from one process before it looks at the others and at the time."""
+_AT_ONCE = int(socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
 SUBSCRIBE = b"\0subscribe\0"
 """A process says this with a topic's name behind it, to hear that topic from then on."""
 
@@ -76,7 +77,7 @@ class LocalWire(Wire):
     def publish(self, topic: str, message: Message) -> None:
         packet = encode(topic, message)
         try:
-            self._socket.send(packet, socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
+            self._socket.send(packet, _AT_ONCE)
         except BlockingIOError:
             return  # the hub does not read: it is frozen, and a queue of old velocities would help nobody
         except OSError as error:
@@ -231,7 +232,7 @@ class LocalHub(Wire):
 
     def _send(self, client: socket.socket, packet: bytes) -> None:
         with contextlib.suppress(OSError):  # full: it does not read; gone: its own event will say so
-            client.send(packet, socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
+            client.send(packet, _AT_ONCE)
 
     def _drop(self, descriptor: int) -> None:
         client, _ = self._clients.pop(descriptor)

@@ -20,6 +20,9 @@ if TYPE_CHECKING:  # the process that talks loads this module for its guard, and
     from chatrobot.governor.governor import Governor
 
 
+_AT_ONCE = int(socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
+
+
 class GuardLink(Protocol):
     """Motion's line to the guard: Motion refuses to move while `is_alive` is false."""
 
@@ -97,7 +100,7 @@ class GuardLine:
 
     def _say(self, word: bytes) -> None:
         with contextlib.suppress(OSError):  # a guard that is gone shows in `is_alive`
-            self._line.send(word, socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
+            self._line.send(word, _AT_ONCE)
 
     def _hear(self) -> None:
         try:
