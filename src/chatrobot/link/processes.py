@@ -114,14 +114,23 @@ def spawn(module: str, *arguments: str, pass_fds: Sequence[int] = ()) -> subproc
     )
 
 
+def spawn_with_line(
+    module: str, *arguments: str, kind: socket.SocketKind
+) -> tuple[subprocess.Popen[bytes], socket.socket]:
+    """The same with a line to talk over: our end of a socket pair. The child is told its own by `--fd`."""
+    process, (line,) = spawn_with_lines(module, *arguments, kind=kind, count=1)
+    return process, line
+
+
 def spawn_with_lines(
-    module: str, *arguments: str, kind: socket.SocketKind, count: int = 1
+    module: str, *arguments: str, kind: socket.SocketKind, count: int
 ) -> tuple[subprocess.Popen[bytes], list[socket.socket]]:
-    """The same with lines to talk over: our ends of so many socket pairs. The child is told its own by `--fd`, each."""
+    """The same with several lines: `--fd 5,6`."""
     pairs = [socket.socketpair(socket.AF_UNIX, kind) for _ in range(count)]
     numbers = [theirs.fileno() for _, theirs in pairs]
-    told = [word for number in numbers for word in ("--fd", str(number))]
-    process = spawn(module, *arguments, *told, pass_fds=numbers)
-    for _, theirs in pairs:
-        theirs.close()
-    return process, [ours for ours, _ in pairs]
+    try:
+        told = ",".join(map(str, numbers))
+        return spawn(module, *arguments, "--fd", told, pass_fds=numbers), [ours for ours, _ in pairs]
+    finally:
+        for _, theirs in pairs:
+            theirs.close()

@@ -1,5 +1,5 @@
 """Rehearsals of the robots of a class, in a process beside the one that drives them: `python -m
-chatrobot.motion.planning_process --fd N …`, one line for each robot.
+chatrobot.motion.planning_process --fd N,M,…`, one line for each robot.
 
 A single robot rehearses in a thread of its Motion. Where many are driven by one thread, a rehearsal there would take
 the interpreter from it at each of its system calls, and one pupil's long plan would delay the ticks of all the others.
@@ -178,7 +178,7 @@ def main(arguments: list[str]) -> int:
         signal.signal(getattr(signal, name), signal.SIG_IGN)
     prefer(OOM_SCORE)
     os.nice(NICENESS)
-    lines = [socket.socket(fileno=int(number)) for number in arguments[1::2]]
+    lines = [socket.socket(fileno=int(number)) for number in arguments[1].split(",")]
     try:
         rehearsals = _Rehearsals(*Messages(lines[0].dup()).receive())
     except (OSError, EOFError):

@@ -2,7 +2,7 @@
 --max-time … --open-loop yes|"" --wire … --fd N`.
 
 Envelopes come over an inherited socket, and events go back over it; `MotionRunner` does the rest. The Motions of a
-class are one process: `--wire` and `--fd` come once for each robot.
+class are one process: `--wire` comes once for each robot, and `--fd` names the line of each: `--fd N,M,…`.
 """
 
 from __future__ import annotations
@@ -92,10 +92,9 @@ def main(arguments: list[str]) -> int:
     """Run Motion on the inherited socket; return the exit code."""
     for name in ("SIGINT", "SIGTSTP", "SIGHUP", "SIGPIPE"):
         signal.signal(getattr(signal, name), signal.SIG_IGN)
-    given = list(zip(arguments[::2], arguments[1::2]))
-    options = dict(given)
-    addresses, numbers = ([value for name, value in given if name == wanted] for wanted in ("--wire", "--fd"))
-    lines = [socket.socket(fileno=int(number)) for number in numbers]
+    options = dict(zip(arguments[::2], arguments[1::2]))
+    addresses = [value for name, value in zip(arguments[::2], arguments[1::2]) if name == "--wire"]
+    lines = [socket.socket(fileno=int(number)) for number in options["--fd"].split(",")]
     try:
         shared = _shared(addresses, options)
         runners = [_begin(*one, options) for one in zip(addresses, lines, shared)]

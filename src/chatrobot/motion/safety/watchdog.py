@@ -13,7 +13,7 @@ from chatrobot.core.clock import TICK_S, Clock
 from chatrobot.core.process import is_machine_busy
 from chatrobot.core.reason import Reason
 from chatrobot.guard.watch import BEAT, ECHO_LOST_S, GOODBYE, HANDSHAKE, MISSED_S, TRIPPED, Watch
-from chatrobot.link.processes import spawn_with_lines
+from chatrobot.link.processes import spawn_with_line
 from chatrobot.robots.profile import Wiring
 
 if TYPE_CHECKING:  # the process that talks loads this module for its guard, and no numpy
@@ -129,7 +129,7 @@ def start_guard(
         wiring: names the topics it halts and watches, and the namespace it lives in.
         is_near: the robots' process is on this machine.
     """
-    process, (line,) = spawn_with_lines(
+    process, line = spawn_with_line(
         "chatrobot.guard",
         *(word for address in addresses for word in ("--wire", address)),
         *("--topic", wiring.cmd_vel_topic, "--type", wiring.cmd_vel_type),
