@@ -59,6 +59,7 @@ class Setup:
         model: the language model to ask, None for none; `model_options`: how it is used.
         camera: takes pictures for it, as JPEG or PNG, in place of the robot's own camera.
         processes: those of a simulated robot in real time that have been started ahead.
+        source: in whose name its session speaks to Motion (`governor.lease.PRIORITIES`).
         on_ready: called once the robot is ready.
     """
 
@@ -78,6 +79,7 @@ class Setup:
     model_options: ModelOptions = field(default_factory=ModelOptions)
     camera: Callable[[], bytes | None] | None = None
     processes: Processes | None = None
+    source: str = "console"
     on_ready: Callable[[], None] = lambda: None
 
     @property
@@ -99,6 +101,7 @@ class Connection:
     profile: RobotProfile
     world: World
     close: Callable[[], None]
+    link: MotionLink
 
 
 class Prepared:
@@ -231,7 +234,7 @@ def _connect_simulated(prepared: Prepared, on_event: OnEvent) -> Connection:
         hub.connect().subscribe(TRUTH_TOPIC, Odometry, _tracer(on_event))
         link.step()  # the trace begins before anything moves
     session = prepared.session(link, on_event)
-    return Connection(session, profile, world, _in_turn(session.close, programs.close))
+    return Connection(session, profile, world, _in_turn(session.close, programs.close), link)
 
 
 # --- real time: the simulated robot, Motion and the guard are processes ---
@@ -247,7 +250,7 @@ def _connect_real_time(prepared: Prepared, on_event: OnEvent) -> Connection:
         profile_file, setup.world, setup.sim, setup.budget, open_loop=setup.open_loop
     )
     processes.is_taken = True
-    link = SocketLink(processes.motion)
+    link = SocketLink(processes.motion, setup.source)
     try:
         prepared.understanding.warm()
         link.wait_until_ready()
@@ -267,7 +270,7 @@ def _connect_real_time(prepared: Prepared, on_event: OnEvent) -> Connection:
         trace = LocalWire(processes.wire_path)
         trace.subscribe(TRUTH_TOPIC, Odometry, _tracer(one_at_a_time))
         close = _in_turn(session.close, trace.close)
-    return Connection(session, prepared.profile, prepared.world, close)
+    return Connection(session, prepared.profile, prepared.world, close, link)
 
 
 # --- a robot on a wire: Motion and the guard are processes ---
@@ -295,7 +298,7 @@ def _connect_wire(prepared: Prepared, on_event: OnEvent) -> Connection:
         link.wait_until_ready()
     setup.on_ready()
     session = prepared.session(link, on_event)
-    return Connection(session, profile, prepared.world, session.close)
+    return Connection(session, profile, prepared.world, session.close, link)
 
 
 def _in_turn(*closes: Callable[[], None]) -> Callable[[], None]:

@@ -35,6 +35,7 @@ PRIORITIES: Mapping[str, Priority] = {
     "console": Priority.PLAN,
     "program": Priority.PLAN,
     "web": Priority.PLAN,
+    "pupil": Priority.PLAN,
     "base": Priority.PLAN,
     "agent": Priority.AGENT,
     "mcp": Priority.AGENT,

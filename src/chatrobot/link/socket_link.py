@@ -14,7 +14,7 @@ from chatrobot.core.clock import LOCAL_BEAT_HZ, LOCAL_TERM_S
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import event_from_json
 from chatrobot.core.process import own_identity, wake_promptly
-from chatrobot.link.envelope import PROTOCOL, Word, read_ready
+from chatrobot.link.envelope import PROTOCOL, Envelope, Word, read_ready
 from chatrobot.link.motion_link import EventQueue, MotionLink, Sender
 from chatrobot.link.processes import MotionProcess
 from chatrobot.wire.local import PACKET_BYTES
@@ -62,7 +62,18 @@ class SocketLink(EventQueue, MotionLink):
         self._reader.start()
 
     def send(self, word: Word, turn: int = 0, **payload: Any) -> None:
-        packet = self._sender.envelope(word, turn, **payload).to_bytes()
+        self._say(self._sender.envelope(word, turn, **payload))
+
+    def release_as(self, source: str) -> None:
+        """Release an emergency stop in the name of somebody who may, where the source of this link may not.
+
+        Raises:
+            LinkError: Motion is gone.
+        """
+        self._say(Sender(source).envelope("release"))
+
+    def _say(self, envelope: Envelope) -> None:
+        packet = envelope.to_bytes()
         try:
             self._line.send(packet, socket.MSG_NOSIGNAL)
         except OSError as error:
