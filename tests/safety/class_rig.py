@@ -29,7 +29,9 @@ class RunningClass:
             Setup(world=world, folder=folder), self.names, lambda name: self.events[name].append
         )
         self._wires, self.heard = [], []
-        for path in sorted((Path(os.environ["XDG_RUNTIME_DIR"]) / "chatrobot").glob("sim-*.wire"), key=_place):
+        for path in sorted(
+            (Path(os.environ["XDG_RUNTIME_DIR"]) / "chatrobot").glob("sim-*.wire"), key=_place
+        ):
             wire, ear = LocalWire(path), Heard(PATIENCE_S)
             wire.subscribe("cmd_vel", TwistMessage, ear)
             self._wires.append(wire)

@@ -71,6 +71,10 @@ class Messages:
         pickler.dump(message)
         self._connection.send_bytes(packet.getbuffer())
 
+    def close(self) -> None:
+        """Close the line."""
+        self._connection.close()
+
     def receive(self) -> Any:
         """Return the next message. Raises EOFError or OSError where the other end is gone."""
         unpickler = _Unpickler(io.BytesIO(self._connection.recv_bytes()))
@@ -82,12 +86,16 @@ class RemotePlanner(Planner):
     """Plans in the process beside this one; used by one thread.
 
     Args:
-        line: our end of this robot's line to it.
+        renew: starts that process anew, where it is gone.
     """
 
-    def __init__(self, profile: RobotProfile, world: World, line: socket.socket) -> None:
+    def __init__(
+        self, profile: RobotProfile, world: World, renew: Callable[[RemotePlanner, Messages], None]
+    ) -> None:
         super().__init__(profile, world)
-        self._messages = Messages(line, (profile, world))
+        self._renew = renew
+        self.messages: Messages
+        """This robot's line to that process."""
 
     def plan(
         self,
@@ -109,12 +117,47 @@ class RemotePlanner(Planner):
         return self._ask(goal.turn, (bare, seen))
 
     def _ask(self, turn: int, question: tuple[Any, ...]) -> Planned:
+        messages = self.messages
         try:
-            self._messages.send(question)
-            answer: Planned = self._messages.receive()
-        except (OSError, EOFError):
+            messages.send(question)
+            answer: Planned = messages.receive()
+        except (OSError, EOFError):  # not asked again: it may be what ended it
+            self._renew(self, messages)
             return Planned(turn, None, Reason("rehearsal_gone"))
         return answer
+
+
+class PlanningProcess:
+    """Starts the process, and starts it anew where it is gone: nothing moves by it, and nothing stops with it."""
+
+    def __init__(self, profile: RobotProfile, world: World, count: int) -> None:
+        self._known = (profile, world)
+        self._lock = threading.Lock()
+        self.planners = [RemotePlanner(profile, world, self._renew) for _ in range(count)]
+        self._start()
+
+    def kill(self) -> None:
+        """End it as a crash would."""
+        self._process.kill()
+        self._process.wait()
+
+    def close(self) -> None:
+        """Let go of it: it ends once its last answer is given."""
+        for planner in self.planners:
+            planner.messages.close()
+
+    def _start(self) -> None:
+        self._process, lines = spawn_with_lines(
+            "chatrobot.motion.planning_process", kind=socket.SOCK_STREAM, count=len(self.planners)
+        )
+        Messages(lines[0].dup()).send(self._known)
+        for planner, line in zip(self.planners, lines):
+            planner.messages = Messages(line, self._known)
+
+    def _renew(self, planner: RemotePlanner, gone: Messages) -> None:
+        with self._lock:
+            if planner.messages is gone:
+                self._start()
 
 
 class RemoteProgramHost(ProgramHost):
@@ -135,13 +178,6 @@ class RemoteProgramHost(ProgramHost):
         except SandboxError as error:
             return Planned(goal.turn, None, error.reason)
         return self._elsewhere.plan_program(goal, seen)
-
-
-def start_planning(profile: RobotProfile, world: World, count: int) -> list[RemotePlanner]:
-    """Start the process; return the planner of each robot."""
-    _, lines = spawn_with_lines("chatrobot.motion.planning_process", kind=socket.SOCK_STREAM, count=count)
-    Messages(lines[0].dup()).send((profile, world))
-    return [RemotePlanner(profile, world, line) for line in lines]
 
 
 class _Rehearsals:

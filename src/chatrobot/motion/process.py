@@ -110,14 +110,14 @@ def _shared(addresses: Sequence[str], options: Mapping[str, str]) -> list[Shared
     loop = ControlLoop()
     if len(addresses) == 1:
         return [Shared(loop)]
-    from chatrobot.motion.planning_process import RemoteProgramHost, start_planning
+    from chatrobot.motion.planning_process import PlanningProcess, RemoteProgramHost
 
     profile = as_chosen(
         load_profile(options["--profile"]), _budget(options), open_loop=bool(options["--open-loop"])
     )
     clock = RealClock()
     guard = SharedGuard(start_guard(addresses, profile.wiring, clock, is_near=True), clock)
-    planners = start_planning(profile, load_world(options["--world"]), len(addresses))
+    planners = PlanningProcess(profile, load_world(options["--world"]), len(addresses)).planners
     server = warm_server()
     return [
         Shared(loop, guard.share(), planner, RemoteProgramHost(profile, planner, server))
