@@ -8,13 +8,12 @@ import signal
 import time
 from pathlib import Path
 
-from tests.processes import Heard
-
 from chatrobot.compose import Setup
 from chatrobot.core.events import Event
 from chatrobot.pupils import connect_class
 from chatrobot.wire.local import LocalWire
 from chatrobot.wire.messages import TwistMessage
+from tests.processes import Heard
 
 PATIENCE_S = 20.0
 

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
 from tests.safety.class_rig import PATIENCE_S, RunningClass
 
 pytestmark = [pytest.mark.realtime, pytest.mark.alone]
