@@ -22,7 +22,7 @@ from bench.latency import percentile
 from chatrobot.compose import Setup
 from chatrobot.dialogue.pump import Pump
 from chatrobot.dialogue.session import Session
-from chatrobot.pupils import connect_class
+from chatrobot.web.pupils import connect_class
 from chatrobot.wire.local import LocalWire
 from chatrobot.wire.messages import TwistMessage
 

@@ -186,6 +186,31 @@ def test_a_source_that_leaves_without_goodbye_stops_the_robot(rig: LinkRig) -> N
     assert is_at_rest(rig)
 
 
+def hold_stick(rig: LinkRig, vx_mps: float, duration_s: float) -> None:
+    """The stick is held like that for so long of the robot's time; the link is read meanwhile."""
+    for _ in range(round(duration_s / 0.05)):
+        rig.link.send("steer", vx_mps=vx_mps)
+        rig.link.next_event(0.05)
+
+
+def test_a_stick_drives_and_a_zero_lets_go(rig: LinkRig) -> None:
+    for _ in range(100):
+        hold_stick(rig, 0.3, 0.1)
+        if any(rig.velocities[-1:] and rig.velocities[-1]):
+            break
+    assert rig.velocities[-1].vx_mps > 0.0
+    rig.link.send("steer")
+    assert is_at_rest(rig)
+
+
+def test_a_stick_goes_before_the_plan_of_its_own_source(rig: LinkRig) -> None:
+    send_plan(rig, 1, "drive 5 m")
+    moving(rig, 1)
+    rig.link.send("steer", vx_mps=-0.2)
+    ended = finished(rig, 1)
+    assert (ended.outcome, ended.reason and ended.reason.code) == ("stopped", "handed_over")
+
+
 def test_a_plan_that_was_on_its_way_when_stop_was_said_is_not_driven(rig: LinkRig) -> None:
     rig.link.send("stop", 3, why="said after turn 3")
     send_plan(rig, 3, "drive 1 m")

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from chatrobot.compose import Setup
 from chatrobot.core.events import Event
-from chatrobot.pupils import connect_class
+from chatrobot.web.pupils import connect_class
 from chatrobot.wire.local import LocalWire
 from chatrobot.wire.messages import TwistMessage
 from tests.processes import Heard

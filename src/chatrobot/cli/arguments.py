@@ -31,6 +31,7 @@ COMMANDS = {
     "model": "set up, list and test language models",
     "usage": "what language models have used and cost",
     "fake-model": "a scripted stand-in for a language model, for tests and demonstrations",
+    "web": "a page in your browser: chat, map, plan, stick and stop",
     "completion": "what makes Tab complete in bash, zsh or fish",
 }
 SHELLS = ("bash", "zsh", "fish")
@@ -263,6 +264,18 @@ def _fake_model(parser: argparse.ArgumentParser) -> None:
     _add(parser, "--host", default="127.0.0.1", help=where)
 
 
+def _web(parser: argparse.ArgumentParser) -> None:
+    where = "where to listen (default: 127.0.0.1, this machine alone); elsewhere a token is asked for"
+    _add(parser, "--host", default="127.0.0.1", help=where)
+    free = "the port of the page; 0: any that is free (default: 8080, or the next that is free)"
+    _add(parser, "--port", type=port, default=None, help=free)
+    token = "what the link has to bring that may steer (default: a new one where one is needed)"
+    _add(parser, "--token", default="", help=token)
+    _add(parser, "--no-open", action="store_true", help="do not open the page in a browser")
+    _add(parser, "--tls-cert", "files", default="", metavar="FILE", help="a certificate in PEM: speak HTTPS")
+    _add(parser, "--tls-key", "files", default="", metavar="FILE", help="its key in PEM")
+
+
 def _completion(parser: argparse.ArgumentParser) -> None:
     _add(parser, "shell", choices=SHELLS, help="the shell whose script is printed")
     parser.epilog = _COMPLETION
@@ -311,4 +324,5 @@ def _ros_args(parser: argparse.ArgumentParser) -> None:
 _ARGUMENTS = {
     "do": _do, "plan": _plan, "eval": _eval, "calibrate": _calibrate, "sim": _sim, "node": _node,
     "model": _model, "usage": _usage, "fake-model": _fake_model, "program": _program, "completion": _completion,
+    "web": _web,
 }  # fmt: skip

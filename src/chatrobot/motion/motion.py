@@ -13,27 +13,23 @@ from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Looked, Notice
 from chatrobot.core.governed import StopEpoch
 from chatrobot.core.reason import Reason
-from chatrobot.core.wiring import CMD_VEL_INPUT_TOPIC, JOYSTICK_TOPIC
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
 from chatrobot.governor.lease import RELEASERS, Priority, priority_of
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.budgets import Budgets, open_loop_notice
-from chatrobot.motion.clients import Clients, CmdVelInput
+from chatrobot.motion.clients import Clients
 from chatrobot.motion.goal_queue import GoalQueue, Inbox, OutcomeQueue, Pausing
 from chatrobot.motion.goal_server import GoalServer
 from chatrobot.motion.governed_robot import GovernedRobot, TelemetryPublisher, sectors_m
 from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.execution import NoSandbox, ProgramSandbox
+from chatrobot.motion.relayed_velocities import RelayedVelocities
 from chatrobot.motion.safety.stop import PAUSED, StopConfirmation, Stops, WireTransport
 from chatrobot.motion.safety.watchdog import GuardLink, Interlock, StallDetector
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.wire.messages import TwistMessage
 from chatrobot.wire.wire import Wire
-
-JOYSTICK = "joystick"
-"""The source in whose name a joystick drives."""
 
 
 class Motion:
@@ -85,12 +81,10 @@ class Motion:
         self.goals = GoalServer(
             robot, queue, self._executor, planner, programs, self._budgets, stops, inbox, clock, pausing, outcomes, emit
         )  # fmt: skip
-        cmd_vel, stand, tell = CMD_VEL_INPUT_TOPIC, self.see_it_stand, self._notice
-        other_drove = Reason("other_drove", {"source": cmd_vel})
-        self._cmd_vel = CmdVelInput(cmd_vel, clock, robot, lambda: pausing.drop(other_drove), stand, tell)
-        self._joystick = CmdVelInput(
-            JOYSTICK, clock, robot, lambda: self.goals.hand_over(JOYSTICK), stand, tell
-        )
+        self._relayed = RelayedVelocities(
+            robot, self._clients, self.goals, pausing, stops, self.stop_confirmation, self.interlock, clock,
+            self._notice,
+        )  # fmt: skip
         self._stall_detector = StallDetector(clock, guard, self.halt)
         self._telemetry = TelemetryPublisher(self.sensors, self._executor.progress, emit)
         self._emergency: Envelope | None = None
@@ -148,8 +142,7 @@ class Motion:
         """Listen to the robot and shake hands with the guard."""
         self.sensors.attach(wire)
         self._programs.attach(wire)
-        wire.subscribe(CMD_VEL_INPUT_TOPIC, TwistMessage, self._cmd_vel.hear)
-        wire.subscribe(JOYSTICK_TOPIC, TwistMessage, self._joystick.hear)
+        self._relayed.listen(wire)
         self._guard.handshake()
         if (open_loop := open_loop_notice(self._profile)) is not None:
             self._notice(open_loop)
@@ -199,7 +192,7 @@ class Motion:
         now_s = self._clock.now_s()
         late_s = self._stall_detector.tick(
             now_s,
-            is_driven=self._executor.is_driving or self._cmd_vel.is_driving or self._joystick.is_driving,
+            is_driven=self._executor.is_driving or self._relayed.are_driving,
             is_engaged=self.goals.current is not None,
         )
         self._governor.leases.note_held_up(late_s)
@@ -209,7 +202,7 @@ class Motion:
             action()
             self._book_stop()
         now_s = self._clock.now_s()  # an action may have sent the first velocity of a motion meanwhile
-        self._joystick.tick(now_s, self._is_clear)
+        self._relayed.tick_sticks(now_s)
         self._executor.tick(now_s)
         self._book_stop()
         self.goals.expire_approval(now_s)
@@ -220,7 +213,7 @@ class Motion:
         if not self.stop_confirmation.is_watched:
             self._outcomes.tell_all()
         self._pausing.watch(now_s, is_standing=not self.stop_confirmation.is_watched)
-        self._cmd_vel.tick(now_s, self._is_free)
+        self._relayed.tick_programs(now_s)
         self._begin_next(now_s)
         # Late: it wakes the guard, which may take this processor.
         self._stall_detector.beat(self._clock.now_s())
@@ -235,23 +228,13 @@ class Motion:
             self.goals.pause(why, self._clock.now_s())
         else:
             self.goals.end_stopped(why)
-        self._cmd_vel.stop()
-        self._joystick.stop()
+        self._relayed.stop()
 
     def _begin_next(self, now_s: float) -> None:
         if self.stop_confirmation.disobeyed is not None:
             self.goals.refuse_all(self.stop_confirmation.disobeyed)
-        if not (self.stop_confirmation.is_active or self._cmd_vel.is_driving):
+        if not (self.stop_confirmation.is_active or self._relayed.is_program_driving):
             self.goals.begin_next(now_s)
-
-    def _is_free(self) -> bool:
-        """Nothing of ours drives, waits or stops the robot, and nothing keeps it from moving."""
-        return self.goals.let_others_drive and not self._joystick.is_driving and self._is_clear()
-
-    def _is_clear(self) -> bool:
-        """Nothing stops the robot, and nothing keeps it from moving."""
-        is_stopped = self.stop_confirmation.is_active or self.sensors.bumped or self._stops.is_unbooked
-        return not is_stopped and self.interlock.barrier() is None
 
     def _notice(self, reason: Reason) -> None:
         self._emit(Notice(0, reason))
@@ -275,6 +258,8 @@ class Motion:
             self._begin_next(now_s)
         elif envelope.word == "look":
             self._emit(Looked(envelope.turn, sectors_m(self._profile, self.sensors.scan)))
+        elif envelope.word == "steer":
+            self._relayed.steer(envelope, came_s)
         elif envelope.word == "resume":
             self._pausing.resume(envelope)
             self._begin_next(now_s)
@@ -288,14 +273,15 @@ class Motion:
                 self._emit(Notice(envelope.turn, reason))
         elif envelope.word == "goodbye":
             self._clients.leave(envelope.lease)
+            self._relayed.leave(envelope.lease)
             self._pausing.drop(Reason("source_left", {"source": envelope.source}), envelope.lease)
 
     def _accept(self, envelope: Envelope, epoch: int) -> None:
         refusal = self._clients.refusal(envelope)
         if refusal is not None:
             self.goals.refuse(envelope, epoch, refusal)
-        elif self._joystick.is_driving:  # what waited would set out by itself once the person lets go
-            self.goals.refuse(envelope, epoch, Reason("outranked", {"source": JOYSTICK}))
+        elif self._relayed.stick:  # what waited would set out by itself once the person lets go
+            self.goals.refuse(envelope, epoch, Reason("outranked", {"source": self._relayed.stick}))
         else:
             self.goals.accept(envelope, epoch)
 
