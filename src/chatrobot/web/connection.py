@@ -22,6 +22,8 @@ from chatrobot.web.words import refused, web_words
 
 CLOSE_S = 0.5
 """So long a page may take to read why it is closed."""
+COSTS = {"history": 10, "programs": 5, "program": 5}
+"""What is answered with much counts as so many messages."""
 MOST_MALFORMED = 10
 """A page that says so much that is not understood is none of ours."""
 UNSUPPORTED, POLICY, TRY_LATER = 1003, 1008, 1013
@@ -128,7 +130,10 @@ class PageConnection:
             page.put(refused("malformed", problem=str(error)))
             return self._malformed <= MOST_MALFORMED
         do = message["do"]
-        if not self._rates.get(do, self._rates[""]).allows() and do not in ("stop", "emergency_stop"):
+        if not self._rates.get(do, self._rates[""]).allows(COSTS.get(do, 1)) and do not in (
+            "stop",
+            "emergency_stop",
+        ):
             page.put(refused("too_many", do))
             return False
         if do in _BEATS:

@@ -30,12 +30,12 @@ class Rate:
         self._now = now
         self._left, self._at_s = float(MESSAGES_HZ), now()
 
-    def allows(self) -> bool:
-        """Count one; return whether it is not too many."""
+    def allows(self, cost: int = 1) -> bool:
+        """Count one that costs as much as so many; return whether it is not too many."""
         now_s = self._now()
         self._left = min(float(MESSAGES_HZ), self._left + (now_s - self._at_s) * MESSAGES_HZ)
         self._at_s = now_s
-        self._left -= 1.0
+        self._left -= cost
         return self._left >= 0.0
 
 
