@@ -72,12 +72,21 @@ class Room:
         self.is_over = False
         """Nothing can be asked of the robot any more."""
 
-    def open(self, connection: Connection, post: Post, *, is_simulated: bool) -> None:
+    def open(
+        self,
+        connection: Connection,
+        post: Post,
+        *,
+        is_simulated: bool,
+        release: Callable[[], None] | None = None,
+    ) -> None:
         """Let people in.
 
         Args:
             post: has something done by the thread that pumps the session.
+            release: releases an emergency stop, where the session itself may not.
         """
+        self._release = release or connection.session.release
         self.connection, self.session = connection, connection.session
         self._is_simulated = is_simulated
         self.steering = Steering(self.session, self._has_work, self._tell_lost)
@@ -120,6 +129,16 @@ class Room:
             self.session.stop("the web console has ended")
         with self._lock:
             self._tell_gone("server", "server_ends")
+
+    def tell_people(self, message: Message) -> None:
+        """Tell everybody who is here, and who comes later."""
+        with self._lock:
+            self._tell(message, is_kept=True)
+
+    @property
+    def face_count(self) -> int:
+        """Return how many pages look at it."""
+        return len(self._faces)
 
     def _tell_gone(self, what: str, code: str, **values: object) -> None:
         self._tell(
@@ -249,7 +268,7 @@ class Room:
     def release(self) -> None:
         """Ask Motion to release the emergency stop; its notice says what became of it."""
         self._release_is_due = True
-        self.session.release()
+        self._release()
 
     def say(self, face: Face, text: str) -> None:
         """Take a sentence in. A stop is out before this returns."""
