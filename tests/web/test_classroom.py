@@ -184,6 +184,14 @@ def test_a_pupils_link_is_for_one_robot_and_not_for_the_class(pupils: RunningCla
         assert http.get("/teacher").status_code == 200
 
 
+def test_a_teacher_who_looks_in_first_leaves_the_steering_to_the_pupil(pupils: RunningClass) -> None:
+    teacher = pupils.dial("/ws?room=3", pupils.token)
+    assert teacher.wait_for("hello", role="teacher", room="3")["steering"] is None
+    teacher.say("take")
+    teacher.wait_for("steering", you=True)  # they may, when they want to
+    teacher.socket.close()
+
+
 def test_a_class_has_simulated_robots_alone_and_a_number_that_can_be(chatrobot: Command) -> None:
     for arguments in (("--class", "3", "--on", "dds"), ("--class", "1"), ("--class", "31")):
         done = chatrobot("web", *arguments)

@@ -173,9 +173,10 @@ class Room:
     # --- who is here ---
 
     def join(self, face: Face) -> None:
-        """Let somebody in: they hear what was told so far, and steer if they may and nobody does."""
+        """Let somebody in: they hear what was told so far, and steer if they may and nobody does. A teacher looks in."""
         with self._lock:
-            if face.pass_.may_steer and self.steering.steerer is None:
+            may_begin = face.pass_.may_steer and face.pass_.role != "teacher"
+            if may_begin and self.steering.steerer is None:
                 self.steering.take(face)
             face.put(Message(lambda language: self._hello(face, language)))
             self._faces[face.id] = face
