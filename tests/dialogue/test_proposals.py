@@ -9,8 +9,9 @@ import pytest
 from rich.console import Console
 from tests.dialogue.talk import Talk
 
-from chatrobot.cli.console.narrator import Narrator
+from chatrobot.cli.console import lines
 from chatrobot.cli.console.words import Words
+from chatrobot.cli.narrator import Narrator
 from chatrobot.core.event import Proposal
 from chatrobot.core.events import Interpreted, Rehearsed, Result, event_from_json
 from chatrobot.dialogue import question
@@ -153,7 +154,7 @@ def shown(result: Result) -> str:
     """What the console prints of it."""
     console = Console(width=200)
     with console.capture() as capture:
-        console.print(*Narrator(Words("en")).tell(result))
+        console.print(*map(lines.shown, Narrator(Words("en")).tell(result)))
     return capture.get().strip()
 
 

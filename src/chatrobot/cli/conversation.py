@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import queue
 from collections.abc import Callable, Sequence
-from types import TracebackType
 
 from chatrobot.cli.approver import Approver
 from chatrobot.cli.entry import STOPPED, forget_stdout
@@ -47,15 +46,13 @@ class Conversation:
         self._watch.__enter__()
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, kind: object, *_: object) -> None:
         if kind is not None:
             with contextlib.suppress(LinkError):
                 self.session.stop("chatrobot broke")
         if self._connection is not None:
             self._connection.close()
-        self._watch.__exit__(kind, error, trace)
+        self._watch.__exit__()
         if self._printer.is_broken:
             forget_stdout()
 

@@ -7,10 +7,10 @@ import shlex
 import subprocess
 import tempfile
 from pathlib import Path
-from typing import Protocol
 
 from chatrobot.core.errors import UsageError
 from chatrobot.core.events import Event, Finished, Notice, ProgramWritten, Started
+from chatrobot.dialogue.session import Session
 
 _OTHERWISE = "vi"
 
@@ -57,18 +57,6 @@ UNREADABLE = "edit_unreadable"
 """The code of the notice that what was edited is asked about as it was before."""
 
 
-class TakesEdits(Protocol):
-    """A `Session`, as far as an edit needs it."""
-
-    def say_edited_plan(self, plan_text: str, instead_of: str = "") -> int:
-        """Take in what a person made of a plan."""
-        ...
-
-    def say_source(self, name: str, source: str) -> int:
-        """Take in what a person made of a program."""
-        ...
-
-
 class Edited:
     """One edit at a time: `begin` it, then `say` what came of it; `hear` every event."""
 
@@ -89,7 +77,7 @@ class Edited:
         """A program is edited, and no plan."""
         return self._program is not None
 
-    def say(self, session: TakesEdits, text: str) -> int:
+    def say(self, session: Session, text: str) -> int:
         """Have it read, rehearsed and asked about; the number of its turn."""
         self._typed = text
         if self._program is not None:

@@ -23,6 +23,8 @@ _UNIT_FACTOR = re.compile(r"\d[\d.e+-]*")
 _PIECE = ("dir", "rot", "q", "pace", "verb", "shape")
 MEANT = "meant"
 """The flag of what corrects the turn before."""
+CORRECTING = frozenset({MEANT, "short_of"})
+"""The flags of what puts the turn before right: by what was meant, or by the total that was meant."""
 _OPPOSITE = ("other_way", "mirrored")
 _BEFORE_MEANT = frozenset({"sep", "filler", "glue", "negation", "correction"})
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import lru_cache
 
 from chatrobot.language.context import Context
-from chatrobot.language.corrections import MEANT, corrected
+from chatrobot.language.corrections import CORRECTING, MEANT, corrected
 from chatrobot.language.frames import GO, SIDES, TURN, Frame
 from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.lexicon import lexicon
@@ -103,4 +103,4 @@ def says_meant(text: str) -> bool:
         atoms: Sequence[Atom] = corrected(read_quantities(tokenise(normalise(text), lexicon(), {})))
     except Unclear:
         return False
-    return any((atom.kind, atom.value) == ("flag", MEANT) for atom in atoms)
+    return any(atom.kind == "flag" and atom.value in CORRECTING for atom in atoms)

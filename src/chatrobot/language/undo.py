@@ -65,7 +65,11 @@ def undone(whole: Frame, context: Context, profile: RobotProfile, *, turning: bo
     counts = [whole.q[name] for name in ("number", "count", "times") if name in whole.q]
     both = any(text.split()[-1] in ("both", "two") for text in whole.texts)
     count = counts[0].number if counts else 2.0 if both else 1.0
-    if count != int(count) or count < 1 or set(whole.q) - {"number", "count", "times"} - PACES:
+    if (
+        not 1 <= count < math.inf
+        or count != int(count)
+        or set(whole.q) - {"number", "count", "times"} - PACES
+    ):
         raise Unclear("unclear_motion", whole.text)
     turns: int | list[Step] = int(count)
     if counts and counts[0].role == "step" and is_chinese(counts[0].text):

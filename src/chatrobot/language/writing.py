@@ -40,8 +40,7 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
     frames = arranged(frames)
     _check_amounts(frames)
     _check_opener(frames)
-    if frames and frames[0].verb in TURN and not frames[0].q.keys() & {"length", "radius", "speed"}:
-        frames[0].flags.discard("while")  # `meanwhile turn left`: beside nothing that is said
+    _check_beside(frames)
     legs = paced_legs(frames, pace)
     if legs is not None:
         return legs
@@ -57,6 +56,23 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
         raise Unclear("nothing_to_do")
     _check_unsaid(script.state.unsaid, frames)
     return steps
+
+
+def _check_beside(frames: list[Frame]) -> None:
+    """`Meanwhile turn left` alone is a turn; `while turning left, …` is none before what comes.
+
+    Raises:
+        Unclear: where a turn is said to be beside something, and is joined with no motion.
+    """
+    for frame in frames:
+        if (
+            "while" in frame.flags
+            and frame.verb in TURN
+            and not frame.q.keys() & {"length", "radius", "speed"}
+        ):
+            if len(frames) > 1:
+                raise Unclear("unclear_motion", frame.text)
+            frame.flags.discard("while")
 
 
 def _check_unsaid(unsaid: list[Frame], frames: list[Frame]) -> None:

@@ -11,9 +11,8 @@ from collections.abc import Callable, Sequence
 from rich.console import RenderableType
 from rich.text import Text
 
-from chatrobot.cli.console.lines import Display, indented, marked
+from chatrobot.cli.console.lines import Display, indented, marked, shown
 from chatrobot.cli.console.motion_view import MotionView
-from chatrobot.cli.console.narrator import Narrator
 from chatrobot.cli.console.pasted import (
     LONGEST_CHARS,
     MOST_TEXTS,
@@ -31,6 +30,7 @@ from chatrobot.cli.console.tables import way_map
 from chatrobot.cli.console.words import Words
 from chatrobot.cli.editing import Edited
 from chatrobot.cli.lines import texts_in
+from chatrobot.cli.narrator import Narrator
 from chatrobot.compose import Connection
 from chatrobot.core.clock import Clock
 from chatrobot.core.errors import LinkError
@@ -271,7 +271,7 @@ class ChatController:
         if isinstance(event, Notice) and event.reason.code == "released":
             self._hear_release(str(event.reason.values.get("source")))
         with self._order:
-            lines: list[RenderableType] = list(self.narrator.tell(event))
+            lines: list[RenderableType] = [shown(line) for line in self.narrator.tell(event)]
             if self._question.hear(event):
                 question = Text(f"  {self.words.say('ask_approval')}", "bold")
                 lines += [way_map(self.motion_view, self.connection.world), question]
