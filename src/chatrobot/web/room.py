@@ -173,7 +173,7 @@ class Room:
     # --- who is here ---
 
     def join(self, face: Face) -> None:
-        """Let somebody in: they hear what was told so far, and steer if they may and nobody does. A teacher looks in."""
+        """Let somebody in: they hear what was told so far, and steer if nobody does; a teacher only looks."""
         with self._lock:
             may_begin = face.pass_.may_steer and face.pass_.role != "teacher"
             if may_begin and self.steering.steerer is None:
