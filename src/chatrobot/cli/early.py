@@ -87,7 +87,9 @@ class Early:
 @contextmanager
 def started_early(args: argparse.Namespace) -> Iterator[None]:
     """Within it `args.early` is there for a command that moves a robot in real time."""
-    is_one = args.command in COMMANDS and not args.fast and not getattr(args, "pupils", 0)  # a class starts its own
+    is_one = (
+        args.command in COMMANDS and not args.fast and not getattr(args, "pupils", 0)
+    )  # a class starts its own
     early = Early(args) if is_one else None
     args.early = early
     try:

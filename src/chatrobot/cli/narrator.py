@@ -68,6 +68,8 @@ class Narrator:
                 yield from self._streamed_step(event)
             case events.Interpreted():
                 yield from self._interpreted(event)
+            case events.Ordered():
+                yield from self._ordered(event)
             case events.Rehearsed():
                 yield from self._rehearsed(event)
             case events.ProgramWritten():
@@ -142,6 +144,14 @@ class Narrator:
         if self._plain:
             yield from (self._step(number, line) for number, line in folded_plan(event.plan_text))
         else:
+            self._plans[event.turn] = event.plan_text
+
+    def _ordered(self, event: events.Ordered) -> Iterator[Line]:
+        code = "program_asked_by" if event.program else "asked_by"
+        yield _marked("!", "cyan", self._words.say(code, source=event.source, program=event.program))
+        if self._plain:
+            yield from (self._step(number, line) for number, line in folded_plan(event.plan_text))
+        elif event.plan_text:
             self._plans[event.turn] = event.plan_text
 
     def _rehearsed(self, event: events.Rehearsed) -> Iterator[Line]:

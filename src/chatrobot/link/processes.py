@@ -19,13 +19,15 @@ SIMULATED = ("auto", "sim")
 
 @dataclass
 class MotionProcess:
-    """Motion in a session of its own, so that no terminal signal reaches it, and our end of the line to it.
+    """Motion in a session of its own, so that no terminal signal reaches it, and our ends of the lines to it.
 
-    `is_shared`: the Motions of other robots are in the same process, which goes on when this line is left.
+    `line` is a person's; an agent may speak on `second_line`. `is_shared`: the Motions of other robots are in the same
+    process, which goes on when this line is left.
     """
 
     process: subprocess.Popen[bytes]
     line: socket.socket
+    second_line: socket.socket | None = None
     is_shared: bool = False
 
     @classmethod
@@ -45,7 +47,8 @@ class MotionProcess:
     def start_for(
         cls, wires: Sequence[str], profile: str, world: str, budget: MotionBudget, *, open_loop: bool
     ) -> list[MotionProcess]:
-        """Start one process for the robots on those wires, all of one profile; return the line to each."""
+        """Start one process for the robots on those wires, all of one profile. A single one has a second line."""
+        is_shared = len(wires) > 1
         process, lines = spawn_with_lines(
             "chatrobot.motion.process",
             *("--profile", profile, "--world", world),
@@ -54,9 +57,19 @@ class MotionProcess:
             *("--open-loop", "yes" if open_loop else ""),
             *(word for wire in wires for word in ("--wire", wire)),
             kind=socket.SOCK_SEQPACKET,
-            count=len(wires),
+            count=len(wires) if is_shared else 2,
         )
-        return [cls(process, line, is_shared=len(lines) > 1) for line in lines]
+        return (
+            [cls(process, line, is_shared=True) for line in lines]
+            if is_shared
+            else [cls(process, lines[0], lines[1])]
+        )
+
+    def close(self) -> None:
+        """Close our ends of the lines."""
+        for line in (self.line, self.second_line):
+            if line is not None:
+                line.close()
 
 
 @dataclass
@@ -97,7 +110,7 @@ class Processes:
         """Nobody needs them: nothing has been asked of them, so nothing moves."""
         self.motion.process.kill()
         self.robot.terminate()
-        self.motion.line.close()
+        self.motion.close()
 
 
 def spawn(module: str, *arguments: str, pass_fds: Sequence[int] = ()) -> subprocess.Popen[bytes]:
