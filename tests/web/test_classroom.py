@@ -22,7 +22,7 @@ from chatrobot.wire.local import LocalWire
 from chatrobot.wire.messages import TwistMessage
 from tests.cli.running import Command
 from tests.processes import PATIENCE_S, Heard, TalkingProcess
-from tests.web.rig import Client, wait_until
+from tests.web.rig import Client
 
 pytestmark = pytest.mark.realtime
 PUPILS = 3
@@ -32,7 +32,7 @@ class RunningClass(TalkingProcess):
     """`chatrobot web --class 3`, and those who open its pages."""
 
     def __init__(self, folder: Path) -> None:
-        self._opened = contextlib.ExitStack()
+        self._opened, self._dialled = contextlib.ExitStack(), contextlib.ExitStack()
         environment = {**os.environ, "XDG_RUNTIME_DIR": str(folder), "PYTHONUNBUFFERED": "1"}
         command = [
             sys.executable,
@@ -68,7 +68,7 @@ class RunningClass(TalkingProcess):
         headers = {"Authorization": f"Bearer {token}"}
         how: dict[str, Any] = {"additional_headers": headers, "proxy": None, "max_size": 2**22}
         address = f"ws://127.0.0.1:{port or self.port}{path}"
-        return Client(self._opened.enter_context(connect(address, origin=self.origin, **how)))
+        return Client(self._dialled.enter_context(connect(address, origin=self.origin, **how)))
 
     def teacher(self) -> Client:
         page = self.dial("/class", self.token)
@@ -87,14 +87,29 @@ class RunningClass(TalkingProcess):
         page.hold()
         return page
 
+    def hang_up(self) -> None:
+        """Leave nobody at any page, and every robot standing."""
+        self._dialled.close()
+        teacher = self.teacher()
+        while any(robot["pages"] or robot["moving"] for robot in teacher.wait_for("class")["robots"]):
+            pass
+        teacher.socket.close()
+
     def close(self) -> None:
+        self._dialled.close()
         self._opened.close()
         self.process.send_signal(signal.SIGTERM)
         self.process.wait(PATIENCE_S)
 
 
+@pytest.fixture
+def pupils(shared: RunningClass) -> Iterator[RunningClass]:
+    yield shared
+    shared.hang_up()
+
+
 @pytest.fixture(scope="module")
-def pupils(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningClass]:
+def shared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningClass]:
     running = RunningClass(tmp_path_factory.mktemp("class"))
     yield running
     running.close()
@@ -111,15 +126,8 @@ def drive(pupils: RunningClass, *places: int) -> list[Client]:
     return pages
 
 
-def stand(pupils: RunningClass) -> None:
-    """Wait until nobody moves."""
-    wait_until(
-        lambda: not any(any(twist) for ear in pupils.heard for _, twist in ear.since(time.monotonic() - 0.5))
-    )
-
-
 def test_each_pupil_drives_a_robot_of_their_own_and_the_teacher_sees_which(pupils: RunningClass) -> None:
-    (page,) = drive(pupils, 1)
+    drive(pupils, 1)
     teacher = pupils.teacher()
     while True:
         robots = teacher.wait_for("class")["robots"]
@@ -128,8 +136,6 @@ def test_each_pupil_drives_a_robot_of_their_own_and_the_teacher_sees_which(pupil
     assert [robot["moving"] for robot in robots] == [False, True, False]
     assert [robot["pages"] for robot in robots][1] == 1
     assert robots[1]["plan_text"].startswith("drive 50 m")
-    page.say("stop")
-    stand(pupils)
 
 
 def test_the_teacher_stops_one_and_then_all(pupils: RunningClass) -> None:
@@ -146,7 +152,6 @@ def test_the_teacher_stops_one_and_then_all(pupils: RunningClass) -> None:
     line.say("stop")
     line.wait_for("stopped")
     assert max(ear.seconds_to_zero(said_s) for ear in (pupils.heard[0], pupils.heard[2])) < 0.25
-    stand(pupils)
 
 
 def test_only_the_teacher_releases_an_emergency_stop(pupils: RunningClass) -> None:

@@ -99,6 +99,13 @@ def test_what_a_page_says_is_driven_and_measured(shared: RunningWeb, page: Clien
     assert [line for line in shared.lines if line] == [f"Web console: http://127.0.0.1:{shared.port}/"]
 
 
+def test_the_page_of_the_documents_shows_what_is_printed(shared: RunningWeb) -> None:
+    text = (Path(__file__).parents[2] / "docs" / "web.md").read_text(encoding="utf-8")
+    command, printed = text.partition("```console\n$ ")[2].splitlines()[:2]
+    assert command == "chatrobot web"
+    assert printed.replace("8080", str(shared.port)) == shared.lines[0]
+
+
 def test_the_stop_line_stops_a_moving_robot(shared: RunningWeb, page: Client) -> None:
     line = shared.stop_line(page)
     drive(shared, page)
