@@ -17,7 +17,9 @@ ARGUMENTS = (
 )  # fmt: skip
 NEEDED = "CHATROBOT_TESTS_NEED_A_BROWSER"
 """Set where the tests fail without a browser, as in continuous integration."""
-WAY_OUT = "no Chromium or Chrome is here, so the page of the web console is not tested: apt-get install chromium"
+WAY_OUT = (
+    "no Chromium or Chrome is here, so the page of the web console is not tested: apt-get install chromium"
+)
 PATIENCE_MS = 15_000
 
 DESKTOP, PROJECTOR, TABLET, PHONE = (1280, 800), (1920, 1080), (820, 1180), (390, 844)
@@ -51,7 +53,12 @@ def browser() -> Iterator[Browser]:
 
 
 def open_page(
-    browser: Browser, address: str, size: tuple[int, int] = DESKTOP, *, dark: bool = False, locale: str = "en-GB"
+    browser: Browser,
+    address: str,
+    size: tuple[int, int] = DESKTOP,
+    *,
+    dark: bool = False,
+    locale: str = "en-GB",
 ) -> Page:
     """Open a page as a person with that screen and language does, and wait until it is in."""
     context = browser.new_context(

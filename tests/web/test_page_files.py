@@ -45,7 +45,9 @@ def test_nothing_comes_from_outside(file: Path) -> None:
 @pytest.mark.parametrize("file", CODE, ids=lambda file: file.name)
 def test_no_markup_is_made_of_text_and_no_style_or_script_is_inline(file: Path) -> None:
     text = file.read_text("utf-8")
-    markup = r"innerHTML|outerHTML|insertAdjacentHTML|document\.write|\beval\(|new Function|setAttribute\(\"style"
+    markup = (
+        r"innerHTML|outerHTML|insertAdjacentHTML|document\.write|\beval\(|new Function|setAttribute\(\"style"
+    )
     assert re.findall(markup, text) == []
     assert re.findall(r"\sstyle=|\son\w+=\"|<style|<script(?![^>]*\ssrc=)|javascript:", text) == []
 

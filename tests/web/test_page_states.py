@@ -13,9 +13,9 @@ from chatrobot.core.event import Proposal
 from chatrobot.core.events import (
     Interpreted,
     Limited,
-    Progress,
     ProgramLog,
     ProgramWritten,
+    Progress,
     Rehearsed,
     Result,
     Started,
@@ -45,7 +45,11 @@ def say(page: Page, text: str) -> None:
 
 
 def rehearse(rig: WebRig, turn: int = 1) -> None:
-    rig.tell(Interpreted(turn, "offline", "drive 0.5 m\nrepeat 2\n  turn left 90 deg\nend\nwait 1 s", "drive, turn"))
+    rig.tell(
+        Interpreted(
+            turn, "offline", "drive 0.5 m\nrepeat 2\n  turn left 90 deg\nend\nwait 1 s", "drive, turn"
+        )
+    )
     rig.tell(Rehearsed(turn, True, 8.0, 0.95, Pose(0.95, 0.0, 0.0), path=PATH, needs_approval=True))
 
 
@@ -74,7 +78,9 @@ def test_an_edited_plan_goes_in_the_place_of_the_one_that_waits(page: Page, rig:
     page.get_by_role("log", name="What was said").get_by_role("button", name="Edit").click()
     page.get_by_label("The plan, one step a line").fill("drive 0.2 m")
     page.get_by_role("button", name="Rehearse and run").click()
-    rig.session.wait_for("say_edited_plan", "drive 0.2 m", "drive 0.5 m\nrepeat 2\n  turn left 90 deg\nend\nwait 1 s")
+    rig.session.wait_for(
+        "say_edited_plan", "drive 0.2 m", "drive 0.5 m\nrepeat 2\n  turn left 90 deg\nend\nwait 1 s"
+    )
 
 
 def test_a_question_is_answered_by_yes_or_no(page: Page, rig: WebRig) -> None:
@@ -245,7 +251,9 @@ def test_a_tap_on_the_floor_asks_for_the_way_there(page: Page, rig: WebRig) -> N
     assert "facing" not in plan_text
 
 
-def test_a_drag_sets_the_heading_where_that_was_asked_for_and_moves_the_map_else(page: Page, rig: WebRig) -> None:
+def test_a_drag_sets_the_heading_where_that_was_asked_for_and_moves_the_map_else(
+    page: Page, rig: WebRig
+) -> None:
     floor = page.locator("#floor").bounding_box()
     assert floor is not None
     x, y = floor["x"] + 250, floor["y"] + 300
@@ -279,7 +287,9 @@ def test_the_map_can_be_used_with_keys_and_by_the_list_of_places(page: Page, rig
 # --- people ---
 
 
-def test_two_tabs_one_steers_and_taking_over_is_shown_to_both(page: Page, rig: WebRig, browser: Browser) -> None:
+def test_two_tabs_one_steers_and_taking_over_is_shown_to_both(
+    page: Page, rig: WebRig, browser: Browser
+) -> None:
     second = open_page(browser, rig.origin)
     expect(page.locator("#steering-state")).to_have_text("You steer")
     expect(second.locator("#watching-banner")).to_contain_text("You watch; take over to steer.")
@@ -320,7 +330,9 @@ def test_a_browser_in_chinese_gets_a_chinese_page_that_can_be_switched(rig: WebR
 
 
 @pytest.mark.parametrize("size", [PHONE, TABLET, (844, 390), (320, 640)])
-def test_small_screens_hold_everything_and_always_the_stop(rig: WebRig, browser: Browser, size: tuple[int, int]) -> None:
+def test_small_screens_hold_everything_and_always_the_stop(
+    rig: WebRig, browser: Browser, size: tuple[int, int]
+) -> None:
     page = open_page(browser, rig.origin, size)
     stop = page.get_by_role("button", name="Stop", exact=True)
     expect(stop).to_be_in_viewport(ratio=1)
@@ -350,13 +362,26 @@ def test_the_keyboard_alone_gets_everywhere_and_every_focus_is_seen(page: Page, 
         )
         assert is_seen, name
         reached.append(name)
-    wanted = {"say", "send", "Do it", "Cancel", "floor", "follow", "heading", "zoom-in", "stick-speed", "plan-edit"}
+    wanted = {
+        "say",
+        "send",
+        "Do it",
+        "Cancel",
+        "floor",
+        "follow",
+        "heading",
+        "zoom-in",
+        "stick-speed",
+        "plan-edit",
+    }
     assert wanted | {"stop", "pause", "emergency", "language", "give"} <= set(reached)
 
 
 @pytest.mark.parametrize("dark", [False, True])
 @pytest.mark.parametrize(("size", "locale"), [(DESKTOP, "en-GB"), (PHONE, "zh-CN")])
-def test_axe_finds_nothing(rig: WebRig, browser: Browser, size: tuple[int, int], locale: str, dark: bool) -> None:
+def test_axe_finds_nothing(
+    rig: WebRig, browser: Browser, size: tuple[int, int], locale: str, dark: bool
+) -> None:
     page = open_page(browser, rig.origin, size, dark=dark, locale=locale)
     page.locator("#say").fill("drive half a metre")
     page.keyboard.press("Enter")
