@@ -75,9 +75,10 @@ mutants: setup
 	rm -rf mutants
 	$(BIN)/python -m scripts.mutants
 
-# Needs DejaVu Sans Mono and a font with Chinese on the system.
+# Needs DejaVu Sans Mono, a font with Chinese, and Chromium on the system.
 pictures: setup
 	$(BIN)/python scripts/make_pictures.py
+	$(BIN)/python -m scripts.make_web_pictures
 
 reference: setup
 	$(BIN)/python -m scripts.make_reference

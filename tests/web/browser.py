@@ -10,6 +10,10 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
+from chatrobot.core.events import Interpreted, ProgramWritten, Rehearsed
+from chatrobot.core.geometry import Pose
+from tests.web.rig import WebRig
+
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 ARGUMENTS = (
     "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
@@ -21,6 +25,8 @@ WAY_OUT = (
     "no Chromium or Chrome is here, so the page of the web console is not tested: apt-get install chromium"
 )
 PATIENCE_MS = 15_000
+PLAN = "drive 0.5 m\nrepeat 2\n  turn left 90 deg\nend\nwait 1 s"
+PATH = tuple((0.05 * step, 0.0, 0.0) for step in range(20))
 
 DESKTOP, PROJECTOR, TABLET, PHONE = (1280, 800), (1920, 1080), (820, 1180), (390, 844)
 
@@ -50,6 +56,14 @@ def browser() -> Iterator[Browser]:
         found = driver.chromium.launch(executable_path=path, args=list(ARGUMENTS))
         yield found
         found.close()
+
+
+@pytest.fixture
+def page(browser: Browser, rig: WebRig) -> Iterator[Page]:
+    """A page in English, which steers."""
+    opened = open_page(browser, rig.origin)
+    yield opened
+    opened.context.close()
 
 
 def open_page(
@@ -93,3 +107,20 @@ def count_pixels(page: Page, colour: str) -> int:
         colour,
     )
     return found
+
+
+def say(page: Page, text: str) -> None:
+    """Type it and press Enter."""
+    page.locator("#say").fill(text)
+    page.keyboard.press("Enter")
+
+
+def rehearse(rig: WebRig, turn: int = 1) -> None:
+    """Have a plan rehearsed that waits for a yes."""
+    rig.tell(Interpreted(turn, "offline", PLAN, "drive, turn"))
+    rig.tell(Rehearsed(turn, True, 8.0, 0.95, Pose(0.95, 0.0, 0.0), path=PATH, needs_approval=True))
+
+
+def write_program(rig: WebRig, source: str, turn: int = 1) -> None:
+    """Have a program written."""
+    rig.tell(ProgramWritten(turn, "square", "offline", source, "drives a square"))

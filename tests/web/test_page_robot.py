@@ -21,22 +21,9 @@ END_S = 10.0
 @pytest.fixture(scope="module")
 def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """The address that `chatrobot web` prints."""
-    folder = tmp_path_factory.mktemp("config")
-    command = [
-        sys.executable,
-        "-m",
-        "chatrobot",
-        "web",
-        "--port",
-        "0",
-        "--no-open",
-        "--approve",
-        "--world",
-        "empty",
-    ]
-    with subprocess.Popen(
-        [*command, "--config-dir", str(folder)], stdout=subprocess.PIPE, text=True
-    ) as process:
+    command = [sys.executable, "-m", "chatrobot", "web", "--port", "0", "--no-open", "--approve"]
+    command += ["--world", "empty", "--config-dir", str(tmp_path_factory.mktemp("config"))]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         try:
             assert process.stdout is not None
             line = process.stdout.readline()
@@ -100,7 +87,5 @@ def test_a_tap_on_the_floor_is_rehearsed_and_can_be_cancelled(page: Page) -> Non
     cancel = page.get_by_role("log", name="What was said").get_by_role("button", name="Cancel")
     expect(cancel).to_be_visible()
     cancel.click()
-    expect(page.locator("#turns .robot").last).to_have_attribute(
-        "data-outcome", re.compile("stopped|refused")
-    )
+    expect(page.locator("#turns .robot").last).to_have_attribute("data-outcome", "refused")
     expect(page.locator("#robot-state")).to_have_text("Standing")

@@ -1,0 +1,143 @@
+"""Chat, plan, gauges and programs of the page, in a real browser; the session behind the real server only notes."""
+
+from __future__ import annotations
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+from chatrobot.core.event import Proposal
+from chatrobot.core.events import (
+    Interpreted,
+    Limited,
+    ProgramLog,
+    ProgramWritten,
+    Progress,
+    Result,
+    Started,
+    Telemetry,
+)
+from chatrobot.core.geometry import ORIGIN, Twist
+from tests.web.browser import PLAN, browser, count_pixels, open_page, page, rehearse, say, write_program
+from tests.web.rig import WebRig, wait_until
+
+__all__ = ["browser", "page"]
+pytestmark = pytest.mark.realtime
+EVIL = '<img src=x onerror="document.title=1"><b id="evil">&amp;</b>'
+
+# --- chat ---
+
+
+def test_a_plan_that_waits_is_answered_by_a_button(page: Page, rig: WebRig) -> None:
+    say(page, "drive half a metre")
+    rig.session.wait_for("say", "drive half a metre")
+    rehearse(rig)
+    chat = page.get_by_role("log", name="What was said")
+    expect(chat).to_contain_text("Rehearsed: 0.95 m in 8 s.")
+    wait_until(lambda: count_pixels(page, "rehearsed") > 50)
+    chat.get_by_role("button", name="Do it").click()
+    rig.session.wait_for("approve", 1, True)
+    expect(chat.get_by_role("button")).to_have_count(0)
+
+
+def test_an_edited_plan_goes_in_the_place_of_the_one_that_waits(page: Page, rig: WebRig) -> None:
+    say(page, "drive half a metre")
+    rehearse(rig)
+    page.get_by_role("log", name="What was said").get_by_role("button", name="Edit").click()
+    page.get_by_label("The plan, one step a line").fill("drive 0.2 m")
+    page.get_by_role("button", name="Rehearse and run").click()
+    rig.session.wait_for("say_edited_plan", "drive 0.2 m", PLAN)
+
+
+def test_a_question_is_answered_by_yes_or_no(page: Page, rig: WebRig) -> None:
+    say(page, "forwrd 1 m")
+    rig.session.wait_for("say", "forwrd 1 m")
+    rig.tell(Result(1, "unclear", "Did you mean “forward 1 m”?", proposal=Proposal("drive 1 m", "Did you?")))
+    page.get_by_role("button", name="Yes").click()
+    rig.session.wait_for("say", "yes")
+
+
+@pytest.mark.parametrize(
+    ("question", "answers"),
+    [
+        ("To the left or to the right?", ["left", "right"]),
+        ("Diagonally which way: forward-left or back-right?", ["forward-left", "back-right"]),
+        ("往左还是往右？", ["往左", "往右"]),
+        ("I am lost. Shall I drive on until something is near, or wait here for you?", []),
+    ],
+)
+def test_a_question_that_offers_answers_has_a_button_for_each(
+    page: Page, rig: WebRig, question: str, answers: list[str]
+) -> None:
+    say(page, "turn")
+    rig.session.wait_for("say", "turn")
+    rig.tell(Result(1, "unclear", question))
+    chat = page.get_by_role("log", name="What was said")
+    expect(chat).to_contain_text(question)
+    assert chat.get_by_role("button").all_inner_texts() == answers
+
+
+def test_what_was_said_before_comes_back_with_arrow_up(page: Page, rig: WebRig) -> None:
+    for turn, text in enumerate(("forward 1 m", "turn left"), start=1):
+        say(page, text)
+        rig.tell(Result(turn, "completed", "Done."))
+    box = page.get_by_label("Say something to the robot")
+    box.press("ArrowUp")
+    box.press("ArrowUp")
+    expect(box).to_have_value("forward 1 m")
+    box.press("ArrowDown")
+    expect(box).to_have_value("turn left")
+
+
+def test_a_page_that_comes_later_sees_what_was_said(page: Page, rig: WebRig, browser: Browser) -> None:
+    say(page, "forward 1 m")
+    rig.session.wait_for("say", "forward 1 m")
+    rig.tell(Result(1, "completed", "Done: drove 1.00 m."))
+    later = open_page(browser, rig.origin)
+    expect(later.get_by_role("log", name="What was said")).to_contain_text("Done: drove 1.00 m.")
+    later.context.close()
+
+
+# --- plan, gauges, programs ---
+
+
+def test_the_running_step_is_marked(page: Page, rig: WebRig) -> None:
+    say(page, "drive half a metre")
+    rehearse(rig)
+    rig.tell(Started(1))
+    rig.tell(Progress(1, 2, 3, 0.4, ORIGIN, Twist(0.1, 0.0, 0.0)))
+    marked = page.locator("#plan-lines [aria-current=step]")
+    expect(marked).to_have_text(["repeat 2", "  turn left 90 deg", "end"], use_inner_text=True)
+
+
+def test_gauges_say_how_fast_how_near_and_what_is_limited(page: Page, rig: WebRig) -> None:
+    rig.tell(Telemetry(0, ORIGIN, Twist(0.25, 0.0, 0.5), 1.0, battery_percent=63.0, nearest_obstacle_m=0.42))
+    now = page.get_by_role("region", name="Now")
+    expect(now.get_by_role("meter", name="Speed", exact=True)).to_have_attribute("aria-valuenow", "0.25")
+    for text in ("0.25 of 1.00 m/s", "29 of 115 °/s", "0.42 m", "63 %"):
+        expect(now).to_contain_text(text)
+    rig.tell(Limited(1, "obstacle", Twist(0.5, 0.0, 0.0), Twist(0.2, 0.0, 0.0)))
+    expect(page.locator("#limited")).to_contain_text("0.20")
+
+
+def test_a_program_is_shown_with_its_log(page: Page, rig: WebRig) -> None:
+    say(page, "write a program")
+    write_program(rig, "import rclpy\nprint('hello')\n")
+    rig.tell(Started(1))
+    rig.tell(ProgramLog(1, 0.5, "INFO", "hello there"))
+    programs = page.get_by_role("region", name="Programs")
+    expect(programs.locator("#program-source li")).to_have_text(["import rclpy", "print('hello')"])
+    expect(programs.get_by_role("log", name="Log")).to_contain_text("0.5 s hello there")
+
+
+def test_what_others_wrote_is_text_and_never_markup(page: Page, rig: WebRig) -> None:
+    say(page, EVIL)
+    rig.session.wait_for("say", EVIL)
+    rig.tell(Interpreted(1, "model", EVIL, EVIL))
+    expect(page.locator("#plan-lines")).to_have_text(EVIL)
+    rig.tell(ProgramWritten(1, EVIL, "model", EVIL, EVIL))
+    rig.tell(ProgramLog(1, 0.1, "INFO", EVIL))
+    rig.tell(Result(1, "answered", EVIL))
+    expect(page.get_by_role("log", name="What was said")).to_contain_text(EVIL)
+    expect(page.locator("#program-name")).to_have_text(EVIL)
+    assert page.locator("#evil, img:not(.icon)").count() == 0
+    assert "ChatRobot" in page.title()

@@ -1,0 +1,118 @@
+"""Stop, stick and map of the page, in a real browser; the session behind the real server only notes."""
+
+from __future__ import annotations
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.web.browser import browser, page
+from tests.web.rig import WebRig, wait_until
+
+__all__ = ["browser", "page"]
+pytestmark = pytest.mark.realtime
+
+
+# --- stop, stick ---
+
+
+def test_the_space_bar_stops_even_on_a_button_and_before_a_word_is_typed(page: Page, rig: WebRig) -> None:
+    page.get_by_role("button", name="Follow").focus()
+    page.keyboard.press("Space")
+    rig.session.wait_for("stop", "the Stop button")
+    expect(page.get_by_role("button", name="Follow")).to_have_attribute("aria-pressed", "false")
+    before = len(rig.session.log)
+    box = page.get_by_label("Say something to the robot")
+    box.press("Space")
+    wait_until(lambda: len(rig.session.log) > before)
+    box.fill("go")
+    box.press("Space")
+    expect(box).to_have_value("go ")
+
+
+def test_stop_goes_out_when_the_finger_comes_down_on_both_lines(page: Page, rig: WebRig) -> None:
+    button = page.get_by_role("button", name="Stop", exact=True).bounding_box()
+    assert button is not None
+    page.mouse.move(button["x"] + 20, button["y"] + 20)
+    page.mouse.down()
+    wait_until(lambda: rig.session.log.count(("stop", "the Stop button")) == 2)
+    page.mouse.up()
+    page.wait_for_timeout(100)
+    assert rig.session.log.count(("stop", "the Stop button")) == 2
+
+
+def test_an_emergency_stop_is_its_own_button_and_is_released_by_another(page: Page, rig: WebRig) -> None:
+    release = page.get_by_role("button", name="Release emergency stop")
+    expect(release).to_be_hidden()
+    page.get_by_role("button", name="Emergency stop", exact=True).click()
+    rig.session.wait_for("emergency_stop", "the Emergency stop button")
+    expect(page.locator("#robot-state")).to_have_text("Emergency stop")
+    release.click()
+    rig.session.wait_for("release")
+
+
+def test_a_key_drives_while_it_is_held_and_lets_go_once(page: Page, rig: WebRig) -> None:
+    page.locator("body").focus()
+    page.evaluate("document.activeElement.blur()")
+    page.keyboard.down("w")
+    wait_until(lambda: sum(one[0] == "steer" and one[1] > 0 for one in rig.session.log) >= 3)
+    page.keyboard.up("w")
+    rig.session.wait_for("steer", 0.0, 0.0, 0.0)
+    count = len(rig.session.log)
+    page.wait_for_timeout(200)
+    assert len(rig.session.log) == count
+
+
+def test_the_pad_lets_go_when_the_page_is_left(page: Page, rig: WebRig) -> None:
+    pad = page.locator("#pad").bounding_box()
+    assert pad is not None
+    page.mouse.move(pad["x"] + pad["width"] / 2, pad["y"] + pad["height"] / 2)
+    page.mouse.down()
+    page.mouse.move(pad["x"] + pad["width"] / 2, pad["y"] + 4)
+    wait_until(lambda: any(one[0] == "steer" and one[1] > 0.2 for one in rig.session.log))
+    page.evaluate("dispatchEvent(new Event('blur'))")
+    rig.session.wait_for("steer", 0.0, 0.0, 0.0)
+
+
+# --- map ---
+
+
+def test_a_tap_on_the_floor_asks_for_the_way_there(page: Page, rig: WebRig) -> None:
+    page.locator("#floor").click(position={"x": 300, "y": 300})
+    wait_until(lambda: bool(rig.session.log))
+    do, plan_text, _ = rig.session.log[0]
+    assert do == "say_edited_plan"
+    assert plan_text.startswith("go to ")
+    assert "facing" not in plan_text
+
+
+def test_a_drag_sets_the_heading_where_that_was_asked_for_and_moves_the_map_else(
+    page: Page, rig: WebRig
+) -> None:
+    floor = page.locator("#floor").bounding_box()
+    assert floor is not None
+    x, y = floor["x"] + 250, floor["y"] + 300
+
+    def drag() -> None:
+        page.mouse.move(x, y)
+        page.mouse.down()
+        page.mouse.move(x + 30, y - 30, steps=3)
+        page.mouse.up()
+
+    drag()
+    page.wait_for_timeout(100)
+    assert rig.session.log == []
+    page.get_by_role("button", name="Set heading").click()
+    drag()
+    wait_until(lambda: bool(rig.session.log))
+    assert rig.session.log[0][1].endswith("facing 45 deg")
+
+
+def test_the_map_can_be_used_with_keys_and_by_the_list_of_places(page: Page, rig: WebRig) -> None:
+    page.get_by_role("application", name="Map").focus()
+    for key in ("ArrowRight", "ArrowRight", "ArrowUp", "+", "Enter"):
+        page.keyboard.press(key)
+    wait_until(lambda: len(rig.session.log) == 1)
+    page.locator("summary", has_text="Places").click()
+    page.get_by_role("button", name="sofa").click()
+    wait_until(lambda: len(rig.session.log) == 2)
+    assert rig.session.log[1][1].startswith("go to -1.1 0")

@@ -1,0 +1,135 @@
+"""Two people, a lost connection, every screen and language, the keyboard alone, axe: the page in a real browser."""
+
+from __future__ import annotations
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Browser, Page, expect
+
+from chatrobot.cli.web import listen
+from chatrobot.core.events import Result
+from chatrobot.web.server import WebServer
+from tests.web.browser import DESKTOP, PHONE, TABLET, browser, open_page, page, rehearse, say, write_program
+from tests.web.rig import WebRig
+
+__all__ = ["browser", "page"]
+pytestmark = pytest.mark.realtime
+
+
+# --- people ---
+
+
+def test_two_tabs_one_steers_and_taking_over_is_shown_to_both(
+    page: Page, rig: WebRig, browser: Browser
+) -> None:
+    second = open_page(browser, rig.origin)
+    expect(page.locator("#steering-state")).to_have_text("You steer")
+    expect(second.locator("#watching-banner")).to_contain_text("You watch; take over to steer.")
+    expect(second.get_by_role("button", name="Send")).to_be_disabled()
+    second.get_by_role("button", name="Take over").click()
+    expect(second.locator("#steering-state")).to_have_text("You steer")
+    expect(page.locator("#notice-banner")).to_contain_text("has taken over steering. You watch now.")
+    expect(page.get_by_role("button", name="Take over")).to_be_visible()
+    second.context.close()
+
+
+def test_a_lost_connection_is_said_and_comes_back(page: Page, rig: WebRig) -> None:
+    port, stop_port = rig.access.port, rig.access.stop_port
+    rig.server.close()
+    expect(page.get_by_role("alert")).to_contain_text("The connection is gone. The robot has stopped")
+    expect(page.locator("#robot-state")).to_have_text("Not connected")
+    page.keyboard.press("Escape")
+    expect(page.locator("#stop-said")).to_contain_text("this Stop reached nothing")
+    rig.server = WebServer(rig.access, rig.rooms)
+    rig.server.start(listen("127.0.0.1", port), listen("127.0.0.1", stop_port))
+    expect(page.locator("#connection-banner")).to_be_hidden()
+    expect(page.locator("#steering-state")).to_have_text("You steer")
+    page.keyboard.press("Escape")
+    expect(page.locator("#stop-said")).to_have_text("The robot was told to stop.")
+
+
+# --- every screen, every language, every person ---
+
+
+def test_a_browser_in_chinese_gets_a_chinese_page_that_can_be_switched(rig: WebRig, browser: Browser) -> None:
+    page = open_page(browser, rig.origin, locale="zh-CN")
+    expect(page.get_by_role("button", name="停止", exact=True)).to_be_visible()
+    expect(page.get_by_role("button", name="急停", exact=True)).to_be_visible()
+    assert page.locator("html").get_attribute("lang") == "zh-Hans"
+    page.get_by_role("button", name="English").click()
+    expect(page.get_by_role("button", name="Stop", exact=True)).to_be_visible()
+    page.context.close()
+
+
+@pytest.mark.parametrize("size", [PHONE, TABLET, (844, 390), (320, 640)])
+def test_small_screens_hold_everything_and_always_the_stop(
+    rig: WebRig, browser: Browser, size: tuple[int, int]
+) -> None:
+    page = open_page(browser, rig.origin, size)
+    stop = page.get_by_role("button", name="Stop", exact=True)
+    expect(stop).to_be_in_viewport(ratio=1)
+    expect(page.get_by_role("button", name="Emergency stop", exact=True)).to_be_in_viewport(ratio=1)
+    assert page.evaluate("document.documentElement.scrollWidth") <= size[0]
+    if page.locator(".tabs").is_visible():
+        page.get_by_role("button", name="Drive", exact=True).click()
+        expect(page.locator("#pad")).to_be_in_viewport()
+        expect(stop).to_be_in_viewport(ratio=1)
+    page.context.close()
+
+
+def test_the_keyboard_alone_gets_everywhere_and_every_focus_is_seen(page: Page, rig: WebRig) -> None:
+    say(page, "drive half a metre")
+    rehearse(rig)
+    expect(page.get_by_role("button", name="Do it").first).to_be_visible()
+    reached: list[str] = []
+    for _ in range(60):
+        page.keyboard.press("Tab")
+        name, is_seen = page.evaluate(
+            """() => {
+              const element = document.activeElement;
+              const style = getComputedStyle(element);
+              const isSeen = style.outlineStyle !== "none" && parseFloat(style.outlineWidth) > 1;
+              return [element.id || element.textContent.trim(), isSeen || element === document.body];
+            }"""
+        )
+        assert is_seen, name
+        reached.append(name)
+    wanted = {
+        "say",
+        "send",
+        "Do it",
+        "Cancel",
+        "floor",
+        "follow",
+        "heading",
+        "zoom-in",
+        "stick-speed",
+        "plan-edit",
+    }
+    assert wanted | {"stop", "pause", "emergency", "language", "give"} <= set(reached)
+
+
+@pytest.mark.parametrize("dark", [False, True])
+@pytest.mark.parametrize(("size", "locale"), [(DESKTOP, "en-GB"), (PHONE, "zh-CN")])
+def test_axe_finds_nothing(
+    rig: WebRig, browser: Browser, size: tuple[int, int], locale: str, dark: bool
+) -> None:
+    page = open_page(browser, rig.origin, size, dark=dark, locale=locale)
+    page.locator("#say").fill("drive half a metre")
+    page.keyboard.press("Enter")
+    rig.session.wait_for("say", "drive half a metre")
+    write_program(rig, "import rclpy\n")
+    rig.tell(Result(1, "refused", "No."))
+    rehearse(rig, 2)
+    expect(page.locator("#turns .buttons button")).to_have_count(3)
+    watcher = open_page(browser, rig.origin, size, dark=dark, locale=locale)
+    for one in (page, watcher):
+        found = Axe().run(one).response["violations"]
+        assert [(rule["id"], [node["target"] for node in rule["nodes"]]) for rule in found] == []
+    for tab in ("drive", "plan", "programs"):
+        if page.locator(".tabs").is_visible():
+            page.locator(f".tabs [data-tab={tab}]").click()
+            found = Axe().run(page).response["violations"]
+            assert [(rule["id"], [node["target"] for node in rule["nodes"]]) for rule in found] == []
+    page.context.close()
+    watcher.context.close()
