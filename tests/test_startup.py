@@ -30,10 +30,11 @@ def among(names: set[str], unwanted: tuple[str, ...]) -> list[str]:
 
 
 def test_motion_knows_no_language_no_model_and_no_screen() -> None:
-    loaded = loaded_by("import chatrobot.motion.process")
-    assert "chatrobot.motion.motion" in loaded
-    assert not among(loaded, ("chatrobot.language", "chatrobot.models", "chatrobot.cli"))
-    assert not among(loaded, ("prompt_toolkit", "rich", "chatrobot.dialogue"))
+    for process in ("chatrobot.motion.process", "chatrobot.motion.planning_process"):
+        loaded = loaded_by(f"import {process}")
+        assert "chatrobot.motion.planner" in loaded
+        assert not among(loaded, ("chatrobot.language", "chatrobot.models", "chatrobot.cli", "chatrobot.web"))
+        assert not among(loaded, ("prompt_toolkit", "rich", "chatrobot.dialogue", "starlette", "uvicorn"))
 
 
 def test_the_guard_is_light() -> None:

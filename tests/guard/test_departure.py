@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 import pytest
 
-from chatrobot.guard.__main__ import Guard
+from chatrobot.guard.__main__ import Guard, HaltedRobot
 from chatrobot.guard.watch import HANDSHAKE, Departure
 from chatrobot.wire.messages import Message
 from chatrobot.wire.wire import Endpoint, M, Wire
@@ -48,7 +48,7 @@ class Domain(Wire):
 def bereft(domain: Domain, odom: str = "odom", *, is_near: bool = True) -> Iterator[threading.Thread]:
     """A guard whose Motion shook hands and died."""
     ours, its_end = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
-    guard = Guard(its_end, domain, "cmd_vel", odom, is_near=is_near)
+    guard = Guard(its_end, [HaltedRobot(domain, "cmd_vel", odom, is_near=is_near)])
     thread = threading.Thread(target=guard.run, daemon=True)
     ours.send(HANDSHAKE)
     thread.start()

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 import pytest
 
 from chatrobot.core.errors import WireError
-from chatrobot.guard.__main__ import Guard
+from chatrobot.guard.__main__ import Guard, HaltedRobot
 from chatrobot.guard.watch import BEAT, GOODBYE, HANDSHAKE, TRIPPED
 from chatrobot.wire.messages import Message
 from chatrobot.wire.wire import M, Wire
@@ -43,7 +43,7 @@ class Watched:
         self.wire = Connection()
         self.line, its_end = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
         self.line.settimeout(PATIENCE_S)
-        guard = Guard(its_end, self.wire, "cmd_vel", "odom")
+        guard = Guard(its_end, [HaltedRobot(self.wire, "cmd_vel", "odom")])
         self.thread = threading.Thread(target=guard.run)
         self.thread.start()
 

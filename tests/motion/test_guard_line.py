@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 import pytest
 
-from chatrobot.core.clock import VirtualClock
-from chatrobot.guard.watch import BEAT, ECHO_LOST_S, HANDSHAKE, TRIPPED
-from chatrobot.motion.safety.watchdog import GuardLine
+from chatrobot.core.clock import TICK_S, VirtualClock
+from chatrobot.guard.watch import BEAT, ECHO_LOST_S, GOODBYE, HANDSHAKE, TRIPPED
+from chatrobot.motion.safety.watchdog import GuardLine, SharedGuard
 
 
 class SlowGuard:
@@ -68,3 +68,43 @@ def test_a_guard_that_has_not_heard_the_handshake_yet_is_alive_while_it_answers(
     guard.answer(TRIPPED)
     guard.link.was_tripped()
     assert guard.link.is_alive()
+
+
+@pytest.fixture
+def shared(guard: SlowGuard) -> SharedGuard:
+    return SharedGuard(guard.link, guard.clock)
+
+
+def test_many_motions_beat_as_one(guard: SlowGuard, shared: SharedGuard) -> None:
+    shares = [shared.share() for _ in range(20)]
+    guard.line.recv(100)
+    for _ in range(10):
+        for share in shares:
+            share.beat()
+            guard.clock.advance(TICK_S / len(shares))
+    assert 10 <= len(guard.line.recv(1000)) <= 14
+
+
+def test_a_trip_is_told_to_each_motion_until_it_has_shaken_hands_itself(
+    guard: SlowGuard, shared: SharedGuard
+) -> None:
+    first, second = shared.share(), shared.share()
+    guard.answer(TRIPPED)
+    assert first.was_tripped()
+    first.handshake()
+    guard.answer(HANDSHAKE + BEAT)
+    assert not first.was_tripped()
+    assert second.was_tripped(), "it has not been told yet"
+    second.handshake()
+    guard.answer(HANDSHAKE)
+    assert not second.was_tripped()
+
+
+def test_the_guard_is_let_go_of_with_the_last_of_them(guard: SlowGuard, shared: SharedGuard) -> None:
+    first, second = shared.share(), shared.share()
+    guard.line.recv(100)
+    first.goodbye()
+    second.beat()
+    assert guard.line.recv(100) == BEAT
+    second.goodbye()
+    assert guard.line.recv(100) == GOODBYE

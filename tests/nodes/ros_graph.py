@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -53,11 +53,11 @@ def guards(monkeypatch: pytest.MonkeyPatch) -> list[Guard]:
     monkeypatch.setattr(stop, "PATIENCE_S", 0.2)
     made: list[Guard] = []
 
-    def make(address: str, wiring: Any, clock: Any, *, is_near: bool) -> Guard:
-        made.append(Guard(address, wiring, clock, is_near=is_near))
+    def make(addresses: Sequence[str], wiring: Any, clock: Any, *, is_near: bool) -> Guard:
+        made.append(Guard(addresses[0], wiring, clock, is_near=is_near))
         return made[-1]
 
-    monkeypatch.setattr(runner, "GuardProcess", make)
+    monkeypatch.setattr(runner, "start_guard", make)
     return made
 
 

@@ -268,6 +268,8 @@ def _web(parser: argparse.ArgumentParser) -> None:
     _add(parser, "--port", type=port, default=None, help=free)
     token = "what the link has to bring that may steer (default: a new one where one is needed)"
     _add(parser, "--token", default="", help=token)
+    pupils = "a class: so many pupils, 2 to 30, each with a simulated robot of their own; prints the teacher's link"
+    _add(parser, "--class", dest="pupils", type=int, default=0, metavar="N", help=pupils)
     _add(parser, "--no-open", action="store_true", help="do not open the page in a browser")
     _add(parser, "--tls-cert", "files", default="", metavar="FILE", help="a certificate in PEM: speak HTTPS")
     _add(parser, "--tls-key", "files", default="", metavar="FILE", help="its key in PEM")

@@ -39,17 +39,22 @@ def run(args: argparse.Namespace) -> int:
     """
     _check(args)
     try:
+        from chatrobot.web.pupils import check_class
         from chatrobot.web.room import Room
         from chatrobot.web.server import WebServer
     except ImportError as error:
         problem = f"the web console is not installed: {error.name} is missing"
         raise UsageError(problem, allowed="pip install 'chatrobot[web]'") from error
     setup = setup_from(args, programs=True)
+    if args.pupils:
+        check_class(setup, args.pupils)
     setup = replace(setup, options=replace(setup.options, while_moving="replace"))
     access = _access(args)
     page_socket, stop_socket = listen(args.host, args.port), listen(args.host, 0)
     certificate = (args.tls_cert, args.tls_key) if args.tls_cert else None
     with contextlib.closing(page_socket), contextlib.closing(stop_socket):
+        if args.pupils:
+            return _serve_class(setup, args, access, (page_socket, stop_socket), certificate)
         room = Room()
         server = WebServer(access, {room.name: room}, certificate)
         return _serve(setup, room, server, (page_socket, stop_socket), lambda: _tell(args, access))
@@ -91,6 +96,42 @@ def _serve(
     return STOPPED
 
 
+def _serve_class(
+    setup: Setup,
+    args: argparse.Namespace,
+    access: Access,
+    sockets: tuple[socket.socket, socket.socket],
+    certificate: tuple[str, str] | None,
+) -> int:
+    from chatrobot.web.classroom import Classroom
+    from chatrobot.web.pupils import connect_class
+    from chatrobot.web.server import WebServer
+
+    classroom = Classroom(args.pupils, access, args.token)
+    server = WebServer(access, classroom.rooms, certificate, classroom)
+    robots = connect_class(setup, list(classroom.rooms), lambda name: classroom.seats[name].hear)
+    ended = threading.Event()
+    problems: list[Exception] = []
+
+    def lose(error: Exception) -> None:
+        problems.append(error)
+        ended.set()
+
+    classroom.open(robots, lose)
+    try:
+        with SignalWatch(classroom.stop) as watch:
+            server.start(*sockets)
+            _tell(args, access)
+            while not (watch.is_leaving or ended.wait(0.1)):
+                pass
+            server.close()
+    finally:
+        classroom.close()
+    if problems:
+        raise problems[0]
+    return STOPPED
+
+
 def _check(args: argparse.Namespace) -> None:
     if args.fast:
         raise UsageError(
@@ -112,12 +153,12 @@ def _check(args: argparse.Namespace) -> None:
 
 
 def _access(args: argparse.Namespace) -> Access:
-    """Say who may come in: at this machine everybody, unless a token was chosen; elsewhere by token."""
+    """Say who may come in: at this machine everybody, unless a token was chosen; elsewhere, or to a class, by token."""
     from chatrobot.web.access import Access, is_loopback
 
-    needs_token = bool(args.token) or not is_loopback(args.host)
+    needs_token = bool(args.token or args.pupils) or not is_loopback(args.host)
     access = Access(args.host, is_secure=bool(args.tls_cert), needs_token=needs_token)
-    if needs_token:
+    if needs_token and not args.pupils:
         access.issue("steerer", token=args.token)
         access.issue("watcher")
     return access
@@ -147,14 +188,18 @@ def _tell(args: argparse.Namespace, access: Access) -> None:
 
     language = language_of_environment()
     name = _reachable(args.host)
-    links = [f"{access.origin(name)}/#{token}" for token in access.tokens] or [f"{access.origin(name)}/"]
-    print(web_words(language, "address", url=links[0]), flush=True)
+    path = "teacher" if args.pupils else ""
+    links = [f"{access.origin(name)}/{path}#{token}" for token in access.tokens] or [
+        f"{access.origin(name)}/"
+    ]
+    print(web_words(language, "teacher_address" if args.pupils else "address", url=links[0]), flush=True)
     if access.needs_token:
         import segno
 
         if sys.stdout.isatty():
             segno.make(links[0], error="m").terminal(compact=True)
-        print(web_words(language, "watch_address", url=links[1]), flush=True)
+        if not args.pupils:
+            print(web_words(language, "watch_address", url=links[1]), flush=True)
     may_open = sys.stdout.isatty() and (
         sys.platform == "darwin" or "DISPLAY" in os.environ or "WAYLAND_DISPLAY" in os.environ
     )

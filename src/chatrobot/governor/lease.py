@@ -36,6 +36,7 @@ PRIORITIES: Mapping[str, Priority] = {
     "console": Priority.PLAN,
     "program": Priority.PLAN,
     "web": Priority.PLAN,
+    "pupil": Priority.PLAN,
     "base": Priority.PLAN,
     "agent": Priority.AGENT,
     "mcp": Priority.AGENT,
@@ -45,7 +46,7 @@ RELEASERS = frozenset({"console"})
 """Who may release an emergency stop unless the composition root names others: a person at the local console."""
 
 
-STEERERS = frozenset({"console", "web", "base"})
+STEERERS = frozenset({"console", "web", "pupil", "base"})
 """Behind whom a person may hold a stick."""
 
 

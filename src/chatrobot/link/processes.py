@@ -21,12 +21,14 @@ SIMULATED = ("auto", "sim")
 class MotionProcess:
     """Motion in a session of its own, so that no terminal signal reaches it, and our ends of the lines to it.
 
-    `line` is a person's; an agent may speak on `second_line`.
+    `line` is a person's; an agent may speak on `second_line`. `is_shared`: the Motions of other robots are in the same
+    process, which goes on when this line is left.
     """
 
     process: subprocess.Popen[bytes]
     line: socket.socket
     second_line: socket.socket | None = None
+    is_shared: bool = False
 
     @classmethod
     def start(
@@ -39,16 +41,29 @@ class MotionProcess:
         open_loop: bool = False,
     ) -> MotionProcess:
         """`budget` is the motion budget as the command line chose it, `open_loop` that it chose open loop."""
+        return cls.start_for([wire], profile, world, budget, open_loop=open_loop)[0]
+
+    @classmethod
+    def start_for(
+        cls, wires: Sequence[str], profile: str, world: str, budget: MotionBudget, *, open_loop: bool
+    ) -> list[MotionProcess]:
+        """Start one process for the robots on those wires, all of one profile. A single one has a second line."""
+        is_shared = len(wires) > 1
         process, lines = spawn_with_lines(
             "chatrobot.motion.process",
-            *("--profile", profile, "--world", world, "--wire", wire),
+            *("--profile", profile, "--world", world),
             *("--max-distance", limit_text(budget.max_distance_m)),
             *("--max-time", limit_text(budget.max_time_s)),
             *("--open-loop", "yes" if open_loop else ""),
+            *(word for wire in wires for word in ("--wire", wire)),
             kind=socket.SOCK_SEQPACKET,
-            count=2,
+            count=len(wires) if is_shared else 2,
         )
-        return cls(process, *lines)
+        return (
+            [cls(process, line, is_shared=True) for line in lines]
+            if is_shared
+            else [cls(process, lines[0], lines[1])]
+        )
 
     def close(self) -> None:
         """Close our ends of the lines."""
@@ -71,14 +86,25 @@ class Processes:
         cls, profile: str, world: str, sim: str, budget: MotionBudget, *, open_loop: bool = False
     ) -> Processes:
         """Both at once: Motion loads while the robot does."""
-        wire_path = runtime_dir() / f"sim-{uuid.uuid4().hex[:12]}.wire"
+        return cls.start_class(1, profile, world, sim, budget, open_loop=open_loop)[0]
+
+    @classmethod
+    def start_class(
+        cls, count: int, profile: str, world: str, sim: str, budget: MotionBudget, *, open_loop: bool = False
+    ) -> list[Processes]:
+        """Start so many robots, none of which meets another: one process for all robots, one for all Motions."""
+        name = uuid.uuid4().hex[:12]
+        paths = [
+            runtime_dir() / f"sim-{name}{f'-{place}' if count > 1 else ''}.wire" for place in range(count)
+        ]
+        wires = [str(path) for path in paths]
         robot = spawn(
             "chatrobot.sim",
-            *("--socket", str(wire_path), "--profile", profile),
-            *("--world", world, "--sim", sim),
+            *(word for wire in wires for word in ("--socket", wire)),
+            *("--profile", profile, "--world", world, "--sim", sim),
         )
-        motion = MotionProcess.start(str(wire_path), profile, world, budget, open_loop=open_loop)
-        return cls(wire_path, robot, motion)
+        motions = MotionProcess.start_for(wires, profile, world, budget, open_loop=open_loop)
+        return [cls(path, robot, motion) for path, motion in zip(paths, motions)]
 
     def end(self) -> None:
         """Nobody needs them: nothing has been asked of them, so nothing moves."""

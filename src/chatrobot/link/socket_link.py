@@ -14,7 +14,7 @@ from chatrobot.core.clock import LOCAL_BEAT_HZ, LOCAL_TERM_S
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import event_from_json
 from chatrobot.core.process import own_identity, wake_promptly
-from chatrobot.link.envelope import PROTOCOL, Word, read_ready
+from chatrobot.link.envelope import PROTOCOL, Envelope, Word, read_ready
 from chatrobot.link.motion_link import EventQueue, MotionLink, Sender
 from chatrobot.link.processes import MotionProcess
 from chatrobot.wire.local import PACKET_BYTES
@@ -40,6 +40,7 @@ class SocketLink(EventQueue, MotionLink):
         self._is_second = False
         self._motion, self._line = motion, motion.line
         self.process = motion.process
+        self._reader = threading.Thread(target=self._read, name="link", daemon=True)
 
     def second(self, source: str) -> SocketLink:
         """Return a link of another client, an agent, to the same Motion, which is ready. There is one at a time.
@@ -79,10 +80,21 @@ class SocketLink(EventQueue, MotionLink):
         self._line.settimeout(None)
         self.send("hello", term_s=LOCAL_TERM_S, process=own_identity())
         threading.Thread(target=self._beat, name="beat", daemon=True).start()
-        threading.Thread(target=self._read, name="link", daemon=True).start()
+        self._reader.start()
 
     def send(self, word: Word, turn: int = 0, **payload: Any) -> None:
-        packet = self._sender.envelope(word, turn, **payload).to_bytes()
+        self._say(self._sender.envelope(word, turn, **payload))
+
+    def release_as(self, source: str) -> None:
+        """Release an emergency stop in the name of somebody who may, where the source of this link may not.
+
+        Raises:
+            LinkError: Motion is gone.
+        """
+        self._say(Sender(source).envelope("release"))
+
+    def _say(self, envelope: Envelope) -> None:
+        packet = envelope.to_bytes()
         try:
             self._line.send(packet, socket.MSG_NOSIGNAL)
         except OSError as error:
@@ -102,6 +114,8 @@ class SocketLink(EventQueue, MotionLink):
         if self._is_second:
             with contextlib.suppress(OSError):
                 self._line.shutdown(socket.SHUT_RDWR)  # ends our reader; what was queued is still done
+        elif self._motion.is_shared:  # it goes on with others; our line ends once what was queued is done
+            self._reader.join(END_TIMEOUT_S)
         else:
             with contextlib.suppress(subprocess.TimeoutExpired):
                 self.process.wait(END_TIMEOUT_S)

@@ -1,8 +1,9 @@
-"""Motion's process under a console: `python -m chatrobot.motion.process --profile … --world … --wire …
---max-distance … --max-time … --open-loop yes|"" --fd N,M`.
+"""Motion's process under a console: `python -m chatrobot.motion.process --profile … --world … --max-distance …
+--max-time … --open-loop yes|"" --wire … --fd N,M`.
 
 Envelopes come over inherited sockets, one a client, and events go back over them; `MotionRunner` does the rest. They
-are inherited, not listened for: nobody but who started this process can ever be at the other end.
+are inherited, not listened for: nobody but who started this process can ever be at the other end. The Motions of a
+class are one process: `--wire` comes once for each robot, and `--fd` names one line for each.
 """
 
 from __future__ import annotations
@@ -13,14 +14,22 @@ import socket
 import sys
 import threading
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
+from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Scan, Telemetry
 from chatrobot.link.client_line import ClientLine
 from chatrobot.link.envelope import Envelope, ready
-from chatrobot.motion.runner import MotionRunner
+from chatrobot.motion.control_loop import ControlLoop
+from chatrobot.motion.runner import MotionRunner, Shared
+from chatrobot.motion.safety.watchdog import SharedGuard, start_guard
+from chatrobot.programs.sandboxed import warm_server
+from chatrobot.robots.load import load_profile
+from chatrobot.robots.open_loop import as_chosen
 from chatrobot.robots.profile import MotionBudget, read_limit_text
+from chatrobot.sim.load import load_world
+from chatrobot.wire.connect import connect_wire
 from chatrobot.wire.local import PACKET_BYTES
 
 OUTBOX_LIMIT = 200
@@ -114,27 +123,71 @@ def main(arguments: list[str]) -> int:
     for name in ("SIGINT", "SIGTSTP", "SIGHUP", "SIGPIPE"):
         signal.signal(getattr(signal, name), signal.SIG_IGN)
     options = dict(zip(arguments[::2], arguments[1::2]))
+    addresses = [value for name, value in zip(arguments[::2], arguments[1::2]) if name == "--wire"]
     lines = [socket.socket(fileno=int(number)) for number in options["--fd"].split(",")]
-    clients = [ClientLine(number) for number in range(len(lines))]
-    outboxes = [Outbox(line, client) for line, client in zip(lines, clients)]
+    clients = len(lines) // len(addresses)
     try:
-        budget = MotionBudget(*(read_limit_text(options[name]) for name in ("--max-distance", "--max-time")))
-        runner = MotionRunner(
-            options["--wire"],
-            options["--profile"],
-            options["--world"],
-            lambda event: _put(outboxes, event),
-            budget=budget,
-            open_loop=bool(options["--open-loop"]),
-        )
-        readers = [SocketReader(*end, runner, outboxes[0].put) for end in zip(lines, clients)]
-        for reader in readers:
-            reader.start()
-        lines[0].send(ready())
-        runner.run(lambda: readers[0].has_ended and not runner.motion.is_busy, lambda: _flush(outboxes))
+        shared = _shared(addresses, options)
+        runners = [
+            _begin(address, lines[place * clients : (place + 1) * clients], shared[place], options)
+            for place, address in enumerate(addresses)
+        ]
+        for line in lines[::clients]:
+            line.send(ready())
+        shared[0].loop.run(runners)
     except WireError:
         return 1  # the robot's end is gone
     return 0
+
+
+def _shared(addresses: Sequence[str], options: Mapping[str, str]) -> list[Shared]:
+    loop = ControlLoop()
+    if len(addresses) == 1:
+        return [Shared(loop)]
+    from chatrobot.motion.planning_process import PlanningProcess, RemoteProgramHost
+
+    profile = as_chosen(
+        load_profile(options["--profile"]), _budget(options), open_loop=bool(options["--open-loop"])
+    )
+    clock = RealClock()
+    guard = SharedGuard(start_guard(addresses, profile.wiring, clock, is_near=True), clock)
+    planners = PlanningProcess(profile, load_world(options["--world"]), len(addresses)).planners
+    server = warm_server()
+    return [
+        Shared(loop, guard.share(), planner, RemoteProgramHost(profile, planner, server))
+        for planner in planners
+    ]
+
+
+def _budget(options: Mapping[str, str]) -> MotionBudget:
+    return MotionBudget(*(read_limit_text(options[name]) for name in ("--max-distance", "--max-time")))
+
+
+def _begin(
+    address: str, lines: Sequence[socket.socket], shared: Shared, options: Mapping[str, str]
+) -> MotionRunner:
+    """Meet that robot, and begin to listen to whoever speaks for it: a person on the first line."""
+    clients = [ClientLine(number) for number in range(len(lines))]
+    outboxes = [Outbox(line, client) for line, client in zip(lines, clients)]
+    runner = MotionRunner(
+        address,
+        options["--profile"],
+        options["--world"],
+        lambda event: _put(outboxes, event),
+        budget=_budget(options),
+        open_loop=bool(options["--open-loop"]),
+        connect=shared.loop.connect if shared.guard is not None else connect_wire,
+        shared=shared,
+    )
+    readers = [SocketReader(*end, runner, outboxes[0].put) for end in zip(lines, clients)]
+    for reader in readers:
+        reader.start()
+    runner.begin(
+        lambda: readers[0].has_ended and not runner.motion.is_busy,
+        lambda: _flush(outboxes),
+        lambda: lines[0].shutdown(socket.SHUT_RDWR),
+    )
+    return runner
 
 
 def _put(outboxes: Sequence[Outbox], event: Event) -> None:

@@ -1,26 +1,22 @@
-"""Runs Motion with its robot, its guard and its threads, whatever carries the link.
+"""Runs Motion with its robot, its guard and its planner's thread, whatever carries the link.
 
-Threads: the control loop at 50 Hz (the caller's); the planner, so that a rehearsal never delays a tick; a listener
-for `chatrobot stop`; and a watch for others who drive the same robot. The carrier's reader hands envelopes to
-`receive` in its own thread, where a stop is out before it returns.
+It is ticked by a `ControlLoop` (the caller's thread), of its own or that of many robots. The planner has a thread, so
+that a rehearsal never delays a tick. The carrier's reader hands envelopes to `receive` in its own thread, where a stop
+is out before it returns.
 """
 
 from __future__ import annotations
 
 import contextlib
-import gc
 import queue
-import signal
-import sys
 import threading
 import time
 from collections.abc import Callable, Collection
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
-from chatrobot.core.clock import PRESENCE_S, TICK_S, RealClock
+from chatrobot.core.clock import PRESENCE_S, RealClock
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Notice
-from chatrobot.core.process import MOTION, prefer, wake_promptly
 from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import Wiring
 from chatrobot.governor.lease import RELEASERS
@@ -28,13 +24,14 @@ from chatrobot.guard.watch import Departure
 from chatrobot.link.envelope import Envelope
 from chatrobot.link.topic_link import STOP, USER_INPUT
 from chatrobot.motion.budgets import open_loop_notice
+from chatrobot.motion.control_loop import ControlLoop
 from chatrobot.motion.motion import Motion
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.host import ProgramHost
 from chatrobot.motion.safety.competing_controllers import CompetingControllers
 from chatrobot.motion.safety.connection_monitor import ConnectionMonitor, ReconnectingWire, reach
-from chatrobot.motion.safety.stop import PAUSED, remove_stop_socket, serve_stop
-from chatrobot.motion.safety.watchdog import GuardProcess
+from chatrobot.motion.safety.stop import PAUSED
+from chatrobot.motion.safety.watchdog import GuardShare, start_guard
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.open_loop import as_chosen, drives_on_alone, slowed
@@ -50,8 +47,16 @@ from chatrobot.wire.messages import Flag, Text
 from chatrobot.wire.wire import Wire
 
 GUARD_S = 20.0
-SWITCH_INTERVAL_S = 0.0005
-"""How long a thread may keep the interpreter: the reader must get in between the lines of a rehearsal."""
+
+
+@dataclass(frozen=True)
+class Shared:
+    """What the robots of one process have in common, and this one's share of it. What is None a robot makes itself."""
+
+    loop: ControlLoop
+    guard: GuardShare | None = None
+    planner: Planner | None = None
+    programs: ProgramHost | None = None
 
 
 class MotionRunner:
@@ -69,6 +74,7 @@ class MotionRunner:
         budget: the motion budget as the command line chose it; what it leaves open the profile chooses.
         open_loop: drive a robot that has no odometry (`chatrobot.robots.open_loop`).
         connect: how our end of the wire is made; the guard has one of its own, at `address`.
+        shared: what it has in common with the other robots of this process; None where there is no other.
 
     Raises:
         WireError: there is no robot, or the guard does not start.
@@ -89,27 +95,29 @@ class MotionRunner:
         budget: MotionBudget = NOT_CHOSEN,
         open_loop: bool = False,
         connect: Connect = connect_wire,
+        shared: Shared | None = None,
     ) -> None:
-        sys.setswitchinterval(SWITCH_INTERVAL_S)
-        prefer(MOTION)
-        wake_promptly()
+        shared = shared or Shared(ControlLoop())
+        self._loop = shared.loop
         given = as_chosen(load_profile(profile), budget, open_loop=open_loop)
-        known_world = load_world(world)
+        known_world = shared.planner.world if shared.planner is not None else load_world(world)
         check_known(known_world, given)
         self.wire, self.profile, said = _meet(connect, address, given, node, on_robot=on_robot)
         self._emit = emit
-        self._wake = threading.Event()
+        self._is_over: Callable[[], bool] = lambda: False
+        self._each_tick: Callable[[], None] = lambda: None
+        self._at_end: Callable[[], None] = lambda: None
         self._plans: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
-        self.programs = ProgramHost(self.profile, is_in_step=False)
+        self.programs = shared.programs or ProgramHost(self.profile, is_in_step=False)
         is_near = on_robot or is_on_this_machine(address)
         wiring = _as_others_name_it(self.wire, self.profile.wiring)
-        self._guard = GuardProcess(address, wiring, RealClock(), is_near=is_near)
+        self._guard = shared.guard or start_guard([address], wiring, RealClock(), is_near=is_near)
         self._departure = Departure(self.wire, wiring.cmd_vel_topic, wiring.odom_topic, is_near=is_near)
         self.motion = Motion(
             self.profile,
             self.wire,
             self.wire.clock,
-            Planner(self.profile, known_world),
+            shared.planner or Planner(self.profile, known_world),
             self._guard,
             emit,
             self._plans.put,
@@ -151,31 +159,54 @@ class MotionRunner:
         Raises:
             WireError: the wire is closed for good. What was under way has been told to have failed.
         """
-        if threading.current_thread() is threading.main_thread():
-            signal.signal(signal.SIGCONT, lambda *_: self.motion.thaw())
-        for target in (self._plan, lambda: serve_stop(self._stop_and_tell), self._lookout.watch):
-            threading.Thread(target=target, daemon=True).start()
-        gc.collect()
-        gc.freeze()  # what start-up has made stays: the collector need not look through it while the robot moves
-        next_s = time.monotonic()
-        try:
-            while not has_left():
-                self._wake.wait(max(0.0, next_s - time.monotonic()))
-                self._wake.clear()
-                self.motion.tick()
-                each_tick()
-                if time.monotonic() >= next_s:  # not where an event drove this tick before its time
-                    next_s = max(next_s, time.monotonic() - TICK_S) + TICK_S
-        except WireError:
-            self.motion.give_up(Reason("wire_gone"))
-            each_tick()
-            raise
-        else:
-            self.motion.leave()
-            self.wire.close()
-        finally:
-            self.programs.close()
-            remove_stop_socket()
+        self.begin(has_left, each_tick)
+        self._loop.run([self])
+
+    def begin(
+        self,
+        has_left: Callable[[], bool],
+        each_tick: Callable[[], None],
+        at_end: Callable[[], None] = lambda: None,
+    ) -> None:
+        """Be ready for a control loop that runs until `has_left`; `each_tick` follows each tick, `at_end` the last."""
+        self._is_over, self._each_tick, self._at_end = has_left, each_tick, at_end
+        threading.Thread(target=self._plan, name="planner", daemon=True).start()
+
+    # --- called by the control loop ---
+
+    def tick(self) -> None:
+        """Do one period."""
+        self.motion.tick()
+        self._each_tick()
+
+    @property
+    def has_left(self) -> bool:
+        """True once all is done, and nobody is there who may ask for more."""
+        return self._is_over()
+
+    def look_out(self) -> None:
+        """See whether the wire is up and who else drives."""
+        self._lookout.look_out()
+
+    def thaw(self) -> None:
+        """Void what drove before a signal stopped this process."""
+        self.motion.thaw()
+
+    def leave(self) -> None:
+        """Say goodbye to the guard, and close the wire."""
+        self.motion.leave()
+        self.wire.close()
+        self._at_end()
+
+    def give_up(self) -> None:
+        """Tell that what was under way has failed: the wire is closed for good."""
+        self.motion.give_up(Reason("wire_gone"))
+        self._each_tick()
+        self._at_end()
+
+    def close(self) -> None:
+        """End its programs."""
+        self.programs.close()
 
     @property
     def robot_has_left(self) -> bool:
@@ -189,22 +220,22 @@ class MotionRunner:
         self.motion.receive(envelope, said_in_epoch)
         self._competitors.note_source(envelope.lease)
         if envelope.word != "beat":
-            self._wake.set()
+            self._wake()
 
     def lose(self, lease: str, *, others_stay: bool = False) -> None:
         """Stop: the source behind that lease is gone without a goodbye. `others_stay`: end only what is its own."""
         (self.motion.lose_second if others_stay else self.motion.lose)(lease)
-        self._wake.set()
+        self._wake()
 
     def halt(self, source: str, why: str, *, keep: bool = False) -> None:
         """Stop; the zero is out before this returns. `keep`: it is a pause."""
         self.motion.halt(Reason(PAUSED if keep else "stopped_by", {"source": source, "why": why}))
-        self._wake.set()
+        self._wake()
 
     def notice(self, reason: Reason) -> None:
         """Tell people something that ends nothing."""
         self.motion.post(lambda: self._emit(Notice(0, reason)))
-        self._wake.set()
+        self._wake()
 
     def in_background(self, goal: Callable[[], None]) -> None:
         """Have `goal` done by the planner's thread."""
@@ -212,10 +243,13 @@ class MotionRunner:
 
     # --- threads of its own ---
 
+    def _wake(self) -> None:
+        self._loop.wake(self)
+
     def _plan(self) -> None:
         while True:
             self._plans.get()()
-            self._wake.set()
+            self._wake()
 
     def _hear_user_input(self, message: Text) -> None:
         """Stop words need nobody's help to be understood."""
@@ -231,7 +265,7 @@ class MotionRunner:
         if message.data:
             self.halt(STOP, "")
 
-    def _stop_and_tell(self) -> str:
+    def stop(self) -> str:
         """Stop; what was found, for `chatrobot stop` to say: `moving`, `waiting`, `standing` or `unseen`."""
         has_work = self.motion.has_work  # looked up, not asked for: nothing holds the zero up
         self.halt("chatrobot stop", "")

@@ -58,6 +58,7 @@ class WarmServer:
         self._layers = layers or Layers()
         self._has_library = has_library
         self._lock = threading.Lock()
+        self._starting = threading.Lock()
         self._line: socket.socket | None = None
         self.process: subprocess.Popen[bytes] | None = None
         self.problems: Mapping[str, str] = {}
@@ -83,6 +84,12 @@ class WarmServer:
         if said["event"] == "refused":
             raise SandboxError(Reason("box_not_possible", {"missing": self.problems["seccomp"]}))
         raise SandboxError(Reason("box_does_not_start", {"problem": str(said["problem"])}))
+
+    def start_if_needed(self) -> None:
+        """Start it where it does not run, once, however many threads ask at the same time. Raises SandboxError."""
+        with self._starting:
+            if not self.is_running():
+                self.start()
 
     def launch(
         self, entry: str, payload: bytes = b"", limits: SandboxLimits | None = None

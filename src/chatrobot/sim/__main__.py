@@ -1,4 +1,4 @@
-"""`python -m chatrobot.sim`: the simulated robot in real time, in a process of its own."""
+"""`python -m chatrobot.sim`: the simulated robot in real time, in a process of its own; those of a class in one."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.fault_injection import FaultInjection
 from chatrobot.sim.load import load_world
 from chatrobot.sim.network_wire import MarshalledWire, TransformPublisher
-from chatrobot.sim.robot import SimRobot
-from chatrobot.sim.server import SimControl, SimServer
-from chatrobot.sim.world import check_start
+from chatrobot.sim.robot import TICK_S, SimRobot
+from chatrobot.sim.server import SimControl, SimServer, Simulation
+from chatrobot.sim.world import World, check_start
 from chatrobot.wire.local import LocalHub
 from chatrobot.wire.messages import TwistMessage
 from chatrobot.wire.wire import Wire
@@ -51,7 +51,12 @@ def _parser() -> argparse.ArgumentParser:
         help="local (the default), dds or ros, dds://DOMAIN/NAMESPACE or rosbridge:ws://HOST:9090",
     )
     parser.add_argument("--ros-args", nargs=argparse.REMAINDER, default=[], help="with --on ros; the last")
-    parser.add_argument("--socket", default="", help="where its wire is served; with --on local alone")
+    parser.add_argument(
+        "--socket",
+        action="append",
+        default=[],
+        help="where its wire is served; with --on local alone; once for each robot, none of which meets another",
+    )
     parser.add_argument("--ready-fd", type=int, default=1, help="where it writes `ready` once it listens")
     return parser
 
@@ -63,9 +68,24 @@ def _serve(options: argparse.Namespace) -> None:
     faults = FaultInjection.parse(options.sim)
     world = load_world(options.world)
     check_start(world, profile, f"--world {options.world}")
-    clock = RealClock()
     wake_promptly()
-    hub = _open_wire(options, profile)
+    wires = _open_wires(options, profile)
+    apart_s = TICK_S / len(wires)  # not all of them are due at once
+    servers = [_server(profile, world, faults, wire, place * apart_s) for place, wire in enumerate(wires)]
+    os.write(options.ready_fd, b"ready\n")
+    if options.ready_fd > 2:
+        os.close(options.ready_fd)
+    Simulation(servers, RealClock()).run()
+
+
+def _server(
+    profile: RobotProfile,
+    world: World,
+    faults: FaultInjection,
+    wire: LocalHub | MarshalledWire,
+    later_s: float,
+) -> SimServer:
+    clock = RealClock()
     server: SimServer | None = None
 
     def bring_to_the_present(_: TwistMessage) -> None:
@@ -73,21 +93,19 @@ def _serve(options: argparse.Namespace) -> None:
             server.catch_up()
 
     # Before the robot listens itself: a command must not act on time that had already passed when it came.
-    hub.subscribe(profile.wiring.cmd_vel_topic, TwistMessage, bring_to_the_present)
-    robot = SimRobot(profile, world, faults, wire=hub, clock=clock)
-    SimControl(robot, hub)
-    server = SimServer(robot, hub, clock)
-    os.write(options.ready_fd, b"ready\n")
-    if options.ready_fd > 2:
-        os.close(options.ready_fd)
-    server.run()
+    wire.subscribe(profile.wiring.cmd_vel_topic, TwistMessage, bring_to_the_present)
+    robot = SimRobot(profile, world, faults, wire=wire, clock=clock)
+    robot.skip(later_s)
+    SimControl(robot, wire)
+    server = SimServer(robot, wire, clock)
+    return server
 
 
-def _open_wire(options: argparse.Namespace, profile: RobotProfile) -> LocalHub | MarshalledWire:
+def _open_wires(options: argparse.Namespace, profile: RobotProfile) -> Sequence[LocalHub | MarshalledWire]:
     if options.on == "local":
         if not options.socket:
             raise UsageError("a simulated robot on a local wire needs --socket", where="--socket")
-        return LocalHub(options.socket)
+        return [LocalHub(path) for path in options.socket]
     address = f"{options.on}:" if options.on in ("dds", "ros") else options.on
     if not address.startswith(("dds:", "ros:", "rosbridge:")):
         raise UsageError(
@@ -105,7 +123,7 @@ def _open_wire(options: argparse.Namespace, profile: RobotProfile) -> LocalHub |
         wire: Wire = on_ros
     else:
         wire = connect_wire(address, profile.wiring, NODE)
-    return MarshalledWire(wire, TransformPublisher(wire, profile).after)
+    return [MarshalledWire(wire, TransformPublisher(wire, profile).after)]
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ import asyncio
 import contextlib
 import itertools
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, Protocol
 
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
@@ -16,8 +16,8 @@ from chatrobot.language.interpretation import LanguageCode
 from chatrobot.web.access import Pass
 from chatrobot.web.limits import ABORT, Rate
 from chatrobot.web.outbox import Message, Outbox
-from chatrobot.web.protocol import MalformedError, read_message
-from chatrobot.web.room import Room
+from chatrobot.web.protocol import FIELDS, Fields, MalformedError, read_message
+from chatrobot.web.room import Face, Room
 from chatrobot.web.words import refused, web_words
 
 CLOSE_S = 0.5
@@ -64,12 +64,35 @@ class Page:
         await self._has_to_go.wait()
 
 
-class PageConnection:
-    """See the module. Belongs to the event loop."""
+class Joined(Protocol):
+    """What a page joins: a room, or a class."""
 
-    def __init__(self, websocket: WebSocket, room: Room, page: Page) -> None:
+    def join(self, face: Face) -> None:
+        """Let a page in."""
+
+    def leave(self, face: Face) -> None:
+        """Take note that it is gone."""
+
+
+class Conversation:
+    """Serves one page, whatever it may say. Belongs to the event loop.
+
+    Args:
+        fields: what it may say.
+        do: does what a message that was read says.
+    """
+
+    def __init__(
+        self,
+        websocket: WebSocket,
+        joined: Joined,
+        page: Page,
+        fields: Fields,
+        do: Callable[[dict[str, Any]], None],
+    ) -> None:
         self._socket = websocket
-        self._room = room
+        self._joined = joined
+        self._fields, self._do = fields, do
         self._page = page
         self._rates = {"steer": Rate(), "beat": Rate(), "": Rate()}
         self._malformed = 0
@@ -77,14 +100,14 @@ class PageConnection:
 
     async def serve(self) -> None:
         """Serve the page until it or we have had enough."""
-        self._room.join(self._page)
+        self._joined.join(self._page)
         tasks = [
             asyncio.ensure_future(task) for task in (self._read(), self._send(), self._page.wait_for_close())
         ]
         try:
             await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
         finally:
-            self._room.leave(self._page)
+            self._joined.leave(self._page)
             for task in tasks:
                 task.cancel()
             results = await asyncio.gather(*tasks, return_exceptions=True)
@@ -122,9 +145,9 @@ class PageConnection:
 
     def _take(self, text: str) -> bool:
         """Do what a message says. False where this page has gone too far."""
-        room, page = self._room, self._page
+        page = self._page
         try:
-            message = read_message(text)
+            message = read_message(text, self._fields)
         except MalformedError as error:
             self._malformed += 1
             page.put(refused("malformed", problem=str(error)))
@@ -136,17 +159,27 @@ class PageConnection:
         ):
             page.put(refused("too_many", do))
             return False
-        if do in _BEATS:
+        self._do(message)
+        return True
+
+
+def serve_room(websocket: WebSocket, room: Room, page: Page) -> Conversation:
+    """Return the conversation of a page with a room."""
+
+    def do(message: dict[str, Any]) -> None:
+        word = message["do"]
+        if word in _BEATS:
             room.steering.beat(page)
-        why = why_not(room, page, do)
+        why = why_not(room, page, word)
         if why:
-            page.put(refused(why, do))
-            return True
+            page.put(refused(why, word))
+            return
         try:
-            ACTIONS[do](room, page, message)
+            ACTIONS[word](room, page, message)
         except LinkError as error:
             room.lose(error)
-        return True
+
+    return Conversation(websocket, room, page, FIELDS, do)
 
 
 _BEATS = ("beat", "steer")

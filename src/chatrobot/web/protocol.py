@@ -25,7 +25,8 @@ class MalformedError(ValueError):
     """A message is none of ours; its text says why, for whoever wrote the page."""
 
 
-def _text(most_chars: int) -> _Check:
+def is_text(most_chars: int) -> _Check:
+    """Return the check of a text that is no longer than that."""
     return lambda value: isinstance(value, str) and len(value) <= most_chars
 
 
@@ -49,9 +50,10 @@ def _or_none(check: _Check) -> _Check:
     return lambda value: value is None or check(value)
 
 
-_TEXT, _PLAN, _NAME = _text(MOST_TEXT_CHARS), _text(MOST_PLAN_CHARS), _text(80)
+_TEXT, _PLAN, _NAME = is_text(MOST_TEXT_CHARS), is_text(MOST_PLAN_CHARS), is_text(80)
 _POINT, _SPEED = _number(FURTHEST_M), _number(FASTEST)
-FIELDS: Mapping[str, Mapping[str, _Check]] = {
+Fields = Mapping[str, Mapping[str, _Check]]
+FIELDS: Fields = {
     "say": {"text": _TEXT},
     "say_plan": {"plan_text": _PLAN},
     "approve": {"turn": _is_count, "yes": _is_flag},
@@ -69,15 +71,15 @@ FIELDS: Mapping[str, Mapping[str, _Check]] = {
     "programs": {},
     "program": {"name": _NAME},
     "run_program": {"name": _NAME},
-    "edit_program": {"name": _NAME, "source": _text(MAX_SOURCE_CHARS)},
+    "edit_program": {"name": _NAME, "source": is_text(MAX_SOURCE_CHARS)},
     "language": {"code": lambda value: value in ("en", "zh")},
     "history": {},
 }
 """All that may be said, with a check for every field; one with a question mark may be left out."""
 
 
-def read_message(text: str) -> dict[str, Any]:
-    """Read one message of a page.
+def read_message(text: str, fields: Fields = FIELDS) -> dict[str, Any]:
+    """Read one message of a page that may say what `fields` has.
 
     Raises:
         MalformedError: it is none: what it says is not done, not even in part.
@@ -88,10 +90,10 @@ def read_message(text: str) -> dict[str, Any]:
         raise MalformedError("not JSON") from None
     data: dict[str, Any] = said if isinstance(said, dict) else {}
     do = data.get("do")
-    if not isinstance(do, str) or do not in FIELDS:
+    if not isinstance(do, str) or do not in fields:
         raise MalformedError("not an object with a known 'do'")
-    known = {name.rstrip("?"): check for name, check in FIELDS[do].items()}
-    for name in FIELDS[do]:
+    known = {name.rstrip("?"): check for name, check in fields[do].items()}
+    for name in fields[do]:
         if not name.endswith("?") and name not in data:
             raise MalformedError(f"{do}: {name} is missing")
     for name in data.keys() - {"do"}:

@@ -72,12 +72,21 @@ class Room:
         self.is_over = False
         """Nothing can be asked of the robot any more."""
 
-    def open(self, connection: Connection, post: Post, *, is_simulated: bool) -> None:
+    def open(
+        self,
+        connection: Connection,
+        post: Post,
+        *,
+        is_simulated: bool,
+        release: Callable[[], None] | None = None,
+    ) -> None:
         """Let people in.
 
         Args:
             post: has something done by the thread that pumps the session.
+            release: releases an emergency stop, where the session itself may not.
         """
+        self._release = release or connection.session.release
         self.connection, self.session = connection, connection.session
         self._is_simulated = is_simulated
         self.steering = Steering(self.session, self._has_work, self._tell_lost)
@@ -127,6 +136,16 @@ class Room:
         with self._lock:
             self._tell_gone("server", "server_ends" if stops else "server_leaves")
 
+    def tell_people(self, message: Message) -> None:
+        """Tell everybody who is here, and who comes later."""
+        with self._lock:
+            self._tell(message, is_kept=True)
+
+    @property
+    def face_count(self) -> int:
+        """Return how many pages look at it."""
+        return len(self._faces)
+
     def _tell_gone(self, what: str, code: str, **values: object) -> None:
         self._tell(
             Message(
@@ -160,9 +179,10 @@ class Room:
     # --- who is here ---
 
     def join(self, face: Face) -> None:
-        """Let somebody in: they hear what was told so far, and steer if they may and nobody does."""
+        """Let somebody in: they hear what was told so far, and steer if nobody does; a teacher only looks."""
         with self._lock:
-            if face.pass_.may_steer and self.steering.steerer is None:
+            may_begin = face.pass_.may_steer and face.pass_.role != "teacher"
+            if may_begin and self.steering.steerer is None:
                 self.steering.take(face)
             face.put(Message(lambda language: self._hello(face, language)))
             self._faces[face.id] = face
@@ -253,7 +273,7 @@ class Room:
     def release(self) -> None:
         """Ask Motion to release the emergency stop; its notice says what became of it."""
         self._release_is_due = True
-        self.session.release()
+        self._release()
 
     def say(self, face: Face, text: str) -> None:
         """Take a sentence in. A stop is out before this returns."""

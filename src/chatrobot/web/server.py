@@ -29,7 +29,8 @@ from starlette.websockets import WebSocket
 from chatrobot.core.errors import ChatRobotError
 from chatrobot.core.process import wake_promptly
 from chatrobot.web.access import Access, Pass, Refusal, address_of
-from chatrobot.web.connection import Page, PageConnection
+from chatrobot.web.classroom import Classroom, serve_teacher
+from chatrobot.web.connection import Page, serve_room
 from chatrobot.web.limits import AbortableWebSocket, LimitedProtocol
 from chatrobot.web.protocol import MOST_BYTES
 from chatrobot.web.room import Room
@@ -80,7 +81,7 @@ def page_files() -> Mapping[str, PageFile]:
                 found[f"/{prefix}{entry.name}"] = PageFile(
                     body, gzip.compress(body, mtime=0), media_type, tag
                 )
-    return {"/": found["/index.html"], **found}
+    return {"/": found["/index.html"], "/teacher": found["/teacher.html"], **found}
 
 
 class WebServer:
@@ -90,12 +91,18 @@ class WebServer:
         access: who may come in.
         rooms: the robots by their names; one of the name "" is that of whoever names none.
         certificate: files of certificate and key, for TLS.
+        classroom: where the rooms are those of a class.
     """
 
     def __init__(
-        self, access: Access, rooms: Mapping[str, Room], certificate: tuple[str, str] | None = None
+        self,
+        access: Access,
+        rooms: Mapping[str, Room],
+        certificate: tuple[str, str] | None = None,
+        classroom: Classroom | None = None,
     ) -> None:
         self.access = access
+        self._classroom = classroom
         self.rooms = rooms
         self._certificate = certificate
         self._files = page_files()
@@ -109,8 +116,12 @@ class WebServer:
         access.port, access.stop_port = page_socket.getsockname()[1], stop_socket.getsockname()[1]
         for room in self.rooms.values():
             room.stop_port = access.stop_port
+        if self._classroom is not None:
+            self._classroom.stop_port = access.stop_port
         page = _ServerThread("web", _Gate(access, self._application()), page_socket, self._certificate)
-        stop = _ServerThread("stop line", StopLine(access, self.find_room), stop_socket, self._certificate)
+        stop = _ServerThread(
+            "stop line", StopLine(access, self._find_stopped), stop_socket, self._certificate
+        )
         self._threads = [stop, page]
         for thread in self._threads:
             thread.start()
@@ -142,12 +153,18 @@ class WebServer:
         query = parse_qs(scope["query_string"].decode("latin-1"))
         return self.rooms.get(pass_.room or query.get("room", [""])[0])
 
+    def _find_stopped(self, pass_: Pass, scope: Scope) -> Room | Classroom | None:
+        """Return what a stop is for: a room, or all of them where a teacher names none."""
+        room = self.find_room(pass_, scope)
+        return room if room is not None or pass_.role != "teacher" else self._classroom
+
     def _application(self) -> ASGIApp:
         return Starlette(
             routes=[
                 Route("/me", self._me),
                 Route("/enter", self._enter, methods=["POST"]),
                 WebSocketRoute("/ws", self._page),
+                WebSocketRoute("/class", self._teachers_page),
                 Route("/{path:path}", self._file),
             ]
         )
@@ -201,7 +218,18 @@ class WebServer:
             await websocket.send_denial_response(_refusal(Refusal(404, "there is no such robot")))
             return
         await websocket.accept()
-        await PageConnection(websocket, room, Page(websocket, admitted)).serve()
+        await serve_room(websocket, room, Page(websocket, admitted)).serve()
+
+    async def _teachers_page(self, websocket: WebSocket) -> None:
+        admitted = self.access.admit(websocket.scope)
+        if isinstance(admitted, Refusal):
+            await websocket.send_denial_response(_refusal(admitted))
+        elif self._classroom is None or admitted.role != "teacher":
+            refusal = Refusal(403, "this page is the teacher's: open the link that the server printed")
+            await websocket.send_denial_response(_refusal(refusal))
+        else:
+            await websocket.accept()
+            await serve_teacher(websocket, self._classroom, Page(websocket, admitted)).serve()
 
 
 _UNKEPT = {"Cache-Control": "no-store"}

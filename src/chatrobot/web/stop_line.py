@@ -7,15 +7,25 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Protocol
 
 from starlette.types import Receive, Scope, Send
 
 from chatrobot.core.errors import LinkError
 from chatrobot.web.access import Access, Pass
-from chatrobot.web.room import Room
 
-FindRoom = Callable[[Pass, Scope], "Room | None"]
+
+class Stopped(Protocol):
+    """What is stopped: a room, or all of a class."""
+
+    def stop(self) -> None:
+        """Stop now."""
+
+    def emergency_stop(self) -> None:
+        """Stop now, and stay stopped until it is released."""
+
+
+FindStopped = Callable[[Pass, Scope], "Stopped | None"]
 _UNSUPPORTED, _POLICY = 1003, 1008
 
 
@@ -26,7 +36,7 @@ class StopLine:
         find_room: the room that a pass, and what it asks for, leads to.
     """
 
-    def __init__(self, access: Access, find_room: FindRoom) -> None:
+    def __init__(self, access: Access, find_room: FindStopped) -> None:
         self._access = access
         self._find_room = find_room
 
@@ -51,7 +61,7 @@ class StopLine:
                 return
             await send({"type": "websocket.send", "text": json.dumps(_obey(room, text))})
 
-    def _admit(self, scope: Scope) -> Room | None:
+    def _admit(self, scope: Scope) -> Stopped | None:
         if scope["path"] != "/stop" or self._access.check_place(scope, self._access.stop_port) is not None:
             return None
         admitted = self._access.admit(scope)
@@ -61,7 +71,7 @@ class StopLine:
         return self._find_room(admitted, scope)
 
 
-def _obey(room: Room, text: str) -> dict[str, Any]:
+def _obey(room: Stopped, text: str) -> dict[str, Any]:
     """Stop, if that is what `text` says; the answer."""
     try:
         said = json.loads(text)

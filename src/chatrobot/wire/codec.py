@@ -16,8 +16,7 @@ from chatrobot.wire.messages import MESSAGE_TYPES, Message
 
 def encode(topic: str, message: Message) -> bytes:
     """The bytes of one message."""
-    body = json.dumps(message, separators=(",", ":"), default=as_base64)
-    return f"{topic}\0{type(message).__name__}\0{body}".encode()
+    return f"{topic}\0{type(message).__name__}\0{_ENCODER.encode(message)}".encode()
 
 
 def as_base64(value: object) -> str:
@@ -25,6 +24,11 @@ def as_base64(value: object) -> str:
     if isinstance(value, bytes):
         return base64.b64encode(value).decode()
     raise TypeError(f"no message holds a {type(value).__name__}")
+
+
+_ENCODER = json.JSONEncoder(separators=(",", ":"), default=as_base64)
+_DECODER = json.JSONDecoder()
+"""Made once: `json.dumps` and `json.loads` would make or look for one with every message."""
 
 
 def topic_of(packet: bytes) -> str:
@@ -45,7 +49,7 @@ def decode(packet: bytes) -> Message | None:
         return None
     kind, readers = known
     try:
-        fields: Any = json.loads(body)
+        fields: Any = _DECODER.decode(body.decode())
         if type(fields) is not list or len(fields) != len(readers):
             return None
         return kind(*[read(value) for read, value in zip(readers, fields)])

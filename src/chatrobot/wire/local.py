@@ -11,7 +11,7 @@ import errno
 import select
 import socket
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +25,7 @@ from chatrobot.wire.wire import M, Wire
 PACKET_BYTES = 262_144
 _PACKETS_A_TURN = 64
 """How many packets the hub takes from one process before it looks at the others and at the time."""
+_AT_ONCE = int(socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
 SUBSCRIBE = b"\0subscribe\0"
 """A process says this with a topic's name behind it, to hear that topic from then on."""
 
@@ -50,13 +51,19 @@ class _Subscriptions:
 class LocalWire(Wire):
     """A process's end of the local wire. Connects at once; a thread of its own delivers.
 
+    Args:
+        has_thread: False where whoever owns it waits for `fileno` and calls `deliver`.
+
     Raises:
         WireError: nobody serves that socket.
     """
 
-    def __init__(self, path: Path | str) -> None:
+    def __init__(self, path: Path | str, *, has_thread: bool = True) -> None:
         self._subscriptions = _Subscriptions()
         self._closed = False
+        self._has_thread = has_thread
+        self.is_over = False
+        """Nothing more comes: either end has been closed."""
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         try:
             self._socket.connect(str(path))
@@ -70,7 +77,7 @@ class LocalWire(Wire):
     def publish(self, topic: str, message: Message) -> None:
         packet = encode(topic, message)
         try:
-            self._socket.send(packet, socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
+            self._socket.send(packet, _AT_ONCE)
         except BlockingIOError:
             return  # the hub does not read: it is frozen, and a queue of old velocities would help nobody
         except OSError as error:
@@ -84,31 +91,46 @@ class LocalWire(Wire):
             self._socket.send(SUBSCRIBE + topic.encode(), socket.MSG_NOSIGNAL)
         except OSError as error:
             raise WireError("the other end of the wire is gone") from error
-        if self._reader is None:
+        if self._reader is None and self._has_thread:
             self._reader = threading.Thread(target=self._read, name="wire", daemon=True)
             self._reader.start()
 
     def close(self) -> None:
         if self._closed:
             return
-        self._closed = True
+        self._closed = self.is_over = True
         with contextlib.suppress(OSError):
             self._socket.shutdown(socket.SHUT_RDWR)
         if self._reader is not None and self._reader is not threading.current_thread():
             self._reader.join()
         self._socket.close()
 
+    def fileno(self) -> int:
+        """Return what is readable while there is something to deliver."""
+        return self._socket.fileno()
+
+    def deliver(self) -> None:
+        """Deliver what has come, without waiting for anything."""
+        for _ in range(_PACKETS_A_TURN):
+            if not self._deliver_one(socket.MSG_DONTWAIT):
+                return
+
     def _read(self) -> None:
-        while True:
-            try:
-                packet = self._socket.recv(PACKET_BYTES)
-            except OSError:
-                return
-            if not packet:
-                return
-            message = decode(packet)
-            if message is not None:
-                self._subscriptions.deliver(topic_of(packet), message)
+        while self._deliver_one(0):
+            pass
+
+    def _deliver_one(self, flags: int) -> bool:
+        try:
+            packet = self._socket.recv(PACKET_BYTES, flags)
+        except BlockingIOError:
+            return False
+        except OSError:
+            packet = b""
+        self.is_over = not packet
+        message = decode(packet)
+        if message is not None:
+            self._subscriptions.deliver(topic_of(packet), message)
+        return bool(packet)
 
 
 class LocalHub(Wire):
@@ -126,8 +148,8 @@ class LocalHub(Wire):
             self.path.unlink()
         self._listener.bind(str(self.path))
         self._listener.listen(16)
-        self._poller = select.poll()
-        self._poller.register(self._listener, select.POLLIN)
+        self._poller = select.epoll()
+        self._poller.register(self._listener, select.EPOLLIN)
         self.ever_connected = False
         self._closed = False
 
@@ -153,7 +175,7 @@ class LocalHub(Wire):
 
     def poll(self, timeout_s: float) -> None:
         """Wait up to `timeout_s` for packets and route all that are there."""
-        for descriptor, _ in self._poller.poll(max(0.0, timeout_s) * 1000.0):
+        for descriptor, _ in self._poller.poll(max(0.0, timeout_s)):
             if descriptor == self._listener.fileno():
                 self._accept()
             elif descriptor in self._clients:
@@ -165,15 +187,20 @@ class LocalHub(Wire):
         self._closed = True
         for descriptor in tuple(self._clients):
             self._drop(descriptor)
+        self._poller.close()
         self._listener.close()
         with contextlib.suppress(FileNotFoundError):
             self.path.unlink()
+
+    def fileno(self) -> int:
+        """Return what is readable while there is something to route: `LocalHubs` waits for it."""
+        return self._poller.fileno()
 
     def _accept(self) -> None:
         client, _ = self._listener.accept()
         client.setblocking(False)
         self._clients[client.fileno()] = (client, set())
-        self._poller.register(client, select.POLLIN)
+        self._poller.register(client, select.EPOLLIN)
         self.ever_connected = True
 
     def _receive(self, descriptor: int) -> None:
@@ -205,12 +232,27 @@ class LocalHub(Wire):
 
     def _send(self, client: socket.socket, packet: bytes) -> None:
         with contextlib.suppress(OSError):  # full: it does not read; gone: its own event will say so
-            client.send(packet, socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
+            client.send(packet, _AT_ONCE)
 
     def _drop(self, descriptor: int) -> None:
         client, _ = self._clients.pop(descriptor)
         self._poller.unregister(descriptor)
         client.close()
+
+
+class LocalHubs:
+    """Many hubs of one process, waited for at once."""
+
+    def __init__(self, hubs: Sequence[LocalHub]) -> None:
+        self._hubs = {hub.fileno(): hub for hub in hubs}
+        self._poller = select.epoll()
+        for hub in hubs:
+            self._poller.register(hub, select.EPOLLIN)
+
+    def poll(self, timeout_s: float) -> None:
+        """Wait up to `timeout_s` for packets and route all that are there. A closed hub has none."""
+        for descriptor, _ in self._poller.poll(max(0.0, timeout_s)):
+            self._hubs[descriptor].poll(0.0)
 
 
 def _connect(address: str, _: Wiring, __: str) -> Wire:

@@ -12,6 +12,7 @@ from chatrobot.motion.remembered_obstacles import RememberedObstacles
 from chatrobot.programs.pipe import LATEST_S, ProgramSettings, robot_topics
 from chatrobot.programs.sandboxed import SandboxedProgram, warm_server
 from chatrobot.robots.profile import RobotProfile
+from chatrobot.sandbox.warm_server import WarmServer
 from chatrobot.wire.wire import Wire
 
 
@@ -20,12 +21,13 @@ class ProgramHost:
 
     Args:
         is_in_step: programs run on the virtual clock of a simulation, not in real time.
+        server: the warm server, where robots have one in common.
     """
 
-    def __init__(self, profile: RobotProfile, *, is_in_step: bool) -> None:
+    def __init__(self, profile: RobotProfile, *, is_in_step: bool, server: WarmServer | None = None) -> None:
         self._profile = profile
         self._is_in_step = is_in_step
-        self._server = warm_server()
+        self._server = server or warm_server()
         self._sensors = SensorMailbox()
 
     def attach(self, wire: Wire) -> None:
@@ -35,7 +37,7 @@ class ProgramHost:
     def rehearse(self, goal: ProgramGoal, planner: Planner, seen: RememberedObstacles | None) -> Planned:
         """Run it on virtual time, among what is known and what the lidar has seen, from where the goal starts."""
         try:
-            self._warm()
+            self.warm()
             rehearsal = rehearse_program(
                 self._server,
                 goal.code,
@@ -66,7 +68,7 @@ class ProgramHost:
         program = SandboxedProgram(self._server, settings)
         self._sensors.forget()
         try:
-            self._warm()
+            self.warm()
             program.start()
         except SandboxError as error:
             return error.reason
@@ -81,9 +83,9 @@ class ProgramHost:
         """End the server and whatever still runs in it."""
         self._server.close()
 
-    def _warm(self) -> None:
-        if not self._server.is_running():
-            self._server.start()
+    def warm(self) -> None:
+        """Start the server, where it does not run. Raises SandboxError."""
+        self._server.start_if_needed()
 
 
 def _file_name(name: str) -> str:

@@ -7,7 +7,6 @@ import time
 from collections.abc import Callable
 from typing import NamedTuple
 
-from chatrobot.core.clock import PRESENCE_S
 from chatrobot.core.errors import WireError
 from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import ODOM_TOPIC, Wiring
@@ -53,23 +52,21 @@ class ConnectionMonitor:
         self._accept_others = accept_others
         self._told_of_nulls = False
         self._was_up = True
+        self._count = 0
         self._seen: list[str] = []
         self._named: list[str] = []
         self._motions: list[str] = []
 
-    def watch(self) -> None:
-        """For ever: say that we are here, and see who else is."""
-        count = 0
-        while True:
-            with contextlib.suppress(WireError):  # gone: the control loop will see it, too
-                self._mind_wire()
-                self._competitors.beat()
-                if count % LOOK_EVERY == 0:
-                    self.look_around()
-                if count % SURVEY_EVERY == 0:
-                    self._look_for_odometry()
-            count += 1
-            time.sleep(PRESENCE_S)
+    def look_out(self) -> None:
+        """Say that we are here, and see who else is; every `PRESENCE_S`, in one thread."""
+        count, self._count = self._count, self._count + 1
+        with contextlib.suppress(WireError):  # gone: the control loop will see it, too
+            self._mind_wire()
+            self._competitors.beat()
+            if count % LOOK_EVERY == 0:
+                self.look_around()
+            if count % SURVEY_EVERY == 0:
+                self._look_for_odometry()
 
     def look_around(self) -> None:
         """See who else drives, and whether scans come whole."""

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import socket
+import subprocess
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Protocol
 
 from chatrobot.core.clock import TICK_S, Clock
@@ -17,6 +18,9 @@ from chatrobot.robots.profile import Wiring
 
 if TYPE_CHECKING:  # the process that talks loads this module for its guard, and no numpy
     from chatrobot.governor.governor import Governor
+
+
+_AT_ONCE = int(socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
 
 
 class GuardLink(Protocol):
@@ -45,9 +49,13 @@ class GuardLine:
 
     Args:
         line: our end of a stream socket; never blocks.
+        process: the guard's, where we have started it.
     """
 
-    def __init__(self, line: socket.socket, clock: Clock) -> None:
+    def __init__(
+        self, line: socket.socket, clock: Clock, process: subprocess.Popen[bytes] | None = None
+    ) -> None:
+        self.process = process
         self._clock = clock
         self._line = line
         self._line.setblocking(False)
@@ -92,7 +100,7 @@ class GuardLine:
 
     def _say(self, word: bytes) -> None:
         with contextlib.suppress(OSError):  # a guard that is gone shows in `is_alive`
-            self._line.send(word, socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
+            self._line.send(word, _AT_ONCE)
 
     def _hear(self) -> None:
         try:
@@ -111,25 +119,96 @@ class GuardLine:
         self._tripped = self._tripped or TRIPPED in answers
 
 
-class GuardProcess(GuardLine):
-    """A guard in a process and session of its own.
+def start_guard(
+    addresses: Sequence[str], wiring: Wiring, clock: Clock, *, is_near: bool = False
+) -> GuardLine:
+    """Start a guard in a process and session of its own.
 
     Args:
-        wire_address: the robot's wire (`chatrobot.wire.connect`).
+        addresses: of the wires of the robots that this process drives (`chatrobot.wire.connect`).
         wiring: names the topics it halts and watches, and the namespace it lives in.
-        is_near: the robot's process is on this machine.
+        is_near: the robots' process is on this machine.
+    """
+    process, line = spawn_with_line(
+        "chatrobot.guard",
+        *(word for address in addresses for word in ("--wire", address)),
+        *("--topic", wiring.cmd_vel_topic, "--type", wiring.cmd_vel_type),
+        *("--odom", wiring.odom_topic, "--odom-type", wiring.odom_type),
+        *("--namespace", wiring.namespace, "--near", "yes" if is_near else "no"),
+        kind=socket.SOCK_STREAM,
+    )
+    return GuardLine(line, clock, process)
+
+
+class SharedGuard:
+    """The guard of the robots of a class, whose Motions one thread ticks: one line, one beat for all of them.
+
+    That thread's beats show that each of them is ticked, for a robot that it did not tick would have ended the process.
+    A trip is told to each Motion, until it has shaken hands itself.
     """
 
-    def __init__(self, wire_address: str, wiring: Wiring, clock: Clock, *, is_near: bool = False) -> None:
-        self.process, line = spawn_with_line(
-            "chatrobot.guard",
-            *("--wire", wire_address),
-            *("--topic", wiring.cmd_vel_topic, "--type", wiring.cmd_vel_type),
-            *("--odom", wiring.odom_topic, "--odom-type", wiring.odom_type),
-            *("--namespace", wiring.namespace, "--near", "yes" if is_near else "no"),
-            kind=socket.SOCK_STREAM,
-        )
-        super().__init__(line, clock)
+    def __init__(self, line: GuardLine, clock: Clock) -> None:
+        self.line = line
+        self.shares: list[GuardShare] = []
+        self._clock = clock
+        self._next_s = float("-inf")
+
+    def share(self) -> GuardShare:
+        """Make the share of one robot."""
+        self.shares.append(GuardShare(self))
+        return self.shares[-1]
+
+    def beat(self) -> None:
+        """Beat, if nobody has within this period; hear first, so that no trip is missed."""
+        now_s = self._clock.now_s()
+        if now_s >= self._next_s:
+            self._next_s = now_s + 0.75 * TICK_S
+            self.line.beat()
+
+    def hear(self) -> None:
+        """Tell each of a trip."""
+        if self.line.was_tripped():
+            for share in self.shares:
+                share.is_tripped = True
+
+    def leave(self, share: GuardShare) -> None:
+        """Say goodbye with the last of them."""
+        self.shares.remove(share)
+        if not self.shares:
+            self.line.goodbye()
+
+
+class GuardShare:
+    """One robot's share of a `SharedGuard`. A `GuardLink`."""
+
+    def __init__(self, shared: SharedGuard) -> None:
+        self._shared = shared
+        self.is_tripped = False
+        """The guard has tripped since this robot's last handshake."""
+
+    def handshake(self) -> None:
+        self.is_tripped = False
+        self._shared.line.handshake()
+
+    def beat(self) -> None:
+        self._shared.beat()
+
+    def is_alive(self) -> bool:
+        """Return whether the guard answers."""
+        return self._shared.line.is_alive()
+
+    def was_tripped(self) -> bool:
+        """Hear what the guard has answered; return whether it has tripped since this robot's last handshake."""
+        self._shared.hear()
+        return self.is_tripped
+
+    def goodbye(self) -> None:
+        """Leave it to the others."""
+        self._shared.leave(self)
+
+    def wait_until_alive(self, timeout_s: float) -> bool:
+        """Block until the guard answers its first handshake."""
+        return self._shared.line.is_alive() or self._shared.line.wait_until_alive(timeout_s)
 
 
 class SimulatedGuard:

@@ -196,4 +196,5 @@ export function startChat() {
     else change(() => hear(entryOf(event.turn), event, message.text));
   });
   on("lost", (message) => noteLine(message.text));
+  on("task", (message) => noteLine(`${message.title}: ${message.text}`));
 }

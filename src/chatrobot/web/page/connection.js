@@ -10,6 +10,7 @@ const REFUSALS = [401, 403, 404, 421, 429];
 
 const listeners = new Map();
 const query = location.search;
+let path = "/ws";
 let socket = null;
 let waitMs = FIRST_WAIT_MS;
 let timer = 0;
@@ -55,8 +56,9 @@ function addressOf(port, path) {
   return `${scheme}://${host}${path}${query}`;
 }
 
-/** Come in: with the token of the link where it has one, then with the cookie. */
-export async function connect() {
+/** Come in: with the token of the link where it has one, then with the cookie. A teacher's page has a path of its own. */
+export async function connect(wanted = "/ws") {
+  path = wanted;
   const token = decodeURIComponent(location.hash.slice(1)).replace(/^token=/, "");
   if (token) {
     history.replaceState(null, "", location.pathname + query);
@@ -69,7 +71,7 @@ export async function connect() {
 
 function open() {
   clearTimeout(timer);
-  socket = new WebSocket(addressOf(0, "/ws"));
+  socket = new WebSocket(addressOf(0, path));
   const mine = socket;
   mine.onopen = () => {
     waitMs = FIRST_WAIT_MS;

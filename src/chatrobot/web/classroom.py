@@ -1,0 +1,213 @@
+"""A class: a room for each pupil, and what the page of whoever teaches shows of all of them and may do to them."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from starlette.websockets import WebSocket
+
+from chatrobot.core.errors import LinkError
+from chatrobot.core.events import Event, Interpreted, Result, Telemetry
+from chatrobot.dialogue.pump import Pump
+from chatrobot.web.access import Access
+from chatrobot.web.connection import Conversation, Page
+from chatrobot.web.outbox import Message
+from chatrobot.web.protocol import MOST_TEXT_CHARS, Fields, is_text
+from chatrobot.web.pupils import PupilsRobot
+from chatrobot.web.room import EMERGENCY_BUTTON, STOP_BUTTON, Face, Room
+from chatrobot.web.words import refused, told, web_words
+
+TELL_S = 0.25
+"""So often the teacher's page is told of all robots."""
+_MOST_SHOWN_CHARS = 300
+"""Of a plan or a reply."""
+_DIGITS = 3
+
+
+class Seat:
+    """One pupil's room, and what was last heard of the robot in it. `hear` is called on the pumping thread.
+
+    Args:
+        token: what the pupil's link has to bring.
+    """
+
+    def __init__(self, name: str, token: str) -> None:
+        self.room = Room(name)
+        self._token = token
+        self._telemetry: Telemetry | None = None
+        self._plan_text = self._reply = self._outcome = ""
+
+    def hear(self, event: Event) -> None:
+        """Take an event in, and tell the pupil's page."""
+        if isinstance(event, Telemetry):
+            self._telemetry = event
+        elif isinstance(event, Interpreted):
+            self._plan_text, self._reply, self._outcome = event.plan_text, event.reply, ""
+        elif isinstance(event, Result):
+            self._plan_text, self._reply, self._outcome = "", event.reply, event.outcome
+        self.room.hear(event)
+
+    def facts(self) -> dict[str, Any]:
+        """Return what the teacher's page shows of it."""
+        seen = self._telemetry
+        return {
+            "name": self.room.name,
+            "link": f"/#{self._token}",
+            "pages": self.room.face_count,
+            "pose": [round(value, _DIGITS) for value in seen.pose] if seen is not None else None,
+            "moving": seen is not None and seen.moving,
+            "emergency": self.room.is_latched,
+            "gone": self.room.is_over,
+            "plan_text": self._plan_text[:_MOST_SHOWN_CHARS],
+            "reply": self._reply[:_MOST_SHOWN_CHARS],
+            "outcome": self._outcome,
+        }
+
+
+class Classroom:
+    """See the module. From any thread; `stop` and `emergency_stop` wait for nothing.
+
+    Args:
+        access: gives each pupil a token that is good for their own robot, and the teacher one for all.
+        token: the teacher's, where one was chosen.
+    """
+
+    def __init__(self, count: int, access: Access, token: str = "") -> None:
+        names = [str(place) for place in range(1, count + 1)]
+        self.token = access.issue("teacher", token=token)
+        self.seats = {name: Seat(name, access.issue("pupil", name)) for name in names}
+        self.rooms: Mapping[str, Room] = {name: seat.room for name, seat in self.seats.items()}
+        self.task = ""
+        self.stop_port = 0
+        self._faces: dict[str, Face] = {}
+        self._robots: Sequence[PupilsRobot] = ()
+        self._pumps: list[Pump] = []
+        self._ended = threading.Event()
+
+    def open(self, robots: Sequence[PupilsRobot], on_gone: Callable[[Exception], None]) -> None:
+        """Let pupils in, each to their own robot, and begin to pump its session.
+
+        Args:
+            on_gone: told why a robot is gone, and with it all of them, for they share their processes.
+        """
+        self._robots = robots
+        for robot in robots:
+            room = self.rooms[robot.name]
+            pump = Pump(robot.connection.session, lambda error, room=room: _lose(room, error, on_gone))  # type: ignore[misc]
+            room.open(robot.connection, pump.post, is_simulated=True, release=robot.release)
+            self._pumps.append(pump)
+        for pump in self._pumps:
+            pump.start()
+        threading.Thread(target=self._tell_all, name="class", daemon=True).start()
+
+    def close(self) -> None:
+        """Stop the robots, and end what they stand on."""
+        self._ended.set()
+        for pump, robot in zip(self._pumps, self._robots):
+            with contextlib.suppress(LinkError):  # Motion is gone, and its guard halts the robot
+                robot.connection.session.stop("the web console has ended")
+            pump.stop()
+        for robot in self._robots:
+            robot.connection.close()
+
+    # --- a teacher's page; it joins and leaves as a pupil's does a room ---
+
+    def join(self, face: Face) -> None:
+        """Let a teacher's page in."""
+        self._faces[face.id] = face
+        hello = {
+            "you": face.id,
+            "name": face.name,
+            "role": "teacher",
+            "stop_port": self.stop_port,
+            "task": self.task,
+        }
+        face.put(told("hello", **hello, may=["stop", "emergency_stop", "release"], steering=None, history=[]))
+        face.put(self._message())
+
+    def leave(self, face: Face) -> None:
+        """Take note that it is gone. Nothing stops by that: the pupils go on."""
+        self._faces.pop(face.id, None)
+
+    def drop(self, token: str) -> list[Face]:
+        """Return those who came in with that token, which has been revoked."""
+        return [face for face in list(self._faces.values()) if face.pass_.token == token]
+
+    def stop(self, why: str = STOP_BUTTON) -> None:
+        """Stop all robots now."""
+        self._each(lambda room: room.stop(why))
+
+    def emergency_stop(self, why: str = EMERGENCY_BUTTON) -> None:
+        """Stop all robots now, and keep them stopped until they are released."""
+        self._each(lambda room: room.emergency_stop(why))
+
+    def release(self) -> None:
+        """Release the emergency stops that are set."""
+        self._each(lambda room: room.release() if room.is_latched else None)
+
+    def hand_out(self, text: str) -> None:
+        """Show a task to every pupil, also to one who comes later."""
+        self.task = text
+        self._each(
+            lambda room: room.tell_people(
+                Message(lambda language: {"is": "task", "text": text, "title": web_words(language, "task")})
+            )
+        )
+
+    def _each(self, act: Callable[[Room], None]) -> None:
+        for room in self.rooms.values():
+            with contextlib.suppress(LinkError):  # that one is gone, and the guard halts it
+                act(room)
+
+    def _message(self) -> Message:
+        facts = [seat.facts() for seat in self.seats.values()]
+        return Message(lambda _: {"is": "class", "robots": facts}, is_droppable=True)
+
+    def _tell_all(self) -> None:
+        while not self._ended.wait(TELL_S):
+            if self._faces:
+                message = self._message()
+                for face in list(self._faces.values()):
+                    face.put(message)
+
+
+def _lose(room: Room, error: Exception, on_gone: Callable[[Exception], None]) -> None:
+    room.lose(error)
+    on_gone(error)
+
+
+_ROOM = is_text(8)
+FIELDS: Fields = {
+    "stop": {"room?": _ROOM},
+    "emergency_stop": {"room?": _ROOM},
+    "release": {"room?": _ROOM},
+    "task": {"text": is_text(MOST_TEXT_CHARS)},
+    "language": {"code": lambda value: value in ("en", "zh")},
+}
+"""What a teacher's page may say; without a room it is about all of them."""
+
+
+def serve_teacher(websocket: WebSocket, classroom: Classroom, page: Page) -> Conversation:
+    """Return the conversation of a teacher's page with the class."""
+
+    def do(message: dict[str, Any]) -> None:
+        word = message["do"]
+        about: Classroom | Room | None = classroom
+        if "room" in message:
+            about = classroom.rooms.get(message["room"])
+        if about is None:
+            page.put(refused("malformed", word, problem=f"there is no robot {message['room']!r}"))
+        elif word == "task":
+            classroom.hand_out(message["text"])
+        elif word == "language":
+            page.language = message["code"]
+        else:
+            try:
+                {"stop": about.stop, "emergency_stop": about.emergency_stop, "release": about.release}[word]()
+            except LinkError as error:
+                page.put(refused("robot_gone", word, problem=str(error)))
+
+    return Conversation(websocket, classroom, page, FIELDS, do)

@@ -1,0 +1,88 @@
+"""The robots of a class: a simulated robot for each pupil, none of which meets another, put together into sessions.
+
+All robots are one process, all Motions a second, one guard watches them (docs/decisions/0047). A pupil's session speaks
+as `pupil`, which may not release an emergency stop; whoever teaches may.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+from chatrobot.compose import Connection, OnEvent, Setup, connect, default_world, profile_dirs
+from chatrobot.core.errors import UsageError
+from chatrobot.link.processes import SIMULATED, Processes
+from chatrobot.link.socket_link import SocketLink
+from chatrobot.robots.load import profile_argument
+
+FEWEST, MOST = 2, 30
+PUPIL = "pupil"
+"""The source in whose name a pupil's session speaks."""
+_TEACHER = "console"
+"""Whoever opened the class sits at the local console."""
+
+
+@dataclass
+class PupilsRobot:
+    """One pupil's robot and the session that drives it."""
+
+    name: str
+    connection: Connection
+
+    def release(self) -> None:
+        """Release its emergency stop, as the teacher. Motion's notice says what became of it.
+
+        Raises:
+            LinkError: Motion is gone.
+        """
+        link = self.connection.link
+        assert isinstance(link, SocketLink), "a class lives in real time"
+        link.release_as(_TEACHER)
+
+
+def check_class(setup: Setup, count: int) -> None:
+    """Refuse what no class can be.
+
+    Raises:
+        UsageError: it says what, and what is allowed.
+    """
+    if setup.on not in SIMULATED:
+        raise UsageError("a class has simulated robots alone: leave --on out", where="--class")
+    if setup.fast or setup.trace:
+        raise UsageError(
+            "a class lives in real time, and leaves no trace", where="--fast" if setup.fast else "--trace"
+        )
+    if not FEWEST <= count <= MOST:
+        raise UsageError(f"{count} is no class", where="--class", allowed=f"{FEWEST} to {MOST} pupils")
+
+
+def connect_class(
+    setup: Setup, names: Sequence[str], on_event_of: Callable[[str], OnEvent]
+) -> list[PupilsRobot]:
+    """Start a robot for each name, and wait until all have been heard.
+
+    Args:
+        setup: what holds for each of them; what a pupil keeps goes to a folder of their own within its folder.
+        on_event_of: takes a name and gives what hears the events of that robot.
+
+    Raises:
+        InputError: a profile, world or option is wrong, or cannot be one of a class.
+        LinkError: Motion or the simulated robots do not start.
+    """
+    check_class(setup, len(names))
+    world = setup.world or default_world(setup.on, open_loop=setup.open_loop)
+    robot = profile_argument(setup.robot, profile_dirs(setup.folder))
+    setup = replace(setup, world=world, robot=robot, source=PUPIL)
+    started = Processes.start_class(
+        len(names), robot, world, setup.sim, setup.budget, open_loop=setup.open_loop
+    )
+    robots = []
+    with contextlib.ExitStack() as ended_early:
+        ended_early.callback(started[0].end)
+        for place, (name, processes) in enumerate(zip(names, started), 1):
+            folder = setup.folder / "class" / f"pupil-{place}" if setup.folder is not None else None
+            own = replace(setup, processes=processes, folder=folder)
+            robots.append(PupilsRobot(name, connect(own, on_event_of(name))))
+        ended_early.pop_all()
+    return robots
