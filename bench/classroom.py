@@ -16,6 +16,7 @@ import tempfile
 import threading
 import time
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 from bench.latency import percentile
@@ -45,9 +46,8 @@ def listen(paths: Sequence[str]) -> None:
     """The subscriber: for each line `first from to` (monotonic seconds) how velocities came from that robot on."""
     heard: list[list[float]] = []
     for path in paths:
-        times: list[float] = []
-        heard.append(times)
-        LocalWire(path).subscribe("cmd_vel", TwistMessage, lambda twist, times=times: _note(twist, times))
+        heard.append([])
+        LocalWire(path).subscribe("cmd_vel", TwistMessage, partial(_note, heard[-1]))
     print("ready", flush=True)
     for line in sys.stdin:
         first, since_s, until_s = map(float, line.split())
@@ -58,7 +58,7 @@ def listen(paths: Sequence[str]) -> None:
         print(least_hz, statistics.median(off_s), percentile(off_s, 0.99), max(off_s), flush=True)
 
 
-def _note(twist: TwistMessage, times: list[float]) -> None:
+def _note(times: list[float], twist: TwistMessage) -> None:
     if any(twist):
         times.append(time.monotonic())
 

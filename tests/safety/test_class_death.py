@@ -3,6 +3,7 @@ that hold their last command for ever."""
 
 from __future__ import annotations
 
+import itertools
 import os
 import signal
 import time
@@ -98,3 +99,22 @@ def test_who_leaves_in_order_leaves_the_others_driving(pupils: RunningClass) -> 
         assert all(any(twist) for _, twist in heard)
     os.kill(pupils.pids["motion"], signal.SIGSTOP)
     assert max(ear.seconds_to_zero(time.monotonic()) for ear in pupils.heard[1:]) <= PROMISE_S
+
+
+def test_what_one_pupil_has_rehearsed_delays_nobody_else(pupils: RunningClass) -> None:
+    pupils.drive()
+    busy = pupils.robots[0].connection.session
+    busy.stop("another one")
+    began_s = time.monotonic()
+    busy.say_plan(
+        "\n".join(f"drive 0.{place % 9 + 1} m\nturn left {place % 90 + 1} deg" for place in range(400))
+    )
+    for _ in range(20):
+        busy.say("x" * 4000)
+        busy.pump(0.02)
+    time.sleep(1.0)
+    for ear in pupils.heard[1:]:
+        heard = ear.since(began_s)
+        assert all(any(twist) for _, twist in heard), "it was stopped"
+        gaps_s = [later - at for (at, _), (later, _) in itertools.pairwise(heard)]
+        assert max(gaps_s) < 0.15, "it would have been stopped a moment later"

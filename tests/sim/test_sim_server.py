@@ -11,6 +11,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,7 +21,7 @@ from sim_rig import PROFILE
 
 from chatrobot.core.clock import VirtualClock
 from chatrobot.sim.robot import TRUTH_TOPIC, SimRobot
-from chatrobot.sim.server import CONTROL_TOPIC, GAP_S, REPLY_TOPIC, SimServer
+from chatrobot.sim.server import CONTROL_TOPIC, GAP_S, LAST_CLIENT_GONE_S, REPLY_TOPIC, SimServer
 from chatrobot.wire.local import LocalHub, LocalWire
 from chatrobot.wire.messages import LaserScan, Odometry, Text, TwistMessage
 
@@ -188,3 +189,30 @@ def test_after_a_freeze_it_goes_on_where_it_was(parts: Parts) -> None:
     assert robot.true_pose.x_m == pytest.approx(before.x_m + 0.05)
     assert len(samples) == 50
     assert samples[-1].stamp_s == pytest.approx(clock.now_s())
+
+
+def test_many_robots_in_one_process_meet_nobody_and_each_leaves_with_its_last_client(tmp_path: Path) -> None:
+    paths = [tmp_path / f"{place}.wire" for place in range(3)]
+    more = [word for path in paths[1:] for word in ("--socket", str(path))]
+    with simulation(paths[0], "--world", "empty", *more) as running:
+        wires = [LocalWire(path) for path in paths]
+        heard: list[list[Odometry]] = [[] for _ in wires]
+        for wire, odometry in zip(wires, heard):
+            wire.subscribe("odom", Odometry, odometry.append)
+        wires[1].publish("cmd_vel", TwistMessage(0.3, 0.0, 0.0))
+        ends_s = time.monotonic() + PATIENCE_S
+        while not (heard[1] and heard[1][-1].x_m > 0.1) and time.monotonic() < ends_s:
+            time.sleep(0.01)
+        assert heard[1][-1].x_m > 0.1
+        assert heard[0][-1].x_m == heard[2][-1].x_m == 0.0
+        for wire in wires[:2]:
+            wire.close()
+        ends_s = time.monotonic() + LAST_CLIENT_GONE_S + PATIENCE_S
+        while (paths[0].exists() or paths[1].exists()) and time.monotonic() < ends_s:
+            time.sleep(0.02)
+        assert [path.exists() for path in paths] == [False, False, True]
+        before = len(heard[2])
+        time.sleep(0.2)
+        assert len(heard[2]) > before, "it goes on"
+        wires[2].close()
+        assert running.process.wait(PATIENCE_S) == 0

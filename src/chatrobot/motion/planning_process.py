@@ -8,7 +8,6 @@ the interpreter from it at each of its system calls, and one pupil's long plan w
 from __future__ import annotations
 
 import io
-import os
 import pickle
 import signal
 import socket
@@ -21,7 +20,7 @@ from typing import Any
 
 from chatrobot.core.errors import SandboxError
 from chatrobot.core.geometry import Pose
-from chatrobot.core.process import prefer
+from chatrobot.core.process import give_way, prefer
 from chatrobot.core.reason import Reason
 from chatrobot.link.processes import spawn_with_lines
 from chatrobot.motion.budgets import Account
@@ -213,7 +212,7 @@ def main(arguments: list[str]) -> int:
     for name in ("SIGINT", "SIGTSTP", "SIGHUP", "SIGPIPE"):
         signal.signal(getattr(signal, name), signal.SIG_IGN)
     prefer(OOM_SCORE)
-    os.nice(NICENESS)
+    give_way(NICENESS)
     lines = [socket.socket(fileno=int(number)) for number in arguments[1].split(",")]
     try:
         rehearsals = _Rehearsals(*Messages(lines[0].dup()).receive())

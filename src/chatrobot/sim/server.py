@@ -105,7 +105,8 @@ class Simulation:
             if server.is_deserted:
                 server.hub.close()
                 del self._due_s[server]
-        wait_s = min(self._due_s.values(), default=0.0) - self._clock.now_s()
+                return
+        wait_s = min(self._due_s.values()) - self._clock.now_s()
         (server.hub if len(self._due_s) == 1 else self._hubs).poll(wait_s)
 
     def _on_terminate(self, _signal: int, _frame: FrameType | None) -> None:
