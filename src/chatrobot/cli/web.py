@@ -23,6 +23,7 @@ from chatrobot.dialogue.pump import Pump
 from chatrobot.link.processes import SIMULATED
 
 if TYPE_CHECKING:
+    from chatrobot.mcp_server.host import AgentHost
     from chatrobot.web.access import Access
     from chatrobot.web.room import Room
     from chatrobot.web.server import WebServer
@@ -71,6 +72,10 @@ def _serve(
         problems.append(error)
         ended.set()
 
+    from chatrobot.mcp_server.host import host_agents
+
+    access = server.access
+    agents: AgentHost | None = None
     pump = Pump(connection.session, lose)
     room.open(connection, pump.post, is_simulated=setup.on in SIMULATED)
     try:
@@ -78,10 +83,15 @@ def _serve(
             server.start(*sockets)
             pump.start()
             tell()
+            agents = host_agents(
+                connection, lambda: f"{access.origin(access.host)}/", is_simulated=setup.on in SIMULATED
+            )
             while not (watch.is_leaving or ended.wait(0.1)):
                 pass
             server.close()
     finally:
+        if agents is not None:
+            agents.close()
         with contextlib.suppress(LinkError):  # Motion is gone, and its guard halts the robot
             connection.session.stop("the web console has ended")
         pump.stop()
