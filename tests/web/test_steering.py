@@ -6,8 +6,9 @@ from typing import Any
 
 import pytest
 
-from chatrobot.core.events import Result
-from chatrobot.core.geometry import ZERO_TWIST, Twist
+from chatrobot.core.events import Finished, Rehearsed, Result
+from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Twist
+from chatrobot.link.client_line import TURNS
 from chatrobot.web.steering import FIRST_BEAT_S, Steering
 from tests.web.rig import NotingSession, WebRig, wait_until
 
@@ -140,6 +141,20 @@ def test_closing_the_steering_page_ends_its_plan(rig: WebRig) -> None:
     rig.session.wait_for(*GONE)
     assert watcher.wait_for("lost")["text"]
     assert watcher.wait_for("steering", by=None)
+
+
+def test_an_agents_plan_that_a_page_said_yes_to_ends_with_that_page(rig: WebRig) -> None:
+    page, watcher = rig.page(), rig.page()
+    turn = TURNS + 1
+    for number in (turn, turn + 1):
+        rig.tell(Rehearsed(number, True, 1.0, 1.0, ORIGIN, needs_approval=True))
+        page.say("approve", turn=number, yes=True)
+        rig.session.wait_for("approve", number, True)
+        if number == turn:
+            rig.tell(Finished(turn, "completed", None, ORIGIN, ORIGIN, 0.0, 0.5, 1.0, 0.0))
+            assert watcher.wait_for_event("finished")["text"]
+    page.socket.close()
+    rig.session.wait_for(*GONE)
 
 
 def test_closing_it_after_the_plan_has_ended_stops_nothing(rig: WebRig) -> None:

@@ -17,12 +17,13 @@ from chatrobot.cli.choices import setup_from
 from chatrobot.cli.console.words import language_of_environment
 from chatrobot.cli.entry import STOPPED
 from chatrobot.cli.signals import SignalWatch
-from chatrobot.compose import Setup, connect
+from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.errors import LinkError, UsageError
 from chatrobot.dialogue.pump import Pump
 from chatrobot.link.processes import SIMULATED
 
 if TYPE_CHECKING:
+    from chatrobot.mcp_server.host import AgentHost
     from chatrobot.web.access import Access
     from chatrobot.web.room import Room
     from chatrobot.web.server import WebServer
@@ -76,6 +77,7 @@ def _serve(
         problems.append(error)
         ended.set()
 
+    agents: AgentHost | None = None
     pump = Pump(connection.session, lose)
     room.open(connection, pump.post, is_simulated=setup.on in SIMULATED)
     try:
@@ -83,10 +85,13 @@ def _serve(
             server.start(*sockets)
             pump.start()
             tell()
+            agents = _host_agents(connection, server.access, setup)
             while not (watch.is_leaving or ended.wait(0.1)):
                 pass
             server.close()
     finally:
+        if agents is not None:
+            agents.close()
         with contextlib.suppress(LinkError):  # Motion is gone, and its guard halts the robot
             connection.session.stop("the web console has ended")
         pump.stop()
@@ -130,6 +135,14 @@ def _serve_class(
     if problems:
         raise problems[0]
     return STOPPED
+
+
+def _host_agents(connection: Connection, access: Access, setup: Setup) -> AgentHost | None:
+    """Let `chatrobot mcp` attach to this robot, whose person says yes in the page; None without the extra `mcp`."""
+    from chatrobot.mcp_server.host import host_agents
+
+    address = f"{access.origin(_reachable(access.host))}/"  # without the token: agents are told it
+    return host_agents(connection, lambda: address, is_simulated=setup.on in SIMULATED)
 
 
 def _check(args: argparse.Namespace) -> None:

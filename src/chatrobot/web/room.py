@@ -13,9 +13,10 @@ from typing import Any, Protocol
 
 from chatrobot.compose import Connection
 from chatrobot.core.errors import LinkError
-from chatrobot.core.events import Event, Interpreted, Notice, Remembered, Result
+from chatrobot.core.events import Event, Finished, Interpreted, Notice, Remembered, Result
 from chatrobot.dialogue.question import Question
 from chatrobot.language.interpretation import LanguageCode
+from chatrobot.link.client_line import TURNS
 from chatrobot.plan.steps import Go, Plan
 from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop
@@ -98,11 +99,13 @@ class Room:
         """Take an event in and tell everybody."""
         with self._lock:
             self._question.hear(event)
-            if event.name not in UNTOLD:
+            if event.name not in UNTOLD or event.turn >= TURNS:
                 self._tell(event_message(event), is_kept=event.name not in PASSING)
             if isinstance(event, Interpreted):
                 self._plan_texts[event.turn] = event.plan_text
                 self._plan_texts.pop(event.turn - _PLANS, None)
+            elif isinstance(event, Finished) and event.turn >= TURNS:
+                self._turns.pop(event.turn, None)
             elif isinstance(event, Result):
                 self._turns.pop(event.turn, None)
                 if event.reason is not None and event.reason.code == "emergency_stop":
@@ -314,6 +317,8 @@ class Room:
     def answer(self, face: Face, turn: int, yes: bool) -> None:
         """Answer the plan that waits, if it still does."""
         if self._question.turn == turn:
+            if yes:
+                self._turns[turn] = face.id  # an agent's, too, is now something that this page wants
             self._question.answer(self.session, yes)
         else:
             face.put(refused("question_over", "approve"))

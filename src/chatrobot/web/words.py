@@ -9,7 +9,7 @@ from chatrobot.core import events
 from chatrobot.core.events import Event
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import fixed
-from chatrobot.dialogue.replies import describe_left
+from chatrobot.dialogue.replies import describe_end, describe_left
 from chatrobot.language.data_files import load_table
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.phrases import render_reason, say
@@ -21,7 +21,7 @@ DROPPABLE = frozenset({"telemetry", "scan"})
 PASSING = DROPPABLE | {"progress", "pose"}
 """What a page that comes later needs not be told."""
 UNTOLD = frozenset({"finished"})
-"""`result` says the same."""
+"""`result` says the same. An agent's turn has no other end here."""
 
 
 def web_words(language: LanguageCode, code: str, **values: object) -> str:
@@ -56,7 +56,7 @@ def event_message(event: Event) -> Message:
 
 _WORDED = (
     events.FindingSeen, events.Rehearsed, events.ProgramWritten, events.ProgramRehearsed, events.Paused,
-    events.Limited, events.Remembered, events.Notice, events.Result,
+    events.Limited, events.Remembered, events.Notice, events.Result, events.Finished,
 )  # fmt: skip
 
 
@@ -80,6 +80,8 @@ def _text(event: Event, language: LanguageCode) -> str | list[str]:
     if isinstance(event, events.Remembered):
         place = f"({fixed(event.pose.x_m, 2)}, {fixed(event.pose.y_m, 2)})"
         return web_words(language, "remembered", place=event.place, pose=place)
+    if isinstance(event, events.Finished):
+        return describe_end(event, language)
     if isinstance(event, events.Result):
         return event.reply
     raise TypeError(f"{event.name} has no words")
