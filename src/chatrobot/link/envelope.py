@@ -25,6 +25,7 @@ Word = Literal[
     "beat",
     "plan",  # {"plan_text", "mode", "more": bool, "approve": bool, "rehearse_only": bool, "longest_s": …}
     "look",  # asks for a `looked` event of this turn
+    "watch",  # {"scans": bool}: a display wants `scan` events, or no more
     # {"vx_mps", "vy_mps", "wz_radps"}: a person's stick as it is held now, said anew many times a second while it is;
     # a zero, also one that is left out, lets go
     "steer",
@@ -126,6 +127,7 @@ PAYLOADS: Mapping[str, Mapping[str, _Check]] = {
     "beat": {**_GREETING, "age_s": _seconds(with_zero=True)},
     "plan": {**_GOAL, "plan_text": _text(), "more": _is_flag, "longest_s": _seconds(with_zero=False)},
     "look": {},
+    "watch": {"scans": _is_flag},
     "steer": {"vx_mps": _is_speed, "vy_mps": _is_speed, "wz_radps": _is_speed},
     "program": {
         **_GOAL,

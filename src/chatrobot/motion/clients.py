@@ -40,7 +40,6 @@ class Clients:
         self._leaving: set[str] = set()
         self._strangers: dict[str, int] = {}
         """The protocol of each lease whose half speaks another than we do."""
-        self._some_have_left = False
 
     def note(self, lease: str, now_s: float) -> None:
         """Note that something came in its name. With one too many, forget those that are gone."""
@@ -91,13 +90,11 @@ class Clients:
         """Take a goodbye: what is queued is still done, without beats."""
         self._leases.entrust(lease)
         self._leaving.add(lease)
-        self._some_have_left = True
 
     def lose(self, lease: str) -> None:
         """Do nothing more in the name of a source that is gone without a goodbye. From any thread."""
         self._leases.end(lease)
         self._leaving.add(lease)
-        self._some_have_left = True
 
     def has_left(self, lease: str) -> bool:
         """Return whether no beat of it is waited for any more: what it says now could never lapse."""
@@ -109,11 +106,6 @@ class Clients:
             return Reason("lease_lapsed", {"source": envelope.source})
         protocol = self._strangers.get(envelope.lease, PROTOCOL)
         return None if protocol == PROTOCOL else other_protocol(motion=PROTOCOL, dialogue=protocol)
-
-    @property
-    def some_have_left(self) -> bool:
-        """True once a source has left or was lost."""
-        return self._some_have_left
 
     def _was_there_before_us(self, envelope: Envelope) -> bool:
         """Its hello went by before we listened; it names its term with what it says."""

@@ -15,19 +15,20 @@ from chatrobot.core.governed import StopEpoch
 from chatrobot.core.reason import Reason
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
-from chatrobot.governor.lease import RELEASERS, Priority, priority_of
+from chatrobot.governor.lease import RELEASERS
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.budgets import Budgets, open_loop_notice
 from chatrobot.motion.clients import Clients
 from chatrobot.motion.goal_queue import GoalQueue, Inbox, OutcomeQueue, Pausing
 from chatrobot.motion.goal_server import GoalServer
-from chatrobot.motion.governed_robot import GovernedRobot, TelemetryPublisher, sectors_m
+from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.execution import NoSandbox, ProgramSandbox
 from chatrobot.motion.relayed_velocities import RelayedVelocities
 from chatrobot.motion.safety.stop import PAUSED, StopConfirmation, Stops, WireTransport
 from chatrobot.motion.safety.watchdog import GuardLink, Interlock, StallDetector
+from chatrobot.motion.telemetry import ScanPublisher, TelemetryPublisher, sectors_m
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.wire import Wire
 
@@ -87,6 +88,7 @@ class Motion:
         )  # fmt: skip
         self._stall_detector = StallDetector(clock, guard, self.halt)
         self._telemetry = TelemetryPublisher(self.sensors, self._executor.progress, emit)
+        self._scans = ScanPublisher(profile.lidar, self.sensors, self._governor.leases, emit)
         self._emergency: Envelope | None = None
 
     # --- from any thread -------------------------------------------------------------------------------------
@@ -133,8 +135,21 @@ class Motion:
 
     def lose(self, lease: str) -> None:
         """Stop: the source behind `lease` is gone without a goodbye."""
-        self.halt(Reason("source_lost", {"source": self._governor.leases.source_of(lease)}))
+        self.halt(self._lost(lease))
         self._clients.lose(lease)
+
+    def lose_second(self, lease: str) -> None:
+        """End what is done for the source behind `lease`, which is gone without a goodbye; others go on."""
+        self._clients.lose(lease)
+
+        def end() -> None:
+            if self.goals.is_engaged(lease):  # then nothing of anybody who goes before it drives or waits
+                self.halt(self._lost(lease))
+
+        self.post(end)
+
+    def _lost(self, lease: str) -> Reason:
+        return Reason("source_lost", {"source": self._governor.leases.source_of(lease)})
 
     # --- control thread --------------------------------------------------------------------------------------
 
@@ -168,11 +183,6 @@ class Motion:
     def latched(self) -> Reason | None:
         """Return the emergency stop that has not been released."""
         return self._governor.latched
-
-    @property
-    def has_left(self) -> bool:
-        """True once a source has gone, and all is done."""
-        return self._clients.some_have_left and not self.is_busy
 
     def see_it_stand(self) -> None:
         """Send zeros until the robot stands: nobody knows what it has heard last."""
@@ -218,6 +228,7 @@ class Motion:
         # Late: it wakes the guard, which may take this processor.
         self._stall_detector.beat(self._clock.now_s())
         self._telemetry.tick(now_s)
+        self._scans.tick(now_s)
 
     def _book_stop(self) -> None:
         """A stop has gone out, from whatever thread: end what ran and what waited, then see the robot stand."""
@@ -258,14 +269,15 @@ class Motion:
             self._begin_next(now_s)
         elif envelope.word == "look":
             self._emit(Looked(envelope.turn, sectors_m(self._profile, self.sensors.scan)))
+        elif envelope.word == "watch":
+            self._scans.watch(envelope.lease, on=envelope.payload.get("scans") is True)
         elif envelope.word == "steer":
             self._relayed.steer(envelope, came_s)
         elif envelope.word == "resume":
             self._pausing.resume(envelope)
             self._begin_next(now_s)
         elif envelope.word == "approve":
-            if priority_of(envelope.source) >= Priority.PLAN:  # a person's word, not an agent's
-                self.goals.approve(envelope)
+            self.goals.approve(envelope)
         elif envelope.word == "release":
             self._release(envelope, emergency)
         elif envelope.word == "limit":
