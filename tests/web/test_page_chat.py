@@ -45,9 +45,7 @@ def test_what_rehearsal_found_is_said(page: Page, rig: WebRig) -> None:
     say(page, rig, "drive ten metres")
     found = FindingSeen(1, "warn", Reason("leaves_area", {"distance_m": 5.0, "total_m": 10.0}))
     rig.tell(Rehearsed(1, True, 30.0, 10.0, ORIGIN, findings=(found,), needs_approval=True))
-    expect(page.get_by_role("log", name="What was said")).to_contain_text(
-        "leave the allowed area"
-    )
+    expect(page.get_by_role("log", name="What was said")).to_contain_text("leave the allowed area")
 
 
 def test_an_edited_plan_goes_in_the_place_of_the_one_that_waits(page: Page, rig: WebRig) -> None:
