@@ -15,7 +15,7 @@ from chatrobot.robots.profile import MotionBudget
 if TYPE_CHECKING:
     from chatrobot.robots.profile import RobotProfile
 
-COMMANDS = ("", "do", "mcp")
+COMMANDS = ("", "do", "mcp", "web")
 STDOUT = 1
 _CLEAR_LINE = "\r\x1b[K"
 

@@ -190,13 +190,13 @@ class Session:
         """Change or ask for the motion budget: `max_distance_m`, `max_time_s` (a number or `none`). For the console."""
         self._link.send("limit", **limits)
 
-    def look(self) -> None:
-        """Ask what the lidar sees: a `looked` event of turn 0 follows."""
-        self._link.send("look")
-
     def watch_scans(self, on: bool) -> None:
         """Have what the lidar sees told as `scan` events, for a map, or no more."""
         self._link.send("watch", scans=on)
+
+    def look(self) -> None:
+        """Ask what the lidar sees: a `looked` event of turn 0 follows."""
+        self._link.send("look")
 
     def approve(self, turn: int, yes: bool) -> None:
         """Answer a rehearsed plan that waits for a yes."""
