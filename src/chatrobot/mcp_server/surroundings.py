@@ -17,6 +17,7 @@ from chatrobot.sim.world import World
 
 DIRECTIONS = ("ahead", "ahead left", "left", "behind left", "behind", "behind right", "right", "ahead right")
 NEAR_M = 2.5
+HERE_M = 0.05
 MOST_NEAR = 8
 OLD_S = 1.0
 """Older news of the robot are none."""
@@ -150,11 +151,15 @@ def take_picture(camera: Camera) -> bytes | None:
 
 
 def place_in_words(place: dict[str, Any]) -> str:
-    """Return a place of `places_of` in a few words."""
-    also = f" ({', '.join(place['also'])})" if place["also"] else ""
-    where = f"({fixed(place['x_m'], 2)}, {fixed(place['y_m'], 2)})"
-    far = f", {place['beeline_m']:.1f} m {place['side']}" if "side" in place else ""
-    return f"{place['name']}{also} at {where}{far}"
+    """Return a place of `places_of` in a few words, by its first name."""
+    where = f"{place['name']} at ({fixed(place['x_m'], 2)}, {fixed(place['y_m'], 2)})"
+    if "side" not in place:
+        return where
+    return (
+        f"{where}, {place['beeline_m']:.1f} m {place['side']}"
+        if place["beeline_m"] > HERE_M
+        else f"{where}, here"
+    )
 
 
 def seen_in_words(data: dict[str, Any]) -> str:

@@ -47,7 +47,7 @@ NO_PERSON = (
 )
 UNCLEAR = (
     "Say it in other words, or give `plan` instead: one step a line, such as `drive 1 m`, `turn left 90 deg` (the "
-    "prompt plan_language has all of them)."
+    "prompt plan_language has all of them). The tool places has the names of places."
 )
 UNCLEAR_PROGRAM = "Write it yourself: give the whole Python program as `text`."
 _DROPPED = (
@@ -237,12 +237,16 @@ def _rehearsal_told(rehearsed: Rehearsed, language: str) -> dict[str, Any]:
 
 def _in_words(rehearsed: Rehearsed, language: str) -> str:
     told = _rehearsal_told(rehearsed, language)
+    found = [f"{each['severity']}: {each['text']}" for each in told["findings"]]
+    if not rehearsed.ok:  # the reply is the first refusal; nobody drives to an end that was not reached
+        refusals = [text for text in found if text.startswith("refuse")]
+        return " ".join(text for text in found if text not in refusals[:1])
     open_ended = ", and its end is not known" if rehearsed.open_ended else ""
     way = (
         f"Rehearsed: {told['length_m']:.2f} m in {told['duration_s']:.1f} s{open_ended}, ending "
         f"{in_words(told['end'])}."
     )
-    return " ".join([way, *(f"{each['severity']}: {each['text']}" for each in told["findings"])])
+    return " ".join([way, *found])
 
 
 def finite(value: Any) -> Any:
