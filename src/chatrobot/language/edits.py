@@ -54,11 +54,7 @@ def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
     if "leave_out" in flags:
         return _without(steps, edit)
     if "reversed" in flags:
-        return (
-            list(reversed(steps))
-            if flags == {"again", "reversed"} and not edit.amounts and not edit.way
-            else None
-        )
+        return None if flags - {"again", "reversed"} or edit.amounts or edit.way else steps[::-1]
     if "swapped" in flags:
         return _swapped(steps)
     if "first" in flags:
@@ -77,10 +73,8 @@ def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
         return [_scaled(step, scale.number) for step in steps]
     if flags == {"again", "more"} and len(edit.amounts) == 1 and not edit.way and scale is None:
         return _lengthened(steps, edit)
-    keeps = "again" in flags or (
-        edit.roles and ("instead" in flags or edit.is_named)
-    )  # `make the radius 1 m`
-    if not keeps or flags - {"again", "instead", "all", "each"} or scale is not None:
+    measured = edit.roles and ("instead" in flags or edit.is_named)  # `make the radius 1 m`
+    if not ("again" in flags or measured) or flags - {"again", "instead", "all", "each"} or scale is not None:
         return None
     return resized(steps, edit) if edit.amounts and not edit.way else None
 
