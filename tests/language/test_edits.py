@@ -51,6 +51,13 @@ def square(side: str, way: str = "left") -> str:
         (["前进八十厘米", "再走二十"], "drive 0.2 m"),
         (["forward a bit", "now back the same amount"], "drive 0.25 m back"),
         (["turn right 45", "the same amount left"], "turn left 45 deg"),
+        (["slide right 30 cm", "left 90"], "turn left 90 deg"),
+        (["slide right 30 cm", "and 30 left"], "unclear: drive 0.3 m left"),
+        (["forward 1 m, left 90", "now the same path mirrored"], "drive 1 m\nturn right 90 deg"),
+        (["往左转四十五度", "再往右转同样多"], "turn right 45 deg"),
+        (["后退半米", "再退这么多"], "drive 0.5 m back"),
+        (["走个三角形，边长六十公分", "换成正方形"], square("0.6")),
+        (["draw a circle with radius 1 m", "make the radius half a metre"], "arc left 360 deg radius 0.5 m"),
         (
             ["half a circle to the right, radius 1 m", "the second half, please"],
             "arc right 180 deg radius 1 m",
@@ -117,6 +124,7 @@ def test_the_motion_before_is_changed_as_said(turns: list[str], plan: str) -> No
         ["forward 1 m, left 90, forward 2 m", "undo the last step"],  # of the turn, or all of it?
         ["forward 30 cm", "3 more"],  # centimetres or rounds?
         ["前进八十厘米", "再走二"],
+        ["back 40 cm", "back the same distance"],  # once more, or to where it came from?
         ["forward 1 m, left 90", "the turn again"],  # and what of the drive?
         ["forward 1 m, slide left 1 m", "and back a metre"],  # to where it came from, or backwards?
         ["turn left 30", "five more"],

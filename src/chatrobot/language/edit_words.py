@@ -13,7 +13,18 @@ from chatrobot.plan.steps import Arc, Drive, Step, Turn
 _IDLE = frozenset({"filler", "glue", "sep", "reason"})
 _POINTING = frozenset({"again", "same_amount", "more", "both", "do_this", "each"})
 _CHANGING = frozenset(
-    {"other_way", "leave_out", "swapped", "complete", "amounts", "overshot", "instead", "all", "first"}
+    {
+        "other_way",
+        "leave_out",
+        "swapped",
+        "complete",
+        "amounts",
+        "overshot",
+        "instead",
+        "all",
+        "first",
+        "reversed",
+    }
 ) | {"until", "original_heading"}
 ROUND = frozenset({"until", "original_heading"})
 """`Until the circle is closed`: said of a curve before, it asks for the rest of the circle."""
@@ -50,7 +61,7 @@ class Edit:
 def read_edit(atoms: Sequence[Atom]) -> Edit | None:
     edit, denied = Edit(goes_on=atoms[0].kind == "conn") if atoms else Edit(), False
     said = {atom.value for atom in atoms if atom.kind == "flag"}
-    for i, atom in enumerate(atoms):
+    for i, atom in enumerate(_in_edit(atom, said) for atom in atoms):
         sign = sign_of(atom)
         if "again" in said and sign:
             edit.flags.add("more")
@@ -78,19 +89,23 @@ def read_edit(atoms: Sequence[Atom]) -> Edit | None:
             edit.slides |= atom.value == "slide"
         elif atom.kind in ("dir", "rot") and edit.way in ("", atom.value) and not _is_apart(atoms, i):
             edit.way = atom.value
-        elif (atom.kind, atom.value) == ("verb", "return") and "same_amount" in said:
-            edit.way = "back"
         elif atom.kind == "role" or (atom.kind == "counter" and atom.value == "side"):
             edit.roles.add(atom.value)
         elif atom.kind == "nth":
             edit.nth = int(atom.value)
-        elif (atom.kind, atom.value) == ("order", "reverse"):
-            edit.flags.add("reversed")
         elif atom.value == "make" or _is_one(atom):
             edit.is_named = True
         elif not (atom.kind == "conn" and (i == 0 or "first" in edit.flags or {"again", "more"} <= said)):
             return None
     return None if denied else edit
+
+
+def _in_edit(atom: Atom, said: set[str]) -> Atom:
+    """The atom as it is meant of the motion before: `back the same amount` is a way, `in reverse order` changes it."""
+    if (atom.kind, atom.value) == ("order", "reverse"):
+        return Atom("flag", "reversed", atom.text)
+    goes_back = (atom.kind, atom.value) == ("verb", "return") and "same_amount" in said
+    return Atom("dir", "back", atom.text) if goes_back else atom
 
 
 def _is_apart(atoms: Sequence[Atom], i: int) -> bool:

@@ -54,11 +54,7 @@ def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
     if "leave_out" in flags:
         return _without(steps, edit)
     if "reversed" in flags:
-        return (
-            list(reversed(steps))
-            if flags == {"again", "reversed"} and not edit.amounts and not edit.way
-            else None
-        )
+        return None if flags - {"again", "reversed"} or edit.amounts or edit.way else steps[::-1]
     if "swapped" in flags:
         return _swapped(steps)
     if "first" in flags:
@@ -77,7 +73,8 @@ def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
         return [_scaled(step, scale.number) for step in steps]
     if flags == {"again", "more"} and len(edit.amounts) == 1 and not edit.way and scale is None:
         return _lengthened(steps, edit)
-    if "again" not in flags or flags - {"again", "instead", "all", "each"} or scale is not None:
+    measured = edit.roles and ("instead" in flags or edit.is_named)  # `make the radius 1 m`
+    if not ("again" in flags or measured) or flags - {"again", "instead", "all", "each"} or scale is not None:
         return None
     return resized(steps, edit) if edit.amounts and not edit.way else None
 
@@ -93,13 +90,20 @@ def _one_way(edit: Edit, steps: list[Step], scale: Atom | None) -> list[Step] | 
         return _to_side([step], edit.way == "left", is_named=True, goes_on=True)
     if edit.way not in ("", "back") or (edit.slides and not _is_sideways(step)):
         return None
-    if "other_way" in edit.flags or edit.way == "back" or "overshot" in edit.flags:
+    if edit.way == "back" and _heads_back(step):  # backwards once more, or back to where it came from?
+        if not edit.goes_on:
+            raise Unclear("which_way")
+    elif "other_way" in edit.flags or edit.way == "back" or "overshot" in edit.flags:
         [step] = inverse([step])
     if size is not None and ("overshot" in edit.flags or edit.slides or edit.way == "back"):
         return [_with_value(step, size.number)] if _takes(step, size) else None
     if "overshot" in edit.flags or edit.slides:
         return None
     return [_scaled(step, scale.number if scale is not None else 1.0)] if size is None else None
+
+
+def _heads_back(step: Step) -> bool:
+    return isinstance(step, Drive) and step.direction_rad == DIRECTIONS["back"]
 
 
 def _is_sideways(step: Step) -> bool:
@@ -120,7 +124,7 @@ def _reordered(steps: list[Step], edit: Edit) -> list[Step]:
     )
     alike = len(set(kinds)) == len(kinds) and set(kinds) == set(named) and len(named) == len(kinds)
     if not alike or edit.amounts or edit.way or edit.roles:
-        raise Unclear("unclear_motion", "")
+        raise Unclear("nothing_before")
     return [steps[kinds.index(kind)] for kind in named]
 
 

@@ -134,7 +134,7 @@ def _meant_unit(frame: Frame, value: float, state: State) -> tuple[str, float] |
     counts_rounds = "more" in frame.flags and not frame.moves and value < _LEAST_MORE
     if counts_rounds and state.last in ("turn", "drive") and state.unit_m != 1.0:
         raise Unclear("unclear_motion", frame.text)
-    degrees = _means_degrees(frame, value)
+    degrees = _means_degrees(frame, value) and not _goes_on_aside(frame, state)
     if "units_said" in frame.flags and not degrees:
         if frame.turning:
             return "angle", math.radians(1.0)
@@ -163,6 +163,12 @@ def _unit_by_sense(frame: Frame, value: float, state: State) -> tuple[str, float
         return "angle", math.radians(1.0)
     along = frame.direction in ("forward", "back") or (frame.verb == "slide" and frame.direction in SIDES)
     return ("length", 1.0) if along and 0 < value <= _MOST_M and not (state.unit_m or frame.flags) else None
+
+
+def _goes_on_aside(frame: Frame, state: State) -> bool:
+    """`30 left`, not `left 30`, after a slide: as likely a distance as a turn."""
+    slid = state.last == "drive" and state.direction in SIDES
+    return slid and not frame.verb and frame.texts[0] == frame.q["number"].text
 
 
 def _goes_on_in_degrees(frame: Frame, value: float, state: State) -> bool:

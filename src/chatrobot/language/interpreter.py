@@ -83,7 +83,7 @@ class OfflineInterpreter:
             reply = say(language, "too_long", characters=len(text))
             return Interpretation("unclear", reply, language, code="too_long")
         try:
-            return self._ordered(text, language, context)
+            return self._held(text, language, context) or self._ordered(text, language, context)
         except Unclear as problem:
             reading = Reading(language, context, self._profile)
             asked = (
@@ -124,6 +124,11 @@ class OfflineInterpreter:
         unit = unit_after(reading.context)
         return likeliest(normalise(text), names, reading.language, problem, read, read_anew, unit)
 
+    def _held(self, text: str, language: LanguageCode, context: Context) -> Interpretation | None:
+        """A plan that waits for a yes, because it is said to; None where nothing holds it back."""
+        rest = without_hold(normalise(text), language)
+        return proposed(self._ordered(rest, language, context), language, code="held") if rest else None
+
     def _ordered(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         """What is ordered. A plan that no clause orders is not driven; talk beside an order is passed over.
 
@@ -134,9 +139,6 @@ class OfflineInterpreter:
         told = answer_about_places(plain, language, context)
         if told is not None:
             return told
-        held = without_hold(plain, language)
-        if held and (found := proposed(self._ordered(held, language, context), language, code="held")):
-            return found
         names = names_in(context)
         rest = without_talk(plain, names)
         if rest:

@@ -170,7 +170,7 @@ def _with_unit(
     if len(at) != 1 or not _DECIMAL.fullmatch(number):
         return None
     moving = (sign for clause in clauses_of(plain) for sign in clause.signs if sign.moves)
-    if not unit or (unit == _DEG and any(sign.label not in _ALONE for sign in moving)):
+    if unit in ("", "m") or (unit == _DEG and any(sign.label not in _ALONE for sign in moving)):
         unit = "m" if float(number) <= FAR_M else "cm"
     end = at[0] + len(number)
     try:

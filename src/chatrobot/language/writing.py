@@ -35,6 +35,8 @@ from chatrobot.plan.steps import Step
 _ROLE = {**dict.fromkeys(("square", "triangle", "polygon", "star"), "side"), "circle": "radius"}
 """The one measure of a shape whose sides are all as long."""
 
+_ALIKE = frozenset({"again", "same_way", "instead"})
+
 
 def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
     """The steps of an utterance.
@@ -208,7 +210,7 @@ def _sized_as_before(frames: list[Frame], i: int, state: State) -> list[Frame]:
         Unclear: where that had none.
     """
     frame = frames[i]
-    if not frame.flags & {"again", "same_way"} or any("length" in other.q for other in frames[i:]):
+    if not frame.flags & _ALIKE or any("length" in other.q for other in frames[i:]):
         return frames
     role = _ROLE.get(frame.shape.split("_")[0], "")
     if role not in state.sizes:
@@ -216,7 +218,7 @@ def _sized_as_before(frames: list[Frame], i: int, state: State) -> list[Frame]:
     sized = frame.copy()
     sized.q["length"] = quantity("length", state.sizes[role], role)
     sized.roles.append(role)
-    sized.flags -= {"again", "same_way"}
+    sized.flags -= _ALIKE
     return [*frames[:i], sized, *frames[i + 1 :]]
 
 
