@@ -280,3 +280,11 @@ def test_the_console_of_one_robot_opens_no_other() -> None:
         line.wait_for("stopped")
         wait_until(lambda: rig.sessions["a"].log == [("stop", "the Stop button")])
         assert rig.sessions["b"].log == []
+
+
+def test_whoever_is_refused_writes_nothing_into_the_terminal(
+    rig: WebRig, caplog: pytest.LogCaptureFixture
+) -> None:
+    assert status_of(rig, origin="http://evil.example") == 403
+    rig.server.close()
+    assert [record for record in caplog.records if record.name.startswith("uvicorn")] == []

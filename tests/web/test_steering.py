@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+import time
 from typing import Any
 
 import pytest
@@ -10,17 +12,23 @@ from chatrobot.core.events import Finished, Rehearsed, Result
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Twist
 from chatrobot.link.client_line import TURNS
 from chatrobot.web.steering import FIRST_BEAT_S, Steering
-from tests.web.rig import NotingSession, WebRig, wait_until
+from tests.web.rig import PATIENCE_S, NotingSession, WebRig, wait_until
 
 FORWARD = Twist(0.2)
 SINCE_BEAT_S = 0.04
 """Between the last beat of a page that is let live, and the end of that."""
+BUSY_S = 0.3
+"""For so long the event loop reads nothing: more than a page may be silent."""
 GONE = ("stop", "the steering page is gone")
 
 
 class Page:
     def __init__(self, *, is_local: bool = True) -> None:
         self.is_local = is_local
+        self.unread = 0
+
+    def unread_bytes(self) -> int:
+        return self.unread
 
 
 class Rig:
@@ -91,6 +99,57 @@ def test_a_page_without_beats_ends_what_it_said(steered: Rig, is_local: bool, mo
     steered.live(1.0)
     assert steered.robot.log == [GONE]
     assert steered.lost == 1
+
+
+def test_beats_that_the_event_loop_has_not_read_yet_are_no_silence(steered: Rig) -> None:
+    page = Page()
+    steered.steering.take(page)
+    steered.live(0.5, page)
+    steered.has_work = True
+    for _ in range(8):
+        page.unread += 20
+        steered.live(0.05)
+    assert steered.robot.log == []
+    assert 0.13 < steered.seconds_to(GONE) + SINCE_BEAT_S <= 0.23, (
+        "bytes that lie there are no beats that come"
+    )
+
+
+def test_an_event_loop_that_reads_no_more_ends_the_plan_though_the_page_beats(steered: Rig) -> None:
+    page = Page()
+    steered.steering.take(page)
+    steered.live(0.5, page)
+    steered.has_work = True
+    for _ in range(16):
+        page.unread += 20
+        steered.live(0.05)
+    assert steered.robot.log == [GONE]
+
+
+def test_what_a_page_without_beats_says_does_not_keep_it_where_the_event_loop_reads_it(steered: Rig) -> None:
+    page = Page()
+    steered.steering.take(page)
+    steered.live(0.5, page)
+    steered.has_work = True
+    for _ in range(3):
+        page.unread = 400
+        steered.live(0.02)
+        page.unread = 0
+        steered.live(0.06)
+    assert steered.robot.log == [GONE]
+
+
+@pytest.mark.realtime
+def test_a_page_that_beats_keeps_its_plan_while_the_event_loop_is_busy(rig: WebRig) -> None:
+    page = rig.page()
+    page.say("say", text="forward 1 m")
+    rig.session.wait_for("say", "forward 1 m")
+    is_done = threading.Event()
+    rig.server.call(lambda: (time.sleep(BUSY_S), is_done.set()))
+    assert is_done.wait(PATIENCE_S)
+    assert GONE not in rig.session.log
+    page.freeze()
+    rig.session.wait_for(*GONE, timeout_s=2.0)
 
 
 def test_a_page_that_is_silent_and_has_nothing_to_do_ends_nothing(steered: Rig) -> None:

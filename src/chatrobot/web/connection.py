@@ -14,7 +14,7 @@ from chatrobot.core.errors import LinkError
 from chatrobot.core.geometry import Twist
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.web.access import Pass
-from chatrobot.web.limits import ABORT, Rate
+from chatrobot.web.limits import ABORT, UNREAD, Rate
 from chatrobot.web.outbox import Message, Outbox
 from chatrobot.web.protocol import FIELDS, Fields, MalformedError, read_message
 from chatrobot.web.room import Face, Room
@@ -45,6 +45,7 @@ class Page:
         self.name = web_words(self.language, "page_name", browser=browser, number=self.id.partition("-")[2])
         self._has_to_go = asyncio.Event()
         self.outbox = Outbox(self.close)
+        self.unread_bytes: Callable[[], int] = websocket.scope["extensions"][UNREAD]
 
     @property
     def is_local(self) -> bool:

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import asyncio
+import fcntl
 import ipaddress
+import logging
+import sys
+import termios
 import time
 from collections import Counter, deque
 from collections.abc import Callable, Iterable
@@ -87,10 +91,12 @@ class LimitedProtocol(H11Protocol):
 
 ABORT = "chatrobot.abort"
 """The extension of a scope that ends its connection at once, unread as it may be."""
+UNREAD = "chatrobot.unread"
+"""The extension of a scope that tells how many bytes have come on its connection that nobody has read yet."""
 
 
 class AbortableWebSocket(WebSocketsSansIOProtocol):
-    """A WebSocket as uvicorn speaks it, which need not wait for its reader to end."""
+    """A WebSocket as uvicorn speaks it, which need not wait for its reader to end, and tells what lies unread."""
 
     def handle_connect(self, event: Any) -> None:
         """Begin to serve it."""
@@ -98,6 +104,22 @@ class AbortableWebSocket(WebSocketsSansIOProtocol):
         scope: Any = getattr(self, "scope", None)
         if scope is not None:
             scope["extensions"][ABORT] = self.transport.abort
+            scope["extensions"][UNREAD] = lambda: count_unread_bytes(self.transport)
+
+
+def count_unread_bytes(transport: asyncio.BaseTransport) -> int:
+    """Return how much lies in the system's buffer of a connection, 0 where it has ended. From any thread."""
+    connection = transport.get_extra_info("socket")
+    try:
+        found = fcntl.ioctl(connection.fileno(), termios.FIONREAD, bytes(4)) if connection else b""
+    except (OSError, ValueError):  # it was closed meanwhile
+        return 0
+    return int.from_bytes(found, sys.byteorder)
+
+
+def is_news(record: logging.LogRecord) -> bool:
+    """Return whether a record of uvicorn is for the terminal: that a WebSocket was refused is none, error or not."""
+    return record.msg != "ASGI callable returned without completing handshake."
 
 
 def is_loopback_address(address: str) -> bool:

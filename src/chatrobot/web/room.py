@@ -48,6 +48,10 @@ class Face(Protocol):
         """It is at this machine."""
         ...
 
+    def unread_bytes(self) -> int:
+        """Return how much has come from it that the event loop has not read yet. From any thread."""
+        ...
+
     def put(self, message: Message) -> None:
         """Tell it. Called on any thread; returns at once."""
         ...

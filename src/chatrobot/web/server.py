@@ -31,7 +31,7 @@ from chatrobot.core.process import wake_promptly
 from chatrobot.web.access import Access, Pass, Refusal, address_of
 from chatrobot.web.classroom import Classroom, serve_teacher
 from chatrobot.web.connection import Page, serve_room
-from chatrobot.web.limits import AbortableWebSocket, LimitedProtocol
+from chatrobot.web.limits import AbortableWebSocket, LimitedProtocol, is_news
 from chatrobot.web.protocol import MOST_BYTES
 from chatrobot.web.room import Room
 from chatrobot.web.steering import Watchdog
@@ -284,7 +284,9 @@ class _ServerThread:
         self, name: str, app: Any, listening: socket.socket, certificate: tuple[str, str] | None
     ) -> None:
         certfile, keyfile = certificate or (None, None)
-        logging.getLogger("uvicorn.error").setLevel(logging.ERROR)  # what strangers send wrongly is no news
+        logger = logging.getLogger("uvicorn.error")
+        logger.setLevel(logging.ERROR)  # what strangers send wrongly is no news
+        logger.addFilter(is_news)
         config = uvicorn.Config(
             app,
             http=LimitedProtocol,

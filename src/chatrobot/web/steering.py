@@ -22,6 +22,8 @@ LOST_S, LOST_AFAR_S = 0.2, 0.3
 """A page of which nothing is heard for so long is lost, while it steers and something that it said is not done."""
 FIRST_BEAT_S = 1.0
 """Whoever begins to steer has so long until the first beat: the page may have to be loaded."""
+UNREAD_S = 0.5
+"""What lies unread of a page, while the event loop is late, shows for so long that the page is there."""
 LOOK_S, STALL_S = 0.02, 0.05
 """How often the watchdog looks; and from when on it was itself kept waiting, so that beats may lie unread."""
 
@@ -46,6 +48,10 @@ class Steerer(Protocol):
         """It is at this machine."""
         ...
 
+    def unread_bytes(self) -> int:
+        """Return how much has come from it that the event loop has not read yet. From any thread."""
+        ...
+
 
 class Steering:
     """Of one robot; from any thread. Nothing that a stop needs waits here.
@@ -68,7 +74,8 @@ class Steering:
         self._now = now
         self._lock = threading.Lock()
         self._steerer: Steerer | None = None
-        self._beat_s = self._stick_s = 0.0
+        self._beat_s = self._stick_s = self._unread_s = 0.0
+        self._unread_bytes = 0
         self._is_held = self._was_lost = False
 
     @property
@@ -79,7 +86,7 @@ class Steering:
     @property
     def is_alive(self) -> bool:
         """Tell whether beats of the steering page come: without them nothing that it says would go on."""
-        return self._now() <= self._beat_s + self._most_s(LOST_S, LOST_AFAR_S)
+        return self._now() <= max(self._beat_s, self._unread_s) + self._most_s(LOST_S, LOST_AFAR_S)
 
     def take(self, page: Steerer | None) -> None:
         """Have `page` steer, or nobody. Let go of the stick; what was said goes on under the new one."""
@@ -87,6 +94,7 @@ class Steering:
             self._let_go()
             self._steerer = page
             self._beat_s, self._was_lost = self._now() + FIRST_BEAT_S, False
+            self._unread_s, self._unread_bytes = 0.0, 0
 
     def beat(self, page: Steerer) -> None:
         """Note that something was heard of that page."""
@@ -117,6 +125,7 @@ class Steering:
     def look(self) -> None:
         """Let go of a stick, and stop the robot, where nothing is heard of the page that wants it to move."""
         now_s = self._now()
+        self._note_unread(now_s)
         if self._is_held and now_s - self._stick_s > self._most_s(STICK_S, STICK_AFAR_S):
             with self._lock:
                 if now_s - self._stick_s > self._most_s(STICK_S, STICK_AFAR_S):
@@ -124,6 +133,14 @@ class Steering:
         if self._steerer is not None and not (self.is_alive or self._was_lost) and self._has_work():
             self._was_lost = True
             self._lose()
+
+    def _note_unread(self, now_s: float) -> None:
+        """Take what comes while more lies unread for a sign of life: the event loop is late, not the page."""
+        steerer = self._steerer
+        unread_bytes = 0 if steerer is None else steerer.unread_bytes()
+        if 0 < self._unread_bytes < unread_bytes and now_s - self._beat_s < UNREAD_S:
+            self._unread_s = now_s
+        self._unread_bytes = unread_bytes
 
     def _most_s(self, here_s: float, afar_s: float) -> float:
         steerer = self._steerer
