@@ -15,6 +15,7 @@ from typing import Any
 
 import httpx
 import pytest
+from playwright.sync_api import Browser, expect
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
@@ -22,8 +23,10 @@ from chatrobot.wire.local import LocalWire
 from chatrobot.wire.messages import TwistMessage
 from tests.cli.running import Command
 from tests.processes import PATIENCE_S, Heard, TalkingProcess
+from tests.web.browser import browser, open_page
 from tests.web.rig import Client
 
+__all__ = ["browser"]
 pytestmark = pytest.mark.realtime
 PUPILS = 3
 
@@ -187,6 +190,17 @@ def test_a_pupils_link_is_for_one_robot_and_not_for_the_class(pupils: RunningCla
     with httpx.Client(base_url=pupils.origin, trust_env=False) as http:
         assert http.get("/me").status_code == 401
         assert http.get("/teacher").status_code == 200
+
+
+def test_a_pupil_who_opens_the_teachers_page_is_told_that_it_is_not_theirs(
+    pupils: RunningClass, browser: Browser
+) -> None:
+    page = open_page(browser, f"{pupils.origin}/#{pupils.pupils_tokens()[1]}")
+    expect(page.locator("#robot-title")).to_contain_text("Pupil 2 · ")
+    page.goto(f"{pupils.origin}/teacher")
+    expect(page.locator("#connection-banner")).to_contain_text("This page may not come in")
+    expect(page.locator("#robots li")).to_have_count(0)
+    page.context.close()
 
 
 def test_a_teacher_who_looks_in_first_leaves_the_steering_to_the_pupil(pupils: RunningClass) -> None:

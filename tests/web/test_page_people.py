@@ -8,9 +8,10 @@ from playwright.sync_api import Browser, Page, expect
 
 from chatrobot.cli.web import listen
 from chatrobot.core.events import Result
+from chatrobot.web.access import Access
 from chatrobot.web.server import WebServer
 from tests.web.browser import DESKTOP, PHONE, TABLET, browser, open_page, page, rehearse, say, write_program
-from tests.web.rig import WebRig
+from tests.web.rig import WebRig, wait_until
 
 __all__ = ["browser", "page"]
 pytestmark = pytest.mark.realtime
@@ -138,3 +139,34 @@ def test_axe_finds_nothing_for_whoever_watches(page: Page, rig: WebRig, browser:
     watcher = open_page(browser, rig.origin)
     assert find_violations(watcher) == []
     watcher.context.close()
+
+
+def test_a_server_begun_anew_has_its_line_for_stop_open_from_a_page_that_stayed(browser: Browser) -> None:
+    first = WebRig(Access("127.0.0.1"), [""])
+    first.server.start(listen("127.0.0.1", 0), listen("127.0.0.1", 0))
+    page = open_page(browser, first.origin)
+    first.close()
+    expect(page.locator("#connection-banner")).to_be_visible()
+    expect(page.locator("#gauge-speed b")).to_have_text("–")
+    second = WebRig(Access("127.0.0.1"), [""])
+    try:
+        with page.expect_navigation():
+            second.server.start(listen("127.0.0.1", first.access.port), listen("127.0.0.1", 0))
+        expect(page.locator("#steering-state")).to_have_text("You steer")
+        wait_until(lambda: bool(page.evaluate("import('/stop.js').then((line) => line.isStopLineOpen())")))
+    finally:
+        page.context.close()
+        second.close()
+
+
+def test_the_newest_stays_in_sight_when_the_keyboard_of_a_phone_comes_up(
+    rig: WebRig, browser: Browser
+) -> None:
+    page = open_page(browser, rig.origin, PHONE)
+    for number in range(1, 9):
+        say(page, rig, f"drive {number} m")
+        rig.tell(Result(number, "refused", f"No, not {number} m."))
+    expect(page.get_by_text("No, not 8 m.")).to_be_in_viewport()
+    page.set_viewport_size({"width": PHONE[0], "height": 600})
+    expect(page.get_by_text("No, not 8 m.")).to_be_in_viewport()
+    page.context.close()

@@ -8,6 +8,7 @@ import { speak } from "./speech.js";
 import { language, t } from "./words.js";
 
 const MOST_ENTRIES = 300;
+const NEAR_END_PX = 80;
 const MARKS = { completed: "✓", answered: "", stopped: "■", refused: "!", unclear: "?", failed: "✕" };
 
 const log = byId("talk");
@@ -61,7 +62,7 @@ function forgetAll() {
 
 /** Do `act` and keep the newest in sight, unless a person has scrolled up to read. */
 function change(act) {
-  const isAtEnd = log.scrollHeight - log.scrollTop - log.clientHeight < 80;
+  const isAtEnd = log.scrollHeight - log.scrollTop - log.clientHeight < NEAR_END_PX;
   act();
   if (isAtEnd || state.isReplaying) log.scrollTop = log.scrollHeight;
 }
@@ -175,6 +176,17 @@ function noteLine(text) {
   change(() => list.append(make("li", "line", text)));
 }
 
+/** A keyboard that comes up on a phone, or a phone that is turned, does not hide the newest. */
+function keepEndInSight() {
+  let isAtEnd = true;
+  log.addEventListener("scroll", () => {
+    isAtEnd = log.scrollHeight - log.scrollTop - log.clientHeight < NEAR_END_PX;
+  });
+  new ResizeObserver(() => {
+    if (isAtEnd) log.scrollTop = log.scrollHeight;
+  }).observe(log);
+}
+
 /** Begin: hear what there is to show. */
 export function startChat() {
   on("open", forgetAll);
@@ -196,5 +208,6 @@ export function startChat() {
     else change(() => hear(entryOf(event.turn), event, message.text));
   });
   on("lost", (message) => noteLine(message.text));
+  keepEndInSight();
   on("task", (message) => noteLine(`${message.title}: ${message.text}`));
 }

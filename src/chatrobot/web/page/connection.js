@@ -16,6 +16,7 @@ let waitMs = FIRST_WAIT_MS;
 let timer = 0;
 let heardMs = 0;
 let hadTelemetry = false;
+let stopPort = 0;
 
 /** What the page knows of itself: from `hello`, kept up to date. */
 export const state = {
@@ -90,7 +91,18 @@ function hear(message) {
   tell(message);
 }
 
+/** The policy of a page names the port of Stop that it was loaded with: a server begun anew has another, and a page of its own. */
+function isOfAnotherServer(hello) {
+  const was = stopPort;
+  stopPort = hello.stop_port || was;
+  return was !== 0 && was !== stopPort;
+}
+
 function greet(hello) {
+  if (isOfAnotherServer(hello)) {
+    location.reload();
+    return;
+  }
   state.isOpen = true;
   state.hello = hello;
   follow({ by: hello.steering && hello.steering.by, may: hello.may });
@@ -117,7 +129,15 @@ function lose() {
 /** Ask why we are not let in: a WebSocket does not say. */
 async function ask() {
   const answer = await fetch("me", { cache: "no-store" }).catch(() => null);
-  if (answer && REFUSALS.includes(answer.status)) tell({ is: "denied", status: answer.status });
+  if (!answer) return;
+  const status = answer.ok && path === "/class" ? await askRole(answer) : answer.status;
+  if (REFUSALS.includes(status)) tell({ is: "denied", status });
+}
+
+/** A pupil may come in, but not to the teacher's page. */
+async function askRole(answer) {
+  const me = await answer.json().catch(() => ({ role: "teacher" }));
+  return me.role === "teacher" ? 200 : 403;
 }
 
 /** Close a connection on which nothing comes any more: a network that is gone closes none by itself. */

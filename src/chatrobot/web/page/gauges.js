@@ -4,6 +4,7 @@ import { on, state } from "./connection.js";
 import { byId, setText } from "./dom.js";
 import { onLanguage, t } from "./words.js";
 
+const UNKNOWN = "–";
 const NEAR_M = 3;
 const LIMITED_MS = 2500;
 const LEAST_MPS = 0.01;
@@ -35,10 +36,12 @@ function draw() {
   const rate = (Math.abs(twist.wz_radps) * 180) / Math.PI;
   const mostRate = (limits.max_rate_radps * 180) / Math.PI;
   const of = (value, most, digits) => ({ value: value.toFixed(digits), most: most.toFixed(digits) });
-  show("gauge-speed", speed, limits.max_speed_mps, t("mps", of(speed, limits.max_speed_mps, 2)));
-  show("gauge-rate", rate, mostRate, t("degps", of(rate, mostRate, 0)));
+  const measured = (text) => (telemetry ? text : UNKNOWN);
+  show("gauge-speed", speed, limits.max_speed_mps, measured(t("mps", of(speed, limits.max_speed_mps, 2))));
+  show("gauge-rate", rate, mostRate, measured(t("degps", of(rate, mostRate, 0))));
   const near = telemetry ? telemetry.nearest_obstacle_m : null;
-  show("gauge-near", near, NEAR_M, near === null ? t("nothing_near") : t("metres", { value: near.toFixed(2) }));
+  const nearest = near === null ? t("nothing_near") : t("metres", { value: near.toFixed(2) });
+  show("gauge-near", near, NEAR_M, measured(nearest));
   byId("gauge-near").hidden = !state.hello.robot.has_lidar;
   byId("gauge-near").classList.toggle("warn", near !== null && near < 0.3);
   const battery = telemetry ? telemetry.battery_percent : null;
@@ -96,7 +99,11 @@ export function startGauges() {
     draw();
     drawState();
   });
-  on("closed", drawState);
+  on("closed", () => {
+    telemetry = null; // what was measured last is not so any more
+    draw();
+    drawState();
+  });
   on("emergency", (message) => {
     isLatched = message.set;
     drawState();

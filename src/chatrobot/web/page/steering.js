@@ -76,14 +76,22 @@ function hearStop(message) {
   }
 }
 
+/** In a class, whose robot it is comes first: a teacher looks in on many. */
+function drawTitle() {
+  if (!state.hello) return;
+  const { robot, room } = state.hello;
+  const title = [...(room ? [t("pupil", { name: room })] : []), robot.title || robot.name].join(" · ");
+  setText(byId("robot-title"), title);
+  document.title = `${title} · ChatRobot`;
+}
+
 export function startSteering() {
   on("open", () => {
     lost = "";
     const steering = state.hello.steering;
     by = steering && steering.by;
     name = (steering && steering.name) || "";
-    setText(byId("robot-title"), state.hello.robot.title || state.hello.robot.name);
-    document.title = `${state.hello.robot.title || state.hello.robot.name} · ChatRobot`;
+    drawTitle();
     clearTimeout(lineTimer);
     setBanner(byId("connection-banner"), "");
     lineTimer = setTimeout(drawConnection, STOP_LINE_MS);
@@ -109,6 +117,7 @@ export function startSteering() {
   byId("resume").addEventListener("click", () => send({ do: "resume" }));
   byId("release").addEventListener("click", () => send({ do: "release" }));
   onLanguage(() => {
+    drawTitle();
     drawSteering();
     drawConnection();
   });
