@@ -59,6 +59,7 @@ class Setup:
         folder: where places, programs and history live; None keeps nothing.
         model: the language model to ask, None for none; `model_options`: how it is used.
         camera: takes pictures for it, as JPEG or PNG, in place of the robot's own camera.
+        source: in whose name it speaks to Motion, which decides its priority and what it may (`governor/lease.py`).
         processes: those of a simulated robot in real time that have been started ahead.
         age_s: how long ago the page was heard from which the orders come, 0 where it is there or they come from
             elsewhere. While something of the session moves, Motion slows and stops the robot by it, as by beats that
@@ -81,6 +82,7 @@ class Setup:
     model: Model | None = None
     model_options: ModelOptions = field(default_factory=ModelOptions)
     camera: Callable[[], bytes | None] | None = None
+    source: str = "console"
     processes: Processes | None = None
     age_s: Callable[[], float] | None = None
     on_ready: Callable[[], None] = lambda: None
@@ -98,7 +100,10 @@ class Setup:
 
 @dataclass
 class Connection:
-    """A session and what it stands on. Close it: a robot in motion finishes what it was told, orderly."""
+    """A session and what it stands on. Close it: a robot in motion finishes what it was told, orderly.
+
+    `camera` is one of its own, beside the one through which a model looks; None where there is none.
+    """
 
     session: Session
     profile: RobotProfile
@@ -106,6 +111,7 @@ class Connection:
     close: Callable[[], None]
     prepared: Prepared
     link: SecondLinks
+    camera: Camera | None = None
 
     def second_session(self, source: str, on_event: OnEvent, options: Options | None = None) -> Connection:
         """Return a session of an agent on the same robot, beside this one, which is a person's.
@@ -280,7 +286,7 @@ def _connect_real_time(prepared: Prepared, on_event: OnEvent) -> Connection:
         profile_file, setup.world, setup.sim, setup.budget, open_loop=setup.open_loop
     )
     processes.is_taken = True
-    link = SocketLink(processes.motion)
+    link = SocketLink(processes.motion, setup.source)
     try:
         prepared.understanding.warm()
         link.wait_until_ready()
@@ -300,7 +306,8 @@ def _connect_real_time(prepared: Prepared, on_event: OnEvent) -> Connection:
         trace = LocalWire(processes.wire_path)
         trace.subscribe(TRUTH_TOPIC, Odometry, _tracer(one_at_a_time))
         close = _in_turn(session.close, trace.close)
-    return Connection(session, prepared.profile, prepared.world, close, prepared, link)
+    camera = _camera(setup, prepared.profile)
+    return Connection(session, prepared.profile, prepared.world, close, prepared, link, camera)
 
 
 # --- a robot on a wire: Motion and the guard are processes ---
@@ -324,11 +331,12 @@ def _connect_wire(prepared: Prepared, on_event: OnEvent) -> Connection:
         motion = MotionProcess.start(
             address, profile_file, setup.world, setup.budget, open_loop=setup.open_loop
         )
-        link = SocketLink(motion)
+        link = SocketLink(motion, setup.source)
         link.wait_until_ready()
     setup.on_ready()
     session = prepared.session(link, on_event)
-    return Connection(session, profile, prepared.world, session.close, prepared, link)
+    camera = _camera(setup, profile)
+    return Connection(session, profile, prepared.world, session.close, prepared, link, camera)
 
 
 def _in_turn(*closes: Callable[[], None]) -> Callable[[], None]:

@@ -54,6 +54,14 @@ def test_a_yes_runs_the_plan(word: str) -> None:
     assert any(isinstance(event, Rehearsed) for event in heard)
 
 
+@pytest.mark.parametrize("word", ["Go!", "ok, now", "开始"])
+def test_go_starts_what_was_held_back(word: str) -> None:
+    talk = Talk()
+    assert talk.session.do("forward 30 cm, but don't do it yet").path_m == 0.0
+    result = talk.session.do(word)
+    assert (result.outcome, round(result.path_m, 2)) == ("completed", 0.3)
+
+
 def test_a_yes_is_approved_where_approval_is_asked() -> None:
     talk = asked(options=Options(approve=True))
     turn = talk.session.say("yes")

@@ -69,7 +69,9 @@ class Narrator:
             case events.Interpreted():
                 yield from self._interpreted(event)
             case events.Ordered():
-                yield from self._ordered(event)
+                code = "asked_by" if event.plan_text else "program_asked_by"
+                yield _marked("!", "cyan", self._words.say(code, source=event.source, program=event.program))
+                yield from self._take_plan(event.turn, event.plan_text)
             case events.Rehearsed():
                 yield from self._rehearsed(event)
             case events.ProgramWritten():
@@ -141,18 +143,14 @@ class Narrator:
             return  # the reply comes again with the result, and a plan that streamed in is there already
         if event.reply and (self._plain or event.by == "model" or self._words.language != "en"):
             yield Line(event.reply, "cyan", "" if self._plain else "  ")  # a plan is English already
-        if self._plain:
-            yield from (self._step(number, line) for number, line in folded_plan(event.plan_text))
-        else:
-            self._plans[event.turn] = event.plan_text
+        yield from self._take_plan(event.turn, event.plan_text)
 
-    def _ordered(self, event: events.Ordered) -> Iterator[Line]:
-        code = "program_asked_by" if event.program else "asked_by"
-        yield _marked("!", "cyan", self._words.say(code, source=event.source, program=event.program))
+    def _take_plan(self, turn: int, plan_text: str) -> Iterator[Line]:
+        """Give a plan's lines at once in the plain form; the console shows them with what rehearsal says."""
         if self._plain:
-            yield from (self._step(number, line) for number, line in folded_plan(event.plan_text))
-        elif event.plan_text:
-            self._plans[event.turn] = event.plan_text
+            yield from (self._step(number, line) for number, line in folded_plan(plan_text))
+        elif plan_text:
+            self._plans[turn] = plan_text
 
     def _rehearsed(self, event: events.Rehearsed) -> Iterator[Line]:
         plan_text = self._plans.pop(event.turn, "")

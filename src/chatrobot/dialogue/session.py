@@ -194,6 +194,10 @@ class Session:
         """Have what the lidar sees told as `scan` events, for a map, or no more."""
         self._link.send("watch", scans=on)
 
+    def look(self) -> None:
+        """Ask what the lidar sees: a `looked` event of turn 0 follows."""
+        self._link.send("look")
+
     def approve(self, turn: int, yes: bool) -> None:
         """Answer a rehearsed plan that waits for a yes."""
         self._link.send("approve", turn, yes=yes)

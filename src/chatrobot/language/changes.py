@@ -65,7 +65,7 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
     Raises:
         Unclear: where the change fits none of them, or several.
     """
-    whole = _speed_said(whole, before)
+    whole = _part_said(_speed_said(whole, before))
     fold = whole.q.get("fold")
     if fold is not None and is_chinese(fold.text):
         whole = whole.copy()
@@ -145,6 +145,17 @@ def _speed_said(whole: Frame, steps: Sequence[Step]) -> Frame:
     whole = whole.copy()
     del whole.q["number"]
     whole.q["speed"] = quantity("speed", number.number, number.text)
+    return whole
+
+
+def _part_said(whole: Frame) -> Frame:
+    """`Again but only half`: a fraction written out is a part of what was done."""
+    number = whole.q.get("number")
+    if number is None or not 0 < number.number < 1 or any(map(str.isdecimal, number.text)):
+        return whole
+    whole = whole.copy()
+    del whole.q["number"]
+    whole.q["scale"] = quantity("scale", number.number, number.text)
     return whole
 
 

@@ -96,7 +96,8 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
         return _until(until, reading)
     changed = _of_before(plain, atoms, reading)
     if changed is not None:
-        return planned(changed, language, append=_appends(atoms))
+        overshot = any(a.value == "overshot" for a in atoms)
+        return replace(planned(changed, language, append=_appends(atoms)), corrects=overshot)
     rest = next((a for a in atoms if a.kind == "flag" and a.value == "complete"), None)
     if rest is not None:  # the rest of what was no shape, or is told beside a motion of its own
         raise Unclear("unclear_motion", rest.text)

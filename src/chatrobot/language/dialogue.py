@@ -95,7 +95,7 @@ def _walked(whole: Frame, frames: Sequence[Frame], context: Context, profile: Ro
             raise Unclear("nothing_undone")  # `redo that slower` still repeats the last motion
         return again
     back = whole.direction == "back" or (not whole.direction and whole.verb in ("return", "", "go", "uturn"))
-    if "same_way" not in whole.flags or not back:
+    if "same_way" not in whole.flags or not back or whole.shape:
         return None
     return replace(all_taken_back(context, profile), walk=None)  # a way back, and a turn of its own
 

@@ -11,7 +11,6 @@ from chatrobot.language.frames import Frame
 from chatrobot.language.inverse import inverse
 from chatrobot.language.ledger import Walk, Way
 from chatrobot.language.manner import Pace
-from chatrobot.language.numbers import is_chinese
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.lowering import ideal_end
 from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, Repeat, Step, Turn
@@ -72,7 +71,7 @@ def undone(whole: Frame, context: Context, profile: RobotProfile, *, turning: bo
     ):
         raise Unclear("unclear_motion", whole.text)
     turns: int | list[Step] = int(count)
-    if counts and counts[0].role == "step" and is_chinese(counts[0].text):
+    if "last_step" in whole.flags or (counts and counts[0].role == "step"):
         turns = _last_steps(int(count), context, whole.text)
     if not isinstance(turns, int):
         taken_back(context, profile, 1)

