@@ -22,8 +22,6 @@ from chatrobot.dialogue.programs.authoring import Authoring
 from chatrobot.dialogue.session import Session
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.governor.lease import Priority, priority_of
-from chatrobot.language.interpretation import LanguageCode
-from chatrobot.language.phrases import say
 from chatrobot.link.in_process import InProcessLink
 from chatrobot.link.motion_link import MotionLink, SecondLinks
 from chatrobot.link.processes import SIMULATED, MotionProcess, Processes
@@ -228,13 +226,6 @@ def _camera(setup: Setup, profile: RobotProfile) -> Camera | None:
     if setup.camera is not None:
         return PassedCamera(setup.camera)
     return None if setup.on in SIMULATED else wire_camera(wire_address(setup.on), profile.wiring)
-
-
-def explain_server_held(model: Model | None, language: LanguageCode) -> str:
-    """Say what has become of the tutorial's parameter revChatGPT."""
-    if model is None:
-        return say(language, "revchatgpt_no_model")
-    return say(language, "revchatgpt_gone", model=model.name)
 
 
 def profile_dirs(folder: Path | None) -> tuple[Path, ...]:

@@ -9,9 +9,9 @@ from dataclasses import replace
 from chatrobot.cli.early import Early
 from chatrobot.cli.folders import config_folder
 from chatrobot.cli.parameters import parameters_in, read_parameters
-from chatrobot.compose import Setup, explain_server_held
+from chatrobot.compose import Setup
 from chatrobot.core.errors import UsageError
-from chatrobot.dialogue.llm.setup import chosen_model
+from chatrobot.dialogue.llm.setup import chosen_model, explain_server_held
 from chatrobot.dialogue.llm.terms import ModelOptions
 from chatrobot.dialogue.options import Options
 from chatrobot.language.phrases import render_reason

@@ -11,11 +11,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Literal
 
-from chatrobot.compose import Prepared, Setup, explain_server_held
+from chatrobot.compose import Prepared, Setup
 from chatrobot.core import events
 from chatrobot.core.errors import LinkError, WireError
 from chatrobot.core.events import Event
-from chatrobot.dialogue.llm.setup import warm_up
+from chatrobot.dialogue.llm.setup import explain_server_held, warm_up
 from chatrobot.dialogue.programs.draft import body, headline
 from chatrobot.dialogue.question import Question
 from chatrobot.language.consent import read_consent

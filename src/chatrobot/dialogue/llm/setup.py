@@ -8,6 +8,8 @@ from pathlib import Path
 
 from chatrobot.dialogue.llm.camera import Camera
 from chatrobot.dialogue.llm.terms import ModelOptions
+from chatrobot.language.interpretation import LanguageCode
+from chatrobot.language.phrases import say
 from chatrobot.models.seam import Model
 from chatrobot.robots.profile import RobotProfile
 
@@ -54,3 +56,10 @@ class ModelSetup:
     options: ModelOptions
     profile: RobotProfile
     camera: Camera | None = None
+
+
+def explain_server_held(model: Model | None, language: LanguageCode) -> str:
+    """Say what has become of the tutorial's parameter revChatGPT."""
+    if model is None:
+        return say(language, "revchatgpt_no_model")
+    return say(language, "revchatgpt_gone", model=model.name)
