@@ -38,7 +38,7 @@ NASTY = (
     math.nan, math.inf, -math.inf, 5e-324, -5e-324, 2.2e-308, 1e308, -1e308, 1.7976931348623157e308, 0.0, -0.0,
     1e-9, -1e-9, 99.0, -99.0, 1e15,
 )  # fmt: skip
-SOURCES = ("joystick", "console", "agent", "chatgpt_node", "nobody has heard of")
+SOURCES = ("joystick", "stick", "console", "agent", "chatgpt_node", "nobody has heard of")
 LEASES = tuple(f"lease of {source}" for source in SOURCES)
 
 

@@ -22,7 +22,7 @@ else:
 from chatrobot import options
 from chatrobot.cli import arguments, entry, json_lines
 from chatrobot.cli.console.commands import COMMANDS
-from chatrobot.core import events
+from chatrobot.core import events, sensed_events
 from chatrobot.core.event import Event
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.language.data_files import load_table
@@ -90,7 +90,9 @@ def read_meanings() -> dict[str, Any]:
 
 def event_types() -> list[type[Event]]:
     """The events of a session, in the order of the code."""
-    return [kind for kind in Event.__subclasses__() if kind.__module__ == events.__name__]
+    modules = (events.__name__, sensed_events.__name__)
+    kinds = [kind for kind in Event.__subclasses__() if kind.__module__ in modules]
+    return sorted(kinds, key=lambda kind: modules.index(kind.__module__))
 
 
 def keys_of(kind: type[Event]) -> list[str]:

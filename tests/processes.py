@@ -151,9 +151,14 @@ class TalkingProcess:
 class RunningRobot(TalkingProcess):
     """`chatrobot --json` in real time: console, Motion, guard and simulated robot, each a process."""
 
-    def __init__(self, folder: Path, arguments: Sequence[str] = ("--json", "--world", "empty")) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        arguments: Sequence[str] = ("--json", "--world", "empty"),
+        program: Sequence[str] = ("-m", "chatrobot"),
+    ) -> None:
         folder.mkdir(parents=True, exist_ok=True)
-        command = [sys.executable, "-m", "chatrobot", *arguments, "--config-dir", str(folder / "config")]
+        command = [sys.executable, *program, *arguments, "--config-dir", str(folder / "config")]
         environment = {**os.environ, "XDG_RUNTIME_DIR": str(folder), "PYTHONUNBUFFERED": "1"}
         super().__init__(command, environment, stderr=None)
         self.velocities = Heard()

@@ -21,7 +21,7 @@ LEVELS = {
     "motion": 6, "dialogue": 6,
     "link.in_process": 7,
     "compose": 8,
-    "nodes": 9,
+    "nodes": 9, "web": 9, "mcp_server": 9,
     "cli": 10, "api": 10,
     "__init__": 11, "__main__": 11,
     "testing": 11,

@@ -21,10 +21,11 @@ from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.programs.authoring import Authoring
 from chatrobot.dialogue.session import Session
 from chatrobot.dialogue.understanding import Understanding
+from chatrobot.governor.lease import Priority, priority_of
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.phrases import say
 from chatrobot.link.in_process import InProcessLink
-from chatrobot.link.motion_link import MotionLink
+from chatrobot.link.motion_link import MotionLink, SecondLinks
 from chatrobot.link.processes import SIMULATED, MotionProcess, Processes
 from chatrobot.models.seam import Model
 from chatrobot.programs.library import Library
@@ -58,7 +59,11 @@ class Setup:
         folder: where places, programs and history live; None keeps nothing.
         model: the language model to ask, None for none; `model_options`: how it is used.
         camera: takes pictures for it, as JPEG or PNG, in place of the robot's own camera.
+        source: in whose name it speaks to Motion, which decides its priority and what it may (`governor/lease.py`).
         processes: those of a simulated robot in real time that have been started ahead.
+        age_s: how long ago the page was heard from which the orders come, 0 where it is there or they come from
+            elsewhere. While something of the session moves, Motion slows and stops the robot by it, as by beats that
+            are late: from 0.13 s on slower, zero at 0.18 s. Called many times a second, from a thread of the link's.
         on_ready: called once the robot is ready.
     """
 
@@ -77,7 +82,9 @@ class Setup:
     model: Model | None = None
     model_options: ModelOptions = field(default_factory=ModelOptions)
     camera: Callable[[], bytes | None] | None = None
+    source: str = "console"
     processes: Processes | None = None
+    age_s: Callable[[], float] | None = None
     on_ready: Callable[[], None] = lambda: None
 
     @property
@@ -93,12 +100,41 @@ class Setup:
 
 @dataclass
 class Connection:
-    """A session and what it stands on. Close it: a robot in motion finishes what it was told, orderly."""
+    """A session and what it stands on. Close it: a robot in motion finishes what it was told, orderly.
+
+    `camera` is one of its own, beside the one through which a model looks; None where there is none.
+    """
 
     session: Session
     profile: RobotProfile
     world: World
     close: Callable[[], None]
+    prepared: Prepared
+    link: SecondLinks
+    camera: Camera | None = None
+
+    def second_session(self, source: str, on_event: OnEvent, options: Options | None = None) -> Connection:
+        """Return a session of an agent on the same robot, beside this one, which is a person's.
+
+        It hears of its own turns, and of notices and telemetry; this one hears of its turns, too, under numbers of
+        their own (`ordered` comes first), and `approve` answers what waits for a yes. It approves and releases nothing.
+        What a person chose to approve is asked about whatever `options` say. One at a time; pump it in any thread,
+        and close it before this one.
+
+        Raises:
+            UsageError: that source is a person's.
+            LinkError: there was one already, or Motion is gone.
+        """
+        if priority_of(source) >= Priority.PLAN:
+            raise UsageError(f'a second session speaks for an agent, which "{source}" is not', where="source")
+        chosen = self.prepared.setup.options
+        options = options or chosen
+        asks, asks_models = options.approve or chosen.approve, options.approve_models or chosen.approve_models
+        options = replace(options, approve=asks, approve_models=asks_models)
+        prepared = Prepared(replace(self.prepared.setup, options=options, age_s=None), self.profile)
+        session = prepared.session(self.link.second(source), on_event)
+        self.close = _in_turn(session.close, self.close)
+        return replace(self, session=session, close=session.close, prepared=prepared)
 
 
 class Prepared:
@@ -117,9 +153,12 @@ class Prepared:
     def session(self, link: MotionLink, on_event: OnEvent) -> Session:
         """Build the session that talks over `link`."""
         setup = self.setup
-        return Session(
+        session = Session(
             link, self.understanding, on_event, setup.options, self._authoring(), self._model_setup()
         )
+        if (age_s := setup.age_s) is not None:
+            link.age_s = lambda: age_s() if session.is_moving and not session.is_plan_paused else 0.0
+        return session
 
     def _authoring(self) -> Authoring | None:
         """Make what writes programs and keeps them; None where requests for them are driven as plans."""
@@ -231,7 +270,7 @@ def _connect_simulated(prepared: Prepared, on_event: OnEvent) -> Connection:
         hub.connect().subscribe(TRUTH_TOPIC, Odometry, _tracer(on_event))
         link.step()  # the trace begins before anything moves
     session = prepared.session(link, on_event)
-    return Connection(session, profile, world, _in_turn(session.close, programs.close))
+    return Connection(session, profile, world, _in_turn(session.close, programs.close), prepared, link)
 
 
 # --- real time: the simulated robot, Motion and the guard are processes ---
@@ -247,7 +286,7 @@ def _connect_real_time(prepared: Prepared, on_event: OnEvent) -> Connection:
         profile_file, setup.world, setup.sim, setup.budget, open_loop=setup.open_loop
     )
     processes.is_taken = True
-    link = SocketLink(processes.motion)
+    link = SocketLink(processes.motion, setup.source)
     try:
         prepared.understanding.warm()
         link.wait_until_ready()
@@ -267,7 +306,8 @@ def _connect_real_time(prepared: Prepared, on_event: OnEvent) -> Connection:
         trace = LocalWire(processes.wire_path)
         trace.subscribe(TRUTH_TOPIC, Odometry, _tracer(one_at_a_time))
         close = _in_turn(session.close, trace.close)
-    return Connection(session, prepared.profile, prepared.world, close)
+    camera = _camera(setup, prepared.profile)
+    return Connection(session, prepared.profile, prepared.world, close, prepared, link, camera)
 
 
 # --- a robot on a wire: Motion and the guard are processes ---
@@ -291,11 +331,12 @@ def _connect_wire(prepared: Prepared, on_event: OnEvent) -> Connection:
         motion = MotionProcess.start(
             address, profile_file, setup.world, setup.budget, open_loop=setup.open_loop
         )
-        link = SocketLink(motion)
+        link = SocketLink(motion, setup.source)
         link.wait_until_ready()
     setup.on_ready()
     session = prepared.session(link, on_event)
-    return Connection(session, profile, prepared.world, session.close)
+    camera = _camera(setup, profile)
+    return Connection(session, profile, prepared.world, session.close, prepared, link, camera)
 
 
 def _in_turn(*closes: Callable[[], None]) -> Callable[[], None]:

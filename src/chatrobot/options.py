@@ -93,7 +93,9 @@ COMMON, SIMULATION, MODEL, LIMITS = "options", "simulation", "language model", "
 """The groups of the help; argparse itself calls the first so."""
 DRIVE = ("", "do", "program new", "program run")
 """The commands that drive a robot; "" is `chatrobot` alone."""
-PLAN = (*DRIVE, "plan", "node")
+FACES = (*DRIVE, "mcp", "web")
+"""The same and the faces on one robot that last."""
+PLAN = (*FACES, "plan", "node")
 """Those that turn text into a plan."""
 UNDERSTAND = (*PLAN, "eval")
 INTERPRETERS = ("auto", "offline", "model")
@@ -131,8 +133,8 @@ OPTIONS = (
         helps=dict.fromkeys(("eval", "node", "calibrate"), _WORLD.format("empty")),
         parameter=Parameter("world", _BOTH, "empty",
             "What is known of the surroundings: empty, home, or the path of a world file.")),
-    Option("--yes", "do each plan without asking", (*DRIVE, "node"), COMMON, False),
-    Option("--approve", "ask before each plan", (*DRIVE, "node"), COMMON, False),
+    Option("--yes", "do each plan without asking", (*FACES, "node"), COMMON, False),
+    Option("--approve", "ask before each plan", (*FACES, "node"), COMMON, False),
     Option("--json", "one JSON object a line", (*DRIVE, *_JSON), COMMON, False,
         helps={"": "text in, events out: one JSON object a line"}),
     Option("--config-dir", "where places, programs and robot profiles live",
@@ -144,7 +146,7 @@ OPTIONS = (
         helps={"node": "the tutorial's parameters: generate_code:=True (base), revChatGPT:=True"}),
     Option("--fast", "simulated time, as quick as it goes", (*DRIVE, "calibrate"), SIMULATION, False),
     Option("--sim", "faults injected into the simulated robot: slip=0.03,latency_s=0.05,noise=on,seed=1",
-        (*DRIVE, "eval", "calibrate", "sim"), SIMULATION, "", "KEY=VALUE,…"),
+        (*FACES, "eval", "calibrate", "sim"), SIMULATION, "", "KEY=VALUE,…"),
     Option("--trace", "with --json: the simulated robot's true pose, 50 times a second", DRIVE, SIMULATION, False),
     Option("--model", "the language model to ask what is not understood offline", (*UNDERSTAND, "doctor", "model"),
         MODEL, "", "PROVIDER:NAME", offers="models",

@@ -112,7 +112,7 @@ def test_a_question_is_over_once_its_turn_has_begun_or_ended(controller, log):
 def test_editing_withdraws_the_plan_silently_and_sends_the_new_one(controller, log):
     ask(controller)
     controller.enter("e")
-    assert told(log) == [("edit", "drive 1 m"), ("approve", 1, False)]
+    assert told(log) == [("approve", 1, False), ("edit", "drive 1 m")]
     controller.hear(Result(1, "refused", "not approved"))
     assert "not approved" not in shown(log)
     controller.take_edited("drive 2 m\n")

@@ -16,7 +16,7 @@ def test_what_could_not_be_read_is_there_again_at_the_next_edit(controller, log)
     assert "line 1: fly" in shown(log)
     ask(controller)
     controller.enter("e")
-    assert told(log)[-2] == ("edit", "fly 3 m")
+    assert told(log)[-1] == ("edit", "fly 3 m")
 
 
 def test_once_it_was_answered_the_plan_is_edited_as_it_is(controller, log):
@@ -24,10 +24,12 @@ def test_once_it_was_answered_the_plan_is_edited_as_it_is(controller, log):
     controller.enter("e")
     controller.take_edited("fly 3 m")
     controller.hear(UNREADABLE)
-    controller.hear(Finished(controller._edited._turn, "refused", None, Pose(), Pose(), 0.0, 0.0, 0.0, 0.0))
+    controller.hear(
+        Finished(controller._approval._edited_turn, "refused", None, Pose(), Pose(), 0.0, 0.0, 0.0, 0.0)
+    )
     ask(controller)
     controller.enter("e")
-    assert told(log)[-2] == ("edit", "drive 1 m")
+    assert told(log)[-1] == ("edit", "drive 1 m")
 
 
 def test_an_edit_that_leaves_nothing_says_so(controller, log):

@@ -5,9 +5,10 @@ import re
 import pytest
 from rich.console import Console
 
-from chatrobot.cli.console.narrator import PLAN_LINES, Narrator
+from chatrobot.cli.console.lines import shown
 from chatrobot.cli.console.tables import place_in, places_table
 from chatrobot.cli.console.words import Words
+from chatrobot.cli.narrator import PLAN_LINES, Narrator
 from chatrobot.core.events import (
     FindingSeen,
     Interpreted,
@@ -36,7 +37,7 @@ def printed(*renderables, width=80):
 
 
 def told(narrator, *events):
-    return printed(*(line for event in events for line in narrator.tell(event)))
+    return printed(*(shown(line) for event in events for line in narrator.tell(event)))
 
 
 def test_a_plan_is_numbered_with_its_length_duration_and_findings():
@@ -54,7 +55,7 @@ def test_a_long_plan_is_shown_in_part_and_whole_on_demand():
     text = told(narrator, Interpreted(1, "offline", plan_text, ""), REHEARSED)
     assert text.count("drive ") == PLAN_LINES - 1
     assert "… 25 more lines" in text
-    assert printed(*narrator.plan(plan_text, REHEARSED)).count("drive ") == 40
+    assert printed(*map(shown, narrator.plan(plan_text, REHEARSED))).count("drive ") == 40
 
 
 def test_what_a_plan_does_several_times_is_counted_and_numbered_where_it_begins():

@@ -9,8 +9,9 @@ import pytest
 from rich.console import Console
 from tests.dialogue.talk import Talk
 
-from chatrobot.cli.console.narrator import Narrator
+from chatrobot.cli.console import lines
 from chatrobot.cli.console.words import Words
+from chatrobot.cli.narrator import Narrator
 from chatrobot.core.event import Proposal
 from chatrobot.core.events import Interpreted, Rehearsed, Result, event_from_json
 from chatrobot.dialogue import question
@@ -51,6 +52,14 @@ def test_a_yes_runs_the_plan(word: str) -> None:
         'go to 4 0.7 named "kitchen"'
     ]
     assert any(isinstance(event, Rehearsed) for event in heard)
+
+
+@pytest.mark.parametrize("word", ["Go!", "ok, now", "开始"])
+def test_go_starts_what_was_held_back(word: str) -> None:
+    talk = Talk()
+    assert talk.session.do("forward 30 cm, but don't do it yet").path_m == 0.0
+    result = talk.session.do(word)
+    assert (result.outcome, round(result.path_m, 2)) == ("completed", 0.3)
 
 
 def test_a_yes_is_approved_where_approval_is_asked() -> None:
@@ -153,7 +162,7 @@ def shown(result: Result) -> str:
     """What the console prints of it."""
     console = Console(width=200)
     with console.capture() as capture:
-        console.print(*Narrator(Words("en")).tell(result))
+        console.print(*map(lines.shown, Narrator(Words("en")).tell(result)))
     return capture.get().strip()
 
 

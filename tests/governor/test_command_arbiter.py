@@ -44,7 +44,8 @@ def test_the_order_is_joystick_plan_agent_foreign_text_and_whoever_is_not_listed
     assert priority_of("program") == priority_of("web") == priority_of("console") == Priority.PLAN
     assert priority_of("mcp") == Priority.AGENT
     assert priority_of("base") == Priority.PLAN
-    assert set(PRIORITIES) == {*LOW_TO_HIGH, "program", "web", "base", "mcp"}
+    assert set(PRIORITIES) == {*LOW_TO_HIGH, "program", "web", "base", "mcp", "stick"}
+    assert priority_of("stick") == Priority.JOYSTICK
 
 
 @pytest.mark.parametrize(("low", "high"), PAIRS)
@@ -142,7 +143,7 @@ def test_only_a_person_at_the_local_console_releases_unless_the_composition_root
     governor, _ = governor_with()
     governor.latch("console", "first")
     governor.latch("agent", "second")
-    for source in ("agent", "mcp", "chatgpt_node", "joystick", "program", "web", "Console", ""):
+    for source in ("agent", "mcp", "chatgpt_node", "joystick", "stick", "program", "web", "Console", ""):
         assert not governor.release(source)
         assert governor.latched is not None
         assert governor.latched.values == {"source": "console", "why": "first"}

@@ -73,3 +73,11 @@ def test_the_state_is_of_every_data_file(tmp_path: Path, monkeypatch: pytest.Mon
         states.add(data_files._fingerprint())
     data_files._fingerprint.cache_clear()
     assert len(states) == 3
+
+
+def test_without_a_home_folder_it_is_built(monkeypatch: pytest.MonkeyPatch) -> None:
+    def no_home(*_: object) -> Path:
+        raise RuntimeError("Could not determine home directory.")
+
+    monkeypatch.setattr("platformdirs.user_cache_path", no_home)
+    assert compiled("words", Build()) == TABLE

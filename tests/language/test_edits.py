@@ -24,6 +24,25 @@ def square(side: str, way: str = "left") -> str:
         (["forward 1 m, left 90, back 1 m", "the same without the last step"], "drive 1 m\nturn left 90 deg"),
         (["前进一米，左转90度，后退半米", "再来一遍，去掉第二步"], "drive 1 m\ndrive 0.5 m back"),
         (["back 40 cm", "the same distance again"], "drive 0.4 m back"),
+        (["turn left 360 degrees", "and right"], "turn right 360 deg"),
+        (["turn left 90", "10 degrees back"], "turn right 10 deg"),
+        (
+            ["forward 1 m, left 90, forward 1 m", "again but 2 m each"],
+            "drive 2 m\nturn left 90 deg\ndrive 2 m",
+        ),
+        (["forward 1 m, left 90", "again, but turn right instead"], "drive 1 m\nturn right 90 deg"),
+        (["forward 1 m", "do it again but only half"], "drive 0.5 m"),
+        (
+            ["draw a square of 40 cm", "the same but a triangle"],
+            ("drive 0.4 m\nturn left 120 deg\n" * 3).strip(),
+        ),
+        (
+            ["draw a square of 1 m", "now a triangle the same way"],
+            ("drive 1 m\nturn left 120 deg\n" * 3).strip(),
+        ),
+        (["forward 2 m", "never mind, go back"], "drive 2 m back"),
+        (["turn left 90", "no, the other way"], "turn right 180 deg"),
+        (["turn left 30", "turn right by a quarter"], "turn right 90 deg"),
         (["slide left 50 cm", "the same distance in the opposite direction"], "drive 0.5 m right"),
         (["左转60度", "反方向转同样的角度"], "turn right 60 deg"),
         (["slide to the right 2 m", "go half of that distance back"], "drive 1 m left"),
@@ -81,6 +100,11 @@ def test_the_motion_before_is_changed_as_said(turns: list[str], plan: str) -> No
     "turns",
     [
         ["forward 1 m, left 90, forward 2 m", "again with 3 m"],  # which of them?
+        ["forward 1 m, left 90, forward 2 m", "undo the last step"],  # of the turn, or all of it?
+        ["forward 30 cm", "3 more"],  # centimetres or rounds?
+        ["turn left 30", "five more"],
+        ["forward 1 m", "10 degrees back"],
+        ["a rectangle of 1 m by 2 m", "the same but a triangle"],
         ["left 90, right 90", "again but turning left"],  # turned both ways
         ["forward 1 m", "without the second step"],
         ["forward 1 m", "mirror that"],  # nothing was to a side

@@ -221,3 +221,14 @@ def test_the_return_to_the_start_comes_before_the_facing(said: str, plan: str) -
     way = "drive 1 m\n"
     whole = plan.format(way=way, turned=f"{way}turn left 90 deg\ngo to 0 0 from start\n")
     assert format_plan(Plan(tuple(_after(said)))) == f"{whole} from start"
+
+
+@pytest.mark.parametrize(
+    "said", ["while turning left 90 degrees, go forward 1 m", "meanwhile turn left, then go forward 1 m"]
+)
+def test_a_turn_beside_what_it_joins_no_motion_with_is_asked_about(said: str) -> None:
+    assert _after(said) == []
+
+
+def test_a_turn_meanwhile_beside_nothing_is_a_turn() -> None:
+    assert [type(step) for step in _after("meanwhile turn left")] == [Turn]

@@ -28,6 +28,9 @@ def done(*turns: str) -> str:
         ((THREE, "repeat the turn"), "turn left 90 deg"),
         ((THREE, "hmm, do just the first part again, twice"), "drive 1 m; drive 1 m"),
         ((THREE, "do the last two again"), "turn left 90 deg; drive 2 m"),
+        (("go forward 1 m, turn left 90 degrees", "repeat the two steps"), "drive 1 m; turn left 90 deg"),
+        ((THREE, "repeat the 2nd step"), "turn left 90 deg"),
+        ((THREE_ZH, "重复前一步"), "drive 2 m"),
         ((THREE_ZH, "重复最后一步"), "drive 2 m"),
         ((THREE_ZH, "第二步再做一遍"), "turn left 90 deg"),
         ((THREE_ZH, "前两步再来一遍"), "drive 1 m; turn left 90 deg"),
@@ -40,8 +43,12 @@ def test_a_part_of_what_was_done_is_done_again(turns: tuple[str, ...], plan: str
 
 
 @pytest.mark.parametrize(
-    "text", ["do the fifth step again", "do the first step again and then the last", "第五步再做一遍"]
-)
+    "text",
+    [
+        "do the fifth step again", "do the first step again and then the last", "第五步再做一遍",
+        "repeat the two steps", "重复这两步",
+    ],
+)  # fmt: skip
 def test_what_is_no_part_that_was_done_is_asked_about(text: str) -> None:
     assert done(THREE if text.isascii() else THREE_ZH, text) == "unclear"
 
@@ -58,12 +65,29 @@ def test_the_same_after_a_motion_of_its_own_is_the_motion_before(turns: tuple[st
     assert done(*turns) == plan
 
 
+def test_the_same_after_a_correction_is_asked_about() -> None:
+    assert done("go forward 1 m", "no, I meant 2 m", "turn around and do the same") == "unclear"
+
+
+@pytest.mark.parametrize("count", ["1e999", "1000000000"])
+@pytest.mark.parametrize(
+    "text", ["repeat the last step", "do the turn again", "repeat both", "again", "undo"]
+)
+def test_more_times_than_a_plan_holds_are_asked_about(text: str, count: str) -> None:
+    assert done("go forward 1 m", "turn left 90 degrees", f"{text} {count} times") == "unclear"
+    assert done(THREE, f"{text} {count} times") == "unclear"
+
+
 @pytest.mark.parametrize(
     ("before", "text"),
     [("drive a triangle with 1 m sides", "now with 50 cm"), ("走一个边长一米的三角形", "现在用五十厘米")],
 )
 def test_another_length_with_a_shape_is_its_side(before: str, text: str) -> None:
     assert done(before, text).count("drive 0.5 m") == 3
+
+
+def test_another_length_after_sides_of_two_lengths_is_asked_about() -> None:
+    assert done("drive a rectangle of 1 m by 2 m", "now with 30 cm") == "unclear"
 
 
 def test_where_it_was_before_something_is_not_where_it_began() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -184,6 +185,33 @@ def test_a_source_that_leaves_without_goodbye_stops_the_robot(rig: LinkRig) -> N
     moving(rig, 1)
     rig.link.abandon()
     assert is_at_rest(rig)
+
+
+def hold_stick(rig: LinkRig, vx_mps: float, duration_s: float) -> None:
+    """The stick is held like that for so long of the robot's time; the link is read meanwhile."""
+    for _ in range(round(duration_s / 0.05)):
+        rig.link.send("steer", vx_mps=vx_mps)
+        ends_s = time.monotonic() + 0.05
+        while rig.link.next_event(0.05) is not None and time.monotonic() < ends_s:
+            pass
+
+
+def test_a_stick_drives_and_a_zero_lets_go(rig: LinkRig) -> None:
+    events_until(rig, lambda event: event.name == "telemetry")  # the robot is there
+    hold_stick(rig, 0.3, 1.0)
+    assert max(velocity.vx_mps for velocity in rig.velocities) > 0.1
+    rig.link.send("steer")
+    while rig.link.next_event(0.3) is not None and any(rig.velocities[-1]):
+        pass  # what was told meanwhile
+    assert is_at_rest(rig)
+
+
+def test_a_stick_goes_before_the_plan_of_its_own_source(rig: LinkRig) -> None:
+    send_plan(rig, 1, "drive 5 m")
+    moving(rig, 1)
+    rig.link.send("steer", vx_mps=-0.2)
+    ended = finished(rig, 1)
+    assert (ended.outcome, ended.reason and ended.reason.code) == ("stopped", "handed_over")
 
 
 def test_a_plan_that_was_on_its_way_when_stop_was_said_is_not_driven(rig: LinkRig) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from chatrobot.motion.governed_robot import sectors_m
+from chatrobot.motion.telemetry import sectors_m
 from chatrobot.robots.load import load_profile
 from chatrobot.wire.messages import LaserScan
 

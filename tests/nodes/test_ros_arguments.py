@@ -18,11 +18,12 @@ import yaml
 
 from chatrobot.cli import node as command
 from chatrobot.cli import ros_run, sim
-from chatrobot.cli.arguments import parse, split_ros_args
+from chatrobot.cli.arguments import parse
 from chatrobot.cli.node import open_ros_interfaces
 from chatrobot.core.errors import UsageError
 from chatrobot.nodes import control
 from chatrobot.options import PARAMETERS
+from chatrobot.programs.ros_args import split_ros_args
 from chatrobot.robots.profile import MotionBudget
 from tests.nodes.ros_graph import PATIENCE_S, Guard, fake_rclpy, running
 

@@ -2,59 +2,24 @@ from __future__ import annotations
 
 import importlib.metadata
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Literal
 
 import pytest
 
 from chatrobot.core.errors import UsageError
-from chatrobot.core.geometry import Twist
 from chatrobot.plan import primitive as registry
-from chatrobot.plan.base import Step
-from chatrobot.plan.context import Lowered, LoweringContext
+from chatrobot.plan.context import LoweringContext
 from chatrobot.plan.json_form import plan_from_json, plan_schema
 from chatrobot.plan.lowering import CoreWalk, PlannedMotion
-from chatrobot.plan.primitive import Primitive
-from chatrobot.plan.reader import LineReader
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
-from chatrobot.plan.trajectory import RampedTwist
 from tests.plan.plans import plan_to_json
 from tests.plan.robots import MECANUM
-
-
-@dataclass(frozen=True)
-class Wiggle(Step):
-    """A third party's step."""
-
-    times: int = 2
-    kind: Literal["wiggle"] = "wiggle"
-
-
-class WigglePrimitive(Primitive[Wiggle]):
-    kind = verb = "wiggle"
-    step_type = Wiggle
-    usage = "wiggle COUNT"
-    help = "Wag to both sides."
-    examples = ("wiggle 3",)
-
-    def parse(self, line: LineReader) -> Wiggle:
-        return Wiggle(line.whole_number("a count"))
-
-    def format(self, step: Wiggle) -> str:
-        return f"wiggle {step.times}"
-
-    def lower(self, step: Wiggle, context: LoweringContext) -> Lowered:
-        sides = (Twist(0, 0, 0.5), Twist(0, 0, -0.5))
-        return [RampedTwist.within(context.profile.limits, side, 0.4) for side in sides * step.times]
-
-
-WIGGLE = WigglePrimitive()
+from tests.saved.packages.acme_robots.wiggle import PRIMITIVE, Wiggle, WigglePrimitive
 
 
 class _EntryPoint:
     def load(self) -> WigglePrimitive:
-        return WIGGLE
+        return PRIMITIVE
 
 
 @pytest.fixture
@@ -67,7 +32,7 @@ def third_party(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     registry.primitives()
     registry._loaded.discard(registry.ENTRY_POINT_GROUP)
     yield
-    registry.unregister(WIGGLE)
+    registry.unregister(PRIMITIVE)
 
 
 @pytest.mark.usefixtures("third_party")

@@ -34,6 +34,8 @@ GOOD: dict[str, dict[str, Any]] = {
         "pauses": 0,
     },
     "look": {},
+    "watch": {"scans": True},
+    "steer": {"vx_mps": 0.5, "vy_mps": -0.5, "wz_radps": 0},
     "program": {
         "code": "pass\n",
         "name": "square",
@@ -82,6 +84,10 @@ ALLOWED: dict[str, list[Any]] = {
     "more": [True, False],
     "keep": [True, False],
     "pauses": [0, 1, 10**400],
+    "scans": [True, False],
+    "vx_mps": [0, 1, -1, 0.5, -0.5],
+    "vy_mps": [0, 1, -1, 0.5, -0.5],
+    "wz_radps": [0, 1, -1, 0.5, -0.5],
     "max_distance_m": [1, 0.5],
     "max_time_s": [1, 0.5],
 }

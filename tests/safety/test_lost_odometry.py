@@ -55,11 +55,13 @@ def driven(rig: Rig, source: str, duration_s: float) -> None:
     """Let time pass while that source goes on asking."""
     for _ in range(round(duration_s / 0.02)):
         if source == "relay":
-            rig.motion._cmd_vel.hear(TwistMessage(*ASKED))
+            rig.motion._relayed._programs.hear(ASKED, rig.motion._clock.now_s())
+        elif source == "stick":
+            rig.link.send("steer", vx_mps=ASKED.vx_mps)
         rig.pass_time(0.02)
 
 
-@pytest.mark.parametrize("source", ["plan", "program", "relay"])
+@pytest.mark.parametrize("source", ["plan", "program", "relay", "stick"])
 @pytest.mark.parametrize("change", [lambda profile: profile, blind_and_fenced], ids=["free", "fenced"])
 def test_a_robot_whose_odometry_falls_silent_is_stopped(change: Any, source: str) -> None:
     rig = Rig(change)
@@ -76,7 +78,7 @@ def test_a_robot_whose_odometry_falls_silent_is_stopped(change: Any, source: str
     driven(rig, source, 5.0)
     assert rig.robot.true_twist.is_zero
     assert rig.robot.true_pose.x_m - at_m < 0.3 * 0.25 + 0.06, "zero after 0.2 s, and the way to stand"
-    if source == "relay":
+    if source in ("relay", "stick"):
         told = [event.reason.code for event in rig.events if isinstance(event, Notice)]
         assert told.count("odometry_silent") == 1
     else:

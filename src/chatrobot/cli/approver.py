@@ -6,22 +6,16 @@ import contextlib
 import queue
 import sys
 import threading
-from collections.abc import Callable
 
-from chatrobot.cli.console.motion_view import MotionView
-from chatrobot.cli.editing import Edited, edited_text
+from chatrobot.cli.approval import Approval
+from chatrobot.cli.editing import edited_text
 from chatrobot.core.errors import UsageError
-from chatrobot.core.events import Event, Result
-from chatrobot.dialogue.question import Question
+from chatrobot.core.events import Event
 from chatrobot.dialogue.session import Session
-from chatrobot.language.consent import read_consent, wants_to_edit
 from chatrobot.sim.world import World
 
-SayEdited = Callable[[Session], int]
-"""Says what a person made of a plan or a program; gives the number of its turn."""
 
-
-class Approver:
+class Approver(Approval):
     """Hears the events of a session and answers those that ask.
 
     Args:
@@ -32,16 +26,13 @@ class Approver:
     prompt = "Do it (e edits it first)? [y/N] "
 
     def __init__(self, *, can_ask: bool, others_answer: bool = False) -> None:
+        super().__init__()
         self._can_ask = can_ask
         self._others_answer = others_answer
-        self._question = Question()
         self._has_asked = False
-        self._motion_view = MotionView()
         self._world: World | None = None
-        self._edited: SayEdited | None = None
-        self._edit_of = Edited()
-        self._withdrawn: set[int] = set()
-        self._typed: queue.SimpleQueue[str] = queue.SimpleQueue()
+        self._edited = ""
+        self._lines: queue.SimpleQueue[str] = queue.SimpleQueue()
         self.editing = threading.Lock()
         """Held while an editor has the terminal."""
 
@@ -49,27 +40,17 @@ class Approver:
         """Note the world, to draw the way in."""
         self._world = world
 
-    @property
-    def is_waiting(self) -> bool:
-        """A plan waits for an answer."""
-        return self._question.turn is not None
-
-    def is_withdrawn(self, event: Event) -> bool:
-        """Tell whether `event` only says that a plan was not done which is being edited: that is asked about anew."""
-        has_moved = isinstance(event, Result) and event.has_moved
-        return event.turn in self._withdrawn and not has_moved
-
-    def hear(self, event: Event) -> None:
-        """Take an event in."""
-        self._motion_view.hear(event)
-        self._edit_of.hear(event)
-        if self._question.hear(event):
+    def hear(self, event: Event) -> bool:
+        """Take an event in; return whether it is a question."""
+        asks = super().hear(event)
+        if asks:
             self._has_asked = False
-            self._typed = queue.SimpleQueue()
+            self._lines = queue.SimpleQueue()
+        return asks
 
-    def answer(self, session: Session) -> None:
+    def poll(self, session: Session) -> None:
         """Answer what waits, if there is an answer by now. Never blocks."""
-        if not self.is_waiting:
+        if self.turn is None:
             return
         if self._can_ask:
             self._ask(session)
@@ -78,11 +59,7 @@ class Approver:
                 "chatrobot: Approval needed, but stdin is not a terminal. Pass --yes to skip it.",
                 file=sys.stderr,
             )
-            self.give(session, False)
-
-    def give(self, session: Session, yes: bool) -> None:
-        """Answer the plan that waits."""
-        self._question.answer(session, yes)
+            self.answer(session, False)
 
     def _ask(self, session: Session) -> None:
         if not self._has_asked:
@@ -90,50 +67,45 @@ class Approver:
             print(self.prompt, end="", file=sys.stderr, flush=True)
             self._has_asked = True
         with contextlib.suppress(queue.Empty):
-            self.take(session, self._typed.get_nowait())
+            self._take(session, self._lines.get_nowait())
 
     def type(self, line: str) -> None:
         """Take a typed line: no answer where no question is shown. From any thread."""
-        if self._has_asked and self.is_waiting:
-            self._typed.put(line)
+        if self._has_asked and self.turn is not None:
+            self._lines.put(line)
 
     def lose_keyboard(self) -> None:
         """Nothing more will be typed: that is a no. From any thread."""
         self.type("")
         self._can_ask = False
 
-    def take(self, session: Session, answer: str) -> None:
-        """Take what the person typed: anything but a yes is none."""
-        turn, program, plan_text = self._question.turn, self._motion_view.program, self._motion_view.plan_text
-        self.give(session, read_consent(answer) is True)
-        if not wants_to_edit(answer) or turn is None or not (program or plan_text):
+    def _take(self, session: Session, answer: str) -> None:
+        turn, before = self.turn, self.take(session, answer)
+        if not before or turn is None:
             return
-        text = self._edit(self._edit_of.begin(plan_text, program), ".py" if program else ".txt", turn)
-        self._edited = (lambda session: self._edit_of.say(session, text)) if text else None
+        self._edited = self._edit(before)
+        if not self._edited.strip():
+            self._edited = ""
+            self._muted.discard(turn)
 
-    def take_edited(self) -> SayEdited | None:
-        """Return what says next, once, the plan or program that was edited, or the same where the editor failed."""
-        say, self._edited = self._edited, None
-        return say
+    def take_edited(self) -> str:
+        """Return, once, the plan or program that was edited, or the same where the editor failed; "" for none."""
+        text, self._edited = self._edited, ""
+        return text
 
-    def _edit(self, text: str, suffix: str, turn: int) -> str:
-        """Return `text` as the person leaves it, as it was where the editor fails; "" where nothing is left."""
-        self._withdrawn.add(turn)
+    def _edit(self, text: str) -> str:
+        """Return `text` as the person leaves it, as it was where the editor fails."""
         with self.editing:
             try:
-                edited = edited_text(text, suffix)
+                return edited_text(text, ".py" if self.edits_program else ".txt")
             except UsageError as error:
                 print(f"chatrobot: {error}", file=sys.stderr)
                 return text
-        if not edited.strip():
-            self._withdrawn.discard(turn)
-            return ""
-        return edited
 
     def _draw_way(self) -> None:
         from rich.console import Console
 
         from chatrobot.cli.console.tables import way_map
 
-        if self._world is not None and len(self._motion_view.path) > 1:
-            Console(stderr=True, highlight=False).print(way_map(self._motion_view, self._world))
+        if self._world is not None and len(self.motion_view.path) > 1:
+            Console(stderr=True, highlight=False).print(way_map(self.motion_view, self._world))

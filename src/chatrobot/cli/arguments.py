@@ -14,6 +14,7 @@ from chatrobot import __version__
 from chatrobot.cli.options import Parser, add_defaults, add_options, offer, port
 from chatrobot.core.errors import UsageError
 from chatrobot.options import NO_ODOMETRY, OF_NODES, OPTIONS
+from chatrobot.programs.ros_args import split_ros_args
 
 COMMANDS = {
     "do": "one instruction, or a dialogue turn by turn, then exit",
@@ -27,10 +28,12 @@ COMMANDS = {
     "program": "programs that move the robot: new, list, show, run, edit, rename, remove, export",
     "schema": "the JSON schema of plans",
     "sim": "run the simulated robot alone, for other programs to drive",
+    "mcp": "an MCP server: a language agent's client drives the robot",
     "node": "one of the tutorial's three nodes: input, base or control",
     "model": "set up, list and test language models",
     "usage": "what language models have used and cost",
     "fake-model": "a scripted stand-in for a language model, for tests and demonstrations",
+    "web": "a page in your browser: chat, map, plan, stick and stop",
     "completion": "what makes Tab complete in bash, zsh or fish",
 }
 SHELLS = ("bash", "zsh", "fish")
@@ -147,21 +150,6 @@ def _expect_quotes(texts: Sequence[str]) -> None:
         )
 
 
-def split_ros_args(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
-    """Part what stands between each `--ros-args` and `--` or the end, as ROS has it, from the rest, which is first."""
-    ours: list[str] = []
-    theirs: list[str] = []
-    taking = ours
-    for argument in arguments:
-        if argument == "--ros-args":
-            taking = theirs
-        elif argument == "--" and taking is theirs:
-            taking = ours
-        else:
-            taking.append(argument)
-    return ours, theirs
-
-
 def _split_program_args(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
     """Return the arguments before the first `--`, and those behind it, which `program` hands on to a program."""
     if "--" not in arguments or _first_word(arguments) != "program":
@@ -250,6 +238,16 @@ def _model(parser: argparse.ArgumentParser) -> None:
     _add(parser, "--delete", action="store_true", help="key: take it out of the keyring")
 
 
+def _mcp(parser: argparse.ArgumentParser) -> None:
+    _add(parser, "--http", action="store_true", help="over HTTP; without it over standard input and output")
+    where = "with --http: where to listen (default: 127.0.0.1)"
+    _add(parser, "--host", default=None, metavar="H", help=where)
+    free = "with --http: the port (default: the first free one from 8765 on)"
+    _add(parser, "--port", type=port, default=None, metavar="N", help=free)
+    made = "with --http: what a client has to show (default: one is made and printed)"
+    _add(parser, "--token", default=None, metavar="T", help=made)
+
+
 def _usage(parser: argparse.ArgumentParser) -> None:
     _add(parser, "--by", choices=("session", "model", "day"), default="session", help="what to add up")
 
@@ -261,6 +259,18 @@ def _fake_model(parser: argparse.ArgumentParser) -> None:
     _add(parser, "--port", type=port, default=8399, help="0: any that is free (default: 8399)")
     where = "where to listen; beyond loopback a token is asked for"
     _add(parser, "--host", default="127.0.0.1", help=where)
+
+
+def _web(parser: argparse.ArgumentParser) -> None:
+    where = "where to listen (default: 127.0.0.1, this machine alone); elsewhere a token is asked for"
+    _add(parser, "--host", default="127.0.0.1", help=where)
+    free = "the port of the page; 0: any that is free (default: 8080, or the next that is free)"
+    _add(parser, "--port", type=port, default=None, help=free)
+    token = "what the link has to bring that may steer (default: a new one where one is needed)"
+    _add(parser, "--token", default="", help=token)
+    _add(parser, "--no-open", action="store_true", help="do not open the page in a browser")
+    _add(parser, "--tls-cert", "files", default="", metavar="FILE", help="a certificate in PEM: speak HTTPS")
+    _add(parser, "--tls-key", "files", default="", metavar="FILE", help="its key in PEM")
 
 
 def _completion(parser: argparse.ArgumentParser) -> None:
@@ -310,5 +320,6 @@ def _ros_args(parser: argparse.ArgumentParser) -> None:
 
 _ARGUMENTS = {
     "do": _do, "plan": _plan, "eval": _eval, "calibrate": _calibrate, "sim": _sim, "node": _node,
-    "model": _model, "usage": _usage, "fake-model": _fake_model, "program": _program, "completion": _completion,
+    "mcp": _mcp, "model": _model, "usage": _usage, "fake-model": _fake_model, "program": _program,
+    "completion": _completion, "web": _web,
 }  # fmt: skip

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import queue
 from collections.abc import Callable, Sequence
-from types import TracebackType
 
 from chatrobot.cli.approver import Approver
 from chatrobot.cli.entry import STOPPED, forget_stdout
@@ -47,15 +46,13 @@ class Conversation:
         self._watch.__enter__()
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, kind: object, *_: object) -> None:
         if kind is not None:
             with contextlib.suppress(LinkError):
                 self.session.stop("chatrobot broke")
         if self._connection is not None:
             self._connection.close()
-        self._watch.__exit__(kind, error, trace)
+        self._watch.__exit__()
         if self._printer.is_broken:
             forget_stdout()
 
@@ -133,8 +130,8 @@ class Conversation:
     def see_through_edits(self, turn: int) -> Result:
         """That turn, and those of what a person made of the plan or program that it asked about."""
         result = self.see_through(turn)
-        while (say_edited := self._approver.take_edited()) is not None and not self.is_leaving:
-            result = self.see_through(say_edited(self.session))
+        while (text := self._approver.take_edited()) and not self.is_leaving:
+            result = self.see_through(self._approver.say_edited(self.session, text))
         return result
 
     def see_through(self, turn: int) -> Result:
@@ -161,8 +158,8 @@ class Conversation:
         if self._printer.is_broken and not self._is_cut_off:
             self._is_cut_off = True
             self.session.stop("nobody reads")
-        self._approver.answer(self.session)
-        is_asking = self._approver.is_waiting and not self.session.is_being_paused
+        self._approver.poll(self.session)
+        is_asking = self._approver.turn is not None and not self.session.is_being_paused
         waits = is_asking or self.session.waits_for_a_word
         if self._setup.fast and waits and self._wait_for_posted():
             return  # a virtual half minute is over before a person has read the question: time stands
@@ -194,5 +191,5 @@ class Conversation:
     def _on_event(self, event: Event) -> None:
         self._approver.hear(event)
         self.has_parted = self.has_parted or is_parting(event)
-        if not self._approver.is_withdrawn(event):
+        if not self._approver.is_muted(event):
             self.show(event)

@@ -15,7 +15,7 @@ from chatrobot.robots.profile import MotionBudget
 if TYPE_CHECKING:
     from chatrobot.robots.profile import RobotProfile
 
-COMMANDS = ("", "do")
+COMMANDS = ("", "do", "mcp", "web")
 STDOUT = 1
 _CLEAR_LINE = "\r\x1b[K"
 
@@ -31,7 +31,7 @@ class Early:
         if not args.command and not args.json and has_keyboard():
             self.typed_ahead.start()
         profile = self._checked(args)
-        if not args.json and os.isatty(STDOUT):
+        if args.command != "mcp" and not args.json and os.isatty(STDOUT):
             self._show(profile.title)
 
     def _checked(self, args: argparse.Namespace) -> RobotProfile:
@@ -87,7 +87,12 @@ class Early:
 @contextmanager
 def started_early(args: argparse.Namespace) -> Iterator[None]:
     """Within it `args.early` is there for a command that moves a robot in real time."""
-    early = Early(args) if args.command in COMMANDS and not args.fast else None
+    if args.command == "mcp":
+        from chatrobot.cli.attach import attachable
+
+        args.host_line = attachable(args)
+    needs_robot = args.command in COMMANDS and not args.fast and getattr(args, "host_line", None) is None
+    early = Early(args) if needs_robot else None
     args.early = early
     try:
         yield

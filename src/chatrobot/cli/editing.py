@@ -1,4 +1,4 @@
-"""A plan or a program in the person's own editor, and what becomes of what they made of it."""
+"""A plan or a program in the person's own editor."""
 
 from __future__ import annotations
 
@@ -7,10 +7,8 @@ import shlex
 import subprocess
 import tempfile
 from pathlib import Path
-from typing import Protocol
 
 from chatrobot.core.errors import UsageError
-from chatrobot.core.events import Event, Finished, Notice, ProgramWritten, Started
 
 _OTHERWISE = "vi"
 
@@ -51,56 +49,3 @@ def _unusable(problem: str, command: list[str]) -> UsageError:
     return UsageError(
         f"the editor {command[0]!r} {problem}", allowed="VISUAL, or else EDITOR, names the one to use"
     )
-
-
-UNREADABLE = "edit_unreadable"
-"""The code of the notice that what was edited is asked about as it was before."""
-
-
-class TakesEdits(Protocol):
-    """A `Session`, as far as an edit needs it."""
-
-    def say_edited_plan(self, plan_text: str, instead_of: str = "") -> int:
-        """Take in what a person made of a plan."""
-        ...
-
-    def say_source(self, name: str, source: str) -> int:
-        """Take in what a person made of a program."""
-        ...
-
-
-class Edited:
-    """One edit at a time: `begin` it, then `say` what came of it; `hear` every event."""
-
-    def __init__(self) -> None:
-        self._before = self._typed = self._unreadable = ""
-        self._program: ProgramWritten | None = None
-        self._turn = 0
-
-    def begin(self, plan_text: str, program: ProgramWritten | None) -> str:
-        """Return the text to be edited: the plan, the program, or what was made of it before and could not be read."""
-        self._program = program
-        self._before = program.source if program is not None else plan_text
-        text, self._unreadable = self._unreadable or self._before, ""
-        return text
-
-    @property
-    def is_program(self) -> bool:
-        """A program is edited, and no plan."""
-        return self._program is not None
-
-    def say(self, session: TakesEdits, text: str) -> int:
-        """Have it read, rehearsed and asked about; the number of its turn."""
-        self._typed = text
-        if self._program is not None:
-            self._turn = session.say_source(self._program.program, text)
-        else:
-            self._turn = session.say_edited_plan(text, self._before)
-        return self._turn
-
-    def hear(self, event: Event) -> None:
-        """Take an event in."""
-        if isinstance(event, Notice) and event.reason.code == UNREADABLE:
-            self._unreadable = self._typed
-        elif isinstance(event, (Started, Finished)) and event.turn == self._turn:
-            self._unreadable = ""

@@ -13,7 +13,7 @@ from typing import Any, Protocol
 from chatrobot.core.events import Event
 from chatrobot.language.interpretation import LanguageCode
 
-_NOT_SHOWN = frozenset({"telemetry", "finished"})
+_NOT_SHOWN = frozenset({"telemetry", "scan", "finished"})
 """`result` says the same as `finished`; who wants to follow a motion reads `progress`."""
 
 

@@ -9,7 +9,6 @@ import socket
 import threading
 import time
 from collections.abc import Callable
-from types import TracebackType
 from typing import Any
 
 from chatrobot.core.errors import LinkError
@@ -52,9 +51,7 @@ class SignalWatch:
         threading.Thread(target=self._watch, name="signals", daemon=True).start()
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         if self.is_leaving and self._repeats_s > 0.0 and signal.SIGINT in self._before:
             self._before[signal.SIGINT] = signal.SIG_IGN
         for number, handler in self._before.items():

@@ -53,7 +53,7 @@ class JsonInput:
             self._conversation.hear(text)
         elif isinstance(yes, bool):
             approved = yes
-            self._conversation.post(lambda: self._approver.give(self._conversation.session, approved))
+            self._conversation.post(lambda: self._approver.answer(self._conversation.session, approved))
         else:
             notice = Notice(
                 0, Reason("bad_input_line", {"line": line[:80]}), 'not {"text": …} nor {"approve": …}'

@@ -17,6 +17,10 @@ from chatrobot.core.event import Proposal
 from chatrobot.core.event import event_from_json as event_from_json
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.core.reason import Reason
+from chatrobot.core.sensed_events import Looked as Looked
+from chatrobot.core.sensed_events import Scan as Scan
+from chatrobot.core.sensed_events import Telemetry as Telemetry
+from chatrobot.core.sensed_events import TruePose as TruePose
 
 Outcome = Literal["completed", "stopped", "refused", "unclear", "answered", "failed"]
 EXIT_CODES: Mapping[str, int] = {
@@ -33,6 +37,16 @@ class Interpreted(Event, name="interpreted"):
     by: Literal["offline", "model", "reflex"]
     plan_text: str
     reply: str
+
+
+@dataclass(frozen=True)
+class Ordered(Event, name="ordered"):
+    """Another client of this robot asks for a plan or a program; what follows under this number is about it."""
+
+    source: str
+    plan_text: str
+    program: str = ""
+    rehearse_only: bool = False
 
 
 @dataclass(frozen=True)
@@ -146,35 +160,6 @@ class Progress(Event, name="progress"):
 
 
 @dataclass(frozen=True)
-class Telemetry(Event, name="telemetry"):
-    """Where the robot is and how it moves, as it measures itself; `path_m` since odometry began.
-
-    `odometry_epoch` counts the times odometry began anew: a pose of an older epoch means nothing any more.
-    """
-
-    pose: Pose
-    twist: Twist
-    path_m: float
-    battery_percent: float | None = None
-    nearest_obstacle_m: float | None = None
-    moving: bool = False
-    odometry_epoch: int = 0
-
-
-@dataclass(frozen=True)
-class TruePose(Event, name="pose"):
-    """The simulator's truth, for `--trace`. Nothing else may read it."""
-
-    t_s: float
-    x_m: float
-    y_m: float
-    yaw_rad: float
-    vx_mps: float
-    vy_mps: float
-    wz_radps: float
-
-
-@dataclass(frozen=True)
 class Limited(Event, name="limited"):
     """The governor allows less than was asked for: `sent` is the most it will send of it."""
 
@@ -204,16 +189,6 @@ class Streamed(Event, name="streamed"):
     """A step of a plan that still comes in, as it goes to Motion; `interpreted` has the whole plan at its end."""
 
     plan_text: str
-
-
-@dataclass(frozen=True)
-class Looked(Event, name="looked"):
-    """What the lidar sees, by eight sectors of 45 degrees, from straight ahead counter-clockwise.
-
-    Metres from the robot's edge to the nearest thing; None where nothing is seen; empty without a lidar.
-    """
-
-    sectors_m: tuple[float | None, ...] = ()
 
 
 @dataclass(frozen=True)

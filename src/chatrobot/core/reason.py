@@ -63,7 +63,7 @@ def _exponent(value: float) -> int:
     return int(f"{value:e}".partition("e")[2])
 
 
-SHOWN_CHARS = 300
+SHOWN_CHARS, QUOTED_CHARS = 300, 40
 
 
 def one_line(text: str, max_chars: int = SHOWN_CHARS) -> str:
@@ -72,6 +72,6 @@ def one_line(text: str, max_chars: int = SHOWN_CHARS) -> str:
     return tidy if len(tidy) <= max_chars else f"{tidy[: max_chars - 1]}…"
 
 
-def quoted(text: str, max_chars: int = 40) -> str:
+def quoted(text: str) -> str:
     """A name from outside as a quoted string: it cannot end its quotation, nor begin a line of its own."""
-    return json.dumps(one_line(text, max_chars), ensure_ascii=False)
+    return json.dumps(one_line(text, QUOTED_CHARS), ensure_ascii=False)

@@ -106,6 +106,11 @@ class Dispatch:
     def _go_on(self, utterance: Utterance) -> None:
         """Go on with what is paused; what is left of a plan that was stopped is offered."""
         self._understanding.hear_language(utterance.text)
+        if self._goals.options.rehearse_only:
+            reply = self._told("paused_now", self._resuming.paused)
+            self._emit(Interpreted(utterance.turn, "offline", "", reply))
+            self._requests.conclude(utterance.turn, "answered", reply)
+            return
         paused = self._resuming.take_paused()
         if paused is None and self._utterances.held:
             reply = self._told("goes_on", None)

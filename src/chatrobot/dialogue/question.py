@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple
 
 from chatrobot.core.event import Proposal
 from chatrobot.core.events import Event, Finished, Paused, Rehearsed, Result, Started
@@ -21,12 +21,8 @@ from chatrobot.link.motion_link import Approval
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import parse_plan
 
-
-class Approving(Protocol):
-    """A `Session`, as far as a question needs it."""
-
-    def approve(self, turn: int, yes: bool) -> None:
-        """Answer a rehearsed plan that waits for a yes."""
+if TYPE_CHECKING:
+    from chatrobot.dialogue.session import Session
 
 
 class Question:
@@ -50,7 +46,7 @@ class Question:
             self._asked = None
         return False
 
-    def answer(self, session: Approving, yes: bool) -> bool:
+    def answer(self, session: Session, yes: bool) -> bool:
         """Answer it, once; return whether something waited.
 
         Raises:

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -12,6 +13,7 @@ from typing import Any
 
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import Event, Finished, Notice, Paused, Remembered, Result, Telemetry
+from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.dispatch import Dispatch
 from chatrobot.dialogue.goal_client import GoalClient, RequestLog
@@ -33,6 +35,8 @@ from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 from chatrobot.robots.profile import OPEN_LOOP
 
+STEERED_S = 1.0
+"""So long after a stick was held a text need only begin with a stop word to be one."""
 FIRST_NEWS_LOOKS, FIRST_NEWS_LOOK_S = 10, 0.1
 """How often and how long an answer waits for the first word of odometry."""
 
@@ -73,6 +77,7 @@ class Session:
             self._utterances, self._requests, self._llm, understanding, self._resuming, early
         )
         self._programs: ProgramRequests | None = None
+        self._steered_at_s = -math.inf
         if authoring is not None:
             self._programs = ProgramRequests(
                 authoring, understanding, self._requests, self._goals, link, self._emit,
@@ -105,7 +110,11 @@ class Session:
         if is_emergency_stop(text):
             self.emergency_stop(text.strip()[:80])
             kind: Kind = "emergency_stop"
-        elif (leads_with_stop(text) or self._declines_motion(text)) if self.is_moving else is_stop(text):
+        elif (
+            (leads_with_stop(text) or self._declines_motion(text))
+            if self.is_moving or self._is_steering
+            else is_stop(text)
+        ):
             kind = "pause" if is_pause(text) else "stop"
             (self.pause if kind == "pause" else self.stop)(text.strip()[:80])
         else:
@@ -160,6 +169,19 @@ class Session:
         self._link.send("emergency_stop", self._utterances.void(why), why=why)
         self._llm.cancel(self._utterances.stopped_by)
 
+    def steer(self, twist: Twist) -> None:
+        """Drive by a stick that a person holds: say it anew 20 times a second while it is held, and once zero.
+
+        It takes command from whatever drives. Nothing else keeps it: a moment without lets go.
+        """
+        self._steered_at_s = time.monotonic() if not twist.is_zero else -math.inf
+        vx_mps, vy_mps, wz_radps = twist
+        self._link.send("steer", vx_mps=vx_mps, vy_mps=vy_mps, wz_radps=wz_radps)
+
+    @property
+    def _is_steering(self) -> bool:
+        return time.monotonic() - self._steered_at_s < STEERED_S
+
     def release(self) -> None:
         """Release an emergency stop. For the local console alone."""
         self._link.send("release")
@@ -167,6 +189,14 @@ class Session:
     def limit(self, **limits: Any) -> None:
         """Change or ask for the motion budget: `max_distance_m`, `max_time_s` (a number or `none`). For the console."""
         self._link.send("limit", **limits)
+
+    def watch_scans(self, on: bool) -> None:
+        """Have what the lidar sees told as `scan` events, for a map, or no more."""
+        self._link.send("watch", scans=on)
+
+    def look(self) -> None:
+        """Ask what the lidar sees: a `looked` event of turn 0 follows."""
+        self._link.send("look")
 
     def approve(self, turn: int, yes: bool) -> None:
         """Answer a rehearsed plan that waits for a yes."""

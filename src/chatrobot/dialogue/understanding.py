@@ -319,6 +319,7 @@ class Understanding:
             executed=_plan_in(finished.executed),
             remaining=_plan_in(finished.remaining),
             lost="" if finished.measured else UNMEASURED,
+            duration_s=finished.duration_s,
         )
         self._record(measured)
         self._lose(self._rest.end(finished))

@@ -27,11 +27,12 @@ class Priority(IntEnum):
     PLAN = 2
     """A person's instruction, or a program that a person started."""
     JOYSTICK = 3
-    """A person with a joystick, looking at the robot."""
+    """A person with a joystick or a stick on a page, looking at the robot."""
 
 
 PRIORITIES: Mapping[str, Priority] = {
     "joystick": Priority.JOYSTICK,
+    "stick": Priority.JOYSTICK,
     "console": Priority.PLAN,
     "program": Priority.PLAN,
     "web": Priority.PLAN,
@@ -42,6 +43,15 @@ PRIORITIES: Mapping[str, Priority] = {
 }
 RELEASERS = frozenset({"console"})
 """Who may release an emergency stop unless the composition root names others: a person at the local console."""
+
+
+STEERERS = frozenset({"console", "web", "base"})
+"""Behind whom a person may hold a stick."""
+
+
+def may_steer(source: str) -> bool:
+    """Return whether a client of that name may steer; one that is not listed may not."""
+    return source in STEERERS
 
 
 def priority_of(source: str) -> Priority:
@@ -161,6 +171,11 @@ class Leases:
     def priority_of(self, lease_id: str) -> Priority:
         """Return the priority of its source; the lowest for a lease that nobody opened."""
         return priority_of(self.source_of(lease_id))
+
+    def term_s_of(self, lease_id: str) -> float:
+        """Return how long its source may be silent; 0 for a lease that nobody opened."""
+        lease = self._leases.get(lease_id)
+        return lease.term_s if lease is not None else 0.0
 
     def source_of(self, lease_id: str) -> str:
         """Return the name of its source."""

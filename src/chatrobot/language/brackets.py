@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from chatrobot.language.tokens import Atom
@@ -43,4 +44,5 @@ def _is(atom: Atom, written: str) -> bool:
 def _times(atoms: Sequence[Atom], i: int) -> int:
     """How often, where a whole number of times stands at `i`; else 0."""
     said = 0 <= i < len(atoms) and atoms[i].kind == "q" and atoms[i].value == "times"
-    return int(atoms[i].number) if said and atoms[i].number == int(atoms[i].number) else 0
+    whole = said and math.isfinite(atoms[i].number) and atoms[i].number.is_integer()
+    return int(atoms[i].number) if whole else 0

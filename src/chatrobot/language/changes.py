@@ -11,6 +11,7 @@ from chatrobot.language.edit_words import Edit
 from chatrobot.language.edits import flipped, resized
 from chatrobot.language.frames import DIRECTIONS, GO, SIDES, TURN, Frame
 from chatrobot.language.manner import Pace
+from chatrobot.language.measures import whole_number
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.tokens import quantity
 from chatrobot.language.unclear import Unclear
@@ -64,7 +65,7 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
     Raises:
         Unclear: where the change fits none of them, or several.
     """
-    whole = _speed_said(whole, before)
+    whole = _part_said(_speed_said(whole, before))
     fold = whole.q.get("fold")
     if fold is not None and is_chinese(fold.text):
         whole = whole.copy()
@@ -82,9 +83,7 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
     steps = [_step(step, whole, factors, pace) for step in before]
     count = whole.q.get("times")
     if count is not None:
-        if count.number != int(count.number) or not 1 <= count.number <= 100:
-            raise Unclear("bad_count", count.text)
-        return steps * int(count.number)
+        return steps * whole_number(count.number, count.text)
     sizes = [whole.q[name] for name in ("length", "angle", "turns", "time") if name in whole.q]
     out = resized(steps, Edit(amounts=sizes)) if "more" not in whole.flags or not sizes else None
     if out is None:
@@ -146,6 +145,17 @@ def _speed_said(whole: Frame, steps: Sequence[Step]) -> Frame:
     whole = whole.copy()
     del whole.q["number"]
     whole.q["speed"] = quantity("speed", number.number, number.text)
+    return whole
+
+
+def _part_said(whole: Frame) -> Frame:
+    """`Again but only half`: a fraction written out is a part of what was done."""
+    number = whole.q.get("number")
+    if number is None or not 0 < number.number < 1 or any(map(str.isdecimal, number.text)):
+        return whole
+    whole = whole.copy()
+    del whole.q["number"]
+    whole.q["scale"] = quantity("scale", number.number, number.text)
     return whole
 
 

@@ -8,12 +8,13 @@ from dataclasses import replace
 from chatrobot import reflex
 from chatrobot.language import questions
 from chatrobot.language.acts import orders as is_ordered
-from chatrobot.language.corrections import MEANT
+from chatrobot.language.corrections import CORRECTING
 from chatrobot.language.edit_words import Edit
 from chatrobot.language.edits import edited, resized
 from chatrobot.language.frames import GO, STILL, TURN, Frame
 from chatrobot.language.heeded import check_heeded
 from chatrobot.language.interpretation import Interpretation, planned, stopped
+from chatrobot.language.meant import is_correction
 from chatrobot.language.names import names_in
 from chatrobot.language.phrases import say
 from chatrobot.language.place_questions import answer_about_places
@@ -21,7 +22,7 @@ from chatrobot.language.reading import Reading, frames_of
 from chatrobot.language.selections import names_a_part, points_at_before, selected, with_another_size
 from chatrobot.language.sounds import mended
 from chatrobot.language.starting import check_start
-from chatrobot.language.tokens import Atom
+from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.unfinished import breaks_off, check_finished, is_choice
 from chatrobot.language.until import UntilObstacle, read_until
@@ -54,7 +55,7 @@ def steps_of(clause: str, reading: Reading) -> list[Step]:
         Unclear: where it is no command.
     """
     atoms = reading.atoms(clause)
-    if all(a.kind in ("sep", "conn", "filler", "glue", "reason") for a in atoms):
+    if all(a.kind in SILENT for a in atoms):
         return []
     inner = read_command(clause, reading)
     if inner.plan is None:
@@ -95,7 +96,8 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
         return _until(until, reading)
     changed = _of_before(plain, atoms, reading)
     if changed is not None:
-        return planned(changed, language, append=_appends(atoms))
+        overshot = any(a.value == "overshot" for a in atoms)
+        return replace(planned(changed, language, append=_appends(atoms)), corrects=overshot)
     rest = next((a for a in atoms if a.kind == "flag" and a.value == "complete"), None)
     if rest is not None:  # the rest of what was no shape, or is told beside a motion of its own
         raise Unclear("unclear_motion", rest.text)
@@ -105,7 +107,7 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     if default is not None:
         return default
     walked = reading.walked(frames)
-    corrects = any({MEANT, "short_of"} & frame.flags for frame in frames)
+    corrects = any(CORRECTING & frame.flags for frame in frames)
     steps = reading.steps(frames)
     if not asks:
         check_heeded(atoms, steps, lambda changed: reading.steps(frames_of(changed)))
@@ -126,10 +128,15 @@ def _of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | 
     before = dialogue.last_motion.plan.steps
     size = with_another_size(plain, atoms, language)
     if size is not None and len(before) > 1:
-        return resized(list(before), Edit(amounts=[size], roles={"side"}))
+        sized = resized(list(before), Edit(amounts=[size], roles={"side"}))
+        if sized is None:
+            raise Unclear("which_size", size.text)  # `now with 30 cm` after sides of two lengths
+        return sized
     if len(atoms) > 2 and atoms[-2].kind == "conn" and points_at_before(atoms[-1], language):
         own = frames_of(atoms[:-2])
         if any(frame.moves for frame in own):
+            if is_correction(dialogue.last_motion):
+                raise Unclear("unclear_motion", atoms[-1].text)  # what was done, or what was meant?
             return [*reading.steps_of_their_own(own), *before]
     changed = edited(atoms, dialogue)
     if changed is None and any(a.value == "again" for a in atoms) and names_a_part(plain, language):

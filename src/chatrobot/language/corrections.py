@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 from chatrobot.language.frames import EXTENTS, Frame
 from chatrobot.language.numbers import is_chinese
-from chatrobot.language.tokens import Atom, quantity
+from chatrobot.language.tokens import SILENT, Atom, quantity
 from chatrobot.language.unclear import Unclear
 
 _NO = frozenset({"no", "nope", "不", "wait", "sorry", "oops", "whoops", "等等", "no no", "rather"})
@@ -23,6 +23,8 @@ _UNIT_FACTOR = re.compile(r"\d[\d.e+-]*")
 _PIECE = ("dir", "rot", "q", "pace", "verb", "shape")
 MEANT = "meant"
 """The flag of what corrects the turn before."""
+CORRECTING = frozenset({MEANT, "short_of"})
+"""The flags of what puts the turn before right: by what was meant, or by the total that was meant."""
 _OPPOSITE = ("other_way", "mirrored")
 _BEFORE_MEANT = frozenset({"sep", "filler", "glue", "negation", "correction"})
 
@@ -43,7 +45,9 @@ def corrected(atoms: Sequence[Atom]) -> list[Atom]:
                 raise Unclear("taken_back", out[at].text)
             while after and after[0].kind in ("sep", "negation", "filler", "correction"):
                 after = after[1:]
-            out = after
+            back = [a.value for a in after if a.kind not in SILENT] in (["go", "back"], ["back"])
+            is_undone = back and not any(a.kind in _PIECE for a in before)
+            out = [Atom("verb", "undo", out[at].text)] if is_undone else after
         else:
             out = _replaced(_trimmed(before), after)
 
@@ -70,8 +74,8 @@ def _of_the_turn_before(atoms: list[Atom]) -> list[Atom]:
     denied = len(atoms) > 1 and atoms[0].text in _DENIED and atoms[1].kind == "sep"
     negated = any(a.kind == "negation" and a.text == "not" for a in atoms) and len(real) > 1
     opposite = [a for a in atoms[:at] if a.value in _OPPOSITE]
-    if said and opposite and not real:
-        return [Atom("flag", MEANT, said[0].text), opposite[0]]  # 不对，反方向
+    if (said or denied) and opposite and not real:
+        return [Atom("flag", MEANT, (said or atoms)[0].text), opposite[0]]  # 不对，反方向
     if amounts and (said or denied):
         return [Atom("flag", "short_of", atoms[0].text), *atoms[at:]]
     if meant or (lone and ways and (denied or negated or swapped or atoms[0].text == "i said")):

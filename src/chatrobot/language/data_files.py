@@ -53,7 +53,10 @@ def compiled(name: str, build: Callable[[], Compiled]) -> Compiled:
     """
     from platformdirs import user_cache_path
 
-    folder = user_cache_path("chatrobot")
+    try:
+        folder = user_cache_path("chatrobot")
+    except RuntimeError:  # there is no home folder
+        return build()
     file = folder / f"{name}-{_fingerprint():08x}.bin"
     with contextlib.suppress(OSError, ValueError, EOFError, TypeError):
         kept = file.read_bytes()

@@ -11,6 +11,7 @@ from chatrobot.language.frames import Frame
 from chatrobot.language.last_motion import steps_of
 from chatrobot.language.manner import Pace
 from chatrobot.language.meant import is_correction
+from chatrobot.language.measures import whole_number
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.totals import to_total
 from chatrobot.language.unclear import Unclear
@@ -94,7 +95,7 @@ def _walked(whole: Frame, frames: Sequence[Frame], context: Context, profile: Ro
             raise Unclear("nothing_undone")  # `redo that slower` still repeats the last motion
         return again
     back = whole.direction == "back" or (not whole.direction and whole.verb in ("return", "", "go", "uturn"))
-    if "same_way" not in whole.flags or not back:
+    if "same_way" not in whole.flags or not back or whole.shape:
         return None
     return replace(all_taken_back(context, profile), walk=None)  # a way back, and a turn of its own
 
@@ -103,7 +104,7 @@ def _more_of_before(whole: Frame, context: Context, pace: Pace) -> list[Step] | 
     """`a bit more`; `both again`: the last two turns."""
     both = "both" in whole.flags or any("both" in text.split() for text in whole.texts)
     if "again" in whole.flags and both and not whole.moves and whole.q.keys() <= {"times"}:
-        count = int(whole.q["times"].number) if whole.q else 1
+        count = whole_number(whole.q["times"].number, whole.q["times"].text) if whole.q else 1
         return last_two(context, whole.text, steps="both" in whole.flags) * count
     if whole.moves or whole.q:
         return None

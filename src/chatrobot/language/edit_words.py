@@ -11,7 +11,7 @@ from chatrobot.language.tokens import Atom, quantity
 from chatrobot.plan.steps import Arc, Drive, Step, Turn
 
 _IDLE = frozenset({"filler", "glue", "sep", "reason"})
-_POINTING = frozenset({"again", "same_amount", "more", "both", "do_this"})
+_POINTING = frozenset({"again", "same_amount", "more", "both", "do_this", "each"})
 _CHANGING = frozenset(
     {"other_way", "leave_out", "swapped", "complete", "amounts", "overshot", "instead", "all", "first"}
 ) | {"until", "original_heading"}
@@ -29,7 +29,7 @@ SCALES, _SIZES = ("scale", "fold"), ("length", "angle", "turns", "time", "speed"
 @dataclass
 class Edit:
     """What is said of the motion before. `instead` is what stood in place of the amount before it; with `sign` below
-    zero the amount is so much less."""
+    zero the amount is so much less. `goes_on`: an `and` joins it to what was done."""
 
     flags: set[str] = field(default_factory=set)
     kinds: list[type[Step]] = field(default_factory=list)
@@ -37,6 +37,7 @@ class Edit:
     instead: Atom | None = None
     roles: set[str] = field(default_factory=set)
     way: str = ""
+    goes_on: bool = False
     nth: int = 0
     slides: bool = False
     is_named: bool = False
@@ -47,7 +48,7 @@ class Edit:
 
 
 def read_edit(atoms: Sequence[Atom]) -> Edit | None:
-    edit, denied = Edit(), False
+    edit, denied = Edit(goes_on=atoms[0].kind == "conn") if atoms else Edit(), False
     said = {atom.value for atom in atoms if atom.kind == "flag"}
     for i, atom in enumerate(atoms):
         sign = sign_of(atom)

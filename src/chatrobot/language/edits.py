@@ -57,10 +57,12 @@ def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
         return _swapped(steps)
     if "first" in flags:
         return _reordered(steps, edit)
-    if edit.way in SIDES and not (flags - {"again"} or edit.amounts or edit.roles or edit.nth):
+    if edit.way in SIDES and not (flags - {"again", "instead"} or edit.amounts or edit.roles or edit.nth):
         is_named = "again" in flags or (edit.is_named and not edit.kinds)
-        return _to_side(steps, edit.way == "left", is_named=is_named) if is_named or not edit.kinds else None
-    points_back = edit.way == "back" and (scale is not None or edit.slides)
+        if is_named or not edit.kinds:
+            return _to_side(steps, edit.way == "left", is_named=is_named, goes_on=edit.goes_on)
+        return None
+    points_back = edit.way == "back" and bool(scale or edit.slides or edit.amount("angle"))
     if flags & {"same_amount", "overshot"} or points_back:
         return _one_way(edit, steps, scale)
     if edit.instead is not None and "again" in flags:
@@ -69,7 +71,7 @@ def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
         return [_scaled(step, scale.number) for step in steps]
     if flags == {"again", "more"} and len(edit.amounts) == 1 and not edit.way and scale is None:
         return _lengthened(steps, edit)
-    if "again" not in flags or flags - {"again", "instead", "all"} or scale is not None:
+    if "again" not in flags or flags - {"again", "instead", "all", "each"} or scale is not None:
         return None
     return resized(steps, edit) if edit.amounts and not edit.way else None
 
@@ -85,8 +87,10 @@ def _one_way(edit: Edit, steps: list[Step], scale: Atom | None) -> list[Step] | 
         return None
     if "other_way" in edit.flags or edit.way == "back" or "overshot" in edit.flags:
         [step] = inverse([step])
+    if size is not None and ("overshot" in edit.flags or edit.slides or edit.way == "back"):
+        return [_with_value(step, size.number)] if _takes(step, size) else None
     if "overshot" in edit.flags or edit.slides:
-        return [_with_value(step, size.number)] if size is not None and _takes(step, size) else None
+        return None
     return [_scaled(step, scale.number if scale is not None else 1.0)] if size is None else None
 
 
@@ -125,18 +129,20 @@ def resized(steps: list[Step], edit: Edit) -> list[Step] | None:
         role = "radius" if {"radius", "diameter"} & edit.roles else size.value
         number = size.number / 2 if "diameter" in edit.roles else size.number
         taken = [i for i, step in enumerate(out) if isinstance(step, _TAKERS[role])]
-        alike = role in ("speed", "rate") or len({_size(out[i]) for i in taken}) == 1
-        if not taken or not alike or (len(taken) > 1 and role in _OF_ONE and not edit.roles):
+        each = "each" in edit.flags
+        alike = each or role in ("speed", "rate") or len({_size(out[i]) for i in taken}) == 1
+        if not taken or not alike or (len(taken) > 1 and role in _OF_ONE and not (edit.roles or each)):
             return None
         for i in taken:
             out[i] = _changed_to(out[i], role, number)
     return out
 
 
-def _to_side(steps: list[Step], left: bool, *, is_named: bool) -> list[Step] | None:
+def _to_side(steps: list[Step], left: bool, *, is_named: bool, goes_on: bool) -> list[Step] | None:
     """`Now to the right` after a slide, `now one to the right` after a figure: in the manner of the motion before."""
     if len(steps) == 1 and _is_sideways(steps[0]):
         return steps if _heads_left(steps[0]) == left else [flipped(steps[0])]
+    is_named |= goes_on and len(steps) == 1  # `and right`, after `turn left 30`
     return _mirrored(steps, left) if is_named else None
 
 

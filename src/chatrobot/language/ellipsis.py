@@ -14,6 +14,8 @@ from chatrobot.plan.steps import Drive, Step, Turn, Wait
 _SLIDING = frozenset({"no_turn", "sideways"})
 _MOST_M, _LEAST_DEG = 2.0, 5.0
 """A bare number is so many metres at most, and so many degrees at least."""
+_LEAST_MORE = 10.0
+"""Of a bare number below it, `three more`, nobody can tell whether it counts rounds or units."""
 _THE_SAME = ("the same", "do the same", "same", "likewise")
 
 
@@ -25,6 +27,8 @@ class State:
     direction: str = "forward"
     unit_m: float | None = None
     length: Atom | None = None
+    sizes: dict[str, float] = field(default_factory=dict)
+    """The side or the radius of the shape that was driven before, if all of them were alike, metres."""
     angle: Atom | None = None
     left: bool | None = None
     last: str = ""
@@ -127,6 +131,9 @@ def _with_unit(frame: Frame, state: State) -> Frame:
 
 def _meant_unit(frame: Frame, value: float, state: State) -> tuple[str, float] | None:
     """The dimension a bare number has in this frame, and the SI value of one of it."""
+    counts_rounds = "more" in frame.flags and not frame.moves and value < _LEAST_MORE
+    if counts_rounds and state.last in ("turn", "drive") and state.unit_m != 1.0:
+        raise Unclear("unclear_motion", frame.text)
     degrees = _means_degrees(frame, value)
     if "units_said" in frame.flags and not degrees:
         if frame.turning:
@@ -149,9 +156,10 @@ def _unit_by_sense(frame: Frame, value: float, state: State) -> tuple[str, float
         or set(frame.q) - {"number", "speed", "rate"}
     ):
         return None
-    if not any(map(str.isdecimal, frame.q["number"].text)):
-        return None  # written out, more may follow: 前进半…
-    if frame.verb in TURN and frame.sided and _LEAST_DEG <= value <= 1080:
+    turns = frame.verb in TURN and frame.sided
+    if not any(map(str.isdecimal, frame.q["number"].text)):  # written out, more may follow: 前进半…
+        return ("turns", 2 * math.pi) if turns and 0 < value < 0.5 else None  # `turn left by a quarter`
+    if turns and _LEAST_DEG <= value <= 1080:
         return "angle", math.radians(1.0)
     along = frame.direction in ("forward", "back") or (frame.verb == "slide" and frame.direction in SIDES)
     return ("length", 1.0) if along and 0 < value <= _MOST_M and not (state.unit_m or frame.flags) else None

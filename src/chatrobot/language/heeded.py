@@ -12,7 +12,7 @@ import bisect
 import itertools
 from collections.abc import Callable, Sequence
 
-from chatrobot.language.tokens import Atom, quantity
+from chatrobot.language.tokens import SILENT, Atom, quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Step
 
@@ -38,7 +38,6 @@ _DOINGS = frozenset({"uturn", "return", "face", "wait"})
 """Verbs that do something by themselves, and are no manner of doing something else."""
 _RETURNING = frozenset({"undo", "trip"})
 """What has a return in it already."""
-_LIGHT = frozenset({"filler", "glue", "sep", "conn", "reason"})
 _LONG = 40
 """So many amounts and directions are each asked about by themselves; it takes about a tenth of a second."""
 
@@ -79,7 +78,7 @@ def _check_clauses(
         return
     for before, end in itertools.pairwise(breaks):
         doing = {a.value for a in atoms[before + 1 : end] if a.kind == "verb"} & _DOINGS
-        others = [a for i, a in enumerate(atoms) if not before < i < end and a.kind not in _LIGHT]
+        others = [a for i, a in enumerate(atoms) if not before < i < end and a.kind not in SILENT]
         if not doing or not others or any(_changed(a, atoms) for a in atoms[before + 1 : end]):
             continue
         if any((a.kind == "verb" and a.value in doing) or a.value in _RETURNING for a in others):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import re
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
@@ -13,6 +14,7 @@ from chatrobot.language import forms, questions
 from chatrobot.language.acts import (
     MAYBE_ORDER,
     ORDER,
+    Read,
     order_log_odds,
     orders,
     read_acts,
@@ -28,9 +30,10 @@ from chatrobot.language.context import Context
 from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import defined_unit, with_known_counts, with_measured_things
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
+from chatrobot.language.last_motion import unit_after
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.likeliest import likeliest, proposed
-from chatrobot.language.meant import says_meant
+from chatrobot.language.meant import asked_by_remark, says_meant
 from chatrobot.language.names import misspelt_place, names_in
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
 from chatrobot.language.phrases import describe_plan, say
@@ -40,6 +43,7 @@ from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
 from chatrobot.language.rephrase import is_item, rephrased
 from chatrobot.language.sides import is_side, with_side
+from chatrobot.language.starting import without_hold
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import tokenise
 from chatrobot.language.tutorial_form import read_twists
@@ -83,7 +87,11 @@ class OfflineInterpreter:
             return self._ordered(text, language, context)
         except Unclear as problem:
             reading = Reading(language, context, self._profile)
-            asked = _did_you_mean(problem, text, reading) or self._likeliest(problem, text, reading)
+            asked = (
+                _did_you_mean(problem, text, reading)
+                or self._remarked(text, reading)
+                or self._likeliest(problem, text, reading)
+            )
             return replace(asked or asked_back(problem, language), corrects=says_meant(text))
 
     def with_manner(self, plan: Plan, said: str, context: Context) -> Plan | None:
@@ -92,6 +100,16 @@ class OfflineInterpreter:
         try:
             plain = rephrased(normalise(said), language)
             return with_manner(plan, plain, Reading(language, context, self._profile))
+        except Unclear:
+            return None
+
+    def _remarked(self, text: str, reading: Reading) -> Interpretation | None:
+        """What a remark on the turn before asks for, proposed: `oops`, `wrong way`."""
+        turns, order = reading.context.dialogue.turns, asked_by_remark(text, reading.language)
+        if not order or not turns or not turns[-1].moved:
+            return None
+        try:
+            return proposed(self._interpreted(order, reading.language, reading.context), reading.language)
         except Unclear:
             return None
 
@@ -104,7 +122,8 @@ class OfflineInterpreter:
             return read(part, replace(reading.context, dialogue=dialogue))
 
         names = names_in(reading.context)
-        return likeliest(normalise(text), names, reading.language, problem, read, read_anew)
+        unit = unit_after(reading.context)
+        return likeliest(normalise(text), names, reading.language, problem, read, read_anew, unit)
 
     def _ordered(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         """What is ordered. A plan that no clause orders is not driven; talk beside an order is passed over.
@@ -116,6 +135,9 @@ class OfflineInterpreter:
         told = answer_about_places(plain, language, context)
         if told is not None:
             return told
+        held = without_hold(plain, language)
+        if held and (found := proposed(self._ordered(held, language, context), language, code="held")):
+            return found
         names = names_in(context)
         reads = read_acts(plain, names)
         talk = talk_in(reads)
@@ -138,9 +160,25 @@ class OfflineInterpreter:
             raise
         if meant.outcome != "plan" or read_twists(plain):
             return meant
+        return self._surely_ordered(meant, plain, reads, language, context)
+
+    def _surely_ordered(
+        self,
+        meant: Interpretation,
+        plain: str,
+        reads: Sequence[Read],
+        language: LanguageCode,
+        context: Context,
+    ) -> Interpretation:
+        """The plan that was read; proposed only, or read without doubtful talk, where its clauses hardly order it.
+
+        Raises:
+            Unclear: where no clause orders anything.
+        """
         odds = order_log_odds(reads)
         if meant.corrects and context.dialogue.turns and context.dialogue.turns[-1].moved:
-            return meant  # `oops, I meant left`: it is said of what was done
+            # `Oops, I meant left`: it is said of what was done, as is `too far by half a metre`, which only tells.
+            return meant if odds >= ORDER or says_meant(text) else proposed(meant, language) or meant
         if odds < MAYBE_ORDER:
             raise Unclear("nothing_to_do")
         talk = talk_in(reads, doubtful=True)

@@ -12,7 +12,10 @@ from chatrobot.language.lexicon import cut, lexicon
 from chatrobot.language.normalise import normalise
 from chatrobot.language.tokens import quantity
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Drive, Step, Turn
+from chatrobot.plan.steps import Arc, Drive, Step, Turn
+
+_LEAST_SIDES = 3
+"""Fewer drives than that draw no shape."""
 
 
 def steps_of(record: TurnRecord | None) -> tuple[Step, ...]:
@@ -38,12 +41,24 @@ def said_unit_m(text: str) -> float | None:
     return units[-1] if units else None
 
 
+def unit_after(context: Context) -> str:
+    """The unit that a bare number most likely has after the last motion; an empty string where that tells none."""
+    state = state_after(context)
+    if state.last == "turn":
+        return "deg"
+    return {0.01: "cm", 1.0: "m"}.get(state.unit_m or 0.0, "")
+
+
 def state_after(context: Context) -> State:
     """What the last motion leaves for an ellipsis like `thirty more`."""
     last = context.dialogue.last_motion
     state = State(home=context.dialogue.start_pose if last is not None else None)
     if last is None or last.plan is None:
         return state
+    sides = [step.distance_m for step in last.plan.steps if isinstance(step, Drive) and step.distance_m]
+    radii = [step.radius_m for step in last.plan.steps if isinstance(step, Arc)]
+    drawn = ("side", sides, _LEAST_SIDES), ("radius", radii, 1)
+    state.sizes = {name: of[0] for name, of, least in drawn if len(set(of)) == 1 and len(of) >= least}
     for step in reversed(last.plan.steps):
         if isinstance(step, Drive):
             state.last = "drive"

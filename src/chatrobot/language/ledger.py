@@ -40,7 +40,7 @@ class TurnRecord:
 
     `executed` and `remaining` are the parts of the plan that were driven and were not, as measured. `lost` is the
     code of the reason why nobody can tell any more how the robot gets back to where the turn began. `program`: a
-    program drove, which the session keeps under that number; 0 for none.
+    program drove, which the session keeps under that number; 0 for none. `duration_s` is None where nobody timed it.
     """
 
     text: str
@@ -53,6 +53,7 @@ class TurnRecord:
     walk: Walk | None = None
     lost: str = ""
     program: int = 0
+    duration_s: float | None = None
 
     @property
     def way(self) -> Way:

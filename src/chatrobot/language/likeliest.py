@@ -20,7 +20,7 @@ from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.lexicon import cut, lexicon
 from chatrobot.language.phrases import describe_plan, say
-from chatrobot.language.signs import BINDING, DEPENDING, Clause, Names, Sign
+from chatrobot.language.signs import BINDING, DEPENDING, Clause, Names, Sign, clauses_of
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.text import format_plan
 
@@ -34,6 +34,8 @@ MOST_CLAUSES, MOST_PARTS = 12, 3
 """So many clauses are looked at one by one, and so many parts are left out of what is proposed."""
 FAR_M = 10.0
 """A bare number above that is no number of metres."""
+_ALONE = frozenset({"NUMBER", "FLAG"})
+"""Beside nothing else that moves a number stands alone: `and 45 more`."""
 _DECIMAL = re.compile(r"\d*\.?\d+")
 
 Reader = Callable[[str], Interpretation]
@@ -72,18 +74,25 @@ class _Rest:
 
 
 def likeliest(
-    plain: str, names: Names, language: LanguageCode, problem: Unclear, read: Reader, read_anew: Reader
+    plain: str,
+    names: Names,
+    language: LanguageCode,
+    problem: Unclear,
+    read: Reader,
+    read_anew: Reader,
+    unit: str = "",
 ) -> Interpretation | None:
     """What a normalised text most likely means, where `read` raised `problem`; None where it orders nothing.
 
     Either a plan, or a question that proposes one. `read_anew` reads as if nothing had been said before.
+    `unit` is the one that a bare number has after the motion before.
     """
     reads = read_acts(plain, names)
     best = order_log_odds(reads)
     if best < ORDER or len(reads) > MOST_CLAUSES:
         return None
     if problem.code == "no_unit":
-        return _with_unit(plain, problem.part, language, read)
+        return _with_unit(plain, problem.part, language, read, unit)
     rest = _Rest(plain, list(reads))
     # A question that a fact answers is not passed over for a motion, nor is the motion for it.
     odds = asides(reads) if problem.code != "question_beside" else {}
@@ -107,16 +116,16 @@ def likeliest(
 
 
 def proposed(
-    found: Interpretation, language: LanguageCode, left_out: Sequence[str] = ()
+    found: Interpretation, language: LanguageCode, left_out: Sequence[str] = (), *, code: str = "did_you_mean"
 ) -> Interpretation | None:
     """The question whether that is meant; None where there is nothing to do."""
     if found.plan is None:
         return None
-    ask = say(language, "did_you_mean", text=describe_plan(found.plan, language))
+    ask = say(language, code, text=describe_plan(found.plan, language))
     named = max(left_out, key=len, default="")
     reply = f"{say(language, 'left_out', part=named)} {ask}" if named else ask
     offer = Proposal(format_plan(found.plan), ask)
-    return Interpretation("unclear", reply, language, unaccounted=named, code="did_you_mean", proposal=offer)
+    return Interpretation("unclear", reply, language, unaccounted=named, code=code, proposal=offer)
 
 
 def _core(rest: _Rest, problem: Unclear, language: LanguageCode, read_anew: Reader) -> Interpretation | None:
@@ -156,12 +165,16 @@ def _relations() -> frozenset[str]:
     return frozenset(word for code in LANGUAGES for word in load_table(code, "relations").get("words", ()))
 
 
-def _with_unit(plain: str, number: str, language: LanguageCode, read: Reader) -> Interpretation | None:
-    """`Drive 50`: in metres, or in centimetres where that would be far."""
+def _with_unit(
+    plain: str, number: str, language: LanguageCode, read: Reader, unit: str
+) -> Interpretation | None:
+    """`Drive 50`: in metres, or in centimetres where that would be far; a number alone in the unit used before."""
     at = [found.start() for found in re.finditer(rf"(?<![a-z\d_.]){re.escape(number)}(?![a-z\d_.])", plain)]
     if len(at) != 1 or not _DECIMAL.fullmatch(number):
         return None
-    unit = "m" if float(number) <= FAR_M else "cm"
+    moving = (sign for clause in clauses_of(plain) for sign in clause.signs if sign.moves)
+    if not unit or any(sign.label not in _ALONE for sign in moving):
+        unit = "m" if float(number) <= FAR_M else "cm"
     end = at[0] + len(number)
     try:
         return proposed(read(f"{plain[:end]} {unit}{plain[end:]}"), language)

@@ -5,15 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import lru_cache
+from functools import cache, lru_cache
 
 from chatrobot.language.context import Context
-from chatrobot.language.corrections import MEANT, corrected
+from chatrobot.language.corrections import CORRECTING, MEANT, corrected
+from chatrobot.language.data_files import load_table
 from chatrobot.language.frames import GO, SIDES, TURN, Frame
 from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.normalise import normalise
 from chatrobot.language.quantities import read_quantities
+from chatrobot.language.resuming import saying
 from chatrobot.language.tokens import Atom, tokenise
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import taken_back
@@ -96,6 +98,18 @@ def is_correction(record: TurnRecord | None) -> bool:
     return record is not None and says_meant(record.text)
 
 
+def asked_by_remark(text: str, language: str) -> str:
+    """The order that a remark like `wrong way` most likely asks for; an empty string for anything else."""
+    return next((order for order, says in _remarks(language) if says(text)), "")
+
+
+@cache
+def _remarks(language: str) -> tuple[tuple[str, Callable[[str], bool]], ...]:
+    table = load_table(language, "remarks")
+    asks = table.get("asks", {})
+    return tuple((order, saying(words, table["beside"], language)) for order, words in asks.items())
+
+
 @lru_cache(maxsize=128)
 def says_meant(text: str) -> bool:
     """Whether `text` says what was meant instead, be it understood or not."""
@@ -103,4 +117,4 @@ def says_meant(text: str) -> bool:
         atoms: Sequence[Atom] = corrected(read_quantities(tokenise(normalise(text), lexicon(), {})))
     except Unclear:
         return False
-    return any((atom.kind, atom.value) == ("flag", MEANT) for atom in atoms)
+    return any(atom.kind == "flag" and atom.value in CORRECTING for atom in atoms)

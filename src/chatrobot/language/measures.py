@@ -129,12 +129,12 @@ def _multiply(found: Measures, part: Frame, name: str, value: float) -> None:
         found.times *= whole_number(value)
 
 
-def whole_number(value: float) -> int:
-    """How often, as a whole number.
+def whole_number(value: float, said: str = "") -> int:
+    """How often, as a whole number; `said` is how it was told.
 
     Raises:
         Unclear: where it is none, or more than a drawing can hold.
     """
     if not math.isfinite(value) or value != int(value) or not 1 <= value <= MAX_REPEAT / 10:
-        raise Unclear("bad_count", f"{value:g}")
+        raise Unclear("bad_count", said or f"{value:g}")
     return int(value)

@@ -155,6 +155,11 @@ def answer(topic: str, language: str, context: Context, profile: RobotProfile) -
         if state.obstacle_m is None:
             return say(language, "answer_obstacle_unknown")
         values["distance_m"] = state.obstacle_m
+    if topic == "duration":
+        last = context.dialogue.last_motion
+        if last is None or last.duration_s is None:
+            return say(language, "answer_duration_unknown")
+        values["duration_s"] = last.duration_s
     if topic == "moving":
         return say(language, "answer_moving" if state.moving else "answer_standing", **values)
     return say(language, f"answer_{topic}", **values)

@@ -68,7 +68,7 @@ def lists_lengths(frames: list[Frame], i: int) -> bool:
     frame = frames[i]
     if "count" not in frame.q or frame.has_extent:
         return False
-    count = int(frame.q["count"].number)
+    count = int(min(frame.q["count"].number, len(frames)))
     listed = frames[i + 1 : i + 1 + count]
     return len(listed) == count and all("length" in f.q and not f.verb for f in listed)
 

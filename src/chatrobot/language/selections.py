@@ -13,7 +13,8 @@ from typing import Any
 
 from chatrobot.language.context import Dialogue
 from chatrobot.language.data_files import load_table
-from chatrobot.language.tokens import Atom
+from chatrobot.language.measures import whole_number
+from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Step, Turn
 
@@ -24,8 +25,6 @@ _KINDS: dict[str, tuple[type[Step], ...]] = {
     "said": (Step,),
     "move": (Step,),
 }
-
-_SAYING_NOTHING = frozenset({"sep", "conn", "filler", "glue", "reason"})
 
 
 def selected(
@@ -45,25 +44,25 @@ def selected(
     if found is None:
         return None
     around = *atoms_of(plain[: found.start()]), *(after := atoms_of(plain[found.end() :]))
-    counts = [int(a.number) for a in around if (a.kind, a.value) == ("q", "times")]
-    silent = sum(a.kind in _SAYING_NOTHING for a in around) + len(counts) == len(around)
+    counts = [a for a in around if (a.kind, a.value) == ("q", "times")]
+    silent = sum(a.kind in SILENT for a in around) + len(counts) == len(around)
     if not silent or len(counts) > 1 or any(a.kind == "conn" for a in after):
         return None
     table, said = load_table(language, "selections"), found.groupdict(default="")
     kind = next((kind for kind, words in table["kinds"].items() if said.get("kind", "") in words), "step")
     units = _units(dialogue, kind)
-    ordinal, count = said.get("nth", ""), _number(said.get("count", ""), table) or 1
-    if (kind == "move" or not said.get("kind")) and (_number(ordinal, table), count) == (-1, 1):
+    at, count = _number(said, "nth", table), _number(said, "count", table) or 1
+    if (kind == "move" or not said.get("kind")) and (at, count) == (-1, 1):
         return None  # `the last move` is the whole of the last motion
-    if not ordinal:
-        chosen = units if said.get("all") or len(units) == 1 else []
-    else:
-        at = _number(ordinal, table) or 1
+    if at:
         first = at - 1 if at > 0 else len(units) + at - (count - 1 if at == -1 else 0)
         chosen = units[first : first + count] if 0 <= first <= len(units) - count else []
+    else:
+        chosen = units if said.get("all") or len(units) == count else []
     if not chosen:
         raise Unclear("nothing_before", plain)
-    return [step for unit in chosen for step in unit] * (counts or [1])[0]
+    times = whole_number(counts[0].number, counts[0].text) if counts else 1
+    return [step for unit in chosen for step in unit] * times
 
 
 def _units(dialogue: Dialogue, kind: str) -> list[list[Step]]:
@@ -74,9 +73,11 @@ def _units(dialogue: Dialogue, kind: str) -> list[list[Step]]:
     return [[step] for step in turns[-1] if isinstance(step, _KINDS[kind])]
 
 
-def _number(word: str, table: dict[str, Any]) -> int:
-    """The number of an ordinal or a count; 0 for none. The last is -1, the one before it -2."""
-    return int(word) if word.isdecimal() else int(table["numbers"].get(word, 0))
+def _number(said: dict[str, str], group: str, table: dict[str, Any]) -> int:
+    """The number of an ordinal (`nth`) or a count; 0 for none. The last is -1, the one before it -2."""
+    word = said.get(group, "")
+    named = {**table["numbers"], **(table["ordinals"] if group == "nth" else {})}
+    return int(word) if word.isdecimal() else int(named.get(word, 0))
 
 
 def names_a_part(plain: str, language: str) -> bool:
@@ -87,13 +88,14 @@ def names_a_part(plain: str, language: str) -> bool:
 @cache
 def _forms(language: str, name: str = "forms") -> tuple[re.Pattern[str], ...]:
     table = load_table(language, "selections")
-    parts = {
-        name: "|".join(sorted(words, key=len, reverse=True)) for name, words in table.get("parts", {}).items()
+    words = {
+        **table.get("parts", {}),
+        "kind": [word for words in table.get("kinds", {}).values() for word in words],
+        "ordinal": table.get("ordinals", ()),
+        "number": table.get("numbers", ()),
     }
-    parts["kind"] = "|".join(
-        sorted((w for words in table.get("kinds", {}).values() for w in words), key=len, reverse=True)
-    )
-    parts["number"] = "|".join([*sorted(table.get("numbers", {}), key=len, reverse=True), r"\d{1,2}"])
+    parts = {part: "|".join(sorted(named, key=len, reverse=True)) for part, named in words.items()}
+    parts["number"] += r"|\d{1,2}"
     return tuple(
         re.compile(re.sub(r"(?<!\?P)<(\w+)>", lambda m: f"(?:{parts[m[1]]})", form))
         for form in table.get(name, ())

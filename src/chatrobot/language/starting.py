@@ -1,10 +1,13 @@
-"""A bare `go` after a turn that was not done: it means what was said in that turn, and no motion of its own."""
+"""A bare `go`, which starts what was said before, and what is held back until then: `but don't do it yet`."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
+from functools import cache
 
 from chatrobot.language.context import Dialogue
+from chatrobot.language.data_files import load_table
 from chatrobot.language.frames import GO, Frame
 from chatrobot.language.unclear import Unclear
 
@@ -20,6 +23,17 @@ def check_start(frames: Sequence[Frame], dialogue: Dialogue) -> None:
     is_start = any(frame.verb for frame in frames) and all(_is_bare(frame) for frame in frames)
     if last is not None and not_done and is_start:
         raise Unclear("not_done_before", last.text[:60])
+
+
+def without_hold(plain: str, language: str) -> str:
+    """A normalised text without what holds it back; an empty string where nothing does."""
+    rest = _held(language).sub("", plain)
+    return rest.strip(" ,.;:!") if rest != plain else ""
+
+
+@cache
+def _held(language: str) -> re.Pattern[str]:
+    return re.compile(load_table(language, "starting")["held"])
 
 
 def _is_bare(frame: Frame) -> bool:

@@ -19,6 +19,10 @@ _WORD, _GUESS, _UNKNOWN = 1.0, 2.2, 6.0
 _HEARD, _NAMED = 0.8, -0.1
 
 
+SILENT = frozenset({"sep", "conn", "filler", "glue", "reason"})
+"""Kinds of atoms that say nothing by themselves about what is to be done."""
+
+
 class Atom(NamedTuple):
     """A word and what it means. `value` is the key of the data files.
 

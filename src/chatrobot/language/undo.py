@@ -11,7 +11,6 @@ from chatrobot.language.frames import Frame
 from chatrobot.language.inverse import inverse
 from chatrobot.language.ledger import Walk, Way
 from chatrobot.language.manner import Pace
-from chatrobot.language.numbers import is_chinese
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.lowering import ideal_end
 from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, Repeat, Step, Turn
@@ -65,10 +64,14 @@ def undone(whole: Frame, context: Context, profile: RobotProfile, *, turning: bo
     counts = [whole.q[name] for name in ("number", "count", "times") if name in whole.q]
     both = any(text.split()[-1] in ("both", "two") for text in whole.texts)
     count = counts[0].number if counts else 2.0 if both else 1.0
-    if count != int(count) or count < 1 or set(whole.q) - {"number", "count", "times"} - PACES:
+    if (
+        not 1 <= count < math.inf
+        or count != int(count)
+        or set(whole.q) - {"number", "count", "times"} - PACES
+    ):
         raise Unclear("unclear_motion", whole.text)
     turns: int | list[Step] = int(count)
-    if counts and counts[0].role == "step" and is_chinese(counts[0].text):
+    if "last_step" in whole.flags or (counts and counts[0].role == "step"):
         turns = _last_steps(int(count), context, whole.text)
     if not isinstance(turns, int):
         taken_back(context, profile, 1)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 
 from chatrobot.language.arrange import arranged
+from chatrobot.language.ellipsis import State
 from chatrobot.language.frames import SIDES, STILL, TURN, Frame
 from chatrobot.language.joining import is_times_only, merged
 from chatrobot.language.manner import Pace
@@ -27,8 +28,12 @@ from chatrobot.language.repeats import (
 )
 from chatrobot.language.script import Memory, Script, act_out, count_of
 from chatrobot.language.shapes import draw
+from chatrobot.language.tokens import quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Step
+
+_ROLE = {**dict.fromkeys(("square", "triangle", "polygon", "star"), "side"), "circle": "radius"}
+"""The one measure of a shape whose sides are all as long."""
 
 
 def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
@@ -40,8 +45,7 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
     frames = arranged(frames)
     _check_amounts(frames)
     _check_opener(frames)
-    if frames and frames[0].verb in TURN and not frames[0].q.keys() & {"length", "radius", "speed"}:
-        frames[0].flags.discard("while")  # `meanwhile turn left`: beside nothing that is said
+    _check_beside(frames)
     legs = paced_legs(frames, pace)
     if legs is not None:
         return legs
@@ -57,6 +61,23 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
         raise Unclear("nothing_to_do")
     _check_unsaid(script.state.unsaid, frames)
     return steps
+
+
+def _check_beside(frames: list[Frame]) -> None:
+    """`Meanwhile turn left` alone is a turn; `while turning left, …` is none before what comes.
+
+    Raises:
+        Unclear: where a turn is said to be beside something, and is joined with no motion.
+    """
+    for frame in frames:
+        if (
+            "while" in frame.flags
+            and frame.verb in TURN
+            and not frame.q.keys() & {"length", "radius", "speed"}
+        ):
+            if len(frames) > 1:
+                raise Unclear("unclear_motion", frame.text)
+            frame.flags.discard("while")
 
 
 def _check_unsaid(unsaid: list[Frame], frames: list[Frame]) -> None:
@@ -77,6 +98,9 @@ def _check_amounts(frames: list[Frame]) -> None:
     for last, frame in itertools.pairwise(frames):
         if _is_second_angle(last, frame):
             raise Unclear("contradiction", f"{last.text} {frame.text}")
+        angle_back = set(last.q) & {"angle", "turns"} and not last.moves and frame.direction == "back"
+        if angle_back and frame.joined == "none":  # `10 degrees back` after a drive
+            raise Unclear("unclear_motion", f"{last.text} {frame.text}")
         bare = not (frame.q or frame.shape or frame.place or frame.rot or frame.words or frame.flags)
         plain = frame.verb in ("", "go") and bool(frame.direction) and frame.direction not in SIDES
         if bare and plain and frame.joined == "weak" and "length" in last.q and last.verb in ("", "go"):
@@ -97,6 +121,13 @@ def _check_opener(frames: list[Frame]) -> None:
     Raises:
         Unclear: where it is the only side named so.
     """
+    sides = {
+        frame.direction for frame in frames if len(frame.texts) == 1 and frame.joined in ("start", "weak")
+    }
+    if len(frames) == 2 and sides == set(SIDES) and not any(f.verb or f.q for f in frames):
+        raise Unclear(
+            "unclear_motion", ", ".join(f.text for f in frames)
+        )  # `left, right …`: named, or turned to?
     if len(frames) < 2 or frames[0].texts != ["right"] or frames[0].q or frames[1].joined != "weak":
         return
     named = [frame for frame in frames if frame.direction in SIDES and not (frame.verb or frame.has_extent)]
@@ -161,12 +192,32 @@ def _trips(script: Script, frames: list[Frame], i: int) -> int | None:
 def _shape(script: Script, frames: list[Frame], i: int) -> int | None:
     if not frames[i].shape:
         return None
+    frames = _sized_as_before(frames, i, script.state)
     end, steps = draw(frames, i, script.pace)
     after = frames[end] if end < len(frames) else None
     if script.units and after is not None and is_repetition(after) and not repeats_all(after):
         raise Unclear("unclear_motion", after.text)  # the shape, or all of it?
     script.add(steps)
     return end
+
+
+def _sized_as_before(frames: list[Frame], i: int, state: State) -> list[Frame]:
+    """`The same but a triangle`: with the sides of what was driven before.
+
+    Raises:
+        Unclear: where that had none.
+    """
+    frame = frames[i]
+    if not frame.flags & {"again", "same_way"} or any("length" in other.q for other in frames[i:]):
+        return frames
+    role = _ROLE.get(frame.shape.split("_")[0], "")
+    if role not in state.sizes:
+        raise Unclear("which_size", frame.text)
+    sized = frame.copy()
+    sized.q["length"] = quantity("length", state.sizes[role], role)
+    sized.roles.append(role)
+    sized.flags -= {"again", "same_way"}
+    return [*frames[:i], sized, *frames[i + 1 :]]
 
 
 def _repeat(script: Script, frames: list[Frame], i: int) -> int | None:

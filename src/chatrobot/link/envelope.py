@@ -25,6 +25,10 @@ Word = Literal[
     "beat",
     "plan",  # {"plan_text", "mode", "more": bool, "approve": bool, "rehearse_only": bool, "longest_s": …}
     "look",  # asks for a `looked` event of this turn
+    "watch",  # {"scans": bool}: a display wants `scan` events, or no more
+    # {"vx_mps", "vy_mps", "wz_radps"}: a person's stick as it is held now, said anew many times a second while it is;
+    # a zero, also one that is left out, lets go
+    "steer",
     # {"code", "name", "remap": {from: to}, "args": [text], "mode", "approve", "ask_findings", "strict",
     # "rehearse_only"}
     "program",
@@ -61,6 +65,14 @@ def _seconds(*, with_zero: bool) -> _Check:
         return is_number and (value >= 0.0 if with_zero else value > 0.0) and value < math.inf  # type: ignore[operator]
 
     return is_seconds
+
+
+_MOST_ASKED = 1e6
+
+
+def _is_speed(value: object) -> bool:
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    return is_number and -_MOST_ASKED <= value <= _MOST_ASKED  # type: ignore[operator]
 
 
 def _is_limit(value: object) -> bool:
@@ -115,6 +127,8 @@ PAYLOADS: Mapping[str, Mapping[str, _Check]] = {
     "beat": {**_GREETING, "age_s": _seconds(with_zero=True)},
     "plan": {**_GOAL, "plan_text": _text(), "more": _is_flag, "longest_s": _seconds(with_zero=False)},
     "look": {},
+    "watch": {"scans": _is_flag},
+    "steer": {"vx_mps": _is_speed, "vy_mps": _is_speed, "wz_radps": _is_speed},
     "program": {
         **_GOAL,
         "code": _text(MAX_CODE_CHARS),

@@ -6,6 +6,7 @@ import itertools
 import math
 import queue
 import uuid
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -24,6 +25,9 @@ class MotionLink(Protocol):
     beats: bool = True
     is_simulated: bool = False
     """Time passes only while somebody waits for an event."""
+    age_s: Callable[[], float] = staticmethod(lambda: 0.0)
+    """How long ago whoever gives the orders was heard, where that is somebody else than this process: beats carry it,
+    so that Motion slows and stops the robot for a person who is gone as it does for a process that is."""
     is_lost: bool = False
     """Motion is gone, and we did not ask it to go."""
 
@@ -49,6 +53,18 @@ class MotionLink(Protocol):
 
     def close(self) -> None:
         """Say goodbye, let what is queued be done, and end. Closing twice does no harm."""
+        ...
+
+
+class SecondLinks(Protocol):
+    """A link that makes room for another client."""
+
+    def second(self, source: str) -> MotionLink:
+        """Return a link of another client, an agent, to the same Motion.
+
+        Raises:
+            LinkError: there was one already, or Motion is gone.
+        """
         ...
 
 

@@ -19,10 +19,14 @@ SIMULATED = ("auto", "sim")
 
 @dataclass
 class MotionProcess:
-    """Motion in a session of its own, so that no terminal signal reaches it, and our end of the line to it."""
+    """Motion in a session of its own, so that no terminal signal reaches it, and our ends of the lines to it.
+
+    `line` is a person's; an agent may speak on `second_line`.
+    """
 
     process: subprocess.Popen[bytes]
     line: socket.socket
+    second_line: socket.socket | None = None
 
     @classmethod
     def start(
@@ -35,16 +39,22 @@ class MotionProcess:
         open_loop: bool = False,
     ) -> MotionProcess:
         """`budget` is the motion budget as the command line chose it, `open_loop` that it chose open loop."""
-        return cls(
-            *spawn_with_line(
-                "chatrobot.motion.process",
-                *("--profile", profile, "--world", world, "--wire", wire),
-                *("--max-distance", limit_text(budget.max_distance_m)),
-                *("--max-time", limit_text(budget.max_time_s)),
-                *("--open-loop", "yes" if open_loop else ""),
-                kind=socket.SOCK_SEQPACKET,
-            )
+        process, lines = spawn_with_lines(
+            "chatrobot.motion.process",
+            *("--profile", profile, "--world", world, "--wire", wire),
+            *("--max-distance", limit_text(budget.max_distance_m)),
+            *("--max-time", limit_text(budget.max_time_s)),
+            *("--open-loop", "yes" if open_loop else ""),
+            kind=socket.SOCK_SEQPACKET,
+            count=2,
         )
+        return cls(process, *lines)
+
+    def close(self) -> None:
+        """Close our ends of the lines."""
+        for line in (self.line, self.second_line):
+            if line is not None:
+                line.close()
 
 
 @dataclass
@@ -74,7 +84,7 @@ class Processes:
         """Nobody needs them: nothing has been asked of them, so nothing moves."""
         self.motion.process.kill()
         self.robot.terminate()
-        self.motion.line.close()
+        self.motion.close()
 
 
 def spawn(module: str, *arguments: str, pass_fds: Sequence[int] = ()) -> subprocess.Popen[bytes]:
@@ -95,7 +105,19 @@ def spawn_with_line(
     module: str, *arguments: str, kind: socket.SocketKind
 ) -> tuple[subprocess.Popen[bytes], socket.socket]:
     """The same with a line to talk over: our end of a socket pair. The child is told its own by `--fd`."""
-    ours, theirs = socket.socketpair(socket.AF_UNIX, kind)
-    with theirs:
-        number = theirs.fileno()
-        return spawn(module, *arguments, "--fd", str(number), pass_fds=(number,)), ours
+    process, (line,) = spawn_with_lines(module, *arguments, kind=kind, count=1)
+    return process, line
+
+
+def spawn_with_lines(
+    module: str, *arguments: str, kind: socket.SocketKind, count: int
+) -> tuple[subprocess.Popen[bytes], list[socket.socket]]:
+    """The same with several lines: `--fd 5,6`."""
+    pairs = [socket.socketpair(socket.AF_UNIX, kind) for _ in range(count)]
+    numbers = [theirs.fileno() for _, theirs in pairs]
+    try:
+        told = ",".join(map(str, numbers))
+        return spawn(module, *arguments, "--fd", told, pass_fds=numbers), [ours for ours, _ in pairs]
+    finally:
+        for _, theirs in pairs:
+            theirs.close()

@@ -37,7 +37,25 @@ class SocketLink(EventQueue, MotionLink):
         super().__init__()
         self._sender = Sender(source)
         self._closed = threading.Event()
-        self.process, self._line = motion.process, motion.line
+        self._is_second = False
+        self._motion, self._line = motion, motion.line
+        self.process = motion.process
+
+    def second(self, source: str) -> SocketLink:
+        """Return a link of another client, an agent, to the same Motion, which is ready. There is one at a time.
+
+        Raises:
+            LinkError: there was one already.
+        """
+        line, self._motion.second_line = self._motion.second_line, None
+        if line is None:
+            raise LinkError(
+                "this robot's second line is taken: end its session and start again to get another"
+            )
+        link = SocketLink(MotionProcess(self.process, line), source)
+        link._is_second = True
+        link._begin()
+        return link
 
     def wait_until_ready(self) -> None:
         """Block until Motion has its robot and its guard; then begin to beat."""
@@ -55,6 +73,9 @@ class SocketLink(EventQueue, MotionLink):
                 else f"Motion runs link protocol {protocol}, this process {PROTOCOL}:"
                 " install the same version of chatrobot on both sides"
             )
+        self._begin()
+
+    def _begin(self) -> None:
         self._line.settimeout(None)
         self.send("hello", term_s=LOCAL_TERM_S, process=own_identity())
         threading.Thread(target=self._beat, name="beat", daemon=True).start()
@@ -78,9 +99,13 @@ class SocketLink(EventQueue, MotionLink):
         with contextlib.suppress(LinkError):
             self.send("goodbye")
         self._closed.set()
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            self.process.wait(END_TIMEOUT_S)
-        self._line.close()
+        if self._is_second:
+            with contextlib.suppress(OSError):
+                self._line.shutdown(socket.SHUT_RDWR)  # ends our reader; what was queued is still done
+        else:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self.process.wait(END_TIMEOUT_S)
+        self._motion.close()
 
     def _beat(self) -> None:
         wake_promptly()
@@ -90,7 +115,7 @@ class SocketLink(EventQueue, MotionLink):
             next_s = max(next_s + period_s, time.monotonic())
             try:
                 if self.beats:
-                    self.send("beat")
+                    self.send("beat", age_s=self.age_s())
             except LinkError:
                 return
 

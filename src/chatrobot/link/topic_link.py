@@ -124,7 +124,7 @@ class TopicLink(EventQueue, MotionLink):
         age_s: Callable[[], float] = lambda: 0.0,
     ) -> None:
         super().__init__()
-        self._age_s = age_s
+        self.age_s = age_s
         self._process = own_identity()
         self._wire = wire
         self._sender = Sender(source)
@@ -235,7 +235,7 @@ class TopicLink(EventQueue, MotionLink):
             next_s = max(next_s + self._period_s, now_s)
             if self.beats:
                 with contextlib.suppress(LinkError):
-                    self.send("beat", term_s=self._term_s, process=self._process, age_s=self._age_s())
+                    self.send("beat", term_s=self._term_s, process=self._process, age_s=self.age_s())
             if now_s - last_s > FROZEN_S:
                 self._controls = dict.fromkeys(self._controls, now_s)
             last_s = now_s

@@ -29,13 +29,13 @@ class LocalServer:
     models: tuple[str, ...]
 
 
-def find_local(config: ModelConfig, *, timeout_s: float = PROBE_S) -> list[LocalServer]:
+def find_local(config: ModelConfig) -> list[LocalServer]:
     """Return every model server on loopback that answers in time, in the order of our table."""
     addresses = {name: providers()[name].address(config) for name in _LOCAL if name in providers()}
     found: dict[str, LocalServer] = {}
 
     def probe(name: str, address: str) -> None:
-        models = _listed(urlsplit(address), "/models", {}, timeout_s)
+        models = _listed(urlsplit(address), "/models", {}, PROBE_S)
         if models:
             found[name] = LocalServer(name, address, models)
 
@@ -47,7 +47,7 @@ def find_local(config: ModelConfig, *, timeout_s: float = PROBE_S) -> list[Local
     for thread in threads:
         thread.start()
     for thread in threads:
-        thread.join(2 * timeout_s)
+        thread.join(2 * PROBE_S)
     return [found[name] for name in addresses if name in found]
 
 

@@ -178,21 +178,20 @@ class LibraryModel:
 
     async def _produce(self, messages: Sequence[Message], limits: CallLimits, sink: StreamedReply) -> None:
         place = await self._find_place()
-        try:
-            self._build(place)
-            sink.begin()
+        may_be_lost = self._conversation
+        while True:
             try:
+                self._build(place)
+                sink.begin()
                 await self._stream(messages, limits, sink, place)
-            except Exception as error:  # of any provider: its conversation knows the one that is tried again
-                if self._conversation is None or not self._conversation.is_lost(error):
-                    raise
-                await self._stream(messages, limits, sink, place)
-        except ModelError:
-            raise
-        except Exception as error:  # noqa: BLE001 - a hostile reply may make the library raise anything
-            reason = reason_of(error, place)
-        else:
-            return
+                return
+            except ModelError:
+                raise
+            except Exception as error:  # noqa: BLE001 - a hostile reply may make the library raise anything
+                if may_be_lost is None or not may_be_lost.is_lost(error):
+                    reason = reason_of(error, place)
+                    break
+                may_be_lost = None  # a conversation that the server has forgotten is begun anew, once
         raise ModelError(reason)  # out here, so that no provider's error with its headers hangs on to it
 
     async def _stream(

@@ -11,6 +11,7 @@ from urllib.parse import urlsplit
 
 import httpx2
 
+from chatrobot.models.discovery import LOOPBACK
 from chatrobot.models.seam import CallLimits
 
 CONNECT_S = 10.0
@@ -21,7 +22,6 @@ BYTES_PER_CHAR = 100
 SPARE_BYTES = 262_144
 reply_bytes: ContextVar[int] = ContextVar("reply_bytes")
 """How many bytes the reply of the call under way may have."""
-LOOPBACK = frozenset({"127.0.0.1", "localhost", "::1"})
 
 
 class TooManyBytesError(Exception):

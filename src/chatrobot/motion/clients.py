@@ -1,10 +1,4 @@
-"""Who may command the robot: clients by envelopes, under leases; other programs by velocities on a topic.
-
-Whoever publishes `cmd_vel` (Nav2) may be started with `-r cmd_vel:=chatrobot/cmd_vel`: then limits, obstacles, stop and
-guard hold for it, too. It comes last: a plan takes its place, and after a stop or a plan it has to let go (send zero,
-or nothing for a moment) before it drives again. A joystick has a topic of its own: it comes first, takes command from
-whatever drives, and lets go by itself once it has asked for nothing for a moment.
-"""
+"""Who may command the robot: clients that speak by envelopes, under leases that they keep."""
 
 from __future__ import annotations
 
@@ -12,14 +6,11 @@ import math
 from collections.abc import Callable
 from itertools import islice
 
-from chatrobot.core.clock import LOCAL_TERM_S, TERM_S, Clock
-from chatrobot.core.geometry import Twist
+from chatrobot.core.clock import LOCAL_TERM_S
 from chatrobot.core.process import watch_process
 from chatrobot.core.reason import Reason
 from chatrobot.governor.lease import Leases
 from chatrobot.link.envelope import PROTOCOL, Envelope, other_protocol, protocol_of, seconds
-from chatrobot.motion.governed_robot import GovernedRobot
-from chatrobot.wire.messages import TwistMessage
 
 LONGEST_TERM_S = 1.0
 """No source may be silent for longer than this, whatever term it asks for."""
@@ -49,7 +40,6 @@ class Clients:
         self._leaving: set[str] = set()
         self._strangers: dict[str, int] = {}
         """The protocol of each lease whose half speaks another than we do."""
-        self._some_have_left = False
 
     def note(self, lease: str, now_s: float) -> None:
         """Note that something came in its name. With one too many, forget those that are gone."""
@@ -100,13 +90,11 @@ class Clients:
         """Take a goodbye: what is queued is still done, without beats."""
         self._leases.entrust(lease)
         self._leaving.add(lease)
-        self._some_have_left = True
 
     def lose(self, lease: str) -> None:
         """Do nothing more in the name of a source that is gone without a goodbye. From any thread."""
         self._leases.end(lease)
         self._leaving.add(lease)
-        self._some_have_left = True
 
     def has_left(self, lease: str) -> bool:
         """Return whether no beat of it is waited for any more: what it says now could never lapse."""
@@ -119,107 +107,6 @@ class Clients:
         protocol = self._strangers.get(envelope.lease, PROTOCOL)
         return None if protocol == PROTOCOL else other_protocol(motion=PROTOCOL, dialogue=protocol)
 
-    @property
-    def some_have_left(self) -> bool:
-        """True once a source has left or was lost."""
-        return self._some_have_left
-
     def _was_there_before_us(self, envelope: Envelope) -> bool:
         """Its hello went by before we listened; it names its term with what it says."""
         return "term_s" in envelope.payload and not self._leases.is_known(envelope.lease)
-
-
-_NEVER = -1e9
-
-
-class CmdVelInput:
-    """Lets velocities from a topic through the governor. All but `hear` belongs to the control thread.
-
-    Args:
-        source: in whose name it drives, which is also its lease; it decides before whom it goes.
-        takes_over: called before it takes command.
-        on_end: called when the robot was driven and is to stand now.
-        tell: hears why it may not be driven.
-    """
-
-    def __init__(
-        self,
-        source: str,
-        clock: Clock,
-        robot: GovernedRobot,
-        takes_over: Callable[[], None],
-        on_end: Callable[[], None],
-        tell: Callable[[Reason], None],
-    ) -> None:
-        self._lease = source
-        self._takes_over = takes_over
-        self._clock = clock
-        self._robot = robot
-        self._on_end = on_end
-        self._tell = tell
-        self._heard = (_NEVER, Twist())
-        self._moved_at_s = _NEVER
-        self._has_to_let_go = False
-        self.is_driving = False
-
-    def hear(self, message: TwistMessage) -> None:
-        """Take a velocity that somebody asks for: held for as long as a lease is, governed anew with every tick."""
-        now_s, twist = self._clock.now_s(), Twist(*message)
-        if twist.is_zero or now_s - self._heard[0] > TERM_S:
-            self._has_to_let_go = False
-        self._heard = (now_s, twist)
-
-    def stop(self) -> None:
-        """Count nothing that was heard before: the robot has been stopped."""
-        self._has_to_let_go = True
-
-    def tick(self, now_s: float, is_free: Callable[[], bool]) -> None:
-        """Do one period; `is_free`: nothing of ours drives, waits or stops the robot."""
-        at_s, twist = self._heard
-        is_asked = now_s - at_s <= TERM_S
-        if is_asked and not is_free():
-            self._has_to_let_go = True
-        if not twist.is_zero:
-            self._moved_at_s = at_s
-        may_drive = is_asked and not self._has_to_let_go and now_s - self._moved_at_s <= TERM_S
-        if self.is_driving and not may_drive:
-            self._end()
-        elif not self.is_driving and may_drive and not twist.is_zero:
-            self._begin(now_s, is_free)
-        if self.is_driving:
-            self._drive(twist, at_s, now_s)
-
-    def _begin(self, now_s: float, is_free: Callable[[], bool]) -> None:
-        self._robot.governor.leases.open(self._lease, self._lease, TERM_S, now_s)
-        refusal = self._robot.fault()
-        if refusal is None:
-            self._takes_over()
-            refusal = self._robot.begin(self._lease, now_s)
-        if refusal is not None:
-            self._has_to_let_go = True
-            self._tell(refusal)
-            self._on_end()  # whoever drove until now has been told that it is over
-        elif not is_free():  # stopped a moment ago, from another thread: command was taken after it
-            self._has_to_let_go = True
-            self._robot.governor.end(self._lease)
-        self.is_driving = not self._has_to_let_go
-
-    def _drive(self, twist: Twist, at_s: float, now_s: float) -> None:
-        fault = self._robot.fault()
-        if fault is not None:
-            self._has_to_let_go = True
-            self._tell(fault)
-            self._end()
-            return
-        self._robot.governor.leases.beat(self._lease, at_s)
-        verdict = self._robot.govern(twist, self._lease, now_s)
-        if verdict.action == "refused":
-            self._has_to_let_go = True
-            self._end()
-        else:
-            self._robot.send(verdict)
-
-    def _end(self) -> None:
-        self.is_driving = False
-        self._robot.governor.end(self._lease)
-        self._on_end()

@@ -21,13 +21,16 @@ from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.motion.safety.stop import Stops
 from chatrobot.motion.safety.watchdog import Interlock
 
+_COUNTED_APART = ("beat", "steer")
+"""Said by threads of their own, many times a second."""
+
 
 class GoalQueue:
     """Keeps goals in their order, and who may still join them. Any thread may call `void_turn` and `pause`."""
 
     def __init__(self) -> None:
         self.goals: deque[Goal] = deque()
-        self._sequences: dict[tuple[str, bool], int] = {}
+        self._sequences: dict[tuple[str, str], int] = {}
         self._void_turns: dict[str, int] = {}
         self._pauses: dict[str, int] = {}
 
@@ -47,12 +50,12 @@ class GoalQueue:
         """Forget that lease."""
         self._void_turns.pop(lease, None)
         self._pauses.pop(lease, None)
-        for is_beat in (True, False):
-            self._sequences.pop((lease, is_beat), None)
+        for word in ("", *_COUNTED_APART):
+            self._sequences.pop((lease, word), None)
 
     def is_old(self, envelope: Envelope) -> bool:
-        """Return whether a later one of the same lease was here before. Beats, sent by a thread, count apart."""
-        kind = (envelope.lease, envelope.word == "beat")
+        """Return whether a later one of the same lease was here before. What other threads send counts apart."""
+        kind = (envelope.lease, envelope.word if envelope.word in _COUNTED_APART else "")
         if envelope.sequence <= self._sequences.get(kind, -1):
             return True
         self._sequences[kind] = envelope.sequence

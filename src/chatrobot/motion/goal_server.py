@@ -10,7 +10,7 @@ from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Finished, Notice, Outcome
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
-from chatrobot.governor.lease import Priority
+from chatrobot.governor.lease import Priority, priority_of
 from chatrobot.link.envelope import Envelope
 from chatrobot.link.motion_link import Approval
 from chatrobot.motion.budgets import Budgets
@@ -273,14 +273,16 @@ class GoalServer:
     # --- approved ---
 
     def approve(self, envelope: Envelope) -> None:
-        """Take a person's answer to what was rehearsed in that turn."""
+        """Take a person's answer to what was rehearsed in that turn. An agent withdraws its own at most."""
         goal = self._preparing
         if goal is None or goal.approval is None or goal.turn != envelope.turn:
             return
         is_a_persons = self._robot.governor.leases.priority_of(goal.lease) >= Priority.PLAN
-        if is_a_persons and goal.lease != envelope.lease:
+        is_own, yes = goal.lease == envelope.lease, bool(envelope.payload.get("yes"))
+        if is_a_persons and not is_own:
             return  # another person was asked, about another plan that happens to have this number
-        yes = bool(envelope.payload.get("yes"))
+        if priority_of(envelope.source) < Priority.PLAN and (yes or not is_own):
+            return
         lapse = goal.approval.lapsed(self._clock.now_s(), self._robot.pose)
         if not yes or lapse is not None:
             self._drop_prepared("refused", lapse or Reason("not_approved"))

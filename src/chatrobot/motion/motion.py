@@ -13,27 +13,24 @@ from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Looked, Notice
 from chatrobot.core.governed import StopEpoch
 from chatrobot.core.reason import Reason
-from chatrobot.core.wiring import CMD_VEL_INPUT_TOPIC, JOYSTICK_TOPIC
 from chatrobot.execution.sensors import Sensors
 from chatrobot.governor.governor import Governor
-from chatrobot.governor.lease import RELEASERS, Priority, priority_of
+from chatrobot.governor.lease import RELEASERS
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.budgets import Budgets, open_loop_notice
-from chatrobot.motion.clients import Clients, CmdVelInput
+from chatrobot.motion.clients import Clients
 from chatrobot.motion.goal_queue import GoalQueue, Inbox, OutcomeQueue, Pausing
 from chatrobot.motion.goal_server import GoalServer
-from chatrobot.motion.governed_robot import GovernedRobot, TelemetryPublisher, sectors_m
+from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.execution import NoSandbox, ProgramSandbox
+from chatrobot.motion.relayed_velocities import RelayedVelocities
 from chatrobot.motion.safety.stop import PAUSED, StopConfirmation, Stops, WireTransport
 from chatrobot.motion.safety.watchdog import GuardLink, Interlock, StallDetector
+from chatrobot.motion.telemetry import ScanPublisher, TelemetryPublisher, sectors_m
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.wire.messages import TwistMessage
 from chatrobot.wire.wire import Wire
-
-JOYSTICK = "joystick"
-"""The source in whose name a joystick drives."""
 
 
 class Motion:
@@ -85,14 +82,13 @@ class Motion:
         self.goals = GoalServer(
             robot, queue, self._executor, planner, programs, self._budgets, stops, inbox, clock, pausing, outcomes, emit
         )  # fmt: skip
-        cmd_vel, stand, tell = CMD_VEL_INPUT_TOPIC, self.see_it_stand, self._notice
-        other_drove = Reason("other_drove", {"source": cmd_vel})
-        self._cmd_vel = CmdVelInput(cmd_vel, clock, robot, lambda: pausing.drop(other_drove), stand, tell)
-        self._joystick = CmdVelInput(
-            JOYSTICK, clock, robot, lambda: self.goals.hand_over(JOYSTICK), stand, tell
-        )
+        self._relayed = RelayedVelocities(
+            robot, self._clients, self.goals, pausing, stops, self.stop_confirmation, self.interlock, clock,
+            self._notice,
+        )  # fmt: skip
         self._stall_detector = StallDetector(clock, guard, self.halt)
         self._telemetry = TelemetryPublisher(self.sensors, self._executor.progress, emit)
+        self._scans = ScanPublisher(profile.lidar, self.sensors, self._governor.leases, emit)
         self._emergency: Envelope | None = None
 
     # --- from any thread -------------------------------------------------------------------------------------
@@ -139,8 +135,21 @@ class Motion:
 
     def lose(self, lease: str) -> None:
         """Stop: the source behind `lease` is gone without a goodbye."""
-        self.halt(Reason("source_lost", {"source": self._governor.leases.source_of(lease)}))
+        self.halt(self._lost(lease))
         self._clients.lose(lease)
+
+    def lose_second(self, lease: str) -> None:
+        """End what is done for the source behind `lease`, which is gone without a goodbye; others go on."""
+        self._clients.lose(lease)
+
+        def end() -> None:
+            if self.goals.is_engaged(lease):  # then nothing of anybody who goes before it drives or waits
+                self.halt(self._lost(lease))
+
+        self.post(end)
+
+    def _lost(self, lease: str) -> Reason:
+        return Reason("source_lost", {"source": self._governor.leases.source_of(lease)})
 
     # --- control thread --------------------------------------------------------------------------------------
 
@@ -148,8 +157,7 @@ class Motion:
         """Listen to the robot and shake hands with the guard."""
         self.sensors.attach(wire)
         self._programs.attach(wire)
-        wire.subscribe(CMD_VEL_INPUT_TOPIC, TwistMessage, self._cmd_vel.hear)
-        wire.subscribe(JOYSTICK_TOPIC, TwistMessage, self._joystick.hear)
+        self._relayed.listen(wire)
         self._guard.handshake()
         if (open_loop := open_loop_notice(self._profile)) is not None:
             self._notice(open_loop)
@@ -176,11 +184,6 @@ class Motion:
         """Return the emergency stop that has not been released."""
         return self._governor.latched
 
-    @property
-    def has_left(self) -> bool:
-        """True once a source has gone, and all is done."""
-        return self._clients.some_have_left and not self.is_busy
-
     def see_it_stand(self) -> None:
         """Send zeros until the robot stands: nobody knows what it has heard last."""
         self.stop_confirmation.begin(self._clock.now_s())
@@ -199,7 +202,7 @@ class Motion:
         now_s = self._clock.now_s()
         late_s = self._stall_detector.tick(
             now_s,
-            is_driven=self._executor.is_driving or self._cmd_vel.is_driving or self._joystick.is_driving,
+            is_driven=self._executor.is_driving or self._relayed.are_driving,
             is_engaged=self.goals.current is not None,
         )
         self._governor.leases.note_held_up(late_s)
@@ -209,7 +212,7 @@ class Motion:
             action()
             self._book_stop()
         now_s = self._clock.now_s()  # an action may have sent the first velocity of a motion meanwhile
-        self._joystick.tick(now_s, self._is_clear)
+        self._relayed.tick_sticks(now_s)
         self._executor.tick(now_s)
         self._book_stop()
         self.goals.expire_approval(now_s)
@@ -220,11 +223,12 @@ class Motion:
         if not self.stop_confirmation.is_watched:
             self._outcomes.tell_all()
         self._pausing.watch(now_s, is_standing=not self.stop_confirmation.is_watched)
-        self._cmd_vel.tick(now_s, self._is_free)
+        self._relayed.tick_programs(now_s)
         self._begin_next(now_s)
         # Late: it wakes the guard, which may take this processor.
         self._stall_detector.beat(self._clock.now_s())
         self._telemetry.tick(now_s)
+        self._scans.tick(now_s)
 
     def _book_stop(self) -> None:
         """A stop has gone out, from whatever thread: end what ran and what waited, then see the robot stand."""
@@ -235,23 +239,13 @@ class Motion:
             self.goals.pause(why, self._clock.now_s())
         else:
             self.goals.end_stopped(why)
-        self._cmd_vel.stop()
-        self._joystick.stop()
+        self._relayed.stop()
 
     def _begin_next(self, now_s: float) -> None:
         if self.stop_confirmation.disobeyed is not None:
             self.goals.refuse_all(self.stop_confirmation.disobeyed)
-        if not (self.stop_confirmation.is_active or self._cmd_vel.is_driving):
+        if not (self.stop_confirmation.is_active or self._relayed.is_program_driving):
             self.goals.begin_next(now_s)
-
-    def _is_free(self) -> bool:
-        """Nothing of ours drives, waits or stops the robot, and nothing keeps it from moving."""
-        return self.goals.let_others_drive and not self._joystick.is_driving and self._is_clear()
-
-    def _is_clear(self) -> bool:
-        """Nothing stops the robot, and nothing keeps it from moving."""
-        is_stopped = self.stop_confirmation.is_active or self.sensors.bumped or self._stops.is_unbooked
-        return not is_stopped and self.interlock.barrier() is None
 
     def _notice(self, reason: Reason) -> None:
         self._emit(Notice(0, reason))
@@ -275,12 +269,15 @@ class Motion:
             self._begin_next(now_s)
         elif envelope.word == "look":
             self._emit(Looked(envelope.turn, sectors_m(self._profile, self.sensors.scan)))
+        elif envelope.word == "watch":
+            self._scans.watch(envelope.lease, on=envelope.payload.get("scans") is True)
+        elif envelope.word == "steer":
+            self._relayed.steer(envelope, came_s)
         elif envelope.word == "resume":
             self._pausing.resume(envelope)
             self._begin_next(now_s)
         elif envelope.word == "approve":
-            if priority_of(envelope.source) >= Priority.PLAN:  # a person's word, not an agent's
-                self.goals.approve(envelope)
+            self.goals.approve(envelope)
         elif envelope.word == "release":
             self._release(envelope, emergency)
         elif envelope.word == "limit":
@@ -288,14 +285,15 @@ class Motion:
                 self._emit(Notice(envelope.turn, reason))
         elif envelope.word == "goodbye":
             self._clients.leave(envelope.lease)
+            self._relayed.leave(envelope.lease)
             self._pausing.drop(Reason("source_left", {"source": envelope.source}), envelope.lease)
 
     def _accept(self, envelope: Envelope, epoch: int) -> None:
         refusal = self._clients.refusal(envelope)
         if refusal is not None:
             self.goals.refuse(envelope, epoch, refusal)
-        elif self._joystick.is_driving:  # what waited would set out by itself once the person lets go
-            self.goals.refuse(envelope, epoch, Reason("outranked", {"source": JOYSTICK}))
+        elif self._relayed.stick:  # what waited would set out by itself once the person lets go
+            self.goals.refuse(envelope, epoch, Reason("outranked", {"source": self._relayed.stick}))
         else:
             self.goals.accept(envelope, epoch)
 

@@ -1,7 +1,8 @@
 """Motion's process under a console: `python -m chatrobot.motion.process --profile … --world … --wire …
---max-distance … --max-time … --open-loop yes|"" --fd N`.
+--max-distance … --max-time … --open-loop yes|"" --fd N,M`.
 
-Envelopes come over an inherited socket, and events go back over it; `MotionRunner` does the rest.
+Envelopes come over inherited sockets, one a client, and events go back over them; `MotionRunner` does the rest. They
+are inherited, not listened for: nobody but who started this process can ever be at the other end.
 """
 
 from __future__ import annotations
@@ -12,9 +13,11 @@ import socket
 import sys
 import threading
 from collections import deque
+from collections.abc import Callable, Sequence
 
 from chatrobot.core.errors import WireError
-from chatrobot.core.events import Event, Telemetry
+from chatrobot.core.events import Event, Scan, Telemetry
+from chatrobot.link.client_line import ClientLine
 from chatrobot.link.envelope import Envelope, ready
 from chatrobot.motion.runner import MotionRunner
 from chatrobot.robots.profile import MotionBudget, read_limit_text
@@ -29,15 +32,18 @@ class Outbox:
     They are written down after the tick they belong to: that takes longer than a velocity may wait.
     """
 
-    def __init__(self, line: socket.socket) -> None:
+    def __init__(self, line: socket.socket, client: ClientLine) -> None:
         self._line = line
+        self._client = client
         self._waiting: deque[Event] = deque()
 
     def put(self, event: Event) -> None:
-        """Queue `event`; telemetry is dropped where too much waits."""
-        if isinstance(event, Telemetry) and len(self._waiting) > OUTBOX_LIMIT:
+        """Queue `event`, if this client is to hear it; telemetry and scans are dropped where too much waits."""
+        if isinstance(event, (Telemetry, Scan)) and len(self._waiting) > OUTBOX_LIMIT:
             return
-        self._waiting.append(event)
+        heard = self._client.outward(event)
+        if heard is not None:
+            self._waiting.append(heard)
 
     def flush(self) -> None:
         """Send what waits, as far as the line takes it."""
@@ -51,25 +57,50 @@ class Outbox:
 
 
 class SocketReader:
-    """Reads the link: Motion hears a stop in this very thread."""
+    """Reads the line of one client: Motion hears a stop in this very thread.
 
-    def __init__(self, line: socket.socket, runner: MotionRunner) -> None:
+    Args:
+        tell_person: hears what others order; from any thread.
+    """
+
+    def __init__(
+        self,
+        line: socket.socket,
+        client: ClientLine,
+        runner: MotionRunner,
+        tell_person: Callable[[Event], None],
+    ) -> None:
         self._line = line
+        self._client = client
         self._runner = runner
+        self._tell_person = tell_person
         self._lease = ""
         self._said_goodbye = False
+        self.has_ended = False
+        """The client has said goodbye, or is lost; Motion has been told."""
+
+    def start(self) -> None:
+        """Begin to read."""
+        threading.Thread(target=self.run, name="link", daemon=True).start()
 
     def run(self) -> None:
         """Read until the other end leaves; without a goodbye that is a loss."""
         while packet := self._receive():
-            envelope = Envelope.from_bytes(packet)
+            said = Envelope.from_bytes(packet)
+            envelope = self._client.inward(said) if said is not None else None
             if envelope is None:
                 continue
             self._lease = envelope.lease
             self._said_goodbye = self._said_goodbye or envelope.word == "goodbye"
+            if (ordered := self._client.ordered(envelope)) is not None:
+                self._tell_person(ordered)
             self._runner.receive(envelope)
-        if not self._said_goodbye:
+            self.has_ended = self._said_goodbye
+        if self._client.is_persons and not self._said_goodbye:
             self._runner.lose(self._lease)
+        elif self._lease and not self._said_goodbye:
+            self._runner.lose(self._lease, others_stay=True)
+        self.has_ended = True
 
     def _receive(self) -> bytes:
         try:
@@ -79,28 +110,41 @@ class SocketReader:
 
 
 def main(arguments: list[str]) -> int:
-    """Run Motion on the inherited socket; return the exit code."""
+    """Run Motion on the inherited sockets, the first a person's; return the exit code."""
     for name in ("SIGINT", "SIGTSTP", "SIGHUP", "SIGPIPE"):
         signal.signal(getattr(signal, name), signal.SIG_IGN)
     options = dict(zip(arguments[::2], arguments[1::2]))
-    line = socket.socket(fileno=int(options["--fd"]))
-    outbox = Outbox(line)
+    lines = [socket.socket(fileno=int(number)) for number in options["--fd"].split(",")]
+    clients = [ClientLine(number) for number in range(len(lines))]
+    outboxes = [Outbox(line, client) for line, client in zip(lines, clients)]
     try:
         budget = MotionBudget(*(read_limit_text(options[name]) for name in ("--max-distance", "--max-time")))
         runner = MotionRunner(
             options["--wire"],
             options["--profile"],
             options["--world"],
-            outbox.put,
+            lambda event: _put(outboxes, event),
             budget=budget,
             open_loop=bool(options["--open-loop"]),
         )
-        threading.Thread(target=SocketReader(line, runner).run, name="link", daemon=True).start()
-        line.send(ready())
-        runner.run(lambda: runner.motion.has_left, outbox.flush)
+        readers = [SocketReader(*end, runner, outboxes[0].put) for end in zip(lines, clients)]
+        for reader in readers:
+            reader.start()
+        lines[0].send(ready())
+        runner.run(lambda: readers[0].has_ended and not runner.motion.is_busy, lambda: _flush(outboxes))
     except WireError:
         return 1  # the robot's end is gone
     return 0
+
+
+def _put(outboxes: Sequence[Outbox], event: Event) -> None:
+    for outbox in outboxes:
+        outbox.put(event)
+
+
+def _flush(outboxes: Sequence[Outbox]) -> None:
+    for outbox in outboxes:
+        outbox.flush()
 
 
 if __name__ == "__main__":

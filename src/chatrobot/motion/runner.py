@@ -191,9 +191,9 @@ class MotionRunner:
         if envelope.word != "beat":
             self._wake.set()
 
-    def lose(self, lease: str) -> None:
-        """Stop: the source behind that lease is gone without a goodbye."""
-        self.motion.lose(lease)
+    def lose(self, lease: str, *, others_stay: bool = False) -> None:
+        """Stop: the source behind that lease is gone without a goodbye. `others_stay`: end only what is its own."""
+        (self.motion.lose_second if others_stay else self.motion.lose)(lease)
         self._wake.set()
 
     def halt(self, source: str, why: str, *, keep: bool = False) -> None:

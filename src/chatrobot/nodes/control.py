@@ -14,7 +14,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from chatrobot.core.errors import WireError
-from chatrobot.core.events import Event, Finished, Telemetry
+from chatrobot.core.events import Event, Finished, Scan, Telemetry
 from chatrobot.core.reason import Reason
 from chatrobot.governor.lease import RELEASERS
 from chatrobot.link.envelope import Envelope, Word
@@ -198,7 +198,7 @@ class ControlNode:
             self._publish(self._untold.popleft())
 
     def _publish(self, event: Event) -> None:
-        topic = TELEMETRY if isinstance(event, Telemetry) else EVENTS
+        topic = TELEMETRY if isinstance(event, (Telemetry, Scan)) else EVENTS
         text = Text(json.dumps(event.to_json(), separators=(",", ":"), ensure_ascii=False))
         with contextlib.suppress(
             WireError

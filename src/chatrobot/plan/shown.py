@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple, TypeVar
 
 from chatrobot.core.reason import ANGLE_PLACES, LENGTH_PLACES, number
@@ -50,17 +50,25 @@ class FoldedLine(NamedTuple):
     text: str
 
 
-def runs(items: Sequence[Item]) -> Iterator[tuple[int, Sequence[Item]]]:
+def runs(
+    items: Sequence[Item],
+    *,
+    longest_count: int = _LONGEST_GROUP,
+    least_saved_count: int = _LEAST_SAVED,
+    may_repeat: Callable[[Item], bool] = lambda _: True,
+) -> Iterator[tuple[int, Sequence[Item]]]:
     """Yield `items` in order as groups, each with how often it comes in a row."""
     at = 0
     while at < len(items):
         best = (1, items[at : at + 1])
-        for size in range(1, min(_LONGEST_GROUP, (len(items) - at) // 2) + 1):
+        for size in range(1, min(longest_count, (len(items) - at) // 2) + 1):
             group = items[at : at + size]
+            if not may_repeat(group[-1]):
+                break
             count = 1
             while items[at + count * size : at + (count + 1) * size] == group:
                 count += 1
-            if (count - 1) * size >= _LEAST_SAVED and count * size > best[0] * len(best[1]):
+            if (count - 1) * size >= least_saved_count and count * size > best[0] * len(best[1]):
                 best = (count, group)
         yield best
         at += best[0] * len(best[1])

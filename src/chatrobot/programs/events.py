@@ -13,9 +13,9 @@ from typing import Any, Literal, NamedTuple, Union
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
 from chatrobot.programs.pipe import LATEST_S, PipeError
+from chatrobot.programs.ros_args import LEVELS
 
 SENSORS = ("odom", "scan", "imu", "battery", "bumper")
-LEVELS = ("DEBUG", "INFO", "WARN", "ERROR", "FATAL")
 LONGEST_TEXT = 16 * 1024
 LONGEST_NAME = 512
 LONGEST_ERROR = 300

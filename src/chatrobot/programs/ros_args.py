@@ -80,6 +80,21 @@ class RosArguments:
         return {rule.what: rule.to for rule in self.parameters if rule.is_for(node_name)}
 
 
+def split_ros_args(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Part what stands between each `--ros-args` and `--` or the end, as ROS has it, from the rest, which is first."""
+    ours: list[str] = []
+    theirs: list[str] = []
+    taking = ours
+    for argument in arguments:
+        if argument == "--ros-args":
+            taking = theirs
+        elif argument == "--" and taking is theirs:
+            taking = ours
+        else:
+            taking.append(argument)
+    return ours, theirs
+
+
 def read_ros_args(args: Sequence[str]) -> RosArguments:
     """Read the ROS arguments among `args`.
 

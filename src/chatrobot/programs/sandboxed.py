@@ -17,8 +17,7 @@ import contextlib
 import select
 import socket
 from collections.abc import Sequence
-from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from chatrobot.core.reason import Reason
 from chatrobot.programs.events import ENDS, AsksTime, Died, Log, Output, ProgramEvent, read_event
@@ -37,26 +36,16 @@ OUTBOX_BYTES = 1024 * 1024
 EXIT_WAIT_S = 1.0
 
 
-def warm_server(limits: SandboxLimits | None = None, path: Sequence[Path] = ()) -> WarmServer:
+def warm_server() -> WarmServer:
     """Return a server that knows the names that programs import. Start it, use it for many programs, close it."""
-    return WarmServer(path, PRELOAD, limits)
-
-
-class Launcher(Protocol):
-    """The part of a warm server that is used here."""
-
-    def launch(
-        self, entry: str, payload: bytes = b"", limits: SandboxLimits | None = None
-    ) -> SandboxedProcess:
-        """Start a process of its own at `entry`. Raises SandboxError."""
-        ...
+    return WarmServer(preload=PRELOAD)
 
 
 class SandboxedProgram:
     """See the module."""
 
     def __init__(
-        self, server: Launcher, settings: ProgramSettings, limits: SandboxLimits | None = None
+        self, server: WarmServer, settings: ProgramSettings, limits: SandboxLimits | None = None
     ) -> None:
         self.settings = settings
         self._server = server

@@ -11,7 +11,6 @@ import threading
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass
-from types import TracebackType
 from typing import Any
 
 from chatrobot.core.reason import Reason
@@ -210,9 +209,7 @@ class SandboxedProcess:
     def __enter__(self) -> SandboxedProcess:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
 
     def _hear_the_end(self) -> ExitReport:

@@ -12,7 +12,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
-from types import TracebackType
 from typing import Literal
 
 from chatrobot.core.errors import SandboxError
@@ -144,9 +143,7 @@ class WarmServer:
     def __enter__(self) -> WarmServer:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
 
     def _begin(self, timeout_s: float, *, is_wrapped: bool) -> Mapping[str, object]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import stat
 from pathlib import Path
@@ -33,6 +34,20 @@ def runtime_dir() -> Path:
 def stop_socket_path(pid: int) -> Path:
     """Return where the Motion of that process id listens for `chatrobot stop`."""
     return runtime_dir() / f"motion-{pid}.stop"
+
+
+def agent_socket_path(pid: int) -> Path:
+    """Return where the web console of that process id serves agents."""
+    return runtime_dir() / f"agents-{pid}.mcp"
+
+
+def agent_socket_paths() -> list[Path]:
+    """Those of all that run, or died without tidying up; the newest first."""
+    found = []
+    for path in runtime_dir().glob("agents-*.mcp"):
+        with contextlib.suppress(OSError):  # it is just leaving
+            found.append((path.stat().st_mtime, path))
+    return [path for _, path in sorted(found, reverse=True)]
 
 
 def stop_socket_paths() -> list[Path]:

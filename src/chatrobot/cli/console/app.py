@@ -6,7 +6,6 @@ import contextlib
 import os
 import shutil
 import sys
-from collections.abc import Mapping
 from dataclasses import replace
 
 from rich.console import RenderableType
@@ -56,11 +55,11 @@ def run_console(setup: Setup, typed_ahead: TypedAhead) -> int:
     return code
 
 
-def can_chat(environment: Mapping[str, str] = os.environ) -> bool:
+def can_chat() -> bool:
     """Tell whether the terminal can do colours and move its cursor, and is wide enough for a line."""
     return (
-        environment.get("TERM", "dumb") not in ("dumb", "unknown", "")
-        and "NO_COLOR" not in environment
+        os.environ.get("TERM", "dumb") not in ("dumb", "unknown", "")
+        and "NO_COLOR" not in os.environ
         and sys.stdin.isatty()
         and sys.stdout.isatty()
         and shutil.get_terminal_size().columns >= plain.LEAST_WIDTH

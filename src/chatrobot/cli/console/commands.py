@@ -13,6 +13,7 @@ from rich.text import Text
 
 from chatrobot.cli.console import tables
 from chatrobot.cli.console.controller import ChatController
+from chatrobot.cli.console.lines import shown
 from chatrobot.cli.plan import read_plan_file
 from chatrobot.core.errors import UsageError
 from chatrobot.robots.profile import NONE
@@ -93,7 +94,7 @@ def _places(controller: ChatController, _: str) -> None:
 def _plan(controller: ChatController, _: str) -> None:
     view = controller.motion_view
     if view.plan_text:
-        controller.display.print(*controller.narrator.plan(view.plan_text, view.rehearsed))
+        controller.display.print(*map(shown, controller.narrator.plan(view.plan_text, view.rehearsed)))
     else:
         controller.tell("no_plan")
 

@@ -11,9 +11,8 @@ from collections.abc import Callable, Sequence
 from rich.console import RenderableType
 from rich.text import Text
 
-from chatrobot.cli.console.lines import Display, indented, marked
-from chatrobot.cli.console.motion_view import MotionView
-from chatrobot.cli.console.narrator import Narrator
+from chatrobot.cli.approval import Approval
+from chatrobot.cli.console.lines import Display, indented, marked, shown
 from chatrobot.cli.console.pasted import (
     LONGEST_CHARS,
     MOST_TEXTS,
@@ -29,14 +28,13 @@ from chatrobot.cli.console.pasted import (
 from chatrobot.cli.console.status_bar import StatusBar
 from chatrobot.cli.console.tables import way_map
 from chatrobot.cli.console.words import Words
-from chatrobot.cli.editing import Edited
 from chatrobot.cli.lines import texts_in
+from chatrobot.cli.narrator import Narrator
 from chatrobot.compose import Connection
 from chatrobot.core.clock import Clock
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import Event, Interpreted, Notice, Result, Started, Telemetry
 from chatrobot.dialogue.pump import Pump
-from chatrobot.dialogue.question import Question
 from chatrobot.dialogue.replies import is_parting
 from chatrobot.language.consent import read_consent, wants_to_edit
 from chatrobot.programs.check import MAX_SOURCE_CHARS
@@ -64,7 +62,8 @@ class ChatController:
         self.connection = connection
         self.session = connection.session
         self.words = words
-        self.motion_view = MotionView()
+        self._approval = Approval()
+        self.motion_view = self._approval.motion_view
         self.status_bar = StatusBar(self.motion_view, words, connection.world)
         self.narrator = Narrator(words)
         self.pump = Pump(self.session, self._end)
@@ -73,10 +72,7 @@ class ChatController:
         """The person said goodbye in words, and was answered."""
         self._release_is_due = False
         self._clock = clock
-        self._question = Question()
-        self._edited = Edited()
         self._pasted = Pasted()
-        self._muted: set[int] = set()
         self._leaving = False
         self._interrupted_s = float("-inf")
         self._said_stopped = False
@@ -144,13 +140,13 @@ class ChatController:
 
     def take_edited(self, edited: str) -> None:
         """Take the plan or the program that `Display.edit` was asked for."""
-        is_program = self._edited.is_program
+        is_program = self._approval.edits_program
         text = f"{edited.rstrip()}\n" if is_program else clean(edited).strip()
         limit = MAX_SOURCE_CHARS if is_program else LONGEST_CHARS
         if len(edited) > limit:
             self.tell("line_too_long", limit=limit)
         elif text.strip():
-            self._say_as_one(lambda: self._edited.say(self.session, text), self.words.say("edited"))
+            self._say_as_one(lambda: self._approval.say_edited(self.session, text), self.words.say("edited"))
         else:
             self.tell("edited_away")
 
@@ -186,8 +182,8 @@ class ChatController:
         if self.session.is_paused:
             self.stop("end of input")  # nobody is left to go on with it
             return
-        if self._question.turn is not None:
-            self.attempt(lambda: self._question.answer(self.session, False))
+        if self._approval.turn is not None:
+            self.attempt(lambda: self._approval.answer(self.session, False))
             return
         self.tell("finishing")
 
@@ -245,15 +241,15 @@ class ChatController:
 
     def _answer(self, text: str) -> bool:
         """Answer the question whether to do a plan; False where `text` is no answer to it."""
-        turn, yes, edits = self._question.turn, read_consent(text), wants_to_edit(text)
-        if turn is None or (yes is None and not edits):
+        if self._approval.turn is None or (read_consent(text) is None and not wants_to_edit(text)):
             return False
         self._echo(text)
-        if edits:
-            self._muted.add(turn)
-            self.display.edit(self._edited.begin(self.motion_view.plan_text, self.motion_view.program))
-        self.attempt(lambda: self._question.answer(self.session, yes is True))
+        self.attempt(lambda: self._edit(self._approval.take(self.session, text)))
         return True
+
+    def _edit(self, text: str) -> None:
+        if text:
+            self.display.edit(text)
 
     def attempt(self, act: Callable[[], object]) -> None:
         """Do something that needs Motion; without it, this conversation is over."""
@@ -266,21 +262,20 @@ class ChatController:
 
     def hear(self, event: Event) -> None:
         """Take an event in and show it."""
-        self.motion_view.hear(event)
-        self._edited.hear(event)
+        asks = self._approval.hear(event)
         if isinstance(event, Notice) and event.reason.code == "released":
             self._hear_release(str(event.reason.values.get("source")))
         with self._order:
-            lines: list[RenderableType] = list(self.narrator.tell(event))
-            if self._question.hear(event):
+            lines: list[RenderableType] = [shown(line) for line in self.narrator.tell(event)]
+            if asks:
                 question = Text(f"  {self.words.say('ask_approval')}", "bold")
                 lines += [way_map(self.motion_view, self.connection.world), question]
             is_stop = isinstance(event, Interpreted) and event.by == "reflex" and not self._pauses_again
             if is_stop and (self.motion_view.is_moving or self._said_stopped or self.session.is_plan_paused):
-                self._muted.add(event.turn)  # what was moving says how it ended
+                self._approval.mute(event.turn)  # what was moving says how it ended
             if isinstance(event, Result):
                 self._said_stopped = event.outcome == "stopped"
-            if lines and not self._is_muted(event):
+            if lines and not self._approval.is_muted(event):
                 self.display.print(*lines)
         if isinstance(event, Result):
             self._go_on_after(event)
@@ -292,10 +287,6 @@ class ChatController:
         moves = isinstance(event, Telemetry) and self.motion_view.is_moving
         if moves or isinstance(event, (Started, Result)):
             self.display.refresh()
-
-    def _is_muted(self, event: Event) -> bool:
-        """Tell whether the event only says what is said otherwise; what a plan drove before it was edited is told."""
-        return event.turn in self._muted and not (isinstance(event, Result) and event.has_moved)
 
     def _hear_release(self, by: str) -> None:
         """No alarm goes by a release that was asked for before it was raised."""

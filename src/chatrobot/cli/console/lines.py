@@ -5,6 +5,7 @@ So they can be copied, and survive a resize.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -12,9 +13,12 @@ from rich.cells import cell_len
 from rich.console import Console, ConsoleOptions, RenderableType, RenderResult
 from rich.text import Text
 
+from chatrobot.cli.narrator import PLAN_STYLE, Line
+
 INDENT = 2
 _CLOSING = frozenset("，。、；：！？）》”’…,.;:!?)")
 _OPENING = frozenset("（《“‘(")
+_VERB = re.compile(r"^ *(?:\d+ × \(?)*([a-z_]+)")
 
 
 @dataclass(frozen=True)
@@ -42,6 +46,15 @@ def marked(mark: str, style: str, text: str | Text) -> RenderableType:
     return _Hanging(
         Text.assemble(" " * INDENT, (mark.ljust(2), style)), Text(text) if isinstance(text, str) else text
     )
+
+
+def shown(line: Line) -> RenderableType:
+    """Put a line into colours; the first verb of a plan's line in bold, so that a plan reads at a glance."""
+    is_plan = line.style == PLAN_STYLE
+    text = Text(line.text, "" if is_plan else line.style)
+    if is_plan and (verb := _VERB.match(line.text)):
+        text.stylize("bold cyan", *verb.span(1))
+    return _Hanging(Text(line.lead, line.lead_style), text)
 
 
 def wrapped(text: Text, columns: int) -> list[Text]:

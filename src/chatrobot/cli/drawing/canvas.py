@@ -10,6 +10,7 @@ from pathlib import Path
 from PIL import Image, ImageDraw, ImageFont
 
 SCALE = 3
+DASH_PX = 6.0
 XY = tuple[float, float]
 Colour = tuple[int, int, int] | tuple[int, int, int, int]
 Box = tuple[float, float, float, float]
@@ -31,14 +32,14 @@ class Canvas:
             for x, y in (points[0], points[-1]):
                 self.circle((x, y), width_px / 2.0, fill=colour)
 
-    def dashed(self, a: XY, b: XY, colour: Colour, width_px: float = 1.0, dash_px: float = 6.0) -> None:
+    def dashed(self, a: XY, b: XY, colour: Colour, width_px: float = 1.0) -> None:
         """Draw a dashed line."""
         length = max(1e-9, ((b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2) ** 0.5)
         at = 0.0
         while at < length:
-            ends = (at / length, min(1.0, (at + dash_px) / length))
+            ends = (at / length, min(1.0, (at + DASH_PX) / length))
             self.line([(a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t) for t in ends], colour, width_px)
-            at += 2.0 * dash_px
+            at += 2.0 * DASH_PX
 
     def polygon(self, points: Sequence[XY], *, fill: Colour | None = None, edge: Colour | None = None,
                 width_px: float = 1.0) -> None:  # fmt: skip
@@ -56,13 +57,9 @@ class Canvas:
             (x - r, y - r, x + r, y + r), fill=fill, outline=edge, width=max(1, round(width_px * SCALE))
         )
 
-    def box(
-        self, box: Box, *, fill: Colour | None = None, edge: Colour | None = None, radius_px: float = 0.0
-    ) -> None:
-        """Draw a rectangle, its corners rounded."""
-        self._draw.rounded_rectangle(
-            [v * SCALE for v in box], radius=radius_px * SCALE, fill=fill, outline=edge, width=SCALE
-        )
+    def box(self, box: Box, *, fill: Colour | None = None, edge: Colour | None = None) -> None:
+        """Draw a rectangle."""
+        self._draw.rectangle([v * SCALE for v in box], fill=fill, outline=edge, width=SCALE)
 
     def text(
         self,

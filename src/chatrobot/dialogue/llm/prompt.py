@@ -53,8 +53,8 @@ def system_prompt(profile: RobotProfile, places: Mapping[str, Pose], *, sees: bo
     `sees`: there is a camera to look through.
     """
     looks = _LOOKS.format(" | ".join(look for look in LOOKS if sees or look != "camera"))
-    rules = _RULES.format(steps=_steps(profile), looks=looks)
-    return "\n".join([rules, _robot(profile), *place_lines(places)])
+    rules = _RULES.format(steps=step_lines(profile), looks=looks)
+    return "\n".join([rules, robot_line(profile), *place_lines(places)])
 
 
 def tutorial_prompt(profile: RobotProfile) -> str:
@@ -67,13 +67,14 @@ def _usages() -> tuple[tuple[str, str], ...]:
     return tuple((primitive.kind, primitive.usage) for primitive in primitives())
 
 
-def _steps(profile: RobotProfile) -> str:
-    """Return the grammar, a line a verb."""
+def step_lines(profile: RobotProfile) -> str:
+    """Return the grammar of plan text for this robot, a line a verb."""
     impossible = set() if profile.can_turn_on_the_spot else {"turn", "face"}
     return "\n".join(usage for kind, usage in _usages() if kind not in impossible)
 
 
-def _robot(profile: RobotProfile) -> str:
+def robot_line(profile: RobotProfile) -> str:
+    """Return what this robot can do, and what it cannot."""
     sideways = "" if profile.can_go_sideways else " It cannot go sideways."
     spot = "" if profile.can_turn_on_the_spot else " It cannot turn on the spot: use arc."
     lidar = "" if profile.lidar is not None else " It has no lidar: no 'until obstacle', no look scan."

@@ -36,9 +36,10 @@ from chatrobot.programs.events import (
     TwistAsked,
 )
 from chatrobot.programs.pipe import ProgramSettings, robot_topics
-from chatrobot.programs.sandboxed import Launcher, SandboxedProgram
+from chatrobot.programs.sandboxed import SandboxedProgram
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sandbox.limits import SandboxLimits
+from chatrobot.sandbox.warm_server import WarmServer
 from chatrobot.sim.world import EMPTY_WORLD, World
 
 HORIZON_S = 60.0
@@ -160,7 +161,7 @@ class ProgramRehearsal(RehearsedPath):
 
 
 def rehearse_program(
-    server: Launcher,
+    server: WarmServer,
     source: str,
     profile: RobotProfile,
     world: World = EMPTY_WORLD,

@@ -39,6 +39,7 @@ class StopConfirmation:
         self._tell = tell
         self._since_s: float | None = None
         self._was_out_of_sight = False
+        self._may_be_cut_short = False
         self.others = ""
         """Who else sends velocities, by name, as far as the wire tells; any thread may set it."""
         self.disobeyed: Reason | None = None
@@ -72,10 +73,21 @@ class StopConfirmation:
         """True where it is seen standing, and nobody has told it to stand since."""
         return not self.is_active and self.sight == "standing"
 
-    def begin(self, now_s: float) -> None:
-        """Begin to send zeros."""
+    @property
+    def bars_stick(self) -> bool:
+        """True while the robot comes to rest for any other reason than that a stick was let go of."""
+        return self.is_active and not (self._may_be_cut_short and self.disobeyed is None)
+
+    def begin(self, now_s: float, *, may_be_cut_short: bool = False) -> None:
+        """Begin to send zeros. `may_be_cut_short`: a stick was let go of, and may be held again before it stands."""
+        self._may_be_cut_short = may_be_cut_short and not self.bars_stick
         self._since_s = now_s
         self._was_out_of_sight = False
+
+    def cut_short(self) -> None:
+        """Send no more zeros, where they were sent for a stick alone: it is held again."""
+        if not self.bars_stick:
+            self._end()
 
     def tick(self, now_s: float) -> None:
         """Send what is due."""

@@ -17,6 +17,7 @@ import time
 import timeit
 from collections import deque
 from collections.abc import Callable
+from functools import partial
 from typing import Any, cast
 
 from chatrobot.programs.inside.scheduler import Scheduler, Task
@@ -53,22 +54,13 @@ def _install_clocks(scheduler: Scheduler, start_ns: int) -> None:
             raise ValueError("sleep length must be non-negative")
         scheduler.sleep_until(scheduler.now_ns + int(secs * 1e9))
 
-    def of(real: Callable[..., Any]) -> Callable[..., Any]:
-        """A calendar function whose missing argument means now."""
-        return lambda secs=None: real(time_ns() * 1e-9 if secs is None else secs)
-
-    real_strftime, real_asctime, localtime = time.strftime, time.asctime, of(time.localtime)
     now = dict.fromkeys(("monotonic", "perf_counter", "process_time", "thread_time"), monotonic_ns)
     for name, clock_ns in {**now, "time": time_ns}.items():
         setattr(time, f"{name}_ns", clock_ns)
         setattr(time, name, seconds(clock_ns))
     replacements: dict[str, Callable[..., Any]] = {
+        **_calendar(lambda: time_ns() * 1e-9),
         "sleep": sleep,
-        "localtime": localtime,
-        "gmtime": of(time.gmtime),
-        "ctime": of(time.ctime),
-        "strftime": lambda form, t=None: real_strftime(form, localtime() if t is None else t),
-        "asctime": lambda t=None: real_asctime(localtime() if t is None else t),
         "clock_gettime_ns": lambda clock: time_ns() if clock == time.CLOCK_REALTIME else monotonic_ns(),
     }
     replacements["clock_gettime"] = lambda clock: replacements["clock_gettime_ns"](clock) * 1e-9
@@ -78,6 +70,22 @@ def _install_clocks(scheduler: Scheduler, start_ns: int) -> None:
     for module, name in ((threading, "_time"), (queue, "time"), (sched, "_time")):
         setattr(module, name, time.monotonic)
     cast(Any, sched.scheduler.__init__).__defaults__ = (time.monotonic, time.sleep)
+
+
+def _calendar(now_s: Callable[[], float]) -> dict[str, Callable[..., Any]]:
+    """The functions of the calendar, whose missing argument means now."""
+
+    def of(real: Callable[..., Any]) -> Callable[..., Any]:
+        return lambda secs=None: real(now_s() if secs is None else secs)
+
+    real_strftime, real_asctime, localtime = time.strftime, time.asctime, of(time.localtime)
+    return {
+        "localtime": localtime,
+        "gmtime": of(time.gmtime),
+        "ctime": of(time.ctime),
+        "strftime": lambda form, t=None: real_strftime(form, localtime() if t is None else t),
+        "asctime": lambda t=None: real_asctime(localtime() if t is None else t),
+    }
 
 
 def _install_dates(scheduler: Scheduler, start_ns: int) -> None:
@@ -136,23 +144,20 @@ def _install_queues(scheduler: Scheduler) -> None:
 
 
 def _install_threads(scheduler: Scheduler) -> None:
-    def starter(real: Callable[..., Any]) -> Callable[..., Any]:
-        def start(function: Callable[..., Any], *args: Any, **kwargs: Any) -> Any:
-            task = scheduler.add()
-            thread = getattr(function, "__self__", None)
-            if isinstance(thread, threading.Thread):
-                thread._virtual_task = task  # type: ignore[attr-defined]
+    def start(real: Callable[..., Any], function: Callable[..., Any], *args: Any, **kwargs: Any) -> Any:
+        task = scheduler.add()
+        thread = getattr(function, "__self__", None)
+        if isinstance(thread, threading.Thread):
+            thread._virtual_task = task  # type: ignore[attr-defined]
 
-            def begin(*inner: Any, **named: Any) -> None:
-                task.baton.acquire()
-                try:
-                    function(*inner, **named)
-                finally:
-                    scheduler.leave(task)
+        def begin(*inner: Any, **named: Any) -> None:
+            task.baton.acquire()
+            try:
+                function(*inner, **named)
+            finally:
+                scheduler.leave(task)
 
-            return real(begin, *args, **kwargs)
-
-        return start
+        return real(begin, *args, **kwargs)
 
     def join(thread: Any, timeout: float | None = None) -> None:
         task = getattr(thread, "_virtual_task", None)
@@ -168,15 +173,10 @@ def _install_threads(scheduler: Scheduler) -> None:
         return thread is threading.main_thread() if task is None else not task.finished
 
     for module in (threading, _thread):
-        for name in (
-            "_start_new_thread",
-            "_start_joinable_thread",
-            "start_new_thread",
-            "start_joinable_thread",
-        ):
-            real = getattr(module, name, None)
-            if real is not None:
-                setattr(module, name, starter(real))
+        for name in ("start_new_thread", "start_joinable_thread"):
+            for each in (name, f"_{name}"):
+                if hasattr(module, each):
+                    setattr(module, each, partial(start, getattr(module, each)))
     cast(Any, threading.Thread).join = join
     cast(Any, threading.Thread).is_alive = is_alive
 

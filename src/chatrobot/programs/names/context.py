@@ -9,7 +9,7 @@ from typing import Any
 from chatrobot.programs.inside.link import get_link
 from chatrobot.programs.names.errors import RCLInvalidROSArgsError, UnknownROSArgsError
 from chatrobot.programs.names.logging import LoggingSeverity, set_logger_level
-from chatrobot.programs.ros_args import RosArguments, RosArgumentsError, read_ros_args
+from chatrobot.programs.ros_args import RosArguments, RosArgumentsError, read_ros_args, split_ros_args
 
 
 def parsed(args: Sequence[str]) -> RosArguments:
@@ -129,15 +129,7 @@ def try_shutdown(*, context: Context | None = None) -> None:
 
 def remove_ros_args(args: Sequence[str] | None = None) -> list[str]:
     """Arguments without what stands between `--ros-args` and `--`."""
-    kept, ours = [], False
-    for argument in sys.argv if args is None else args:
-        if argument == "--ros-args":
-            ours = True
-        elif ours and argument == "--":
-            ours = False
-        elif not ours:
-            kept.append(argument)
-    return kept
+    return split_ros_args(sys.argv if args is None else args)[0]
 
 
 def get_rmw_implementation_identifier() -> str:

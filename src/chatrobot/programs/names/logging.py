@@ -112,12 +112,11 @@ def set_logger_level(name: str, level: int) -> None:
     RcutilsLogger(name).set_level(level)
 
 
-def get_logger_level(name: str) -> LoggingSeverity:
-    return RcutilsLogger(name).get_effective_level()
-
-
 def get_logger_effective_level(name: str) -> LoggingSeverity:
     return RcutilsLogger(name).get_effective_level()
+
+
+get_logger_level = get_logger_effective_level
 
 
 def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:

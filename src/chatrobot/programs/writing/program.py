@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.plan.context import Impossible, LoweringContext, RoutePlanner
+from chatrobot.plan.shown import runs
 from chatrobot.plan.steps import Block, Go, Plan, Repeat, Step
 from chatrobot.programs.writing import helpers
 from chatrobot.programs.writing.lines import Body, number, write_lines
@@ -214,28 +215,14 @@ def class_name(name: str) -> str:
 def folded(steps: Sequence[Step]) -> tuple[Step, ...]:
     """Return the same steps with loops for what repeats. Ways to places are left alone: each begins somewhere else."""
     found: list[Step] = []
-    at = 0
-    while at < len(steps):
-        length, count = _repeats(steps, at)
-        block = tuple(steps[at : at + length])
-        found.append(Repeat(count, block) if count > 1 else block[0])
-        at += length * count
+    for count, block in runs(
+        steps,
+        longest_count=len(steps),
+        least_saved_count=1,
+        may_repeat=lambda step: not isinstance(step, (Go, Block)),
+    ):
+        found += [Repeat(count, tuple(block))] if count > 1 else block
     return tuple(found)
-
-
-def _repeats(steps: Sequence[Step], first_index: int) -> tuple[int, int]:
-    """Length and count of the block that covers most from there on; (1, 1) where nothing repeats."""
-    best = (1, 1)
-    for length in range(1, (len(steps) - first_index) // 2 + 1):
-        block = steps[first_index : first_index + length]
-        if any(isinstance(step, (Go, Block)) for step in block):
-            break
-        count = 1
-        while steps[first_index + length * count : first_index + length * (count + 1)] == block:
-            count += 1
-        if count > 1 and length * count > best[0] * best[1]:
-            best = (length, count)
-    return best
 
 
 @dataclass(frozen=True)

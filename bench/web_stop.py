@@ -1,0 +1,169 @@
+"""Stop at the web console, from a page's WebSocket to the zero at a subscriber. Run: python -m bench.web_stop
+
+Three processes: the page (a WebSocket client that beats as a page does), `chatrobot web`, and this one, which
+subscribes to the velocities of the simulated robot. With nobody else; with 20 who watch; while the event loop of the
+pages computes something else and serves nobody. Promised: 15 ms at the median, 40 ms at p99. Then what 20 who watch a
+moving robot cost the server, of one core.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+
+import psutil
+from tests.processes import RunningRobot
+
+from bench.latency import percentile
+
+REPETITIONS = 10
+WATCHERS = 20
+MEDIAN_S, P99_S = 0.015, 0.040
+COST_S = 10.0
+
+_SERVER = """
+import signal, sys, time
+from chatrobot.cli.entry import main
+from chatrobot.web import server
+start = server.WebServer.start
+def compute():
+    ends_s = time.monotonic() + 0.6
+    while time.monotonic() < ends_s:
+        pass
+def start_and_listen(self, *sockets):
+    start(self, *sockets)
+    signal.signal(signal.SIGUSR1, lambda *_: self.call(compute))
+server.WebServer.start = start_and_listen
+sys.exit(main(sys.argv[1:]))
+"""
+"""`chatrobot web`, whose event loop computes for 0.6 s at SIGUSR1."""
+
+_PAGES = """
+import asyncio, json, sys, threading, time
+import websockets
+port, watchers = int(sys.argv[1]), int(sys.argv[2])
+def connect(path, at):
+    address, origin = f"ws://127.0.0.1:{at}{path}", f"http://127.0.0.1:{port}"
+    return websockets.connect(address, origin=origin, proxy=None, max_size=None)
+async def read(socket):
+    async for _ in socket:
+        pass
+async def beat(socket):
+    while True:
+        await socket.send('{"do":"beat","held":false}')
+        await asyncio.sleep(0.05)
+async def main():
+    page = await connect("/ws", port)
+    hello = json.loads(await page.recv())
+    line = await connect("/stop", hello["stop_port"])
+    tasks = [asyncio.ensure_future(read(page)), asyncio.ensure_future(beat(page))] if not watchers else []
+    for _ in range(watchers):
+        tasks.append(asyncio.ensure_future(read(await connect("/ws", port))))
+    if watchers:
+        await page.close()
+    print("ready", flush=True)
+    loop = asyncio.get_running_loop()
+    while word := (await loop.run_in_executor(None, sys.stdin.readline)).strip():
+        if word == "stop":
+            print(time.monotonic(), flush=True)
+            await line.send('{"do":"stop"}')
+            await line.recv()
+        else:
+            await page.send(json.dumps({"do": "say", "text": word}))
+asyncio.run(main())
+"""
+
+
+@contextmanager
+def pages(port: int, watchers: int = 0) -> Iterator[subprocess.Popen[str]]:
+    """The page that steers, or so many that watch, in a process of their own."""
+    command = [sys.executable, "-c", _PAGES, str(port), str(watchers)]
+    process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    assert process.stdout.readline().strip() == "ready"
+    try:
+        yield process
+    finally:
+        process.kill()
+        process.wait()
+
+
+def tell(process: subprocess.Popen[str], word: str) -> None:
+    assert process.stdin is not None
+    process.stdin.write(f"{word}\n")
+    process.stdin.flush()
+
+
+def once(robot: RunningRobot, page: subprocess.Popen[str], text: str, *, busy: bool) -> float:
+    """Seconds from the page's message to the first zero."""
+    said_s = time.monotonic()
+    tell(page, text)
+    robot.velocities.wait_for(lambda twist: abs(twist.vx_mps) > 0.1, said_s)
+    if busy:
+        robot.process.send_signal(10)  # SIGUSR1
+        time.sleep(0.05)
+    tell(page, "stop")
+    assert page.stdout is not None
+    stopped_s = float(page.stdout.readline())
+    took_s = robot.velocities.wait_for_zero(stopped_s) - stopped_s
+    time.sleep(0.8 if busy else 0.5)
+    return took_s
+
+
+def line(name: str, values_s: list[float]) -> bool:
+    """Print a row; return whether it holds the promise."""
+    median_s, p99_s = statistics.median(values_s), percentile(values_s, 0.99)
+    kept = median_s <= MEDIAN_S and p99_s <= P99_S
+    print(
+        f"{name:58s} {median_s * 1e3:7.2f} ms {p99_s * 1e3:7.2f} ms  {'' if kept else 'BROKEN'}", flush=True
+    )
+    return kept
+
+
+def cost_of_watching(robot: RunningRobot, page: subprocess.Popen[str]) -> float:
+    """Processor time of the server, as a share of one core, while a robot moves that so many watch."""
+    tell(page, "turn left 720 degrees")
+    time.sleep(0.5)
+    server = psutil.Process(robot.process.pid)
+    before, began_s = server.cpu_times(), time.monotonic()
+    time.sleep(COST_S)
+    after, took_s = server.cpu_times(), time.monotonic() - began_s
+    return (after.user + after.system - before.user - before.system) / took_s
+
+
+def main() -> None:
+    print(f"{'stop at the page -> zero at a subscriber':58s} {'median':>10s} {'p99':>10s}")
+    arguments = ("web", "--no-open", "--port", "0", "--world", "empty")
+    with tempfile.TemporaryDirectory() as folder, ExitStack() as open_:
+        robot = RunningRobot(Path(folder), arguments, ("-c", _SERVER))
+        open_.callback(robot.close)
+        found = re.search(r":(\d+)/", robot.wait_for_line("http://"))
+        assert found is not None
+        page = open_.enter_context(pages(int(found[1])))
+        texts = ["forward 2 m" if number % 2 else "back 2 m" for number in range(REPETITIONS)]
+        kept = [line("nobody else", [once(robot, page, text, busy=False) for text in texts])]
+        kept.append(
+            line("the pages' event loop computes", [once(robot, page, text, busy=True) for text in texts])
+        )
+        alone = cost_of_watching(robot, page)
+        tell(page, "stop")
+        with pages(int(found[1]), WATCHERS):
+            name = f"{WATCHERS} watch"
+            kept.append(line(name, [once(robot, page, text, busy=False) for text in texts]))
+            watched = cost_of_watching(robot, page)
+    print(
+        f"the server while the robot moves: {alone:.0%} of one core; with {WATCHERS} who watch: {watched:.0%}"
+    )
+    print(json.dumps({"kept": all(kept)}))
+
+
+if __name__ == "__main__":
+    main()

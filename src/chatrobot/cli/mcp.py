@@ -1,0 +1,132 @@
+"""`chatrobot mcp`: an MCP server, through which a language agent drives a robot. Over stdio, or over HTTP."""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import importlib.util
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from chatrobot.cli.entry import STOPPED
+from chatrobot.core.errors import UsageError
+
+if TYPE_CHECKING:
+    from chatrobot.compose import Connection, Setup
+    from chatrobot.core.events import Event
+    from chatrobot.mcp_server.robot import AgentRobot
+
+_PARTED = "asked to end"
+MEET_AFTER_S = 0.1
+
+
+def run(args: argparse.Namespace) -> int:
+    """Return 0 where the client has left, 5 where a signal ended the server. The robot stops before either.
+
+    Raises:
+        UsageError: an option cannot be used.
+    """
+    if args.host_line is not None:
+        from chatrobot.cli.attach import pass_on
+
+        return pass_on(args.host_line)
+    _check(args)
+    return _run_own(args)
+
+
+def _run_own(args: argparse.Namespace) -> int:
+    """Serve a robot of our own."""
+    from chatrobot.cli.choices import setup_from
+    from chatrobot.cli.signals import SignalWatch
+    from chatrobot.mcp_server.robot import SOURCE, AgentRobot
+
+    setup = replace(setup_from(args, named_model=True, programs=True), source=SOURCE)
+    if setup.model is None:  # the client's own model does what the offline language cannot: hint at no other
+        setup = replace(setup, options=replace(setup.options, interpreter="offline"))
+    robot = AgentRobot(_connector(setup))
+    with SignalWatch(robot.stop) as watch:
+        try:
+            asyncio.run(_serve(args, setup, robot, lambda: watch.is_leaving))
+        finally:
+            robot.close(_PARTED)
+    return STOPPED if watch.is_leaving else 0
+
+
+def _check(args: argparse.Namespace) -> None:
+    if importlib.util.find_spec("mcp") is None:
+        raise UsageError("the MCP server is not installed", allowed="pip install 'chatrobot[mcp]'")
+    for given, flag in ((args.fast, "--fast"), (args.trace, "--trace"), (args.json, "--json")):
+        if given:
+            raise UsageError(
+                "an MCP server runs in real time and speaks MCP", where=flag, allowed="leave it out"
+            )
+    if not args.http:
+        for given, flag in ((args.host, "--host"), (args.port, "--port"), (args.token, "--token")):
+            if given is not None:
+                raise UsageError("only HTTP has an address and a token", where=flag, allowed="--http besides")
+
+
+def _connector(setup: Setup) -> Callable[[Callable[[Event], None]], Connection]:
+    """Return what meets the robot; the processes that were started ahead are used once."""
+    from chatrobot.compose import connect
+
+    ahead = [setup]
+
+    def meet(on_event: Callable[[Event], None]) -> Connection:
+        return connect(ahead.pop() if ahead else replace(setup, processes=None), on_event)
+
+    return meet
+
+
+async def _serve(
+    args: argparse.Namespace, setup: Setup, robot: AgentRobot, is_leaving: Callable[[], bool]
+) -> None:
+    _hint_at_terminal(args)
+    from chatrobot.link.processes import SIMULATED
+    from chatrobot.mcp_server.server import build_server
+
+    server = build_server(robot, setup.profile, is_simulated=setup.on in SIMULATED)
+    # A moment later: the client's first request comes at once, and loading the words takes the interpreter.
+    asyncio.get_running_loop().call_later(MEET_AFTER_S, robot.start)
+    if args.http:
+        from chatrobot.mcp_server.http import (
+            LEAST_TOKEN_CHARS,
+            PATH,
+            guarded_app,
+            listen,
+            new_token,
+            serve_http,
+        )
+
+        if args.token is not None and len(args.token) < LEAST_TOKEN_CHARS:
+            raise UsageError(
+                f"the token is shorter than {LEAST_TOKEN_CHARS} characters",
+                where="--token",
+                allowed="a longer one, or leave it out: one is made and printed",
+            )
+        host, token = args.host or "127.0.0.1", args.token or new_token()
+        with listen(host, args.port) as listener:
+            port = listener.getsockname()[1]
+            shown = f"[{host}]" if ":" in host else host
+            made = "" if args.token else f"  token: {token}"
+            print(f"MCP server: http://{shown}:{port}{PATH}{made}", flush=True)
+            await serve_http(guarded_app(server, token, host, port), listener, is_leaving)
+        return
+    from chatrobot.mcp_server.streams import LineStream, private_stdio, serve_lines
+
+    with private_stdio() as (read_fd, write_fd):
+        lines = LineStream(read_fd, write_fd, lambda: robot.stop("the agent's client is gone"))
+        serving = asyncio.create_task(serve_lines(server, lines))
+        while not (serving.done() or is_leaving()):
+            await asyncio.wait([serving], timeout=0.1)
+        serving.cancel()
+        await asyncio.gather(serving, return_exceptions=True)
+
+
+def _hint_at_terminal(args: argparse.Namespace) -> None:
+    """Tell a person who types this at a terminal what it is for."""
+    if sys.stdin.isatty() and not args.http:
+        text = "chatrobot mcp waits for an MCP client on standard input (docs/agents.md); Ctrl-C ends it"
+        print(text, file=sys.stderr)

@@ -1,0 +1,174 @@
+"""`chatrobot web`: one robot, a page for people; it ends with Ctrl-C, and the robot stands."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import re
+import socket
+import sys
+import threading
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from chatrobot.cli.choices import setup_from
+from chatrobot.cli.console.words import language_of_environment
+from chatrobot.cli.entry import STOPPED
+from chatrobot.cli.signals import SignalWatch
+from chatrobot.compose import Setup, connect
+from chatrobot.core.errors import LinkError, UsageError
+from chatrobot.dialogue.pump import Pump
+from chatrobot.link.processes import SIMULATED
+
+if TYPE_CHECKING:
+    from chatrobot.web.access import Access
+    from chatrobot.web.room import Room
+    from chatrobot.web.server import WebServer
+
+PORT, MOST_TRIED = 8080, 20
+_TOKEN = re.compile(r"[A-Za-z0-9._~-]{4,128}")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Serve the page until Ctrl-C.
+
+    Raises:
+        UsageError: it cannot be served as chosen.
+    """
+    _check(args)
+    try:
+        from chatrobot.web.room import Room
+        from chatrobot.web.server import WebServer
+    except ImportError as error:
+        problem = f"the web console is not installed: {error.name} is missing"
+        raise UsageError(problem, allowed="pip install 'chatrobot[web]'") from error
+    setup = setup_from(args, programs=True)
+    setup = replace(setup, options=replace(setup.options, while_moving="replace"))
+    access = _access(args)
+    page_socket, stop_socket = listen(args.host, args.port), listen(args.host, 0)
+    certificate = (args.tls_cert, args.tls_key) if args.tls_cert else None
+    with contextlib.closing(page_socket), contextlib.closing(stop_socket):
+        room = Room()
+        server = WebServer(access, {room.name: room}, certificate)
+        return _serve(setup, room, server, (page_socket, stop_socket), lambda: _tell(args, access))
+
+
+def _serve(
+    setup: Setup,
+    room: Room,
+    server: WebServer,
+    sockets: tuple[socket.socket, socket.socket],
+    tell: Callable[[], None],
+) -> int:
+    connection = connect(setup, room.hear)
+    ended = threading.Event()
+    problems: list[Exception] = []
+
+    def lose(error: Exception) -> None:
+        room.lose(error)
+        problems.append(error)
+        ended.set()
+
+    pump = Pump(connection.session, lose)
+    room.open(connection, pump.post, is_simulated=setup.on in SIMULATED)
+    try:
+        with SignalWatch(connection.session.stop) as watch:
+            server.start(*sockets)
+            pump.start()
+            tell()
+            while not (watch.is_leaving or ended.wait(0.1)):
+                pass
+            server.close()
+    finally:
+        with contextlib.suppress(LinkError):  # Motion is gone, and its guard halts the robot
+            connection.session.stop("the web console has ended")
+        pump.stop()
+        connection.close()
+    if problems:
+        raise problems[0]
+    return STOPPED
+
+
+def _check(args: argparse.Namespace) -> None:
+    if args.fast:
+        raise UsageError(
+            "the web console runs in real time", where="--fast", allowed='chatrobot do "…" --fast'
+        )
+    if bool(args.tls_cert) != bool(args.tls_key):
+        raise UsageError(
+            "a certificate and its key belong together", allowed="--tls-cert FILE --tls-key FILE"
+        )
+    for option, path in (("--tls-cert", args.tls_cert), ("--tls-key", args.tls_key)):
+        if path and not os.access(path, os.R_OK):
+            raise UsageError(f"{path} cannot be read", where=option, allowed="a file in PEM")
+    if args.token and not _TOKEN.fullmatch(args.token):
+        raise UsageError(
+            "a token has 4 to 128 letters, digits, '-', '.', '_' or '~'",
+            where="--token",
+            allowed="leave it out for one that nobody guesses",
+        )
+
+
+def _access(args: argparse.Namespace) -> Access:
+    """Say who may come in: at this machine everybody, unless a token was chosen; elsewhere by token."""
+    from chatrobot.web.access import Access, is_loopback
+
+    needs_token = bool(args.token) or not is_loopback(args.host)
+    access = Access(args.host, is_secure=bool(args.tls_cert), needs_token=needs_token)
+    if needs_token:
+        access.issue("steerer", token=args.token)
+        access.issue("watcher")
+    return access
+
+
+def listen(host: str, port: int | None) -> socket.socket:
+    """Listen on that port; where none was chosen on the first free one from `PORT` on.
+
+    Raises:
+        UsageError: nobody can listen there.
+    """
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    tried = range(PORT, PORT + MOST_TRIED) if port is None else (port,)
+    problem = ""
+    for number in tried:
+        try:
+            return socket.create_server((host, number), family=family, backlog=128)
+        except OSError as error:
+            problem = f"cannot listen on {host}:{number}: {error.strerror or error}"
+    allowed = "--port 0: any that is free" if port is not None or len(tried) > 1 else "--host 127.0.0.1"
+    raise UsageError(problem, allowed=allowed)
+
+
+def _tell(args: argparse.Namespace, access: Access) -> None:
+    """Print the address; where a token is needed as a link and as a QR code, and the link of those who watch."""
+    from chatrobot.web.words import web_words
+
+    language = language_of_environment()
+    name = _reachable(args.host)
+    links = [f"{access.origin(name)}/#{token}" for token in access.tokens] or [f"{access.origin(name)}/"]
+    print(web_words(language, "address", url=links[0]), flush=True)
+    if access.needs_token:
+        import segno
+
+        if sys.stdout.isatty():
+            segno.make(links[0], error="m").terminal(compact=True)
+        print(web_words(language, "watch_address", url=links[1]), flush=True)
+    may_open = sys.stdout.isatty() and (
+        sys.platform == "darwin" or "DISPLAY" in os.environ or "WAYLAND_DISPLAY" in os.environ
+    )
+    if may_open and not args.no_open:
+        import webbrowser
+
+        threading.Thread(target=webbrowser.open, args=(links[0],), daemon=True).start()
+
+
+def _reachable(host: str) -> str:
+    """Return the name by which another machine reaches a server that listens there."""
+    if host in ("0.0.0.0", "::"):
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe, contextlib.suppress(OSError):
+            probe.connect(("10.255.255.255", 9))  # asks for the way there; sends nothing
+            return str(probe.getsockname()[0])
+        return socket.gethostname()
+    return f"[{host}]" if ":" in host else host

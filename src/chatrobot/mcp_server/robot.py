@@ -1,0 +1,170 @@
+"""The robot of an agent: a session in the name of `agent`, started in the background, and who listens to it."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import threading
+from collections.abc import Callable, Iterator
+
+from chatrobot.compose import Connection
+from chatrobot.core.errors import ChatRobotError, LinkError
+from chatrobot.core.events import Event, Finished, Started
+from chatrobot.dialogue.pump import Pump
+from chatrobot.dialogue.session import Session
+from chatrobot.mcp_server.record import Record
+
+SOURCE = "agent"
+Connect = Callable[[Callable[[Event], None]], Connection]
+"""Meets the robot; its argument hears every event. Blocks until the robot is there."""
+Listener = Callable[[Event | None], None]
+"""Hears events on the server's thread; None: look again, something else has changed."""
+
+_POLL_S = 0.02
+
+
+class Turns:
+    """Whose turn it is: one instruction at a time, of all clients of a robot."""
+
+    def __init__(self) -> None:
+        self.lock = asyncio.Lock()
+        self.waiting = 0
+
+
+class RobotGoneError(ChatRobotError):
+    """There is no robot to talk to; the message says why, and the way out."""
+
+
+class AgentRobot:
+    """One session for all calls. `start` once there is a loop; `stop` and `close` from any thread.
+
+    Args:
+        connect: meets the robot, in a thread of its own.
+        approval_address: where a person says yes to a plan, "" where nobody is there to say it.
+    """
+
+    def __init__(self, connect: Connect, approval_address: Callable[[], str] = lambda: "") -> None:
+        self._connect = connect
+        self.approval_address = approval_address
+        self.record = Record()
+        self.turns = Turns()
+        self.setbacks = 0
+        """Steps with each stop and each instruction that was not done: what was asked for before it is not begun."""
+        self.waiting_turn: int | None = None
+        """The turn that waits for a person's yes, without a call that waits for it."""
+        self.paused_turn: int | None = None
+        """The turn whose plan is kept by a pause, without a call that waits for it."""
+        self._connection: Connection | None = None
+        self._pump: Pump | None = None
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._listeners: list[Listener] = []
+        self._failure: Exception | None = None
+        self._is_starting = self._is_closed = False
+        self._changing = threading.Lock()
+
+    # --- the server's thread ---
+
+    def start(self) -> None:
+        """Begin to meet the robot, unless that is under way or done."""
+        self._loop = asyncio.get_running_loop()
+        with self._changing:
+            if self._is_starting or self._is_closed or self._connection is not None:
+                return
+            self._is_starting, self._failure = True, None
+        threading.Thread(target=self._meet, name="meet", daemon=True).start()
+
+    async def ready(self) -> Connection:
+        """Wait until the robot is there.
+
+        Raises:
+            RobotGoneError: it cannot be met, or is gone.
+        """
+        self.start()
+        while self._connection is None:
+            if self._failure is not None:
+                raise RobotGoneError(f"{self._failure} The next call tries again.") from self._failure
+            if self._is_closed:
+                raise RobotGoneError("This server is ending.")
+            await asyncio.sleep(_POLL_S)
+        if self._failure is not None:
+            raise RobotGoneError(
+                f"{self._failure} A person has to restart this MCP server."
+            ) from self._failure
+        return self._connection
+
+    @contextlib.contextmanager
+    def listening(self, listener: Listener) -> Iterator[None]:
+        """Within it `listener` hears every event."""
+        self._listeners.append(listener)
+        try:
+            yield
+        finally:
+            self._listeners.remove(listener)
+
+    # --- from any thread ---
+
+    @property
+    def session(self) -> Session | None:
+        """Return the session; None before the robot is there."""
+        return self._connection.session if self._connection is not None else None
+
+    def stop(self, why: str) -> None:
+        """Stop the robot, and begin nothing that was asked for before. Waits for nothing."""
+        self.setbacks += 1
+        self.waiting_turn = None
+        session = self.session
+        if session is not None:
+            with contextlib.suppress(LinkError):  # Motion is gone: its guard halts
+                session.stop(why)
+
+    def close(self, why: str = "the agent's client is gone") -> None:
+        """Stop the robot and leave it. Closing twice does no harm."""
+        with self._changing:
+            if self._is_closed:
+                return
+            self._is_closed = True
+        self.stop(why)
+        if self._pump is not None:
+            self._pump.stop()
+        if self._connection is not None:
+            self._connection.close()
+
+    # --- threads of its own ---
+
+    def _meet(self) -> None:
+        try:
+            connection = self._connect(self._hear)
+        except (ChatRobotError, OSError) as error:
+            self._failure = error
+            self._is_starting = False
+            return
+        with self._changing:
+            pump = Pump(connection.session, self._lose)
+            self._pump, self._connection, self._is_starting = pump, connection, False
+            is_late = self._is_closed
+            if not is_late:
+                pump.start()
+        if is_late:  # nothing was asked of it
+            connection.close()
+
+    def _hear(self, event: Event) -> None:
+        """On the pumping thread."""
+        session = self.session
+        self.record.hear(event, session.understanding.language if session is not None else "en")
+        if isinstance(event, (Started, Finished)):
+            self.waiting_turn = None if event.turn == self.waiting_turn else self.waiting_turn
+            self.paused_turn = None if event.turn == self.paused_turn else self.paused_turn
+        self._tell(event)
+
+    def _lose(self, error: Exception) -> None:
+        self._failure = error
+        self._tell(None)
+
+    def _tell(self, event: Event | None) -> None:
+        if self._loop is not None and self._listeners:
+            with contextlib.suppress(RuntimeError):  # the loop has ended: so have its calls
+                self._loop.call_soon_threadsafe(self._pass_on, event)
+
+    def _pass_on(self, event: Event | None) -> None:
+        for listener in tuple(self._listeners):
+            listener(event)

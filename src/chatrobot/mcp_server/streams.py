@@ -1,0 +1,120 @@
+"""Carries MCP over standard input and output, and over a Unix socket: a message a line.
+
+Lines are read by a thread of their own, so that a client that is gone is noticed while anything else is done, and an
+end need not wait for a read. While stdio is served, whatever else writes to standard output lands on standard error.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import threading
+from collections.abc import AsyncIterator, Callable
+from typing import Any, cast
+
+from mcp.server.mcpserver import MCPServer
+from mcp.server.stdio import stdio_server
+
+STDIN, STDOUT, STDERR = 0, 1, 2
+READ_BYTES = 65_536
+MOST_LINE_BYTES = 4_000_000
+"""As much as the SDK takes in one HTTP request; a longer line is dropped."""
+
+
+class LineSplitter:
+    """Cuts what is read into lines; one without an end takes no more memory than `MOST_LINE_BYTES`."""
+
+    def __init__(self) -> None:
+        self._held = bytearray()
+        self._is_too_long = False
+
+    def take(self, data: bytes) -> list[str]:
+        """Return the lines that are complete with `data`."""
+        *complete, rest = data.split(b"\n")
+        lines = []
+        for part in complete:
+            self._hold(part)
+            if not self._is_too_long:
+                lines.append(self._held.decode("utf-8", errors="replace"))
+            self._held.clear()
+            self._is_too_long = False
+        self._hold(rest)
+        return lines
+
+    def _hold(self, part: bytes) -> None:
+        self._is_too_long = self._is_too_long or len(self._held) + len(part) > MOST_LINE_BYTES
+        if self._is_too_long:
+            self._held.clear()
+        else:
+            self._held += part
+
+
+class LineStream:
+    """Lines of one client, both ways, on two descriptors. Make it where the loop runs.
+
+    Args:
+        on_end: called by the reading thread the moment the client is gone.
+    """
+
+    def __init__(self, read_fd: int, write_fd: int, on_end: Callable[[], None]) -> None:
+        self._read_fd, self._write_fd = read_fd, write_fd
+        self._on_end = on_end
+        self._loop = asyncio.get_running_loop()
+        self._lines: asyncio.Queue[str | None] = asyncio.Queue(maxsize=64)
+        threading.Thread(target=self._read, name="mcp-client", daemon=True).start()
+
+    async def __aiter__(self) -> AsyncIterator[str]:
+        """Yield each line, until the client is gone."""
+        while (line := await self._lines.get()) is not None:
+            yield line
+
+    async def write(self, text: str) -> None:
+        """Write all of `text`; a client that is gone is noticed by who reads."""
+        writing = asyncio.get_running_loop().run_in_executor(None, self._write, text.encode())
+        await asyncio.shield(writing)
+
+    async def flush(self) -> None:
+        """Nothing is held back."""
+
+    def _write(self, data: bytes) -> None:
+        with contextlib.suppress(OSError):
+            left = memoryview(data)
+            while left:
+                left = left[os.write(self._write_fd, left) :]
+
+    def _read(self) -> None:
+        splitter = LineSplitter()
+        with contextlib.suppress(OSError, RuntimeError):  # RuntimeError: the loop has ended before the client
+            while data := os.read(self._read_fd, READ_BYTES):
+                for line in splitter.take(data):
+                    self._hand_on(line)
+        self._on_end()
+        with contextlib.suppress(RuntimeError):
+            self._hand_on(None)
+
+    def _hand_on(self, line: str | None) -> None:
+        asyncio.run_coroutine_threadsafe(self._lines.put(line), self._loop).result()
+
+
+@contextlib.contextmanager
+def private_stdio() -> Any:
+    """Give the wire's two ends; within it nobody else reads standard input or writes to standard output."""
+    read_fd, write_fd = os.dup(STDIN), os.dup(STDOUT)
+    nothing = os.open(os.devnull, os.O_RDONLY)
+    os.dup2(nothing, STDIN)
+    os.dup2(STDERR, STDOUT)
+    os.close(nothing)
+    try:
+        yield read_fd, write_fd
+    finally:
+        os.dup2(read_fd, STDIN)
+        os.dup2(write_fd, STDOUT)
+
+
+async def serve_lines(server: MCPServer[Any], lines: LineStream) -> None:
+    """Serve one client until it is gone; its calls are then cancelled."""
+    inner = server._lowlevel_server  # the SDK has no public way to serve given streams
+    as_file = cast(Any, lines)
+    async with stdio_server(as_file, as_file) as (incoming, outgoing):
+        await inner.run(incoming, outgoing, inner.create_initialization_options())

@@ -1,0 +1,148 @@
+"""What is published of the robot for displays: how it moves, what its lidar sees. After each tick's own work."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from chatrobot.core.events import Event, Progress, Scan, Telemetry
+from chatrobot.core.geometry import Pose
+from chatrobot.execution.sensors import Sensors
+from chatrobot.execution.tracking import nearest_m
+from chatrobot.governor.lease import Leases
+from chatrobot.robots.profile import Lidar, RobotProfile
+from chatrobot.wire.messages import LaserScan
+
+TELEMETRY_S = 0.1
+
+
+class TelemetryPublisher:
+    """Publishes how far the motion is, and where and how fast the robot goes, as it measures it itself.
+
+    Args:
+        progress: how far the motion under way is; None where nothing is.
+    """
+
+    def __init__(
+        self, sensors: Sensors, progress: Callable[[float], Progress | None], emit: Callable[[Event], None]
+    ) -> None:
+        self._sensors = sensors
+        self._progress = progress
+        self._emit = emit
+        self._next_s = 0.0
+
+    def tick(self, now_s: float) -> None:
+        """Publish it every `TELEMETRY_S`, once the robot has said where it is."""
+        if now_s < self._next_s:
+            return
+        self._next_s = now_s + TELEMETRY_S
+        estimate, scan = self._sensors.estimate, self._sensors.scan
+        if estimate is None:
+            return
+        progress = self._progress(now_s)
+        if progress is not None:
+            self._emit(progress)
+        self._emit(
+            Telemetry(
+                progress.turn if progress is not None else 0,
+                estimate.pose,
+                estimate.twist,
+                estimate.path_m,
+                self._sensors.battery_percent,
+                nearest_m(scan) if scan is not None else None,
+                progress is not None,
+                self._sensors.estimator.epoch,
+            )
+        )
+
+
+SCAN_S = 0.2
+SCAN_POINTS = 180
+
+
+class ScanPublisher:
+    """Publishes what the lidar sees, while somebody watches. Belongs to the control thread.
+
+    A watcher whose lease is over watches no more, whatever became of it.
+    """
+
+    def __init__(
+        self, lidar: Lidar | None, sensors: Sensors, leases: Leases, emit: Callable[[Event], None]
+    ) -> None:
+        self._lidar = lidar
+        self._sensors = sensors
+        self._leases = leases
+        self._emit = emit
+        self._watchers: set[str] = set()
+        self._shown: LaserScan | None = None
+        self._next_s = 0.0
+
+    def watch(self, lease: str, *, on: bool) -> None:
+        """Publish for that client, or not any more."""
+        if on and self._leases.is_known(lease):
+            self._watchers.add(lease)
+        else:
+            self._watchers.discard(lease)
+
+    def tick(self, now_s: float) -> None:
+        """Publish a new scan every `SCAN_S`."""
+        lidar, scan = self._lidar, self._sensors.scan
+        if not self._watchers or lidar is None or now_s < self._next_s or scan is None or scan is self._shown:
+            return
+        self._watchers = {lease for lease in self._watchers if self._leases.is_valid(lease, now_s)}
+        self._next_s, self._shown = now_s + SCAN_S, scan
+        pose = self._sensors.estimator.pose_at(scan.stamp_s)
+        if pose is not None and self._watchers:
+            self._emit(Scan(0, pose, scan_points_m(lidar, scan, pose)))
+
+
+def scan_points_m(lidar: Lidar, scan: LaserScan, pose: Pose) -> tuple[tuple[float, float], ...]:
+    """Return what the lidar saw from `pose`, in `odom`: of neighbouring beams the nearest return, to the centimetre."""
+    origin = pose.compose(Pose(lidar.x_m, lidar.y_m, lidar.yaw_rad))
+    ranges, first_rad = scan.ranges_m, origin.yaw_rad + scan.angle_min_rad
+    together = math.ceil(len(ranges) / SCAN_POINTS)
+    points = []
+    for start in range(0, len(ranges), max(together, 1)):
+        seen = [
+            (distance_m, start + offset)
+            for offset, distance_m in enumerate(ranges[start : start + together])
+            if scan.range_min_m <= distance_m <= scan.range_max_m
+        ]
+        if seen:
+            distance_m, beam = min(seen)
+            angle_rad = first_rad + beam * scan.angle_increment_rad
+            x_m = origin.x_m + distance_m * math.cos(angle_rad)
+            points.append((round(x_m, 2), round(origin.y_m + distance_m * math.sin(angle_rad), 2)))
+    return tuple(points)
+
+
+SECTORS = 8
+"""Each 45 degrees wide; the first is centred on straight ahead, the next lie to the left of it, counter-clockwise."""
+
+
+def sectors_m(profile: RobotProfile, scan: LaserScan | None) -> tuple[float | None, ...]:
+    """Return the metres from the footprint's edge to the nearest return in each sector, in the robot's frame.
+
+    None in a sector where nothing is seen; empty where there is no lidar or it has not spoken.
+    """
+    lidar = profile.lidar
+    if lidar is None or scan is None:
+        return ()
+    nearest = [math.inf] * SECTORS
+    for count, distance in enumerate(scan.ranges_m):
+        if not scan.range_min_m <= distance <= scan.range_max_m:
+            continue
+        angle = scan.angle_min_rad + count * scan.angle_increment_rad + lidar.yaw_rad
+        x, y = lidar.x_m + distance * math.cos(angle), lidar.y_m + distance * math.sin(angle)
+        sector = round(math.atan2(y, x) / (2.0 * math.pi) * SECTORS) % SECTORS
+        free_m = math.hypot(x, y) - _reach_m(profile, x, y)
+        nearest[sector] = min(nearest[sector], max(0.0, free_m))
+    return tuple(round(d, 2) if math.isfinite(d) else None for d in nearest)
+
+
+def _reach_m(profile: RobotProfile, x_m: float, y_m: float) -> float:
+    """How far the footprint reaches towards that point."""
+    distance_m = math.hypot(x_m, y_m)
+    if distance_m == 0.0:
+        return 0.0
+    return max(0.0, max((x * x_m + y * y_m) / distance_m for x, y in profile.footprint))

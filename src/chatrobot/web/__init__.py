@@ -1,0 +1,1 @@
+"""The web console: a page for people, on one session; see docs/web.md."""

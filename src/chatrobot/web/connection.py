@@ -1,0 +1,209 @@
+"""One page's WebSocket: it joins a room, reads what the page says and does it, sends what the page is to be told."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import itertools
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
+
+from chatrobot.core.errors import LinkError
+from chatrobot.core.geometry import Twist
+from chatrobot.language.interpretation import LanguageCode
+from chatrobot.web.access import Pass
+from chatrobot.web.limits import ABORT, Rate
+from chatrobot.web.outbox import Message, Outbox
+from chatrobot.web.protocol import MalformedError, read_message
+from chatrobot.web.room import Room
+from chatrobot.web.words import refused, web_words
+
+CLOSE_S = 0.5
+"""So long a page may take to read why it is closed."""
+COSTS = {"history": 10, "programs": 5, "program": 5}
+"""What is answered with much counts as so many messages."""
+MOST_MALFORMED = 10
+"""A page that says so much that is not understood is none of ours."""
+UNSUPPORTED, POLICY, TRY_LATER = 1003, 1008, 1013
+"""Codes of a closed WebSocket (RFC 6455, section 7.4): it sent bytes; it went too far; it reads too slowly."""
+_BROWSERS = (("Edg", "Edge"), ("Firefox", "Firefox"), ("Chrome", "Chrome"), ("Safari", "Safari"))
+_numbers = itertools.count(1)
+
+
+class Page:
+    """Somebody's browser: a `Face` of a room."""
+
+    def __init__(self, websocket: WebSocket, pass_: Pass) -> None:
+        self.id = f"page-{next(_numbers)}"
+        self.pass_ = pass_
+        wants = websocket.headers.get("accept-language", "")
+        self.language: LanguageCode = "zh" if wants.casefold().startswith("zh") else "en"
+        agent = websocket.headers.get("user-agent", "")
+        browser = next((name for mark, name in _BROWSERS if mark in agent), "page")
+        self.name = web_words(self.language, "page_name", browser=browser, number=self.id.partition("-")[2])
+        self._has_to_go = asyncio.Event()
+        self.outbox = Outbox(self.close)
+
+    @property
+    def is_local(self) -> bool:
+        """It is at this machine."""
+        return self.pass_.is_local
+
+    def put(self, message: Message) -> None:
+        """Have it told. From any thread."""
+        self.outbox.put(message)
+
+    def close(self) -> None:
+        """Have its connection end. For the event loop."""
+        self._has_to_go.set()
+
+    async def wait_for_close(self) -> None:
+        """Wait until somebody has it ended."""
+        await self._has_to_go.wait()
+
+
+class PageConnection:
+    """See the module. Belongs to the event loop."""
+
+    def __init__(self, websocket: WebSocket, room: Room, page: Page) -> None:
+        self._socket = websocket
+        self._room = room
+        self._page = page
+        self._rates = {"steer": Rate(), "beat": Rate(), "": Rate()}
+        self._malformed = 0
+        self._code = TRY_LATER
+
+    async def serve(self) -> None:
+        """Serve the page until it or we have had enough."""
+        self._room.join(self._page)
+        tasks = [
+            asyncio.ensure_future(task) for task in (self._read(), self._send(), self._page.wait_for_close())
+        ]
+        try:
+            await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            self._room.leave(self._page)
+            for task in tasks:
+                task.cancel()
+            results = await asyncio.gather(*tasks, return_exceptions=True)
+            await self._close()
+        for result in results:
+            if isinstance(result, Exception) and not isinstance(result, WebSocketDisconnect):
+                raise result
+
+    async def _close(self) -> None:
+        if self._socket.application_state is not WebSocketState.CONNECTED:
+            return
+        with contextlib.suppress(RuntimeError, WebSocketDisconnect, OSError):  # the page was faster
+            try:
+                await asyncio.wait_for(self._socket.close(self._code), CLOSE_S)
+            except asyncio.TimeoutError:  # it does not read
+                self._socket.scope["extensions"][ABORT]()
+
+    async def _send(self) -> None:
+        while True:
+            for message in await self._page.outbox.take():
+                await self._socket.send_text(message.text_in(self._page.language))
+
+    async def _read(self) -> None:
+        while True:
+            received = await self._socket.receive()
+            if received["type"] == "websocket.disconnect":
+                return
+            text = received.get("text")
+            if text is None:
+                self._code = UNSUPPORTED
+                return
+            if not self._take(text):
+                self._code = POLICY
+                return
+
+    def _take(self, text: str) -> bool:
+        """Do what a message says. False where this page has gone too far."""
+        room, page = self._room, self._page
+        try:
+            message = read_message(text)
+        except MalformedError as error:
+            self._malformed += 1
+            page.put(refused("malformed", problem=str(error)))
+            return self._malformed <= MOST_MALFORMED
+        do = message["do"]
+        if not self._rates.get(do, self._rates[""]).allows(COSTS.get(do, 1)) and do not in (
+            "stop",
+            "emergency_stop",
+        ):
+            page.put(refused("too_many", do))
+            return False
+        if do in _BEATS:
+            room.steering.beat(page)
+        why = why_not(room, page, do)
+        if why:
+            page.put(refused(why, do))
+            return True
+        try:
+            ACTIONS[do](room, page, message)
+        except LinkError as error:
+            room.lose(error)
+        return True
+
+
+_BEATS = ("beat", "steer")
+_FREE = frozenset({"stop", "emergency_stop", "beat", "programs", "program", "language", "history"})
+"""What anybody may say who may see the robot."""
+_NEEDS_BEATS = frozenset({"say", "say_plan", "edit", "go", "resume", "run_program", "edit_program"})
+
+
+def why_not(room: Room, page: Page, do: str) -> str:
+    """Return the code of why this page may not say that just now; "" where it may."""
+    if do in _FREE:
+        return ""
+    if do == "release":
+        elsewhere = "release_elsewhere" if page.pass_.role == "steerer" else "not_for_you"
+        return "" if page.pass_.may_release else elsewhere
+    if not page.pass_.may_steer:
+        return "may_only_watch"
+    if do == "take":
+        return ""
+    if not room.steers(page):
+        return "not_steering" if room.steering.steerer is not None else "nobody_steers"
+    return "silent" if do in _NEEDS_BEATS and not room.steering.is_alive else ""
+
+
+def _steer(room: Room, page: Page, said: dict[str, Any]) -> None:
+    room.steering.stick(page, Twist(said["vx_mps"], said["vy_mps"], said["wz_radps"]))
+
+
+def _language(_: Room, page: Page, said: dict[str, Any]) -> None:
+    page.language = said["code"]
+
+
+def _history(room: Room, page: Page, _: dict[str, Any]) -> None:
+    page.put(Message(lambda language: {"is": "history", "history": room.history(language)}))
+
+
+ACTIONS: Mapping[str, Callable[[Room, Page, dict[str, Any]], None]] = {
+    "say": lambda room, page, said: room.say(page, said["text"]),
+    "say_plan": lambda room, page, said: room.say_plan(page, said["plan_text"]),
+    "approve": lambda room, page, said: room.answer(page, said["turn"], said["yes"]),
+    "edit": lambda room, page, said: room.say_edited(page, said["plan_text"], said["turn"]),
+    "go": lambda room, page, said: room.go(
+        page, said["x_m"], said["y_m"], said.get("yaw_rad"), asks=said.get("ask", True)
+    ),
+    "pause": lambda room, _, __: room.session.pause("pause()"),
+    "resume": lambda room, page, _: room.resume(page),
+    "stop": lambda room, _, __: room.stop(),
+    "emergency_stop": lambda room, _, __: room.emergency_stop(),
+    "release": lambda room, _, __: room.release(),
+    "steer": _steer,
+    "beat": lambda _, __, ___: None,  # that it came is all
+    "take": lambda room, page, _: room.take(page),
+    "give": lambda room, _, __: room.take(None),
+    "programs": lambda room, page, _: room.programs.list_all(page),
+    "program": lambda room, page, said: room.programs.show(page, said["name"]),
+    "run_program": lambda room, page, said: room.run_program(page, said["name"]),
+    "edit_program": lambda room, page, said: room.edit_program(page, said["name"], said["source"]),
+    "language": _language,
+    "history": _history,
+}

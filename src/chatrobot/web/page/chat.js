@@ -1,0 +1,202 @@
+/** The chat: one entry a turn, which grows as the turn does; questions have buttons. */
+
+import { choicesOf } from "./choices.js";
+import { on, send, state } from "./connection.js";
+import { byId, isField, make, makeButton, setText } from "./dom.js";
+import { showHistory } from "./say_box.js";
+import { speak } from "./speech.js";
+import { language, t } from "./words.js";
+
+const MOST_ENTRIES = 300;
+const MARKS = { completed: "✓", answered: "", stopped: "■", refused: "!", unclear: "?", failed: "✕" };
+
+const log = byId("talk");
+const list = byId("turns");
+const entries = new Map();
+let asking = null;
+let editPlan = () => {};
+
+/** Where "Edit" leads: the plan's own panel. */
+export function onEditPlan(listener) {
+  editPlan = listener;
+}
+
+function entryOf(turn) {
+  let entry = entries.get(turn);
+  if (!entry) {
+    entry = {
+      turn,
+      item: make("li", "turn"),
+      you: make("p", "you"),
+      robot: make("div", "robot"),
+      text: make("p", "text"),
+      found: make("ul", "found"),
+      bar: make("span", "bar"),
+      buttons: make("div", "buttons"),
+    };
+    entry.you.hidden = entry.bar.hidden = entry.robot.hidden = true;
+    entry.bar.setAttribute("aria-hidden", "true");
+    entry.robot.append(entry.text, entry.found, entry.bar, entry.buttons);
+    entry.item.append(entry.you, entry.robot);
+    entries.set(turn, entry);
+    list.append(entry.item);
+    forgetOldest();
+  }
+  return entry;
+}
+
+function forgetOldest() {
+  while (list.children.length > MOST_ENTRIES) {
+    const oldest = list.firstElementChild;
+    for (const [turn, entry] of entries) if (entry.item === oldest) entries.delete(turn);
+    oldest.remove();
+  }
+}
+
+function forgetAll() {
+  entries.clear();
+  list.replaceChildren();
+  asking = null;
+}
+
+/** Do `act` and keep the newest in sight, unless a person has scrolled up to read. */
+function change(act) {
+  const isAtEnd = log.scrollHeight - log.scrollTop - log.clientHeight < 80;
+  act();
+  if (isAtEnd || state.isReplaying) log.scrollTop = log.scrollHeight;
+}
+
+function say(entry, text, outcome = "") {
+  entry.robot.hidden = false;
+  entry.robot.dataset.outcome = outcome;
+  setText(entry.text, text);
+  if (MARKS[outcome]) entry.text.prepend(make("span", "mark", MARKS[outcome]));
+}
+
+/** Put buttons under an entry; those of an earlier question go away. */
+function ask(entry, buttons) {
+  if (asking && asking !== entry) asking.buttons.replaceChildren();
+  asking = entry;
+  entry.buttons.replaceChildren(...buttons);
+  // Whoever uses the keyboard gets to the answer with one key, unless they are writing.
+  const isFree = document.activeElement === document.body || document.activeElement === byId("send");
+  if (!state.isReplaying && isFree && !isField(document.activeElement)) buttons[0].focus({ preventScroll: true });
+}
+
+function unask(entry) {
+  entry.buttons.replaceChildren();
+  if (asking === entry) asking = null;
+}
+
+function answer(entry, message) {
+  return () => {
+    if (send(message)) unask(entry);
+    byId("say").focus();
+  };
+}
+
+function askApproval(entry) {
+  const edit = () => editPlan(entry.turn);
+  ask(entry, [
+    makeButton(t("do_it"), "small main", answer(entry, { do: "approve", turn: entry.turn, yes: true })),
+    makeButton(t("edit"), "small", edit),
+    makeButton(t("cancel"), "small", answer(entry, { do: "approve", turn: entry.turn, yes: false })),
+  ]);
+}
+
+function sayButton(entry, label, text, className) {
+  return makeButton(label, className, answer(entry, { do: "say", text }));
+}
+
+const heard = {
+  interpreted(entry, event) {
+    if (event.reply) say(entry, event.reply, "understood");
+  },
+  rehearsed(entry, event, text) {
+    const texts = [].concat(text || []);
+    forgetRehearsal(entry);
+    const severity = (at) => (event.findings[at] || {}).severity || "note";
+    entry.found.append(...texts.map((one, at) => make("li", `rehearsal ${severity(at)}`, one)));
+    if (event.ok && event.duration_s > 0) {
+      const figures = { length: event.length_m.toFixed(2), duration: event.duration_s.toFixed(0) };
+      entry.found.prepend(make("li", "rehearsal note", t(event.open_ended ? "rehearsed_open" : "rehearsed", figures)));
+    }
+    entry.robot.hidden = false;
+    if (event.needs_approval) askApproval(entry);
+  },
+  started(entry) {
+    unask(entry);
+    entry.robot.hidden = entry.bar.hidden = false;
+  },
+  progress(entry, event) {
+    entry.bar.hidden = false;
+    entry.bar.classList.toggle("open", event.fraction === null);
+    entry.bar.style.setProperty("--share", event.fraction ?? 1);
+  },
+  paused(entry, event, text) {
+    say(entry, text || t("paused"), "paused");
+    ask(entry, [makeButton(t("resume"), "small main", answer(entry, { do: "resume" }))]);
+  },
+  said(entry, event) {
+    note(entry, event.text);
+    if (!state.isReplaying) speak(event.text, language());
+  },
+  remembered(entry, event, text) {
+    note(entry, text || event.place);
+  },
+  notice(entry, event, text) {
+    note(entry, text || event.text);
+  },
+  result(entry, event) {
+    unask(entry);
+    entry.bar.hidden = true;
+    if (event.reply) say(entry, event.reply, event.outcome);
+    forgetRehearsal(entry);
+    if (event.proposal) {
+      const yes = sayButton(entry, t("yes"), t("say_yes"), "small main");
+      ask(entry, [yes, sayButton(entry, t("no"), t("say_no"), "small")]);
+    } else if (event.outcome === "unclear") {
+      const choices = choicesOf(event.reply);
+      if (choices.length) ask(entry, choices.map((one) => sayButton(entry, one, one, "small")));
+    }
+    if (!state.isReplaying && event.reply) speak(event.reply, language());
+  },
+};
+
+function note(entry, text) {
+  if (!text) return;
+  entry.robot.hidden = false;
+  entry.found.append(make("li", "note", text));
+}
+
+/** What was rehearsed is told by what came of it. */
+function forgetRehearsal(entry) {
+  for (const item of entry.found.querySelectorAll(".rehearsal")) item.remove();
+}
+
+function noteLine(text) {
+  change(() => list.append(make("li", "line", text)));
+}
+
+/** Begin: hear what there is to show. */
+export function startChat() {
+  on("open", forgetAll);
+  on("history", forgetAll);
+  on("said", (message) => change(() => {
+    const entry = entryOf(message.turn);
+    if (asking) unask(asking);
+    entry.you.hidden = false;
+    const isMine = state.hello && message.by === state.hello.you;
+    const who = isMine || !message.name ? [] : [make("span", "who", message.name)];
+    entry.you.replaceChildren(...who, message.text);
+    showHistory(message);
+  }));
+  on("event", (message) => {
+    const event = message.event;
+    const hear = heard[event.event];
+    if (!hear) return;
+    if (event.event === "notice" && !event.turn) noteLine([].concat(message.text || event.text).join(" "));
+    else change(() => hear(entryOf(event.turn), event, message.text));
+  });
+  on("lost", (message) => noteLine(message.text));
+}

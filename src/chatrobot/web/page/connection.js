@@ -1,0 +1,131 @@
+/** The connection to the server: opened, kept, opened again; messages out, messages in by their kind. */
+
+import { useFirstLine, useStopLine } from "./stop.js";
+
+const OPEN = 1;
+const FIRST_WAIT_MS = 300;
+const LONGEST_WAIT_MS = 4000;
+const SILENCE_MS = 3000;
+const REFUSALS = [401, 403, 404, 421, 429];
+
+const listeners = new Map();
+const query = location.search;
+let socket = null;
+let waitMs = FIRST_WAIT_MS;
+let timer = 0;
+let heardMs = 0;
+let hadTelemetry = false;
+
+/** What the page knows of itself: from `hello`, kept up to date. */
+export const state = {
+  isOpen: false,
+  hello: null,
+  steers: false,
+  may: new Set(),
+  isReplaying: false,
+};
+
+/** Have `listener` hear messages of that kind; kinds of our own are `open`, `closed` and `denied`. */
+export function on(kind, listener) {
+  if (!listeners.has(kind)) listeners.set(kind, []);
+  listeners.get(kind).push(listener);
+}
+
+export function tell(message) {
+  for (const listener of listeners.get(message.is) || []) listener(message);
+}
+
+/** Hear what was told earlier, through the same listeners. */
+export function replay(messages) {
+  state.isReplaying = true;
+  for (const message of messages) tell(message);
+  state.isReplaying = false;
+}
+
+/** Send a message; false where the connection is gone. */
+export function send(message) {
+  if (!socket || socket.readyState !== OPEN) return false;
+  socket.send(JSON.stringify(message));
+  return true;
+}
+
+function addressOf(port, path) {
+  const scheme = location.protocol === "https:" ? "wss" : "ws";
+  const host = port ? `${location.hostname}:${port}` : location.host;
+  return `${scheme}://${host}${path}${query}`;
+}
+
+/** Come in: with the token of the link where it has one, then with the cookie. */
+export async function connect() {
+  const token = decodeURIComponent(location.hash.slice(1)).replace(/^token=/, "");
+  if (token) {
+    history.replaceState(null, "", location.pathname + query);
+    const body = JSON.stringify({ token });
+    const headers = { "Content-Type": "application/json" };
+    await fetch("enter", { method: "POST", headers, body }).catch(() => null);
+  }
+  open();
+}
+
+function open() {
+  clearTimeout(timer);
+  socket = new WebSocket(addressOf(0, "/ws"));
+  const mine = socket;
+  mine.onopen = () => {
+    waitMs = FIRST_WAIT_MS;
+    hadTelemetry = false;
+    useFirstLine(mine);
+  };
+  mine.onmessage = (message) => hear(JSON.parse(message.data));
+  mine.onclose = () => mine === socket && lose();
+}
+
+function hear(message) {
+  heardMs = performance.now();
+  if (message.is === "hello") greet(message);
+  if (message.is === "steering") follow(message);
+  if (message.is === "event" && message.event.event === "telemetry") hadTelemetry = true;
+  tell(message);
+}
+
+function greet(hello) {
+  state.isOpen = true;
+  state.hello = hello;
+  follow({ by: hello.steering && hello.steering.by, may: hello.may });
+  if (hello.stop_port) useStopLine(addressOf(hello.stop_port, "/stop"));
+  tell({ is: "open" });
+}
+
+function follow(steering) {
+  state.steers = Boolean(steering.by) && steering.by === state.hello.you;
+  if (steering.may) state.may = new Set(steering.may);
+}
+
+function lose() {
+  const was = state.isOpen;
+  state.isOpen = state.steers = false;
+  useFirstLine(null);
+  useStopLine("");
+  tell({ is: "closed", was });
+  timer = setTimeout(open, waitMs);
+  waitMs = Math.min(2 * waitMs, LONGEST_WAIT_MS);
+  ask();
+}
+
+/** Ask why we are not let in: a WebSocket does not say. */
+async function ask() {
+  const answer = await fetch("me", { cache: "no-store" }).catch(() => null);
+  if (answer && REFUSALS.includes(answer.status)) tell({ is: "denied", status: answer.status });
+}
+
+/** Close a connection on which nothing comes any more: a network that is gone closes none by itself. */
+setInterval(() => {
+  if (!state.isOpen || !hadTelemetry || performance.now() - heardMs < SILENCE_MS) return;
+  const silent = socket;
+  socket = null;
+  silent.close();
+  lose();
+}, 500);
+addEventListener("online", () => {
+  if (!state.isOpen && socket && socket.readyState > OPEN) open();
+});

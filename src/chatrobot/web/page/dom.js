@@ -1,0 +1,50 @@
+/** The document: find an element, make one. What comes from elsewhere goes in as text alone, never as markup. */
+
+export function byId(id) {
+  return document.getElementById(id);
+}
+
+/** Make an element; `children` that are no elements become its text. */
+export function make(tag, className = "", ...children) {
+  const element = document.createElement(tag);
+  if (className) element.className = className;
+  element.append(...children.map((child) => (child instanceof Node ? child : String(child))));
+  return element;
+}
+
+/** Make a button that does `act` when it is pressed. */
+export function makeButton(text, className, act) {
+  const button = make("button", className, text);
+  button.type = "button";
+  button.addEventListener("click", act);
+  return button;
+}
+
+/** Set a text only where it changed: a live region would read it out again. */
+export function setText(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+export function setPressed(button, isPressed) {
+  button.setAttribute("aria-pressed", String(isPressed));
+}
+
+export function isPressed(button) {
+  return button.getAttribute("aria-pressed") === "true";
+}
+
+/** Keys belong to an element in which a person writes or chooses. */
+export function isField(element) {
+  return element instanceof HTMLElement && (element.matches("input, textarea, select") || element.isContentEditable);
+}
+
+/** Of the fields, those in which the space bar writes a space. */
+export function isTextField(element) {
+  return isField(element) && !element.matches("input[type=range]");
+}
+
+/** Show `text` in a banner; an empty one hides it. */
+export function setBanner(element, text) {
+  setText(element, text);
+  element.hidden = !text;
+}

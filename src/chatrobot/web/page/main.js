@@ -1,0 +1,64 @@
+/** The page begins here. */
+
+import { onEditPlan, startChat } from "./chat.js";
+import { connect, on, replay, send, state } from "./connection.js";
+import { byId } from "./dom.js";
+import { startGauges } from "./gauges.js";
+import { asksBeforeTaps, startMap } from "./map.js";
+import { startPlaces } from "./places.js";
+import { editPlan, startPlan } from "./plan.js";
+import { startPrograms } from "./programs.js";
+import { startSayBox } from "./say_box.js";
+import { startSpeech } from "./speech.js";
+import { startSteering } from "./steering.js";
+import { startStick } from "./stick.js";
+import { browserLanguage, firstLanguage, language, onLanguage, setLanguage, t } from "./words.js";
+
+/** On a narrow screen one panel is seen at a time, under the map. */
+function showTab(name) {
+  document.body.dataset.tab = name;
+  for (const button of document.querySelectorAll(".tabs button")) {
+    if (button.dataset.tab === name) button.setAttribute("aria-current", "true");
+    else button.removeAttribute("aria-current");
+  }
+}
+
+function startLanguage() {
+  const button = byId("language");
+  button.addEventListener("click", () => setLanguage(language() === "en" ? "zh" : "en"));
+  onLanguage((code) => {
+    button.textContent = t("other_language");
+    button.lang = code === "en" ? "zh-Hans" : "en";
+    if (send({ do: "language", code })) send({ do: "history" });
+  });
+  on("open", () => {
+    send({ do: "language", code: language() });
+    if (language() !== browserLanguage()) send({ do: "history" }); // what it told at first was in the browser's
+  });
+}
+
+startSteering();
+startSayBox();
+startChat();
+startPlan();
+startMap();
+startPlaces(asksBeforeTaps);
+startGauges();
+startPrograms();
+startStick();
+startSpeech();
+startLanguage();
+onEditPlan(() => {
+  showTab("plan");
+  editPlan();
+});
+for (const button of document.querySelectorAll(".tabs button")) {
+  button.addEventListener("click", () => showTab(button.dataset.tab));
+}
+showTab("chat");
+// What was told before we came, once everybody listens.
+on("open", () => replay(state.hello.history));
+on("history", (message) => replay(message.history));
+await setLanguage(firstLanguage());
+connect();
+if (matchMedia("(pointer: fine)").matches) byId("say").focus();

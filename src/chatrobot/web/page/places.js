@@ -1,0 +1,42 @@
+/** Places: what they are called in the page's language, and the menu that goes to them without a pointer. */
+
+import { on, send, state } from "./connection.js";
+import { byId, make, makeButton } from "./dom.js";
+import { language, onLanguage } from "./words.js";
+
+const CHINESE = /[一-鿿]/;
+
+/** Return what a place is called: a Chinese name of its names where the page is Chinese and there is one. */
+export function placeName(place) {
+  const isChinese = language() === "zh";
+  return (place.names || []).find((name) => CHINESE.test(name) === isChinese) || place.name;
+}
+
+/** Return what an obstacle is called: as the place of that name is. */
+export function obstacleName(name, places) {
+  const place = places.find((one) => (one.names || [one.name]).some((known) => known === name.toLowerCase()));
+  return place ? placeName(place) : name;
+}
+
+/** Begin. `asks` says whether a way that was pointed at is asked about before it is driven. */
+export function startPlaces(asks) {
+  const draw = () => {
+    const places = state.hello ? state.hello.world.places : [];
+    byId("places-menu").hidden = !places.length;
+    byId("places").replaceChildren(...places.map((place) => {
+      const button = makeButton(placeName(place), "small quiet", () => {
+        byId("places-menu").open = false;
+        send({ do: "go", x_m: place.x_m, y_m: place.y_m, yaw_rad: null, ask: asks() });
+      });
+      button.disabled = !state.steers;
+      return make("li", "", button);
+    }));
+  };
+  on("open", draw);
+  on("steering", draw);
+  on("places", (message) => {
+    state.hello.world.places = message.places;
+    draw();
+  });
+  onLanguage(draw);
+}

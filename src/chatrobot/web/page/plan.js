@@ -1,0 +1,137 @@
+/** The plan as lines: the one that runs is marked, and all of them can be edited. */
+
+import { on, send, state } from "./connection.js";
+import { byId, make, setText } from "./dom.js";
+import { onLanguage, t } from "./words.js";
+
+const lines = byId("plan-lines");
+const text = byId("plan-text");
+const about = byId("plan-about");
+
+const plan = { turn: 0, lines: [], step: 0, outcome: "", waits: false, streams: false, isEdited: false, isProgram: false };
+
+/** The lines of a plan by its steps: a repeat is one step with all its lines. */
+function stepsOfLines(all) {
+  let step = 0;
+  let depth = 0;
+  return all.map((line) => {
+    const word = line.trim();
+    if (word === "end") depth -= 1;
+    else {
+      if (depth === 0) step += 1;
+      if (word.startsWith("repeat ")) depth += 1;
+    }
+    return step;
+  });
+}
+
+function draw() {
+  const steps = stepsOfLines(plan.lines);
+  lines.replaceChildren(...plan.lines.map((line, at) => {
+    const item = make("li", "", line);
+    const isRunning = plan.step > 0 && steps[at] === plan.step;
+    item.classList.toggle("running", isRunning);
+    item.classList.toggle("done", plan.step > steps[at] || plan.outcome === "completed");
+    if (isRunning) item.setAttribute("aria-current", "step");
+    return item;
+  }));
+  const running = lines.querySelector(".running");
+  if (running) lines.scrollTop = running.offsetTop - lines.clientHeight / 2;
+  describe();
+}
+
+function describe() {
+  let key = "plan_none";
+  if (plan.isProgram) key = "plan_program";
+  if (plan.lines.length) key = plan.waits ? "plan_waits" : plan.step ? "plan_runs" : "plan_last";
+  if (plan.isEdited) key = "plan_help";
+  setText(about, t(key));
+  byId("plan-run").hidden = !plan.isEdited && !plan.waits;
+  setText(byId("plan-run"), t(plan.isEdited ? "plan_try" : "do_it"));
+  setText(byId("plan-edit"), t(plan.lines.length ? "edit" : "plan_write"));
+  byId("plan-edit").hidden = plan.isEdited;
+  byId("plan-drop").hidden = !plan.isEdited && !plan.waits;
+  setText(byId("plan-drop"), t(plan.isEdited ? "edit_drop" : "cancel"));
+  lines.hidden = plan.isEdited || !plan.lines.length;
+  text.hidden = !plan.isEdited;
+}
+
+/** Begin to edit the plan that is shown. */
+export function editPlan() {
+  plan.isEdited = true;
+  text.value = plan.lines.join("\n");
+  text.rows = Math.max(4, Math.min(14, plan.lines.length + 1));
+  describe();
+  text.focus();
+}
+
+function run() {
+  const planText = text.value.trim();
+  let message = { do: "approve", turn: plan.turn, yes: true };
+  if (plan.isEdited) {
+    if (!planText) return;
+    message = plan.waits ? { do: "edit", plan_text: planText, turn: plan.turn } : { do: "say_plan", plan_text: planText };
+  }
+  if (!send(message)) return;
+  plan.isEdited = plan.waits = false;
+  describe();
+}
+
+function drop() {
+  if (!plan.isEdited) send({ do: "approve", turn: plan.turn, yes: false });
+  plan.isEdited = false;
+  describe();
+}
+
+function show(turn, planLines) {
+  Object.assign(plan, { turn, lines: planLines, step: 0, outcome: "", waits: false, isProgram: false });
+}
+
+const heard = {
+  streamed(event) {
+    if (event.turn !== plan.turn || !plan.streams) show(event.turn, []);
+    plan.streams = true;
+    plan.lines.push(...event.plan_text.split("\n"));
+  },
+  interpreted(event) {
+    plan.streams = false;
+    if (!event.plan_text) return;
+    const step = event.turn === plan.turn ? plan.step : 0;
+    show(event.turn, event.plan_text.split("\n"));
+    plan.step = step;
+  },
+  program_written(event) {
+    show(event.turn, []);
+    plan.isProgram = true;
+  },
+  rehearsed(event) {
+    if (event.turn === plan.turn) plan.waits = event.needs_approval;
+  },
+  started(event) {
+    if (event.turn === plan.turn) Object.assign(plan, { waits: false, step: 1 });
+  },
+  progress(event) {
+    if (event.turn !== plan.turn || event.step === plan.step) return false;
+    plan.step = event.step;
+    return true;
+  },
+  result(event) {
+    if (event.turn === plan.turn) Object.assign(plan, { waits: false, step: 0, outcome: event.outcome });
+  },
+};
+
+export function startPlan() {
+  on("open", () => {
+    show(0, []);
+    draw();
+  });
+  on("event", ({ event }) => {
+    const hear = heard[event.event];
+    if (hear && hear(event) !== false) draw();
+  });
+  byId("plan-edit").addEventListener("click", editPlan);
+  byId("plan-run").addEventListener("click", run);
+  byId("plan-drop").addEventListener("click", drop);
+  on("steering", () => (byId("plan-edit").disabled = byId("plan-run").disabled = !state.steers));
+  onLanguage(describe);
+}

@@ -1,0 +1,112 @@
+/** Who steers: one page does, the others watch; what is refused, and a connection that is gone, are said. */
+
+import { on, send, state } from "./connection.js";
+import { byId, setBanner, setText } from "./dom.js";
+import { isStopLineOpen, onStop } from "./stop.js";
+import { onLanguage, t } from "./words.js";
+
+const NOTICE_MS = 6000;
+const STOP_SAID_MS = 2500;
+const STOP_LINE_MS = 2000;
+const STEERERS = ["send", "pause", "resume", "heading", "ask-taps", "stick-speed", "side-left", "side-right"];
+
+let by = null;
+let name = "";
+let lost = "";
+let noticeTimer = 0;
+let stopTimer = 0;
+let lineTimer = 0;
+
+function drawSteering() {
+  let key = "steers_nobody";
+  if (state.steers) key = "steers_you";
+  else if (by) key = "steers_other";
+  setText(byId("steering-state"), state.isOpen ? t(key, { name }) : "");
+  byId("steering-state").dataset.state = key;
+  const mayTake = state.isOpen && !state.steers && state.may.has("take");
+  byId("take").hidden = !mayTake;
+  byId("give").hidden = !state.steers;
+  const isWatching = state.isOpen && !state.steers;
+  setBanner(byId("watching-banner"), isWatching ? t(mayTake ? "watching_may_take" : "watching") : "");
+  document.body.classList.toggle("watching", !state.steers);
+  for (const id of STEERERS) byId(id).disabled = !state.steers;
+}
+
+/** Say something for a moment. */
+export function notice(text) {
+  clearTimeout(noticeTimer);
+  setBanner(byId("notice-banner"), text);
+  if (text) noticeTimer = setTimeout(() => notice(""), NOTICE_MS);
+}
+
+function drawConnection() {
+  let text = "";
+  if (lost) text = t(lost);
+  else if (state.isOpen && state.hello.stop_port && !isStopLineOpen()) text = t("stop_line_gone");
+  setBanner(byId("connection-banner"), text);
+}
+
+function hearSteering(message) {
+  const [before, did] = [by, state.steers];
+  by = message.by;
+  name = message.name || "";
+  drawSteering();
+  const isTaken = before && by && before !== by;
+  if (isTaken && before === state.hello.you) notice(t("taken_from_you", { name }));
+  else if (isTaken && did) notice(t("taken_by_you"));
+}
+
+function hearStop(message) {
+  const said = { asked: "stop_asked", stopped: "stop_heard", unheard: "stop_unheard", gone: "stop_gone" }[message.is];
+  if (said) {
+    clearTimeout(stopTimer);
+    setText(byId("stop-said"), t(said));
+    byId("stop").classList.add("pressed");
+    stopTimer = setTimeout(() => {
+      setText(byId("stop-said"), "");
+      byId("stop").classList.remove("pressed");
+    }, STOP_SAID_MS);
+  }
+  if (message.is === "line") {
+    clearTimeout(lineTimer);
+    lineTimer = setTimeout(drawConnection, isStopLineOpen() ? 0 : STOP_LINE_MS);
+  }
+}
+
+export function startSteering() {
+  on("open", () => {
+    lost = "";
+    const steering = state.hello.steering;
+    by = steering && steering.by;
+    name = (steering && steering.name) || "";
+    setText(byId("robot-title"), state.hello.robot.title || state.hello.robot.name);
+    document.title = `${state.hello.robot.title || state.hello.robot.name} · ChatRobot`;
+    clearTimeout(lineTimer);
+    setBanner(byId("connection-banner"), "");
+    lineTimer = setTimeout(drawConnection, STOP_LINE_MS);
+    drawSteering();
+  });
+  on("closed", (message) => {
+    if (message.was) lost = byId("take").hidden ? "lost_steering" : "lost_watching";
+    else if (!lost) lost = "no_connection";
+    drawConnection();
+    drawSteering();
+  });
+  on("denied", (message) => {
+    lost = message.status === 429 ? "denied_wait" : "denied";
+    drawConnection();
+  });
+  on("steering", hearSteering);
+  on("refused", (message) => notice(message.text));
+  on("gone", (message) => notice(message.text));
+  onStop(hearStop);
+  byId("take").addEventListener("click", () => send({ do: "take" }));
+  byId("give").addEventListener("click", () => send({ do: "give" }));
+  byId("pause").addEventListener("click", () => send({ do: "pause" }));
+  byId("resume").addEventListener("click", () => send({ do: "resume" }));
+  byId("release").addEventListener("click", () => send({ do: "release" }));
+  onLanguage(() => {
+    drawSteering();
+    drawConnection();
+  });
+}

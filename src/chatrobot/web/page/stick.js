@@ -1,0 +1,155 @@
+/**
+ * The stick: keys and a pad, held to move. Sent at 20 Hz while it is held, and zero once when it is let go; beats go
+ * with it, from the page's own thread, so that a page that is frozen is missed at once.
+ */
+
+import { on, send, state } from "./connection.js";
+import { byId, isField } from "./dom.js";
+
+const KEYS = {
+  KeyW: [1, 0, 0], ArrowUp: [1, 0, 0], KeyS: [-1, 0, 0], ArrowDown: [-1, 0, 0],
+  KeyA: [0, 0, 1], ArrowLeft: [0, 0, 1], KeyD: [0, 0, -1], ArrowRight: [0, 0, -1],
+  KeyQ: [0, 1, 0], KeyE: [0, -1, 0],
+};
+const DEAD = 0.08;
+const FULL = 1;
+
+const held = new Set();
+const pad = byId("pad");
+const knob = byId("knob");
+const speed = byId("stick-speed");
+let pointer = null;
+let lean = [0, 0];
+let side = 0;
+let isHeld = false;
+
+function wanted() {
+  let [x, y, turn] = [lean[0], side, lean[1]];
+  for (const code of held) {
+    x += KEYS[code][0];
+    y += KEYS[code][1];
+    turn += KEYS[code][2];
+  }
+  const robot = state.hello.robot;
+  if (!robot.sideways && y) [y, turn] = [0, turn + y]; // a base that cannot go sideways turns
+  const share = Number(speed.value) / 100;
+  const cut = (value) => Math.max(-FULL, Math.min(FULL, value)) * share;
+  return {
+    do: "steer",
+    vx_mps: cut(x) * robot.limits.max_speed_mps,
+    vy_mps: cut(y) * (robot.limits.max_sideways_mps ?? robot.limits.max_speed_mps),
+    wz_radps: cut(turn) * robot.limits.max_rate_radps,
+  };
+}
+
+const isTouched = () => held.size > 0 || pointer !== null || side !== 0;
+
+/** Tell the robot at once what the stick says now; after the last zero nothing. */
+function update() {
+  if (!state.hello) return;
+  if (isTouched() && state.steers) {
+    isHeld = true;
+    send(wanted());
+  } else if (isHeld) {
+    isHeld = false;
+    send({ do: "steer", vx_mps: 0, vy_mps: 0, wz_radps: 0 });
+  }
+  pad.classList.toggle("held", isHeld);
+}
+
+function release() {
+  held.clear();
+  pointer = null;
+  side = 0;
+  lean = [0, 0];
+  knob.style.transform = "";
+  update();
+}
+
+function beat() {
+  if (!state.steers) return;
+  send({ do: "beat", held: isHeld });
+  if (isHeld) update();
+}
+
+function keyDown(event) {
+  const isOurs = event.code in KEYS && !event.ctrlKey && !event.metaKey && !event.altKey;
+  if (!isOurs || isField(event.target) || event.isComposing) return;
+  if (event.code.startsWith("Arrow") && event.target.closest("[role=application], [tabindex]")) return;
+  event.preventDefault();
+  if (event.repeat || held.has(event.code)) return;
+  held.add(event.code);
+  update();
+}
+
+function keyUp(event) {
+  if (held.delete(event.code)) update();
+}
+
+function movePad(event) {
+  const box = pad.getBoundingClientRect();
+  const radius = box.width / 2;
+  let right = (event.clientX - box.left - radius) / radius;
+  let up = -(event.clientY - box.top - radius) / radius;
+  const length = Math.hypot(right, up);
+  if (length > 1) [right, up] = [right / length, up / length];
+  const past = (value) => (Math.abs(value) < DEAD ? 0 : value);
+  lean = [past(up), -past(right)];
+  knob.style.transform = `translate(${right * radius * 0.6}px, ${-up * radius * 0.6}px)`;
+  update();
+}
+
+function startPad() {
+  pad.addEventListener("pointerdown", (event) => {
+    if (pointer !== null || event.button !== 0) return;
+    event.preventDefault();
+    pad.setPointerCapture(event.pointerId);
+    pointer = event.pointerId;
+    movePad(event);
+  });
+  pad.addEventListener("pointermove", (event) => event.pointerId === pointer && movePad(event));
+  for (const ending of ["pointerup", "pointercancel", "lostpointercapture"]) {
+    pad.addEventListener(ending, (event) => event.pointerId === pointer && release());
+  }
+}
+
+function startSide(button, direction) {
+  button.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0) return;
+    button.setPointerCapture(event.pointerId);
+    side = direction;
+    update();
+  });
+  for (const ending of ["pointerup", "pointercancel", "lostpointercapture"]) {
+    button.addEventListener(ending, () => {
+      side = 0;
+      update();
+    });
+  }
+}
+
+export function startStick() {
+  addEventListener("keydown", keyDown);
+  addEventListener("keyup", keyUp);
+  addEventListener("blur", release);
+  addEventListener("pagehide", release);
+  document.addEventListener("freeze", release);
+  document.addEventListener("visibilitychange", () => document.hidden && release());
+  document.addEventListener("focusin", (event) => isField(event.target) && held.size && release());
+  startPad();
+  startSide(byId("side-left"), 1);
+  startSide(byId("side-right"), -1);
+  on("open", () => {
+    const robot = state.hello.robot;
+    byId("sideways").hidden = !robot.sideways;
+    const usual = robot.defaults ? robot.defaults.speed_mps / robot.limits.max_speed_mps : 0.3;
+    speed.value = String(Math.round(usual * 100));
+    release();
+  });
+  on("closed", () => {
+    isHeld = false;
+    release();
+  });
+  on("steering", () => state.steers || release());
+  new Worker("beats.js").onmessage = beat;
+}

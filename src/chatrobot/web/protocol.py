@@ -1,0 +1,102 @@
+"""What a page may say: JSON objects with a `do`, each field checked before anything is done with it."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from chatrobot.programs.check import MAX_SOURCE_CHARS
+
+MOST_BYTES = 64 * 1024
+"""Of one message, either way in."""
+MOST_TEXT_CHARS = 4000
+MOST_PLAN_CHARS = 60_000
+FURTHEST_M = 1000.0
+"""A point on the floor further away than this is none."""
+FASTEST = 100.0
+"""A stick further out than this, m/s or rad/s, is broken; the governor caps what is below."""
+
+_Check = Callable[[object], bool]
+
+
+class MalformedError(ValueError):
+    """A message is none of ours; its text says why, for whoever wrote the page."""
+
+
+def _text(most_chars: int) -> _Check:
+    return lambda value: isinstance(value, str) and len(value) <= most_chars
+
+
+def _number(most: float) -> _Check:
+    def is_number(value: object) -> bool:
+        is_one = isinstance(value, (int, float)) and not isinstance(value, bool)
+        return is_one and math.isfinite(value) and abs(value) <= most  # type: ignore[arg-type]
+
+    return is_number
+
+
+def _is_flag(value: object) -> bool:
+    return isinstance(value, bool)
+
+
+def _is_count(value: object) -> bool:
+    return type(value) is int and value >= 0
+
+
+def _or_none(check: _Check) -> _Check:
+    return lambda value: value is None or check(value)
+
+
+_TEXT, _PLAN, _NAME = _text(MOST_TEXT_CHARS), _text(MOST_PLAN_CHARS), _text(80)
+_POINT, _SPEED = _number(FURTHEST_M), _number(FASTEST)
+FIELDS: Mapping[str, Mapping[str, _Check]] = {
+    "say": {"text": _TEXT},
+    "say_plan": {"plan_text": _PLAN},
+    "approve": {"turn": _is_count, "yes": _is_flag},
+    "edit": {"plan_text": _PLAN, "turn": _is_count},
+    "go": {"x_m": _POINT, "y_m": _POINT, "yaw_rad?": _or_none(_number(100.0)), "ask?": _is_flag},
+    "pause": {},
+    "resume": {},
+    "stop": {},
+    "emergency_stop": {},
+    "release": {},
+    "steer": {"vx_mps": _SPEED, "vy_mps": _SPEED, "wz_radps": _SPEED},
+    "beat": {"held?": _is_flag},
+    "take": {},
+    "give": {},
+    "programs": {},
+    "program": {"name": _NAME},
+    "run_program": {"name": _NAME},
+    "edit_program": {"name": _NAME, "source": _text(MAX_SOURCE_CHARS)},
+    "language": {"code": lambda value: value in ("en", "zh")},
+    "history": {},
+}
+"""All that may be said, with a check for every field; one with a question mark may be left out."""
+
+
+def read_message(text: str) -> dict[str, Any]:
+    """Read one message of a page.
+
+    Raises:
+        MalformedError: it is none: what it says is not done, not even in part.
+    """
+    try:
+        said: Any = json.loads(text)
+    except (ValueError, RecursionError):
+        raise MalformedError("not JSON") from None
+    data: dict[str, Any] = said if isinstance(said, dict) else {}
+    do = data.get("do")
+    if not isinstance(do, str) or do not in FIELDS:
+        raise MalformedError("not an object with a known 'do'")
+    known = {name.rstrip("?"): check for name, check in FIELDS[do].items()}
+    for name in FIELDS[do]:
+        if not name.endswith("?") and name not in data:
+            raise MalformedError(f"{do}: {name} is missing")
+    for name in data.keys() - {"do"}:
+        if name not in known:
+            raise MalformedError(f"{do}: no field {name[:40]!r} is known")
+        if not known[name](data[name]):
+            raise MalformedError(f"{do}: {name} is not what it may be")
+    return data

@@ -1,0 +1,303 @@
+"""One robot with all who look at it: its session, what was told so far, and who steers.
+
+A server holds one room a robot. Pages are one face of it; another one joins with anything that has `put`.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+from collections import deque
+from collections.abc import Callable
+from typing import Any, Protocol
+
+from chatrobot.compose import Connection
+from chatrobot.core.errors import LinkError
+from chatrobot.core.events import Event, Interpreted, Notice, Remembered, Result
+from chatrobot.dialogue.question import Question
+from chatrobot.language.interpretation import LanguageCode
+from chatrobot.plan.steps import Go, Plan
+from chatrobot.plan.text import format_plan
+from chatrobot.reflex import is_emergency_stop
+from chatrobot.web.access import Pass
+from chatrobot.web.facts import place_facts, robot_facts, world_facts
+from chatrobot.web.outbox import Message
+from chatrobot.web.programs import Programs
+from chatrobot.web.steering import Steering
+from chatrobot.web.words import PASSING, UNTOLD, event_message, refused, told, web_words
+
+HISTORY = 200
+"""Messages that a page is told which comes later."""
+_PLANS = 50
+STOP_BUTTON, EMERGENCY_BUTTON = "the Stop button", "the Emergency stop button"
+
+Post = Callable[[Callable[[], None]], None]
+
+
+class Face(Protocol):
+    """Somebody who is told what happens: a page."""
+
+    id: str
+    name: str
+    language: LanguageCode
+    pass_: Pass
+
+    @property
+    def is_local(self) -> bool:
+        """It is at this machine."""
+        ...
+
+    def put(self, message: Message) -> None:
+        """Tell it. Called on any thread; returns at once."""
+        ...
+
+
+class Room:
+    """See the module. `hear` events from the moment of connecting on; `open` it once the robot is there.
+
+    Anything may be called from any thread; `stop` and `emergency_stop` wait for nothing.
+    """
+
+    def __init__(self, name: str = "") -> None:
+        self.name = name
+        self._lock = threading.RLock()
+        self._faces: dict[str, Face] = {}
+        self._history: deque[Message] = deque(maxlen=HISTORY)
+        self._turns: dict[int, str] = {}
+        self._plan_texts: dict[int, str] = {}
+        self._question = Question()
+        self.is_latched = self._release_is_due = False
+        self.stop_port = 0
+        """Where the line listens that stops."""
+        self.is_over = False
+        """Nothing can be asked of the robot any more."""
+
+    def open(self, connection: Connection, post: Post, *, is_simulated: bool) -> None:
+        """Let people in.
+
+        Args:
+            post: has something done by the thread that pumps the session.
+        """
+        self.connection, self.session = connection, connection.session
+        self._is_simulated = is_simulated
+        self.steering = Steering(self.session, self._has_work, self._tell_lost)
+        self.programs = Programs(self.session, connection.profile, post)
+
+    # --- what happens ---
+
+    def hear(self, event: Event) -> None:
+        """Take an event in and tell everybody."""
+        with self._lock:
+            self._question.hear(event)
+            if event.name not in UNTOLD:
+                self._tell(event_message(event), is_kept=event.name not in PASSING)
+            if isinstance(event, Interpreted):
+                self._plan_texts[event.turn] = event.plan_text
+                self._plan_texts.pop(event.turn - _PLANS, None)
+            elif isinstance(event, Result):
+                self._turns.pop(event.turn, None)
+                if event.reason is not None and event.reason.code == "emergency_stop":
+                    self._set_alarm(True)
+            elif isinstance(event, Remembered):
+                self._tell_places()
+            elif isinstance(event, Notice) and self._releases(event):
+                self._set_alarm(False)
+
+    def _releases(self, notice: Notice) -> bool:
+        """No alarm goes by a release that was asked for before it was raised."""
+        is_ours = notice.reason.values.get("source") == "console"
+        return notice.reason.code == "released" and (self._release_is_due or not is_ours)
+
+    def lose(self, error: Exception) -> None:
+        """Tell everybody that the robot is gone."""
+        self.is_over = True
+        with self._lock:
+            self._tell_gone("motion", "robot_gone", problem=str(error))
+
+    def end(self) -> None:
+        """Stop the robot and tell everybody that nobody serves them any more."""
+        with contextlib.suppress(LinkError):  # Motion is gone, and its guard halts the robot
+            self.session.stop("the web console has ended")
+        with self._lock:
+            self._tell_gone("server", "server_ends")
+
+    def _tell_gone(self, what: str, code: str, **values: object) -> None:
+        self._tell(
+            Message(
+                lambda language: {"is": "gone", "what": what, "text": web_words(language, code, **values)}
+            )
+        )
+
+    def _tell(self, message: Message, *, is_kept: bool = False) -> None:
+        """Have the lock."""
+        if is_kept:
+            self._history.append(message)
+        for face in self._faces.values():
+            face.put(message)
+
+    def _set_alarm(self, is_set: bool) -> None:
+        self.is_latched, self._release_is_due = is_set, False
+        self._tell(told("emergency", set=is_set))
+
+    def _tell_places(self) -> None:
+        self._tell(
+            told("places", places=place_facts(self.connection.world, self.session.understanding.places.all()))
+        )
+
+    def _tell_lost(self) -> None:
+        with self._lock:
+            self._tell(
+                Message(lambda language: {"is": "lost", "text": web_words(language, "steerer_lost")}),
+                is_kept=True,
+            )
+
+    # --- who is here ---
+
+    def join(self, face: Face) -> None:
+        """Let somebody in: they hear what was told so far, and steer if they may and nobody does."""
+        with self._lock:
+            if face.pass_.may_steer and self.steering.steerer is None:
+                self.steering.take(face)
+            face.put(Message(lambda language: self._hello(face, language)))
+            self._faces[face.id] = face
+            self._tell_steering()
+            self._watch_scans()
+
+    def leave(self, face: Face) -> None:
+        """Take note that somebody is gone; where they steered, what they wanted ends."""
+        with self._lock:
+            self._faces.pop(face.id, None)
+            self._watch_scans()
+        with contextlib.suppress(LinkError):  # Motion is gone, and its guard halts the robot
+            if self.steering.leave(face):
+                with self._lock:
+                    self._tell_steering()
+
+    def drop(self, token: str) -> list[Face]:
+        """Return those who came in with that token, which has been revoked."""
+        return [face for face in list(self._faces.values()) if face.pass_.token == token]
+
+    def take(self, face: Face | None) -> None:
+        """Have somebody steer, or nobody; both sides hear of it."""
+        with self._lock:
+            self.steering.take(face)
+            self._tell_steering()
+
+    def steers(self, face: Face) -> bool:
+        """Return whether it is that one who steers."""
+        return self.steering.steerer is face
+
+    def _tell_steering(self) -> None:
+        steerer: Any = self.steering.steerer
+        by, name = (steerer.id, steerer.name) if steerer is not None else (None, "")
+        for face in self._faces.values():
+            face.put(told("steering", by=by, name=name, you=steerer is face, may=self.may(face)))
+
+    def may(self, face: Face) -> list[str]:
+        """List what somebody may do just now."""
+        allowed = ["stop", "emergency_stop"]
+        if face.pass_.may_steer:
+            allowed += ["take"] if not self.steers(face) else ["say", "approve", "steer", "run", "give"]
+        return [*allowed, "release"] if face.pass_.may_release else allowed
+
+    def _hello(self, face: Face, language: LanguageCode) -> dict[str, Any]:
+        steerer: Any = self.steering.steerer
+        session, connection = self.session, self.connection
+        return {
+            "is": "hello",
+            "you": face.id,
+            "name": face.name,
+            "role": face.pass_.role,
+            "room": self.name,
+            "may": self.may(face),
+            "stop_port": self.stop_port,
+            "steering": {"by": steerer.id, "name": steerer.name} if steerer is not None else None,
+            "robot": robot_facts(connection.profile, is_simulated=self._is_simulated),
+            "world": world_facts(connection.world, session.understanding.places.all()),
+            "approval": {"asks": session.options.approve, "turn": self._question.turn},
+            "emergency": self.is_latched,
+            "programs": self.programs.are_kept,
+            "history": self.history(language),
+        }
+
+    def history(self, language: LanguageCode) -> list[dict[str, Any]]:
+        """Return what was told so far, oldest first."""
+        with self._lock:
+            return [message.object_in(language) for message in self._history]
+
+    def _watch_scans(self) -> None:
+        watch = getattr(self.session, "watch_scans", None)
+        if watch is not None:
+            with contextlib.suppress(LinkError):  # nothing is there to be looked at
+                watch(bool(self._faces))
+
+    def _has_work(self) -> bool:
+        return bool(self._turns)
+
+    # --- what people do ---
+
+    def stop(self, why: str = STOP_BUTTON) -> None:
+        """Stop the robot now."""
+        self.session.stop(why)
+
+    def emergency_stop(self, why: str = EMERGENCY_BUTTON) -> None:
+        """Stop the robot now, and keep it stopped until it is released."""
+        self.session.emergency_stop(why)
+        with self._lock:
+            self._set_alarm(True)
+
+    def release(self) -> None:
+        """Ask Motion to release the emergency stop; its notice says what became of it."""
+        self._release_is_due = True
+        self.session.release()
+
+    def say(self, face: Face, text: str) -> None:
+        """Take a sentence in. A stop is out before this returns."""
+        self._say_as(face, text, lambda: self.session.say(text))
+        if is_emergency_stop(text):
+            with self._lock:
+                self._set_alarm(True)
+
+    def say_plan(self, face: Face, plan_text: str) -> None:
+        """Take in a plan that a person wrote."""
+        self._say_as(face, plan_text, lambda: self.session.say_plan(plan_text))
+
+    def say_edited(self, face: Face, plan_text: str, turn: int) -> None:
+        """Take in what a person made of the plan of that turn: it is asked about in its place."""
+        if self._question.turn == turn:
+            self._question.answer(self.session, False)
+        before = self._plan_texts.get(turn, "")
+        self._say_as(face, plan_text, lambda: self.session.say_edited_plan(plan_text, before))
+
+    def go(self, face: Face, x_m: float, y_m: float, yaw_rad: float | None, *, asks: bool) -> None:
+        """Have the robot go to a point of the floor; rehearsed first, and asked about unless a person waived that."""
+        plan_text = format_plan(Plan((Go(round(x_m, 3), round(y_m, 3), yaw_rad),)))
+        say = self.session.say_edited_plan if asks else self.session.say_plan
+        self._say_as(face, plan_text, lambda: say(plan_text))
+
+    def run_program(self, face: Face, name: str) -> None:
+        """Have a kept program rehearsed and run."""
+        self.programs.run(face, name, lambda say: self._say_as(face, name, say))
+
+    def edit_program(self, face: Face, name: str, source: str) -> None:
+        """Take in what a person made of a program: it is rehearsed, and asked about before it runs."""
+        self._say_as(face, name, lambda: self.session.say_source(name, source))
+
+    def resume(self, face: Face) -> None:
+        """Go on with what is paused."""
+        self._say_as(face, "", self.session.resume)
+
+    def answer(self, face: Face, turn: int, yes: bool) -> None:
+        """Answer the plan that waits, if it still does."""
+        if self._question.turn == turn:
+            self._question.answer(self.session, yes)
+        else:
+            face.put(refused("question_over", "approve"))
+
+    def _say_as(self, face: Face, text: str, say: Callable[[], int]) -> None:
+        with self._lock:  # what was said is told before what it brings about
+            turn = say()
+            if turn not in self.session.results:
+                self._turns[turn] = face.id
+            if text:
+                self._tell(told("said", turn=turn, text=text, by=face.id, name=face.name), is_kept=True)

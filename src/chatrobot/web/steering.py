@@ -1,0 +1,170 @@
+"""Who steers a robot, and whether they are still there: beats of their page, and a watchdog that misses them.
+
+The stick is the page's own source at joystick rank: only what the page sends keeps it alive. Nothing here ever beats
+for it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+import time
+from collections.abc import Callable, Iterable
+from typing import Protocol
+
+from chatrobot.core.errors import LinkError
+from chatrobot.core.geometry import ZERO_TWIST, Twist
+from chatrobot.core.process import wake_promptly
+
+STICK_S, STICK_AFAR_S = 0.15, 0.25
+"""A stick of which nothing is heard for so long is let go, where its page is at this machine and where it is not."""
+LOST_S, LOST_AFAR_S = 0.2, 0.3
+"""A page of which nothing is heard for so long is lost, while it steers and something that it said is not done."""
+FIRST_BEAT_S = 1.0
+"""Whoever begins to steer has so long until the first beat: the page may have to be loaded."""
+LOOK_S, STALL_S = 0.02, 0.05
+"""How often the watchdog looks; and from when on it was itself kept waiting, so that beats may lie unread."""
+
+
+class Steerable(Protocol):
+    """A `Session`, as far as a stick needs it; from any thread."""
+
+    def steer(self, twist: Twist) -> None:
+        """Ask for a velocity, for a moment: zero lets go."""
+        ...
+
+    def stop(self, why: str = "") -> None:
+        """Stop the robot and drop what was said."""
+        ...
+
+
+class Steerer(Protocol):
+    """Whoever may steer: a page."""
+
+    @property
+    def is_local(self) -> bool:
+        """It is at this machine."""
+        ...
+
+
+class Steering:
+    """Of one robot; from any thread. Nothing that a stop needs waits here.
+
+    Args:
+        has_work: whether anything that the steering page said is not done.
+        on_lost: told, after the robot was stopped, that the steering page is gone.
+    """
+
+    def __init__(
+        self,
+        robot: Steerable,
+        has_work: Callable[[], bool],
+        on_lost: Callable[[], None],
+        now: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._robot = robot
+        self._has_work = has_work
+        self._on_lost = on_lost
+        self._now = now
+        self._lock = threading.Lock()
+        self._steerer: Steerer | None = None
+        self._beat_s = self._stick_s = 0.0
+        self._is_held = self._was_lost = False
+
+    @property
+    def steerer(self) -> Steerer | None:
+        """Return who steers."""
+        return self._steerer
+
+    @property
+    def is_alive(self) -> bool:
+        """Tell whether beats of the steering page come: without them nothing that it says would go on."""
+        return self._now() <= self._beat_s + self._most_s(LOST_S, LOST_AFAR_S)
+
+    def take(self, page: Steerer | None) -> None:
+        """Have `page` steer, or nobody. Let go of the stick; what was said goes on under the new one."""
+        with self._lock:
+            self._let_go()
+            self._steerer = page
+            self._beat_s, self._was_lost = self._now() + FIRST_BEAT_S, False
+
+    def beat(self, page: Steerer) -> None:
+        """Note that something was heard of that page."""
+        if page is self._steerer:
+            self._beat_s, self._was_lost = self._now(), False
+
+    def stick(self, page: Steerer, twist: Twist) -> bool:
+        """Have the robot move as the stick of that page says; return whether it is the one that steers."""
+        with self._lock:
+            if page is not self._steerer:
+                return False
+            self._stick_s = self._now()
+            self._is_held = not twist.is_zero
+            self._robot.steer(twist)
+        return True
+
+    def leave(self, page: Steerer) -> bool:
+        """Take note that the connection of that page has ended: it steers no more. Return whether it did."""
+        with self._lock:
+            if page is not self._steerer:
+                return False
+            was_held = self._let_go()
+            self._steerer = None
+        if was_held or self._has_work():
+            self._lose()
+        return True
+
+    def look(self) -> None:
+        """Let go of a stick, and stop the robot, where nothing is heard of the page that wants it to move."""
+        now_s = self._now()
+        if self._is_held and now_s - self._stick_s > self._most_s(STICK_S, STICK_AFAR_S):
+            with self._lock:
+                if now_s - self._stick_s > self._most_s(STICK_S, STICK_AFAR_S):
+                    self._let_go()
+        if self._steerer is not None and not (self.is_alive or self._was_lost) and self._has_work():
+            self._was_lost = True
+            self._lose()
+
+    def _most_s(self, here_s: float, afar_s: float) -> float:
+        steerer = self._steerer
+        return here_s if steerer is None or steerer.is_local else afar_s
+
+    def _let_go(self) -> bool:
+        """Have the lock. Return whether the stick was held."""
+        was_held, self._is_held = self._is_held, False
+        if was_held:
+            self._robot.steer(ZERO_TWIST)
+        return was_held
+
+    def _lose(self) -> None:
+        self._robot.stop("the steering page is gone")
+        self._on_lost()
+
+
+class Watchdog:
+    """A thread that looks after the steering of every robot of a server."""
+
+    def __init__(self, robots: Callable[[], Iterable[Steering]]) -> None:
+        self._robots = robots
+        self._is_stopped = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="steering watchdog", daemon=True)
+
+    def start(self) -> None:
+        """Begin to look."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """End, and wait for the end."""
+        self._is_stopped.set()
+        self._thread.join()
+
+    def _run(self) -> None:
+        wake_promptly()
+        looked_s = time.monotonic()
+        while not self._is_stopped.wait(LOOK_S):
+            now_s, before_s, looked_s = time.monotonic(), looked_s, time.monotonic()
+            if now_s - before_s > LOOK_S + STALL_S:
+                continue  # this process stood still, and Motion's leases held meanwhile: read what lies unread first
+            for robot in self._robots():
+                with contextlib.suppress(LinkError):  # Motion is gone, and its guard halts the robot
+                    robot.look()

@@ -1,0 +1,101 @@
+"""What the server puts into words for a page, in its language: the reasons in events, and why something is refused."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from chatrobot.core import events
+from chatrobot.core.events import Event
+from chatrobot.core.geometry import Twist
+from chatrobot.core.reason import fixed
+from chatrobot.dialogue.replies import describe_left
+from chatrobot.language.data_files import load_table
+from chatrobot.language.interpretation import LanguageCode
+from chatrobot.language.phrases import render_reason, say
+from chatrobot.web.outbox import Message
+
+_LEAST_MPS = 0.005
+DROPPABLE = frozenset({"telemetry", "scan"})
+"""The next event of that kind says all that this one does."""
+PASSING = DROPPABLE | {"progress", "pose"}
+"""What a page that comes later needs not be told."""
+UNTOLD = frozenset({"finished"})
+"""`result` says the same."""
+
+
+def web_words(language: LanguageCode, code: str, **values: object) -> str:
+    """Return the web console's words of that code, or those that it has in common with the console at a terminal."""
+    own = load_table(language, "web")
+    return str(own[code] if code in own else load_table(language, "console")[code]).format(**values)
+
+
+def told(kind: str, **values: Any) -> Message:
+    """Make a message that is the same in every language."""
+    return Message(lambda _: {"is": kind, **values})
+
+
+def refused(why: str, do: str = "", **values: object) -> Message:
+    """Make the message that something was not done: `why` is a code that stays, `do` what was asked."""
+    return Message(
+        lambda language: {"is": "refused", "why": why, "do": do, "text": web_words(language, why, **values)}
+    )
+
+
+def event_message(event: Event) -> Message:
+    """Make the message that tells an event. Its `text` is for people, where the event itself has only a code."""
+    data = event.to_json()
+    is_droppable = event.name in DROPPABLE
+    if event.name == "scan":
+        scan = {key: value for key, value in data.items() if key not in ("event", "turn")}
+        return Message(lambda _: {"is": "scan", **scan}, is_droppable=True)
+    if not isinstance(event, _WORDED):
+        return Message(lambda _: {"is": "event", "event": data}, is_droppable=is_droppable)
+    return Message(lambda language: {"is": "event", "event": data, "text": _text(event, language)})
+
+
+_WORDED = (
+    events.FindingSeen, events.Rehearsed, events.ProgramWritten, events.ProgramRehearsed, events.Paused,
+    events.Limited, events.Remembered, events.Notice, events.Result,
+)  # fmt: skip
+
+
+def _text(event: Event, language: LanguageCode) -> str | list[str]:
+    """A sentence; for what has findings, one for each."""
+    if isinstance(event, events.Notice):
+        return event.text or render_reason(event.reason, language)
+    if isinstance(event, events.FindingSeen):
+        return render_reason(event.reason, language)
+    if isinstance(event, events.Rehearsed):
+        return [render_reason(finding.reason, language) for finding in event.findings]
+    if isinstance(event, events.ProgramWritten):
+        return [render_reason(mark.reason, language) for mark in event.marks]
+    if isinstance(event, events.ProgramRehearsed):
+        values = {"speed": f"{event.top_speed_mps:.2f}", "rate": f"{event.top_rate_radps:.2f}"}
+        return say(language, "program_speeds", **values)
+    if isinstance(event, events.Paused):
+        return say(language, "paused_now", plan=describe_left(event, language))
+    if isinstance(event, events.Limited):
+        return _limited(event, language)
+    if isinstance(event, events.Remembered):
+        place = f"({fixed(event.pose.x_m, 2)}, {fixed(event.pose.y_m, 2)})"
+        return web_words(language, "remembered", place=event.place, pose=place)
+    if isinstance(event, events.Result):
+        return event.reply
+    raise TypeError(f"{event.name} has no words")
+
+
+def _limited(event: events.Limited, language: LanguageCode) -> str:
+    asked, sent = _twist(event.asked, language), _twist(event.sent, language)
+    text = web_words(language, "limited_to", asked=asked, sent=sent)
+    return f"{text} ({render_reason(event.reason, language)})" if event.reason is not None else text
+
+
+def _twist(twist: Twist, language: LanguageCode) -> str:
+    parts = []
+    if twist.speed_mps >= _LEAST_MPS:
+        parts.append(web_words(language, "speed", speed=f"{twist.speed_mps:.2f}"))
+    rate = fixed(math.degrees(twist.wz_radps), 0)
+    if float(rate):
+        parts.append(web_words(language, "rate", rate=rate))
+    return " · ".join(parts) or web_words(language, "speed", speed="0")

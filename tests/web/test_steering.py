@@ -1,0 +1,183 @@
+"""Whoever steers has to be there: a stick or a plan without beats of its page ends, and nothing beats in its place."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from chatrobot.core.events import Result
+from chatrobot.core.geometry import ZERO_TWIST, Twist
+from chatrobot.web.steering import FIRST_BEAT_S, Steering
+from tests.web.rig import NotingSession, WebRig, wait_until
+
+FORWARD = Twist(0.2)
+SINCE_BEAT_S = 0.04
+"""Between the last beat of a page that is let live, and the end of that."""
+GONE = ("stop", "the steering page is gone")
+
+
+class Page:
+    def __init__(self, *, is_local: bool = True) -> None:
+        self.is_local = is_local
+
+
+class Rig:
+    """Steering on a clock that a test moves."""
+
+    def __init__(self) -> None:
+        self.now_s, self.has_work, self.lost = 0.0, False, 0
+        self.robot = NotingSession()
+        self.steering = Steering(self.robot, lambda: self.has_work, self._note_lost, lambda: self.now_s)
+
+    def _note_lost(self) -> None:
+        self.lost += 1
+
+    def live(self, duration_s: float, page: Any = None, *, stick: Twist | None = None) -> None:
+        """Let time pass; the watchdog looks, and `page` beats, as often as they do."""
+        for step in range(round(duration_s / 0.01)):
+            self.now_s += 0.01
+            if step % 5 == 0 and page is not None:
+                self.steering.beat(page)
+                if stick is not None:
+                    self.steering.stick(page, stick)
+            if step % 2 == 0:
+                self.steering.look()
+
+    def seconds_to(self, what: tuple[Any, ...]) -> float:
+        """Let time pass without a beat; how long until the robot is told that."""
+        began_s = self.now_s
+        while what not in self.robot.log:
+            assert self.now_s < began_s + 2.0
+            self.live(0.02)
+        return self.now_s - began_s
+
+
+@pytest.fixture
+def steered() -> Rig:
+    return Rig()
+
+
+@pytest.mark.parametrize(("is_local", "most_s"), [(True, 0.18), (False, 0.28)])
+def test_a_stick_without_its_own_messages_is_let_go(steered: Rig, is_local: bool, most_s: float) -> None:
+    page = Page(is_local=is_local)
+    steered.steering.take(page)
+    steered.live(1.0, page, stick=FORWARD)
+    assert set(steered.robot.log) == {("steer", *FORWARD)}
+    assert most_s - 0.05 < steered.seconds_to(("steer", *ZERO_TWIST)) + SINCE_BEAT_S <= most_s
+
+
+def test_beats_of_the_page_do_not_hold_its_stick(steered: Rig) -> None:
+    """The page's worker may live on where the page itself is frozen."""
+    page = Page()
+    steered.steering.take(page)
+    steered.live(0.5, page, stick=FORWARD)
+    steered.live(0.2, page)
+    assert steered.robot.log[-1] == ("steer", *ZERO_TWIST)
+    steered.live(1.0, page)
+    assert steered.robot.log.count(("steer", *ZERO_TWIST)) == 1, "it is let go once, and others may drive"
+
+
+@pytest.mark.parametrize(("is_local", "most_s"), [(True, 0.22), (False, 0.32)])
+def test_a_page_without_beats_ends_what_it_said(steered: Rig, is_local: bool, most_s: float) -> None:
+    page = Page(is_local=is_local)
+    steered.steering.take(page)
+    steered.live(0.5, page)
+    steered.has_work = True
+    steered.live(2.0, page)
+    assert steered.robot.log == []
+    assert most_s - 0.05 < steered.seconds_to(GONE) + SINCE_BEAT_S <= most_s
+    steered.live(1.0)
+    assert steered.robot.log == [GONE]
+    assert steered.lost == 1
+
+
+def test_a_page_that_is_silent_and_has_nothing_to_do_ends_nothing(steered: Rig) -> None:
+    """What another face of the robot said is none of its business."""
+    page = Page()
+    steered.steering.take(page)
+    steered.live(0.5, page)
+    steered.live(2.0)
+    assert steered.robot.log == []
+    assert not steered.steering.is_alive
+
+
+def test_who_begins_to_steer_has_a_moment_until_the_first_beat(steered: Rig) -> None:
+    steered.has_work = True
+    steered.steering.take(Page())
+    steered.live(FIRST_BEAT_S)
+    assert steered.robot.log == []
+    steered.live(0.5)
+    assert steered.robot.log == [GONE]
+
+
+def test_beats_of_another_page_hold_nothing(steered: Rig) -> None:
+    page, other = Page(), Page()
+    steered.steering.take(page)
+    steered.live(0.1, page)
+    steered.has_work = True
+    steered.live(0.4, other)
+    assert steered.robot.log == [GONE]
+    assert not steered.steering.stick(other, FORWARD)
+    assert steered.robot.log == [GONE]
+
+
+def test_a_page_that_leaves_lets_go_and_ends_what_it_said(steered: Rig) -> None:
+    page = Page()
+    steered.steering.take(page)
+    steered.steering.stick(page, FORWARD)
+    assert steered.steering.leave(page)
+    assert steered.robot.log == [("steer", *FORWARD), ("steer", *ZERO_TWIST), GONE]
+    assert steered.steering.steerer is None
+    assert not steered.steering.stick(page, FORWARD)
+
+
+def test_closing_the_steering_page_ends_its_plan(rig: WebRig) -> None:
+    page, watcher = rig.page(), rig.page()
+    page.say("say", text="forward 1 m")
+    rig.session.wait_for("say", "forward 1 m")
+    page.socket.close()
+    rig.session.wait_for(*GONE)
+    assert watcher.wait_for("lost")["text"]
+    assert watcher.wait_for("steering", by=None)
+
+
+def test_closing_it_after_the_plan_has_ended_stops_nothing(rig: WebRig) -> None:
+    page, watcher = rig.page(), rig.page()
+    page.say("say", text="forward 1 m")
+    page.wait_for("said")
+    rig.tell(Result(1, "completed", "Done."))
+    page.socket.close()
+    watcher.wait_for("steering", by=None)
+    assert rig.session.log == [("say", "forward 1 m")]
+
+
+def test_a_page_that_beats_no_more_ends_its_plan_though_its_connection_stays(rig: WebRig) -> None:
+    page = rig.page()
+    page.say("say", text="forward 1 m")
+    rig.session.wait_for("say", "forward 1 m")
+    page.freeze()
+    rig.session.wait_for(*GONE, timeout_s=2.0)
+    page.say("beat")
+    page.say("say", text="forward 1 m")
+    page.wait_for("said")
+    page.wait_for("said")
+
+
+def test_a_page_that_never_beats_is_told_that_nothing_is_done(rig: WebRig) -> None:
+    page = rig.page(beats=False)
+    wait_until(lambda: not rig.room.steering.is_alive)
+    page.say("say", text="forward 1 m")
+    assert page.wait_for("refused")["why"] == "silent"
+    assert rig.session.log == []
+
+
+def test_who_takes_over_keeps_the_plan_going_with_beats_of_their_own(rig: WebRig) -> None:
+    first, second = rig.page(), rig.page()
+    first.say("say", text="forward 1 m")
+    rig.session.wait_for("say", "forward 1 m")
+    second.say("take")
+    second.wait_for("steering", you=True)
+    first.socket.close()
+    second.freeze()
+    rig.session.wait_for(*GONE, timeout_s=3.0)
