@@ -178,7 +178,7 @@ class OfflineInterpreter:
         odds = order_log_odds(reads)
         if meant.corrects and context.dialogue.turns and context.dialogue.turns[-1].moved:
             # `Oops, I meant left`: it is said of what was done, as is `too far by half a metre`, which only tells.
-            return meant if odds >= ORDER or says_meant(text) else proposed(meant, language) or meant
+            return meant if odds >= ORDER or says_meant(plain) else proposed(meant, language) or meant
         if odds < MAYBE_ORDER:
             raise Unclear("nothing_to_do")
         talk = talk_in(reads, doubtful=True)
