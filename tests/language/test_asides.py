@@ -1,4 +1,4 @@
-"""An order is driven beside an aside that nobody foresaw, and never beside what bears on it."""
+"""An order is driven beside what only tells, greets or explains, and never beside what bears on it."""
 
 from __future__ import annotations
 
