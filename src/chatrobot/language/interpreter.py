@@ -150,7 +150,8 @@ class OfflineInterpreter:
         if rest:
             with contextlib.suppress(Unclear):
                 meant = self._interpreted(rest, language, context)
-                bears = any_may_bear(reads, talk)
+                # What a request for a program tells in full is its own reader's.
+                bears = any_may_bear(reads, talk) and not read_program_request(rest)
                 return (proposed(meant, language) or meant) if bears else meant
         try:
             meant = self._interpreted(text, language, context)
