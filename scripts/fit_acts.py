@@ -156,7 +156,7 @@ def without_reader() -> Iterator[None]:
     """What is done is known from the rest of the interpreter alone: the reader must not teach itself."""
     with (
         mock.patch.object(interpreter, "orders", return_value=True),
-        mock.patch.object(interpreter, "without_talk", return_value=""),
+        mock.patch.object(interpreter, "without", return_value=""),
     ):
         yield
 

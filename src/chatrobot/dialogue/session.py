@@ -107,14 +107,11 @@ class Session:
 
     def say(self, text: str) -> int:
         """Take in what a person said; the number of its turn. A stop is out before this returns."""
+        moves = self.is_moving or time.monotonic() - self._steered_at_s < STEERED_S
         if is_emergency_stop(text):
             self.emergency_stop(text.strip()[:80])
             kind: Kind = "emergency_stop"
-        elif (
-            (leads_with_stop(text) or self._declines_motion(text))
-            if self.is_moving or self._is_steering
-            else is_stop(text)
-        ):
+        elif (leads_with_stop(text) or self._declines_motion(text)) if moves else is_stop(text):
             kind = "pause" if is_pause(text) else "stop"
             (self.pause if kind == "pause" else self.stop)(text.strip()[:80])
         else:
@@ -177,10 +174,6 @@ class Session:
         self._steered_at_s = time.monotonic() if not twist.is_zero else -math.inf
         vx_mps, vy_mps, wz_radps = twist
         self._link.send("steer", vx_mps=vx_mps, vy_mps=vy_mps, wz_radps=wz_radps)
-
-    @property
-    def _is_steering(self) -> bool:
-        return time.monotonic() - self._steered_at_s < STEERED_S
 
     def release(self) -> None:
         """Release an emergency stop. For the local console alone."""

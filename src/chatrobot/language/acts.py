@@ -73,15 +73,17 @@ def orders(text: str, names: Names = ()) -> bool:
     return order_log_odds(read_acts(text, names)) >= ORDER
 
 
-def without_talk(text: str, names: Names = (), *, doubtful: bool = False) -> str:
-    """A normalised text without the clauses that are only talk; an empty string where there is nothing to leave out.
+def talk_in(reads: Sequence[Read], *, doubtful: bool = False) -> list[Read]:
+    """The clauses beside an order that are only talk; with `doubtful`, also those that are rather talk than orders."""
+    talk = [read for read in reads if _is_talk(read, MAYBE_ORDER if doubtful else TALK_OF_MOTION)]
+    return talk if len(talk) < len(reads) and order_log_odds(reads) >= ORDER else []
 
-    With `doubtful`, those that are rather talk than orders are left out, too.
-    """
-    reads = read_acts(text, names)
-    kept = [read.clause for read in reads if not _is_talk(read, MAYBE_ORDER if doubtful else TALK_OF_MOTION)]
-    if not kept or len(kept) == len(reads) or order_log_odds(reads) < ORDER:
+
+def without(text: str, reads: Sequence[Read], left_out: Sequence[Read]) -> str:
+    """A normalised text without some of its clauses; an empty string where there is nothing to leave out."""
+    if not left_out:
         return ""
+    kept = [read.clause for read in reads if read not in left_out]
     return " ".join(text[clause.start : clause.stop].strip() for clause in kept).strip(" ,;:")
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import re
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
@@ -13,13 +14,16 @@ from chatrobot.language import forms, questions
 from chatrobot.language.acts import (
     MAYBE_ORDER,
     ORDER,
+    Read,
     order_log_odds,
     orders,
     read_acts,
+    talk_in,
+    without,
     without_requests,
-    without_talk,
 )
 from chatrobot.language.answers import changes_nothing_said, with_answered_amount, with_manner
+from chatrobot.language.beside import any_may_bear, are_asides
 from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
 from chatrobot.language.context import Context
@@ -140,10 +144,15 @@ class OfflineInterpreter:
         if told is not None:
             return told
         names = names_in(context)
-        rest = without_talk(plain, names)
+        reads = read_acts(plain, names)
+        talk = talk_in(reads)
+        rest = without(plain, reads, talk)
         if rest:
             with contextlib.suppress(Unclear):
-                return self._interpreted(rest, language, context)
+                meant = self._interpreted(rest, language, context)
+                # What a request for a program tells in full is its own reader's.
+                bears = any_may_bear(reads, talk) and not read_program_request(rest)
+                return (proposed(meant, language) or meant) if bears else meant
         try:
             meant = self._interpreted(text, language, context)
         except Unclear as problem:
@@ -151,26 +160,40 @@ class OfflineInterpreter:
             if asked:
                 with contextlib.suppress(Unclear):
                     return self._interpreted(asked, language, context)
-            reads = read_acts(plain, names)
             asks = problem.code == "only_forbidden" and any(read.clause.asks for read in reads)
             if (asks or problem.code in _OF_AN_ORDER) and order_log_odds(reads) < MAYBE_ORDER:
                 raise Unclear("nothing_to_do") from None
             raise
         if meant.outcome != "plan" or read_twists(plain):
             return meant
-        reads = read_acts(plain, names)
+        return self._surely_ordered(meant, plain, reads, language, context)
+
+    def _surely_ordered(
+        self,
+        meant: Interpretation,
+        plain: str,
+        reads: Sequence[Read],
+        language: LanguageCode,
+        context: Context,
+    ) -> Interpretation:
+        """The plan that was read; proposed only, or read without doubtful talk, where its clauses hardly order it.
+
+        Raises:
+            Unclear: where no clause orders anything.
+        """
         odds = order_log_odds(reads)
         if meant.corrects and context.dialogue.turns and context.dialogue.turns[-1].moved:
             # `Oops, I meant left`: it is said of what was done, as is `too far by half a metre`, which only tells.
-            return meant if odds >= ORDER or says_meant(text) else proposed(meant, language) or meant
+            return meant if odds >= ORDER or says_meant(plain) else proposed(meant, language) or meant
         if odds < MAYBE_ORDER:
             raise Unclear("nothing_to_do")
-        rest = without_talk(plain, names, doubtful=True)
+        talk = talk_in(reads, doubtful=True)
+        rest = without(plain, reads, talk)
         if rest:  # 左边太近了，往右平移: what tells of a side is hardly a turn
             with contextlib.suppress(Unclear):
                 other = self._interpreted(rest, language, context)
                 if other.plan is not None and _moves(other.plan) != _moves(meant.plan):
-                    return proposed(other, language) or meant
+                    return other if are_asides(reads, talk) else proposed(other, language) or meant
         return meant if odds >= ORDER else proposed(meant, language) or meant
 
     def _interpreted(self, text: str, language: LanguageCode, context: Context) -> Interpretation:

@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 
 from chatrobot.core.event import Proposal
 from chatrobot.language.acts import ORDER, Read, order_log_odds, read_acts
+from chatrobot.language.beside import MAYBE_ASIDE, SURE_ASIDE, any_may_bear, asides, is_sure_aside
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.lexicon import cut, lexicon
@@ -31,7 +32,6 @@ NO_ORDER = 3.5
 """A clause without an amount may be left out of a proposal below these odds."""
 MOST_CLAUSES, MOST_PARTS = 12, 3
 """So many clauses are looked at one by one, and so many parts are left out of what is proposed."""
-
 FAR_M = 10.0
 """A bare number above that is no number of metres."""
 _ALONE = frozenset({"NUMBER", "FLAG"})
@@ -95,14 +95,18 @@ def likeliest(
     if problem.code == "no_unit":
         return _with_unit(plain, problem.part, language, read, unit)
     rest = _Rest(plain, list(reads))
-    for clause in [clause for clause in reads if _is_sure_talk(clause, best)]:
+    # A question that a fact answers is not passed over for a motion, nor is the motion for it.
+    odds = asides(reads) if problem.code != "question_beside" else {}
+    told = [read for read in reads if is_sure_aside(read.clause, odds)]
+    for clause in [clause for clause in reads if clause in told or _is_sure_talk(clause, best)]:
         rest.leave_out(clause)
-    is_sure = not problem.refused
+    is_sure = bool(told) or not problem.refused
+    is_sure &= not any_may_bear(reads, [read for read in reads if read not in rest.kept])
     for _ in range(MOST_PARTS + 1):
         try:
             found = read(rest.text)
         except Unclear as stumbled:
-            if not _without(rest, stumbled, best, names):
+            if not _without(rest, stumbled, best, names, odds):
                 return _core(rest, problem, language, read_anew) if not stumbled.refused else None
             is_sure = False
             continue
@@ -186,11 +190,10 @@ def _is_sure_talk(read: Read, best: float) -> bool:
     return clause.talks and not clause.binds and read.log_odds < min(TALK, best - APART)
 
 
-def _without(rest: _Rest, stumbled: Unclear, best: float, names: Names) -> bool:
+def _without(rest: _Rest, stumbled: Unclear, best: float, names: Names, odds: Mapping[int, float]) -> bool:
     """Leave out what the rules stumbled on; False where it may be what was meant."""
     clause = rest.with_part(stumbled.part)
-    told = clause is not None and (clause.clause.talks or not stumbled.refused)
-    if clause is not None and told and _leaves_order(rest, clause, best):
+    if clause is not None and _may_be_left_out(rest, clause, stumbled, best, odds):
         rest.leave_out(clause)
         return True
     if clause is None or stumbled.refused or stumbled.code != "unknown_part":
@@ -200,6 +203,16 @@ def _without(rest: _Rest, stumbled: Unclear, best: float, names: Names) -> bool:
         return False
     rest.strange.append(stumbled.part)
     return True
+
+
+def _may_be_left_out(
+    rest: _Rest, read: Read, stumbled: Unclear, best: float, odds: Mapping[int, float]
+) -> bool:
+    """Whether the clause is no part of what is ordered, or most likely an aside to it."""
+    least = SURE_ASIDE if stumbled.refused else MAYBE_ASIDE
+    if odds.get(read.clause.start, least - 1.0) >= least and not read.clause.denies:
+        return True
+    return (read.clause.talks or not stumbled.refused) and _leaves_order(rest, read, best)
 
 
 def _leaves_order(rest: _Rest, read: Read, best: float) -> bool:

@@ -1,7 +1,8 @@
 """Who steers a robot, and whether they are still there: beats of their page, and a watchdog that misses them.
 
 The stick is the page's own source at joystick rank: only what the page sends keeps it alive. Nothing here ever beats
-for it.
+for it, or lets go of it in its page's place: Motion itself stops a stick that is silent, and after a stop it drives
+again only once the hand that holds it has let go.
 """
 
 from __future__ import annotations
@@ -16,10 +17,9 @@ from chatrobot.core.errors import LinkError
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.process import wake_promptly
 
-STICK_S, STICK_AFAR_S = 0.15, 0.25
-"""A stick of which nothing is heard for so long is let go, where its page is at this machine and where it is not."""
 LOST_S, LOST_AFAR_S = 0.2, 0.3
-"""A page of which nothing is heard for so long is lost, while it steers and something that it said is not done."""
+"""A page of which nothing is heard for so long is lost, while it steers and something that it said is not done: where
+it is at this machine, and where it is not."""
 FIRST_BEAT_S = 1.0
 """Whoever begins to steer has so long until the first beat: the page may have to be loaded."""
 LOOK_S, STALL_S = 0.02, 0.05
@@ -68,7 +68,7 @@ class Steering:
         self._now = now
         self._lock = threading.Lock()
         self._steerer: Steerer | None = None
-        self._beat_s = self._stick_s = 0.0
+        self._beat_s = 0.0
         self._is_held = self._was_lost = False
 
     @property
@@ -82,11 +82,19 @@ class Steering:
         return self._now() <= self._beat_s + self._most_s(LOST_S, LOST_AFAR_S)
 
     def take(self, page: Steerer | None) -> None:
-        """Have `page` steer, or nobody. Let go of the stick; what was said goes on under the new one."""
+        """Have `page` steer, or nobody: the stick is let go, and what was said goes on under the new one, or ends.
+
+        A page that steers already wins nothing: only its beats say that it is there.
+        """
         with self._lock:
-            self._let_go()
-            self._steerer = page
+            if page is self._steerer:
+                return
+            if self._is_held:
+                self._robot.steer(ZERO_TWIST)
+            self._steerer, self._is_held = page, False
             self._beat_s, self._was_lost = self._now() + FIRST_BEAT_S, False
+        if page is None and self._has_work():
+            self._robot.stop("nobody steers any more")
 
     def beat(self, page: Steerer) -> None:
         """Note that something was heard of that page."""
@@ -98,7 +106,6 @@ class Steering:
         with self._lock:
             if page is not self._steerer:
                 return False
-            self._stick_s = self._now()
             self._is_held = not twist.is_zero
             self._robot.steer(twist)
         return True
@@ -108,19 +115,14 @@ class Steering:
         with self._lock:
             if page is not self._steerer:
                 return False
-            was_held = self._let_go()
+            was_held, self._is_held = self._is_held, False
             self._steerer = None
         if was_held or self._has_work():
             self._lose()
         return True
 
     def look(self) -> None:
-        """Let go of a stick, and stop the robot, where nothing is heard of the page that wants it to move."""
-        now_s = self._now()
-        if self._is_held and now_s - self._stick_s > self._most_s(STICK_S, STICK_AFAR_S):
-            with self._lock:
-                if now_s - self._stick_s > self._most_s(STICK_S, STICK_AFAR_S):
-                    self._let_go()
+        """Stop the robot where nothing is heard of the page whose words it follows."""
         if self._steerer is not None and not (self.is_alive or self._was_lost) and self._has_work():
             self._was_lost = True
             self._lose()
@@ -128,13 +130,6 @@ class Steering:
     def _most_s(self, here_s: float, afar_s: float) -> float:
         steerer = self._steerer
         return here_s if steerer is None or steerer.is_local else afar_s
-
-    def _let_go(self) -> bool:
-        """Have the lock. Return whether the stick was held."""
-        was_held, self._is_held = self._is_held, False
-        if was_held:
-            self._robot.steer(ZERO_TWIST)
-        return was_held
 
     def _lose(self) -> None:
         self._robot.stop("the steering page is gone")
@@ -160,11 +155,13 @@ class Watchdog:
 
     def _run(self) -> None:
         wake_promptly()
-        looked_s = time.monotonic()
+        looked_s, has_waited = time.monotonic(), False
         while not self._is_stopped.wait(LOOK_S):
-            now_s, before_s, looked_s = time.monotonic(), looked_s, time.monotonic()
-            if now_s - before_s > LOOK_S + STALL_S:
-                continue  # this process stood still, and Motion's leases held meanwhile: read what lies unread first
-            for robot in self._robots():
+            before_s, looked_s = looked_s, time.monotonic()
+            # Once: this process stood still, and Motion's leases held meanwhile; what lies unread is read first.
+            has_waited = not has_waited and looked_s - before_s > LOOK_S + STALL_S
+            if has_waited:
+                continue
+            for robot in tuple(self._robots()):
                 with contextlib.suppress(LinkError):  # Motion is gone, and its guard halts the robot
                     robot.look()
