@@ -85,7 +85,7 @@ def _serve(
             server.start(*sockets)
             pump.start()
             tell()
-            agents = _host_agents(connection, server.access, setup)
+            agents = _host_agents(connection, server.access, setup, room)
             while not (watch.is_leaving or ended.wait(0.1)):
                 pass
             server.close()
@@ -137,12 +137,14 @@ def _serve_class(
     return STOPPED
 
 
-def _host_agents(connection: Connection, access: Access, setup: Setup) -> AgentHost | None:
+def _host_agents(connection: Connection, access: Access, setup: Setup, room: Room) -> AgentHost | None:
     """Let `chatrobot mcp` attach to this robot, whose person says yes in the page; None without the extra `mcp`."""
     from chatrobot.mcp_server.host import host_agents
 
     address = f"{access.origin(_reachable(access.host))}/"  # without the token: agents are told it
-    return host_agents(connection, lambda: address, is_simulated=setup.on in SIMULATED)
+    return host_agents(
+        connection, lambda: address, is_simulated=setup.on in SIMULATED, is_latched=lambda: room.is_latched
+    )
 
 
 def _check(args: argparse.Namespace) -> None:

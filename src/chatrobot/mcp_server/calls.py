@@ -24,6 +24,7 @@ from chatrobot.core.events import (
     ProgramWritten,
     Progress,
     Rehearsed,
+    Remembered,
     Result,
     Said,
 )
@@ -77,6 +78,8 @@ class Course:
     """The paused turn that it goes on with."""
     is_program: bool = False
     """It was asked of `programs`."""
+    is_plan: bool = False
+    """It was given as a plan, not in words."""
     is_emergency: bool = False
     """An emergency stop is set, as far as is known."""
     lacks_person: bool = False
@@ -93,7 +96,7 @@ class Course:
             self.program = event
         elif isinstance(event, ProgramRehearsed):
             self.program_rehearsed = event
-        elif isinstance(event, (Notice, Limited, Said, ProgramLog)):
+        elif isinstance(event, (Notice, Limited, Remembered, Said, ProgramLog)):
             words = one_line(words_of(event, language))
             if words and words not in self.notes and len(self.notes) < MOST_NOTES:
                 self.notes.append(words)
@@ -183,7 +186,7 @@ class Calls:
                     await progress.tell(event)
         if course.state != "done":
             self._left_open.add(course.turn)
-        course.is_emergency = self._robot.record.emergency is not None
+        course.is_emergency = self._robot.is_emergency
         if course.result is not None and course.result.outcome not in ("completed", "answered"):
             self._robot.setbacks += 1
         return course

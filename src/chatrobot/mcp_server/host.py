@@ -105,15 +105,22 @@ class AgentHost:
 
 
 def host_agents(
-    connection: Connection, approval_address: Callable[[], str], *, is_simulated: bool
+    connection: Connection,
+    approval_address: Callable[[], str],
+    *,
+    is_simulated: bool,
+    is_latched: Callable[[], bool] = lambda: False,
 ) -> AgentHost | None:
     """Serve agents beside the person whose session `connection` is; None where the extra `mcp` is not installed.
 
-    Close it before that connection. `approval_address` is where that person says yes to an agent's plan.
+    Close it before that connection. `approval_address` is where that person says yes to an agent's plan; `is_latched`
+    tells whether that person has set the emergency stop.
     """
     if importlib.util.find_spec("mcp") is None:
         return None
-    robot = AgentRobot(lambda on_event: connection.second_session(SOURCE, on_event), approval_address)
+    robot = AgentRobot(
+        lambda on_event: connection.second_session(SOURCE, on_event), approval_address, is_latched
+    )
     host = AgentHost(robot, connection.profile, is_simulated=is_simulated)
     host.start()
     return host

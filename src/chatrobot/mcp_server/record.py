@@ -6,9 +6,20 @@ import time
 from collections import deque
 from typing import Any
 
-from chatrobot.core.events import Event, Limited, Notice, Paused, ProgramLog, Result, Said, Started, Telemetry
+from chatrobot.core.events import (
+    Event,
+    Limited,
+    Notice,
+    Paused,
+    ProgramLog,
+    Remembered,
+    Result,
+    Said,
+    Started,
+    Telemetry,
+)
 from chatrobot.core.geometry import Pose
-from chatrobot.core.reason import Reason, one_line
+from chatrobot.core.reason import Reason, fixed, one_line
 from chatrobot.language.phrases import render_reason
 
 KEPT_EVENTS = 10
@@ -101,6 +112,9 @@ def words_of(event: Event, language: str) -> str:
         return f"paused: {render_reason(event.reason, language) if event.reason else ''}"
     if isinstance(event, Limited) and event.reason is not None:
         return f"limited: {render_reason(event.reason, language)}"
+    if isinstance(event, Remembered):
+        x, y = fixed(event.pose.x_m, 2), fixed(event.pose.y_m, 2)
+        return f"remembered {event.place} at ({x}, {y}) m"
     if isinstance(event, ProgramLog):
         return f"log, {event.t_s:.1f} s: {event.text}"
     return f"said: {event.text}" if isinstance(event, Said) else ""

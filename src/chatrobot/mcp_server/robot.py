@@ -41,11 +41,18 @@ class AgentRobot:
     Args:
         connect: meets the robot, in a thread of its own.
         approval_address: where a person says yes to a plan, "" where nobody is there to say it.
+        is_latched: whether a person beside it has set the emergency stop.
     """
 
-    def __init__(self, connect: Connect, approval_address: Callable[[], str] = lambda: "") -> None:
+    def __init__(
+        self,
+        connect: Connect,
+        approval_address: Callable[[], str] = lambda: "",
+        is_latched: Callable[[], bool] = lambda: False,
+    ) -> None:
         self._connect = connect
         self.approval_address = approval_address
+        self._is_latched = is_latched
         self.record = Record()
         self.turns = Turns()
         self.setbacks = 0
@@ -107,6 +114,11 @@ class AgentRobot:
     def session(self) -> Session | None:
         """Return the session; None before the robot is there."""
         return self._connection.session if self._connection is not None else None
+
+    @property
+    def is_emergency(self) -> bool:
+        """An emergency stop is set, as far as is known here."""
+        return self.record.emergency is not None or self._is_latched()
 
     def stop(self, why: str) -> None:
         """Stop the robot, and begin nothing that was asked for before. Waits for nothing."""

@@ -94,7 +94,15 @@ class LineStream:
             self._hand_on(None)
 
     def _hand_on(self, line: str | None) -> None:
-        asyncio.run_coroutine_threadsafe(self._lines.put(line), self._loop).result()
+        putting = self._lines.put(line)
+        try:
+            handed_on = asyncio.run_coroutine_threadsafe(putting, self._loop)
+        except (
+            RuntimeError
+        ):  # the loop has ended: nobody waits for the coroutine, and Python would warn of it
+            putting.close()
+            raise
+        handed_on.result()
 
 
 @contextlib.contextmanager

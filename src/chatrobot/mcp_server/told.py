@@ -49,6 +49,9 @@ UNCLEAR = (
     "Say it in other words, or give `plan` instead: one step a line, such as `drive 1 m`, `turn left 90 deg` (the "
     "prompt plan_language has all of them). The tool places has the names of places."
 )
+UNCLEAR_PLAN = (
+    "Nothing was done. Mend that line and send the whole plan again; the prompt plan_language has all steps."
+)
 UNCLEAR_PROGRAM = "Write it yourself: give the whole Python program as `text`."
 _DROPPED = (
     "Not begun: what was asked for before it was stopped or not done. Look with observe, then ask again."
@@ -62,9 +65,10 @@ def answer(text: str, data: Mapping[str, Any], *more: ContentBlock, is_error: bo
     return CallToolResult(content=content, structured_content=finite(dict(data)), is_error=is_error)
 
 
-def release_refused() -> CallToolResult:
-    """Answer an agent that wants to release an emergency stop."""
-    text = f"Only a person may release an emergency stop. {_HINTS['emergency_stop']}"
+def release_refused(*, is_set: bool) -> CallToolResult:
+    """Answer an agent that wants to release an emergency stop; `is_set` as far as is known."""
+    state = _HINTS["emergency_stop"] if is_set else "None is known to be set: use instruct."
+    text = f"Only a person may release an emergency stop. {state}"
     return answer(
         f"refused: {text}", {"outcome": "refused", "reply": text, "reason": {"code": "release_refused"}}
     )
@@ -111,7 +115,7 @@ def course_told(course: Course, language: str, approval_address: str) -> CallToo
     if course.program is not None:
         data["program"] = _program_told(course, course.program, language)
     if course.state == "waiting":
-        return _waiting_told(data, approval_address)
+        return _waiting_told(data, approval_address, is_earlier=course.rehearsed is None)
     if course.state == "paused":
         return _paused_told(course, data, language)
     if course.result is None:  # nobody is left to hear it
@@ -119,10 +123,13 @@ def course_told(course: Course, language: str, approval_address: str) -> CallToo
     return _end_told(course, course.result, data, language)
 
 
-def _waiting_told(data: dict[str, Any], address: str) -> CallToolResult:
+def _waiting_told(data: dict[str, Any], address: str, *, is_earlier: bool) -> CallToolResult:
     text = (
-        f"Waiting for approval at {address}. Tell the person: without a yes it lapses after {LAPSES_AFTER_S:g} s, and "
-        "nothing moves. observe shows what becomes of it."
+        f"Not taken: a plan from before still waits for approval at {address}. Only a person says yes there; observe "
+        "shows what becomes of it. Then ask again."
+        if is_earlier
+        else f"Waiting for approval at {address}. Tell the person: without a yes it lapses after "
+        f"{LAPSES_AFTER_S:g} s, and nothing moves. observe shows what becomes of it."
     )
     return answer(text, {"outcome": "waiting", "reply": text, "approval_at": address, **data})
 
@@ -175,7 +182,7 @@ def _measured_lines(course: Course, result: Result, language: str) -> list[str]:
     if not result.measured:
         return ["This robot measures nothing: nobody knows how far it went."]
     if not result.has_moved and result.outcome not in ("completed", "stopped"):
-        return []
+        return course.notes if result.outcome == "answered" else []
     return [f"It took {result.duration_s:.1f} s; the robot is now {at}.", *course.notes]
 
 
@@ -198,7 +205,7 @@ def _hints(course: Course, result: Result) -> list[str]:
         return [hint]
     if result.outcome != "unclear" or result.proposal is not None:
         return []
-    return [UNCLEAR_PROGRAM if course.is_program else UNCLEAR]
+    return [UNCLEAR_PROGRAM if course.is_program else UNCLEAR_PLAN if course.is_plan else UNCLEAR]
 
 
 def _program_told(course: Course, program: ProgramWritten, language: str) -> dict[str, Any]:

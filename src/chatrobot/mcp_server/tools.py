@@ -85,7 +85,7 @@ class Tools:
         if problem:
             return error(problem, "bad_arguments")
         if text and is_release(text):
-            return release_refused()
+            return release_refused(is_set=self._robot.is_emergency)
         if plan.startswith("{"):
             try:
                 plan = format_plan(plan_from_json(plan))
@@ -109,6 +109,7 @@ class Tools:
         rehearse_only: bool,
     ) -> CallToolResult:
         course = await self._calls.do(say, report, line, text=text, rehearse_only=rehearse_only)
+        course.is_plan = not text
         session = (await self._robot.ready()).session
         return course_told(course, session.understanding.language, self._robot.approval_address())
 
@@ -144,7 +145,7 @@ class Tools:
             data["waiting_for_approval_at"] = self._robot.approval_address()
         if connection.session.is_paused:
             data["paused"] = True
-        if record.emergency is not None:
+        if self._robot.is_emergency:
             data["emergency_stop"] = "A person has to release it; nothing moves before."
         camera = connection.camera
         image = await asyncio.to_thread(surroundings.take_picture, camera) if picture and camera else None

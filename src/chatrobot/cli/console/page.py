@@ -112,6 +112,10 @@ class _Terminal:
         self.pass_: Pass = Pass("watcher", is_local=True)
         self.is_local = True
 
+    def unread_bytes(self) -> int:
+        """Return 0: nothing of a terminal comes over the network, and it steers nothing here."""
+        return 0
+
     def put(self, message: Message) -> None:
         """Have it shown by the thread that shows all else: a terminal that was halted holds up no page."""
         self._controller.pump.post(lambda: self._show(message))
