@@ -44,7 +44,8 @@ def test_the_order_is_joystick_plan_agent_foreign_text_and_whoever_is_not_listed
     assert priority_of("program") == priority_of("web") == priority_of("console") == Priority.PLAN
     assert priority_of("mcp") == Priority.AGENT
     assert priority_of("base") == Priority.PLAN
-    assert set(PRIORITIES) == {*LOW_TO_HIGH, "program", "web", "base", "mcp", "stick"}
+    assert priority_of("pupil") == Priority.PLAN
+    assert set(PRIORITIES) == {*LOW_TO_HIGH, "program", "web", "base", "mcp", "pupil", "stick"}
     assert priority_of("stick") == Priority.JOYSTICK
 
 
