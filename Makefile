@@ -31,13 +31,13 @@ lint: setup
 	$(BIN)/ruff format --check src tests examples scripts bench ros
 	$(BIN)/mypy
 
-# Real processes in real time come after the rest, three at a time: they mostly wait. Those that measure a promise come
+# Real processes in real time come after the rest, four at a time: they mostly wait. Those that measure a promise come
 # last, alone. What fails is tried once more with nothing beside it: a busy machine may hold a process up once, but a
 # promise that is broken twice is broken.
 AGAIN := --last-failed --last-failed-no-failures none
 test: lint
 	$(BIN)/pytest -m "not realtime" -n 2
-	$(BIN)/pytest -m "realtime and not alone" -n 3 --dist loadfile || \
+	$(BIN)/pytest -m "realtime and not alone" -n 4 --dist loadfile || \
 		$(BIN)/pytest -m "realtime and not alone" $(AGAIN)
 	$(BIN)/pytest -m alone || $(BIN)/pytest -m alone $(AGAIN)
 

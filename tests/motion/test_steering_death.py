@@ -56,7 +56,11 @@ class Steering(TalkingProcess):
         self.wire = LocalWire(next(runtime.glob("sim-*.wire")))
         self.velocities = Heard()
         self.wire.subscribe("cmd_vel", TwistMessage, self.velocities)
-        self.motion_pid = int(next(runtime.glob("motion-*.stop")).stem.removeprefix("motion-"))
+        self.velocities.wait_for_motion()
+        ends_s = time.monotonic() + PATIENCE_S
+        while not (sockets := list(runtime.glob("motion-*.stop"))) and time.monotonic() < ends_s:
+            time.sleep(0.01)  # it is made by a thread of its own
+        self.motion_pid = int(sockets[0].stem.removeprefix("motion-"))
 
     def close(self) -> None:
         self.wire.close()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import threading
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 from starlette.websockets import WebSocket
@@ -110,8 +111,10 @@ class Classroom:
             with contextlib.suppress(LinkError):  # Motion is gone, and its guard halts the robot
                 robot.connection.session.stop("the web console has ended")
             pump.stop()
-        for robot in self._robots:
-            robot.connection.close()
+        with ThreadPoolExecutor(
+            max(1, len(self._robots))
+        ) as pool:  # each waits for the Motion that all share
+            list(pool.map(lambda robot: robot.connection.close(), self._robots))
 
     # --- a teacher's page; it joins and leaves as a pupil's does a room ---
 
