@@ -6,21 +6,16 @@ the server gives at once; how long a token takes from the server's send to our c
 
 from __future__ import annotations
 
-import statistics
 import threading
 import time
 
 from tests.models.rig import WIRES, Got, model_at, serving
 
+from bench import line
 from chatrobot.models.make import make_model, warm
 from chatrobot.models.seam import CallLimits, Message, Reply
 
 REPETITIONS = 40
-
-
-def line(name: str, values: list[float]) -> None:
-    p99 = sorted(values)[round(0.99 * (len(values) - 1))]
-    print(f"{name:58s} {statistics.median(values) * 1e3:7.2f} ms {p99 * 1e3:7.2f} ms", flush=True)
 
 
 def call(provider: str) -> list[float]:
@@ -64,7 +59,7 @@ def main() -> int:
     began_s = time.monotonic()
     warm(make_model("openai:any"), wait_s=60)
     print(f"loading the library, in the background: {time.monotonic() - began_s:.1f} s")
-    print(f"{'':58s} {'median':>10s} {'p99':>10s}")
+    print(f"{'':62s} {'median':>11s} {'p99':>10s}")
     for provider in WIRES:
         line(f"{provider}: a whole call", call(provider))
         line(f"{provider}: a token, from its send to our caller", pieces(provider))

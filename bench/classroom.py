@@ -19,7 +19,7 @@ from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
-from bench.latency import percentile
+from bench import percentile
 from chatrobot.compose import Setup
 from chatrobot.dialogue.pump import Pump
 from chatrobot.dialogue.session import Session

@@ -26,7 +26,7 @@ from pathlib import Path
 from scripts.fuzz_robots import with_everything
 from tests.processes import RunningRobot
 
-from bench.latency import percentile
+from bench import percentile
 from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.governed import StopEpoch
@@ -123,7 +123,7 @@ def jitter_s(intervals: list[float]) -> list[float]:
 
 
 def main() -> None:
-    print(f"{'':58s} {'median':>10s} {'p99':>10s}")
+    print(f"{'':62s} {'median':>11s} {'p99':>10s}")
     plain = load_profile("wheeltec_mini_mec")
     kept = True
     for name, profile, wall_m in (

@@ -15,20 +15,16 @@ from pathlib import Path
 
 from tests.processes import RunningRobot
 
+from bench import line
 from chatrobot.wire.local import LocalWire
 from chatrobot.wire.messages import TwistMessage
 
 REPETITIONS = 60
 
 
-def percentile(values: list[float], share: float) -> float:
-    ordered = sorted(values)
-    return ordered[min(len(ordered) - 1, round(share * (len(ordered) - 1)))]
-
-
-def line(name: str, values: list[float], hop_s: float) -> None:
-    median, p99 = statistics.median(values), percentile(values, 0.99)
-    print(f"{name:58s} {median * 1e3:7.2f} ms {p99 * 1e3:7.2f} ms {median / hop_s:7.1f} x", flush=True)
+def in_hops(values_s: list[float], hop_s: float) -> str:
+    """Return their median in hops over the same wire."""
+    return f"{statistics.median(values_s) / hop_s:.1f} x"
 
 
 def one_hop(folder: Path) -> list[float]:
@@ -75,15 +71,15 @@ def main() -> None:
         folder = Path(name)
         hop = one_hop(folder)
         hop_s = statistics.median(hop)
-        print(f"{'':58s} {'median':>10s} {'p99':>10s} {'x hop':>9s}")
-        line("one hop over the same wire", hop, hop_s)
+        print(f"{'':62s} {'median':>11s} {'p99':>10s} {'x hop':>9s}")
+        line("one hop over the same wire", hop, note=in_hops(hop, hop_s))
         robot = RunningRobot(folder / "robot")
         try:
             starts, stops = motion_and_stop(robot)
         finally:
             robot.close()
-        line("one-step sentence -> first velocity at a subscriber", starts, hop_s)
-        line("typed stop -> zero at a subscriber", stops, hop_s)
+        line("one-step sentence -> first velocity at a subscriber", starts, note=in_hops(starts, hop_s))
+        line("typed stop -> zero at a subscriber", stops, note=in_hops(stops, hop_s))
 
 
 if __name__ == "__main__":

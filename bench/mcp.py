@@ -7,7 +7,6 @@ Promised: a cancelled call is a zero within 50 ms, and all descriptions of tools
 from __future__ import annotations
 
 import json
-import statistics
 import tempfile
 import time
 from functools import partial
@@ -16,17 +15,11 @@ from pathlib import Path
 import anyio
 from tests.mcp_server.mcp_rig import Agent, HttpServer, Wire, over_http, over_stdio
 
-from bench.latency import percentile
+from bench import line
 
 REPETITIONS = 30
 CHARS_A_TOKEN = 3.0
 """Fewer than any tokenizer of today needs for English and JSON: the figure errs towards too many tokens."""
-
-
-def line(name: str, values_s: list[float]) -> None:
-    """Print one row."""
-    median_s, p99_s = statistics.median(values_s), percentile(values_s, 0.99)
-    print(f"{name:44s} {median_s * 1e3:7.1f} ms {p99_s * 1e3:7.1f} ms", flush=True)
 
 
 async def seconds_to_zero(agent: Agent, since_s: float) -> float:

@@ -17,7 +17,7 @@ from typing import Any
 
 from tests.processes import RunningRobot
 
-from bench.latency import percentile
+from bench import line
 from chatrobot.dialogue.llm.call import ModelCall
 from chatrobot.dialogue.llm.prompt import request, system_prompt
 from chatrobot.models.config import ModelConfig
@@ -34,11 +34,6 @@ SIX_STEPS = (
     "turn right 90 deg at 0.60 rad/s\ndrive 0.30 m back at 0.30 m/s\nturn left 45 deg at 0.60 rad/s\n"
 )
 COMMANDS = {"in the empty world": "empty", "in the furnished flat": "home"}
-
-
-def told(name: str, values: list[float], note: str = "") -> None:
-    median, p99 = statistics.median(values), percentile(values, 0.99)
-    print(f"{name:62s} {median * 1e3:8.2f} ms {p99 * 1e3:8.2f} ms  {note}", flush=True)
 
 
 @contextmanager
@@ -185,23 +180,23 @@ def main() -> None:
     tokens()
     print(f"{'':62s} {'median':>11s} {'p99':>11s}")
     whole, ours = overheads()
-    told("one call of the scripted model, through library and thread", whole)
-    told("of it: what our thread and queue add to the library", ours)
+    line("one call of the scripted model, through library and thread", whole)
+    line("of it: what our thread and queue add to the library", ours)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        told("first plan line leaves the server -> first velocity", first_wheel_commands(folder / "a"))
+        line("first plan line leaves the server -> first velocity", first_wheel_commands(folder / "a"))
         streamed = time_to_motion(folder / "b")
         whole_reply = time_to_motion(folder / "c", "--approve")
         ratio = statistics.median(whole_reply) / statistics.median(streamed)
-        told("six steps at 50 tokens/s: question -> motion, streamed", streamed)
-        told("the same, waiting for the whole reply", whole_reply, f"{ratio:.1f} x later")
+        line("six steps at 50 tokens/s: question -> motion, streamed", streamed)
+        line("the same, waiting for the whole reply", whole_reply, note=f"{ratio:.1f} x later")
         slow = {"text": "drive 0.1 m\ndrive 0.1 m back\n" * 20, "tokens_per_s": 30}
-        told(
+        line(
             "typed stop while a model streams -> zero",
             stops(folder / "d", slow, lambda robot, said_s: robot.velocities.wait_for_motion(said_s)),
         )
         hung = {"text": "turn left 45 deg\nturn", "hang_after": 6}
-        told(
+        line(
             "typed stop while a model hangs -> zero",
             stops(folder / "e", hung, lambda robot, said_s: robot.velocities.wait_for_motion(said_s)),
         )

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import statistics
 import subprocess
 import sys
 import tempfile
@@ -19,17 +18,11 @@ from pathlib import Path
 import psutil
 from tests.nodes.node_rig import NodeRig, running
 
-from bench.latency import percentile
+from bench import line
 from chatrobot.wire.messages import Text
 
 REPETITIONS = 60
 LOAD_S = 10.0
-
-
-def line(name: str, values_s: list[float], target_ms: tuple[float, float]) -> None:
-    median_ms, p99_ms = statistics.median(values_s) * 1e3, percentile(values_s, 0.99) * 1e3
-    targets = f"(target {target_ms[0]:g} and {target_ms[1]:g})"
-    print(f"{name:50s} {median_ms:7.2f} ms {p99_ms:7.2f} ms  {targets}  {machine()}", flush=True)
 
 
 def machine() -> str:
@@ -97,12 +90,12 @@ def main() -> None:
         rig.do("turn left 5 degrees")
         print(f"{'':50s} {'median':>10s} {'p99':>10s}")
         starts, stops = latencies(rig, repetitions)
-        line("text on user_input -> first velocity", starts, (5, 15))
-        line("stop on user_input -> zero", stops, (3, 10))
+        line("text on user_input -> first velocity", starts, (0.005, 0.015), machine())
+        line("stop on user_input -> zero", stops, (0.003, 0.010), machine())
         load(rig)
         with busy_cores():
             _, stops = latencies(rig, repetitions)
-        line("the stop, both cores busy", stops, (20, 50))
+        line("the stop, both cores busy", stops, (0.020, 0.050), machine())
 
 
 if __name__ == "__main__":

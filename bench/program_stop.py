@@ -6,14 +6,13 @@ In real time, at a subscriber in another process: console, Motion, guard, robot,
 from __future__ import annotations
 
 import os
-import statistics
 import tempfile
 import time
 from pathlib import Path
 
 from tests.processes import RunningRobot
 
-from bench.latency import percentile
+from bench import line
 from chatrobot.programs.library import KeptProgram, Library
 
 REPETITIONS = 20
@@ -33,11 +32,6 @@ for _ in range(300):
     time.sleep(0.1)
 publisher.publish(Twist())
 """
-
-
-def line(name: str, values_s: list[float]) -> None:
-    median_ms, p99_ms = statistics.median(values_s) * 1e3, percentile(values_s, 0.99) * 1e3
-    print(f"{name:58s} {median_ms:7.2f} ms {p99_ms:7.2f} ms", flush=True)
 
 
 def main() -> None:

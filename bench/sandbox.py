@@ -3,23 +3,17 @@ bench.sandbox"""
 
 from __future__ import annotations
 
-import statistics
 import time
 from pathlib import Path
 
 import tests
 
-from bench.latency import percentile
+from bench import line
 from chatrobot.sandbox.warm_server import WarmServer
 
 REPETITIONS = 100
 INSIDE = Path(tests.__file__).parent / "sandbox" / "inside"
 WAIT = b"import time; channel.sendall(b'here'); time.sleep(60)"
-
-
-def line(name: str, values_s: list[float]) -> None:
-    median_ms, p99_ms = statistics.median(values_s) * 1e3, percentile(values_s, 0.99) * 1e3
-    print(f"{name:58s} {median_ms:7.2f} ms {p99_ms:7.2f} ms", flush=True)
 
 
 def main() -> None:
@@ -40,7 +34,7 @@ def main() -> None:
                 process.kill()
                 process.wait()
                 killed.append(time.monotonic() - began_s)
-    print(f"{'':58s} {'median':>10s} {'p99':>10s}")
+    print(f"{'':62s} {'median':>11s} {'p99':>10s}")
     line("start of the warm server", started)
     line("launch → first byte from the program", launched)
     line("kill → reported gone", killed)

@@ -22,7 +22,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from bench.latency import percentile
+from bench import percentile
 from chatrobot.core.errors import WireError
 from chatrobot.wire.local import LocalWire
 from chatrobot.wire.messages import TwistMessage

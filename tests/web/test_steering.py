@@ -61,6 +61,20 @@ class Rig:
             self.live(0.02)
         return self.now_s - began_s
 
+    def take_with_a_plan(self, page: Page | None = None) -> Page:
+        """Have that page steer, and its plan run."""
+        page = page or Page()
+        self.steering.take(page)
+        self.live(0.5, page)
+        self.has_work = True
+        return page
+
+    def live_unread(self, duration_s: float, page: Page) -> None:
+        """Live on while the page sends beats that nobody reads."""
+        for _ in range(round(duration_s / 0.05)):
+            page.unread += 20
+            self.live(0.05)
+
 
 @pytest.fixture
 def steered() -> Rig:
@@ -99,10 +113,7 @@ def test_whoever_takes_over_stops_the_stick_and_keeps_the_plan(steered: Rig) -> 
 
 
 def test_taking_what_one_has_is_no_beat(steered: Rig) -> None:
-    page = Page()
-    steered.steering.take(page)
-    steered.live(0.5, page)
-    steered.has_work = True
+    page = steered.take_with_a_plan()
     for _ in range(10):
         steered.live(0.1)
         steered.steering.take(page)
@@ -111,10 +122,7 @@ def test_taking_what_one_has_is_no_beat(steered: Rig) -> None:
 
 @pytest.mark.parametrize(("is_local", "most_s"), [(True, 0.22), (False, 0.32)])
 def test_a_page_without_beats_ends_what_it_said(steered: Rig, is_local: bool, most_s: float) -> None:
-    page = Page(is_local=is_local)
-    steered.steering.take(page)
-    steered.live(0.5, page)
-    steered.has_work = True
+    page = steered.take_with_a_plan(Page(is_local=is_local))
     steered.live(2.0, page)
     assert steered.robot.log == []
     assert most_s - 0.05 < steered.seconds_to(GONE) + SINCE_BEAT_S <= most_s
@@ -124,13 +132,8 @@ def test_a_page_without_beats_ends_what_it_said(steered: Rig, is_local: bool, mo
 
 
 def test_beats_that_the_event_loop_has_not_read_yet_are_no_silence(steered: Rig) -> None:
-    page = Page()
-    steered.steering.take(page)
-    steered.live(0.5, page)
-    steered.has_work = True
-    for _ in range(8):
-        page.unread += 20
-        steered.live(0.05)
+    page = steered.take_with_a_plan()
+    steered.live_unread(0.4, page)
     assert steered.robot.log == []
     assert 0.13 < steered.seconds_to(GONE) + SINCE_BEAT_S <= 0.23, (
         "bytes that lie there are no beats that come"
@@ -138,21 +141,13 @@ def test_beats_that_the_event_loop_has_not_read_yet_are_no_silence(steered: Rig)
 
 
 def test_an_event_loop_that_reads_no_more_ends_the_plan_though_the_page_beats(steered: Rig) -> None:
-    page = Page()
-    steered.steering.take(page)
-    steered.live(0.5, page)
-    steered.has_work = True
-    for _ in range(16):
-        page.unread += 20
-        steered.live(0.05)
+    page = steered.take_with_a_plan()
+    steered.live_unread(0.8, page)
     assert steered.robot.log == [GONE]
 
 
 def test_what_a_page_without_beats_says_does_not_keep_it_where_the_event_loop_reads_it(steered: Rig) -> None:
-    page = Page()
-    steered.steering.take(page)
-    steered.live(0.5, page)
-    steered.has_work = True
+    page = steered.take_with_a_plan()
     for _ in range(3):
         page.unread = 400
         steered.live(0.02)

@@ -38,11 +38,7 @@ from chatrobot.robots.open_loop import as_chosen, drives_on_alone, slowed
 from chatrobot.robots.profile import NOT_CHOSEN, MotionBudget, RobotProfile
 from chatrobot.sim.load import load_world
 from chatrobot.sim.world import check_known
-from chatrobot.wire.connect import (
-    Connect,
-    connect_wire,
-    is_on_this_machine,
-)
+from chatrobot.wire.connect import Connect, connect_wire, is_on_this_machine
 from chatrobot.wire.messages import Flag, Text
 from chatrobot.wire.wire import Wire
 
@@ -113,31 +109,37 @@ class MotionRunner:
         wiring = _as_others_name_it(self.wire, self.profile.wiring)
         self._guard = shared.guard or start_guard([address], wiring, RealClock(), is_near=is_near)
         self._departure = Departure(self.wire, wiring.cmd_vel_topic, wiring.odom_topic, is_near=is_near)
-        self.motion = Motion(
-            self.profile,
-            self.wire,
-            self.wire.clock,
-            shared.planner or Planner(self.profile, known_world),
-            self._guard,
-            emit,
-            self._plans.put,
-            releasers,
-            self.programs,
-        )
+        self.motion = self._make_motion(shared.planner or Planner(self.profile, known_world), releasers)
         self._competitors = CompetingControllers(
             self.wire, node, self.profile.wiring.cmd_vel_topic, open_loop_notice(self.profile)
         )
         self._lookout = ConnectionMonitor(
             self.wire, self._competitors, self.motion, self.profile, self.notice, accept_others=accept_others
         )
-        with contextlib.ExitStack() as ended_early:
-            ended_early.callback(
-                self._guard.goodbye
-            )  # nothing has been driven that a guard would have to halt
-            self._open(said)
-            ended_early.pop_all()
+        self._open(said)
+
+    def _make_motion(self, planner: Planner, releasers: Collection[str]) -> Motion:
+        clock, plan_later = self.wire.clock, self._plans.put
+        return Motion(
+            self.profile,
+            self.wire,
+            clock,
+            planner,
+            self._guard,
+            self._emit,
+            plan_later,
+            releasers,
+            self.programs,
+        )
 
     def _open(self, said: list[Reason]) -> None:
+        """Begin to listen; where that fails, send the guard away: nothing has been driven that it would halt."""
+        with contextlib.ExitStack() as ended_early:
+            ended_early.callback(self._guard.goodbye)
+            self._listen(said)
+            ended_early.pop_all()
+
+    def _listen(self, said: list[Reason]) -> None:
         """Begin to listen, once the guard is there; what a person should know of the robot is told first."""
         if isinstance(self.wire, ReconnectingWire):  # a robot that nobody reaches holds what it heard last
             self.wire.on_gone = lambda: self.motion.halt(Reason("wire_gone"))
@@ -287,9 +289,7 @@ def _meet(
 
 def _as_others_name_it(wire: Wire, wiring: Wiring) -> Wiring:
     """The guard is another end of the wire, which is told our namespace, and the topics as our remappings have them."""
-    cmd_vel_topic, odom_topic = (
-        wire.resolve(wiring.cmd_vel_topic),
-        wiring.odom_topic and wire.resolve(wiring.odom_topic),
-    )
+    cmd_vel_topic = wire.resolve(wiring.cmd_vel_topic)
+    odom_topic = wiring.odom_topic and wire.resolve(wiring.odom_topic)
     namespace = wire.namespace or wiring.namespace
     return replace(wiring, cmd_vel_topic=cmd_vel_topic, odom_topic=odom_topic, namespace=namespace)
