@@ -51,8 +51,15 @@ class Steering(TalkingProcess):
     def __init__(self, folder: Path) -> None:
         environment = {**os.environ, "XDG_RUNTIME_DIR": str(folder)}
         super().__init__([sys.executable, "-c", HOLDS], environment)
+        try:
+            self._meet(folder / "chatrobot")
+        except BaseException:
+            self.process.kill()  # its robot, Motion and guard leave with it
+            self.process.wait()
+            raise
+
+    def _meet(self, runtime: Path) -> None:
         self.wait_for_line("ready")
-        runtime = folder / "chatrobot"
         self.wire = LocalWire(next(runtime.glob("sim-*.wire")))
         self.velocities = Heard()
         self.wire.subscribe("cmd_vel", TwistMessage, self.velocities)

@@ -21,8 +21,20 @@ PROMISE_S = 0.25
 
 @pytest.fixture
 def pupils(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[RunningClass]:
+    """A class that a test may strike."""
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
     running = RunningClass(tmp_path / "config", 3)
+    yield running
+    running.close()
+
+
+@pytest.fixture(scope="module")
+def unharmed(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningClass]:
+    """A class that outlives each test."""
+    folder = tmp_path_factory.mktemp("class")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_RUNTIME_DIR", str(folder))
+        running = RunningClass(folder / "config", 3)
     yield running
     running.close()
 
@@ -69,22 +81,22 @@ def _is_there(pid: int) -> bool:
         return False
 
 
-def test_one_pupils_stop_is_nobody_elses(pupils: RunningClass) -> None:
-    pupils.drive()
+def test_one_pupils_stop_is_nobody_elses(unharmed: RunningClass) -> None:
+    unharmed.drive()
     began_s = time.monotonic()
-    pupils.robots[0].connection.session.stop("enough")
-    assert pupils.heard[0].seconds_to_zero(began_s) <= PROMISE_S
-    for ear in pupils.heard[1:]:
+    unharmed.robots[0].connection.session.stop("enough")
+    assert unharmed.heard[0].seconds_to_zero(began_s) <= PROMISE_S
+    for ear in unharmed.heard[1:]:
         assert all(any(twist) for _, twist in ear.since(began_s))
 
 
-def test_a_pupil_does_not_release_an_emergency_stop_and_the_teacher_does(pupils: RunningClass) -> None:
-    first = pupils.robots[0]
+def test_a_pupil_does_not_release_an_emergency_stop_and_the_teacher_does(unharmed: RunningClass) -> None:
+    first = unharmed.robots[0]
     first.connection.session.emergency_stop("it burns")
     first.connection.session.release()
-    assert pupils.result(0, pupils.say(0, "forward 10 cm")) == "refused"
+    assert unharmed.result(0, unharmed.say(0, "forward 10 cm")) == "refused"
     first.release()
-    assert pupils.result(0, pupils.say(0, "forward 10 cm")) == "completed"
+    assert unharmed.result(0, unharmed.say(0, "forward 10 cm")) == "completed"
 
 
 def test_who_leaves_in_order_leaves_the_others_driving(pupils: RunningClass) -> None:
@@ -101,9 +113,9 @@ def test_who_leaves_in_order_leaves_the_others_driving(pupils: RunningClass) -> 
     assert max(ear.seconds_to_zero(time.monotonic()) for ear in pupils.heard[1:]) <= PROMISE_S
 
 
-def test_what_one_pupil_has_rehearsed_delays_nobody_else(pupils: RunningClass) -> None:
-    pupils.drive()
-    busy = pupils.robots[0].connection.session
+def test_what_one_pupil_has_rehearsed_delays_nobody_else(unharmed: RunningClass) -> None:
+    unharmed.drive()
+    busy = unharmed.robots[0].connection.session
     busy.stop("another one")
     began_s = time.monotonic()
     busy.say_plan(
@@ -113,7 +125,7 @@ def test_what_one_pupil_has_rehearsed_delays_nobody_else(pupils: RunningClass) -
         busy.say("x" * 4000)
         busy.pump(0.02)
     time.sleep(1.0)
-    for ear in pupils.heard[1:]:
+    for ear in unharmed.heard[1:]:
         heard = ear.since(began_s)
         assert all(any(twist) for _, twist in heard), "it was stopped"
         gaps_s = [later - at for (at, _), (later, _) in itertools.pairwise(heard)]
