@@ -75,14 +75,14 @@ def test_zero_comes_at_once_from_full_speed(robot: Driven) -> None:
     assert robot.stands
 
 
-@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
 @pytest.mark.parametrize("axis", range(3))
-def test_a_number_that_is_none_stops_the_robot(robot: Driven, bad: float, axis: int) -> None:
-    robot.begin().at_full_speed()
-    numbers = [0.1, 0.0, 0.0]
-    numbers[axis] = bad
-    assert robot.ask(Twist(*numbers)) == "not_finite"
-    assert robot.stands
+def test_a_number_that_is_none_stops_the_robot(robot: Driven, axis: int) -> None:
+    for bad in (math.nan, math.inf, -math.inf):
+        robot.begin().at_full_speed()
+        numbers = [0.1, 0.0, 0.0]
+        numbers[axis] = bad
+        assert robot.ask(Twist(*numbers)) == "not_finite"
+        assert robot.stands
 
 
 def test_a_stop_voids_what_was_minted_and_the_motion_has_to_begin_again(robot: Driven) -> None:
