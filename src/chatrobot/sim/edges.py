@@ -13,6 +13,10 @@ from chatrobot.sim.shapes import Circle, Point, Polygon, Shape
 
 Floats = NDArray[np.float64]
 
+_NUMBERS_AT_ONCE = 10_000
+"""So large arrays come from memory that the process has already; larger ones are mapped anew each time, page by page,
+which took longer than the arithmetic."""
+
 
 class Footprint:
     """A convex, counter-clockwise polygon as half-planes: inside is where `normals @ p <= offsets`."""
@@ -93,37 +97,39 @@ class Edges:
             [beams]; inf where a ray meets nothing.
         """
         angles = eye.yaw_rad - math.pi + math.tau / beams * np.arange(beams)
-        directions = np.stack((np.cos(angles), np.sin(angles)), axis=1)
+        directions = np.stack((np.cos(angles), np.sin(angles)))  # [2, beams]
         ranges = np.full(beams, np.inf)
-        if len(self._starts):
-            ranges = np.minimum(ranges, self._ray_to_edges(eye, directions))
+        at_once = max(1, _NUMBERS_AT_ONCE // beams)
+        for first in range(0, len(self._starts), at_once):
+            some = slice(first, first + at_once)
+            np.minimum(ranges, self._ray_to_edges(eye, directions, some), out=ranges)
         if len(self._radii):
-            ranges = np.minimum(ranges, self._ray_to_circles(eye, directions))
+            np.minimum(ranges, self._ray_to_circles(eye, directions), out=ranges)
         return ranges
 
-    def _ray_to_edges(self, eye: Pose, directions: Floats) -> Floats:
+    def _ray_to_edges(self, eye: Pose, directions: Floats, some: slice) -> Floats:
         """Ray eye + r d meets edge a + u e where r = (a x e) / (d x e) and u = (a x d) / (d x e)."""
-        to_start = self._starts - np.array((eye.x_m, eye.y_m))
+        to_start = self._starts[some] - np.array((eye.x_m, eye.y_m))
         ax, ay = to_start[:, 0], to_start[:, 1]
-        ex, ey = self._vectors[:, 0], self._vectors[:, 1]
-        d_cross_e = directions @ np.stack((ey, -ex))  # [beams, m]
-        a_cross_d = directions @ np.stack((-ay, ax))
+        ex, ey = self._vectors[some, 0], self._vectors[some, 1]
+        d_cross_e = np.stack((ey, -ex), axis=1) @ directions  # [m, beams]
+        a_cross_d = np.stack((-ay, ax), axis=1) @ directions
         with np.errstate(divide="ignore", invalid="ignore"):
             inverse = 1.0 / d_cross_e
-            ranges = (ax * ey - ay * ex) * inverse
+            ranges = (ax * ey - ay * ex)[:, None] * inverse
             along = a_cross_d * inverse
-        miss = (along < 0.0) | (along > 1.0) | ~(ranges >= 0.0)
-        ranges[miss] = np.inf
-        nearest: Floats = ranges.min(axis=1)
+        np.copyto(ranges, np.inf, where=(along < 0.0) | (along > 1.0) | ~(ranges >= 0.0))
+        nearest: Floats = ranges.min(axis=0)
         return nearest
 
     def _ray_to_circles(self, eye: Pose, directions: Floats) -> Floats:
         to_centre = self._centres - np.array((eye.x_m, eye.y_m))
-        along = directions @ to_centre.T  # [beams, k]
-        beside_squared = np.einsum("ij,ij->i", to_centre, to_centre) - along**2
-        half_chord = np.sqrt(np.maximum(self._radii**2 - beside_squared, 0.0))
+        along = to_centre @ directions  # [k, beams]
+        beside_squared = np.einsum("ij,ij->i", to_centre, to_centre)[:, None] - along**2
+        squared = self._radii[:, None] ** 2
+        half_chord = np.sqrt(np.maximum(squared - beside_squared, 0.0))
         ranges = along - half_chord
         ranges = np.where(ranges >= 0.0, ranges, along + half_chord)  # from within: the far rim
-        ranges[(beside_squared > self._radii**2) | (ranges < 0.0)] = np.inf
-        nearest: Floats = ranges.min(axis=1)
+        np.copyto(ranges, np.inf, where=(beside_squared > squared) | (ranges < 0.0))
+        nearest: Floats = ranges.min(axis=0)
         return nearest
