@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from chatrobot.wire.codec import decode, encode, topic_of
-from chatrobot.wire.messages import MESSAGE_TYPES, Message, Number, TwistMessage
+from chatrobot.wire.messages import MESSAGE_TYPES, LaserScan, Message, Number, TwistMessage
 
 NUMBERS = st.floats(allow_nan=False)
 FIELDS: dict[object, st.SearchStrategy[object]] = {
@@ -85,6 +85,14 @@ def test_whole_numbers_become_floats() -> None:
     assert back == TwistMessage(1.0, 0.0, -2.0)
     assert back is not None
     assert {type(value) for value in back} == {float}
+
+
+@pytest.mark.parametrize("message", [TwistMessage(0.1, 0.0, 0.0), LaserScan(0.0, 0.0, 0.1, 0.1, 8.0, [1.0])])
+def test_numbers_that_are_cut_off_or_go_on_are_nothing(message: Message) -> None:
+    packet = encode("topic", message)
+    assert decode(packet) == message
+    assert decode(packet[:-1]) is None
+    assert decode(packet + b"\0") is None
 
 
 @pytest.mark.parametrize("size", [1, 10_000])
