@@ -132,7 +132,7 @@ class GridRoutePlanner:
     def _is_searchable(self, start: Pose, goal: Point) -> bool:
         """Return False where a grid over start and goal would have cells larger than the robot."""
         span_m = _length((start.x_m, start.y_m), goal) + 2.0 * BORDER_M
-        return span_m * span_m / MAX_CELLS < self._inner_m**2 / 4.0
+        return span_m * span_m / MAX_CELLS < self._needed_m**2 / 4.0
 
     def _grid(self, start: Pose, goal: Point) -> _Grid:
         """Over everything within a border of start, goal and what is known; kept for the next question."""

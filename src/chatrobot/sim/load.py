@@ -220,12 +220,13 @@ _SHAPES: dict[str, Callable[[_Field], Shape]] = {
 
 
 def _obstacle(field: _Field, start: Pose) -> Obstacle:
-    fields = field.mapping("name", *_SHAPES, required=("name",))
+    fields = field.mapping("name", "aliases", *_SHAPES, required=("name",))
     kinds = [kind for kind in _SHAPES if kind in fields]
     if len(kinds) != 1:
         raise field.error("needs exactly one shape", f"one of {', '.join(_SHAPES)}")
     shape = _SHAPES[kinds[0]](fields[kinds[0]])
-    return Obstacle(fields["name"].text(), shape.seen_from(start))
+    others = tuple(alias.text() for alias in fields["aliases"].items()) if "aliases" in fields else ()
+    return Obstacle(fields["name"].text(), shape.seen_from(start), others)
 
 
 def _places(field: _Field | None, start: Pose) -> tuple[dict[str, Pose], dict[str, str], frozenset[str]]:

@@ -26,10 +26,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Obstacle:
-    """Something with a name that a robot cannot drive through."""
+    """Something with a name that a robot cannot drive through; `aliases` are its names in other languages."""
 
     name: str
     shape: Shape
+    aliases: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
