@@ -49,8 +49,9 @@ def test_every_world_has_a_line_and_can_be_used(capsys: Output) -> None:
     assert main(["worlds"]) == 0
     lines = capsys.readouterr().out.splitlines()
     names = [line.split()[0] for line in lines[:-1]]
-    assert names == world_names() == ["empty", "home"]
-    assert "kitchen" in lines[1]
+    assert names == world_names()
+    assert len(names) == 7
+    assert "kitchen" in lines[names.index("home")]
     assert main(["worlds", "--json"]) == 0
     for line in capsys.readouterr().out.splitlines():
         world = json.loads(line)

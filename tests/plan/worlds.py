@@ -36,8 +36,8 @@ class BoxWorld:
         clearance: Floats = self._distances(points).min(axis=1)
         return clearance
 
-    def obstacle_name_at(self, x_m: float, y_m: float) -> str:
-        return f"box {int(self._distances(np.array([[x_m, y_m]])).argmin())}"
+    def obstacle_names_at(self, x_m: float, y_m: float) -> tuple[str, ...]:
+        return (f"box {int(self._distances(np.array([[x_m, y_m]])).argmin())}",)
 
     def _distances(self, points: Floats) -> Floats:
         x, y = points[:, 0:1], points[:, 1:2]

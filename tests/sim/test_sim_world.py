@@ -29,7 +29,7 @@ def test_the_empty_world_is_clear_everywhere() -> None:
     assert world is EMPTY_WORLD
     assert world.is_empty
     assert world.clearance_m(np.array([[0.0, 0.0], [1e3, -1e3]])).min() > FAR_M / 2
-    assert world.obstacle_name_at(0.0, 0.0) == ""
+    assert world.obstacle_names_at(0.0, 0.0) == ()
     assert world.bounds is None
     assert world.outline() == []
 
@@ -114,7 +114,7 @@ def test_the_home_knows_its_size_and_its_things() -> None:
     assert bounds.max_x_m - bounds.min_x_m == pytest.approx(8.1)
     assert bounds.max_y_m - bounds.min_y_m == pytest.approx(6.1)
     sofa = HOME.places["sofa"]
-    assert HOME.obstacle_name_at(sofa.x_m - 0.5, sofa.y_m) == "sofa"
+    assert HOME.obstacle_names_at(sofa.x_m - 0.5, sofa.y_m) == ("sofa", "沙发")
     assert "fridge" in [name for name, _ in HOME.outline()]
     assert HOME.allowed_area is not None
     assert HOME.allowed_area.distance_m(0.0, 0.0) < 0.0
@@ -284,7 +284,7 @@ def test_a_world_is_found_by_path(tmp_path: Path) -> None:
 
 
 def test_a_world_that_does_not_exist_names_those_that_do(tmp_path: Path) -> None:
-    with pytest.raises(WorldError, match="empty, home"):
+    with pytest.raises(WorldError, match="empty, classroom, football, home"):
         load_world("hom")
     with pytest.raises(WorldError, match="cannot be read"):
         load_world(str(tmp_path / "none.yaml"))

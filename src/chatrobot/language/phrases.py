@@ -9,6 +9,7 @@ from functools import cache
 
 from chatrobot.core.reason import ANGLE_PLACES, LENGTH_PLACES, Reason, Value, number
 from chatrobot.language.data_files import load_table
+from chatrobot.language.normalise import has_chinese
 from chatrobot.language.typed import codes, typed
 from chatrobot.plan.shown import repeated, runs, shown_plan
 from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, RawTwist, Remember, Repeat, Say, Step, Turn, Wait
@@ -83,6 +84,9 @@ def render_reason(reason: Reason, language: str) -> str:
     for key in ("source", "to"):
         if key in values:
             values[key] = names.get(values[key], values[key])
+    if "obstacle_aliases" in values:
+        names_of_it = (str(values["obstacle"]), *str(values["obstacle_aliases"]).split(", "))
+        values["obstacle"] = min(names_of_it, key=lambda name: has_chinese(name) != (language == "zh"))
     special = (
         f"{reason.code}_{kind}" for key, kind in (("obstacle", "named"), ("namespace", "in")) if key in values
     )

@@ -224,11 +224,11 @@ class _KnownAndSeen:
         seen = self._field.at(points)
         return seen if self._world.is_empty else np.minimum(seen, self._world.clearance_m(points))
 
-    def obstacle_name_at(self, x_m: float, y_m: float) -> str:
+    def obstacle_names_at(self, x_m: float, y_m: float) -> tuple[str, ...]:
         here = np.array([[x_m, y_m]])
         if self._world.is_empty or self._field.at(here)[0] < self._world.clearance_m(here)[0]:
-            return ""
-        return self._world.obstacle_name_at(x_m, y_m)
+            return ()
+        return self._world.obstacle_names_at(x_m, y_m)
 
 
 class RoutesAroundObstacles:

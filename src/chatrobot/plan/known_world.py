@@ -71,6 +71,14 @@ class KnownWorld(Protocol):
         """Return metres from each of [n, 2] points to the nearest obstacle, never more than it is; negative inside."""
         ...
 
-    def obstacle_name_at(self, x_m: float, y_m: float) -> str:
-        """Return the name of the obstacle nearest to a point; empty where nobody knows one."""
+    def obstacle_names_at(self, x_m: float, y_m: float) -> tuple[str, ...]:
+        """Return the names of the obstacle nearest to a point, the main one first; empty where nobody knows one."""
         ...
+
+
+def obstacle_values(names: tuple[str, ...]) -> dict[str, str]:
+    """Return what a reason says of an obstacle with these names; those after the first are of other languages."""
+    if not names:
+        return {}
+    others = {"obstacle_aliases": ", ".join(names[1:])} if len(names) > 1 else {}
+    return {"obstacle": names[0], **others}

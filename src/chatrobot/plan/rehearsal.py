@@ -28,7 +28,7 @@ from chatrobot.plan.context import (
     too_long,
 )
 from chatrobot.plan.free_part import Leg, leg_at, nearest_part, part_up_to
-from chatrobot.plan.known_world import Contact, Floats, GovernorKernel, KnownWorld, SeenWorld
+from chatrobot.plan.known_world import Contact, Floats, GovernorKernel, KnownWorld, SeenWorld, obstacle_values
 from chatrobot.plan.lowering import CoreWalk, PlannedMotion
 from chatrobot.plan.rounding import Rounded, round_corners
 from chatrobot.plan.swept_path import (
@@ -310,19 +310,18 @@ class _Run:
             values.update(free)
         if code == "would_collide":
             values["margin_m"] = MARGIN_M
-            name = self._name_of(contact)
-            values.update({"obstacle": name} if name else {})
+            values.update(obstacle_values(self._names_of(contact)))
         row = rows[contact.row]
         self.findings.append(
             Finding("refuse", Reason(code, values), leg.item.index, float(row[0]), pose_of(row))
         )
 
-    def _name_of(self, contact: Contact) -> str:
-        """Return the name of what stands there, if it is known."""
+    def _names_of(self, contact: Contact) -> tuple[str, ...]:
+        """Return the names of what stands there, if it is known."""
         if self.world is None:
-            return ""
+            return ()
         is_known = self.world.clearance_m(np.array([[contact.x_m, contact.y_m]]))[0] < KNOWN_WITHIN_M
-        return self.world.obstacle_name_at(contact.x_m, contact.y_m) if is_known else ""
+        return self.world.obstacle_names_at(contact.x_m, contact.y_m) if is_known else ()
 
 
 def limited_reason(asked: Twist, possible: Twist) -> Reason:

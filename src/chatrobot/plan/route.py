@@ -17,7 +17,7 @@ import numpy as np
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.plan.context import NoRoute, Route
-from chatrobot.plan.known_world import Floats, KnownWorld
+from chatrobot.plan.known_world import Floats, KnownWorld, obstacle_values
 from chatrobot.robots.profile import Point, RobotProfile
 
 RESOLUTION_M = 0.05
@@ -166,9 +166,7 @@ class GridRoutePlanner:
     def _blocked(self, goal: Point, goal_m: float, free: Point | None) -> NoRoute:
         """Say what stands at the goal, how much room there is, and the free point that is `short_m` from it."""
         values: dict[str, float | int | str] = {"clearance_m": max(0.0, goal_m), "needed_m": self._needed_m}
-        name = self._world.obstacle_name_at(*goal)
-        if name:
-            values["obstacle"] = name
+        values |= obstacle_values(self._world.obstacle_names_at(*goal))
         if free is not None:
             nearest = round(free[0], 2), round(free[1], 2)
             values |= {

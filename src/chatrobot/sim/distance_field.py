@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,10 @@ MARGIN_M = 0.5
 """How far the grid reaches beyond the outermost obstacle."""
 MAX_CELLS = 1_000_000
 """A large world gets a coarser grid: a million cells take about a tenth of a second and 8 MB."""
+MANY_SHAPES = 100
+REACH_M = 1.2
+"""Of a world of many shapes, as a map is, no clearance above this is known: no way asks for more, and each shape then
+touches the cells around it alone."""
 
 
 @dataclass(frozen=True)
@@ -82,33 +87,39 @@ def build_distance_field(shapes: Sequence[Shape]) -> DistanceField:
 
 def _signed_distances(shapes: Sequence[Shape], xs: Floats, ys: Floats) -> Floats:
     """Outside: the nearest shape. Inside: as deep as in the shape where it is deepest."""
-    outside_squared = np.full((len(ys), len(xs)), np.inf)
+    reach_m = REACH_M if len(shapes) > MANY_SHAPES else math.inf
+    outside_squared = np.full((len(ys), len(xs)), reach_m**2)
     depth = np.zeros_like(outside_squared)
     for shape in shapes:
-        box = _axis_aligned_box(shape)
-        if box is not None:
-            _add_box(box, xs, ys, outside_squared, depth)
-        elif isinstance(shape, Circle):
-            gap = np.hypot(xs[None, :] - shape.x_m, ys[:, None] - shape.y_m) - shape.radius_m
-            _add(gap, outside_squared, depth)
-        else:
-            assert isinstance(shape, Polygon)
-            _add(_polygon_distance(shape, xs, ys), outside_squared, depth)
+        (low_x, low_y), (high_x, high_y) = _box(shape)
+        j = slice(*np.searchsorted(xs, (low_x - reach_m, high_x + reach_m)))
+        i = slice(*np.searchsorted(ys, (low_y - reach_m, high_y + reach_m)))
+        _add(shape, xs[j], ys[i], outside_squared[i, j], depth[i, j])
     signed: Floats = np.where(depth > 0.0, -depth, np.sqrt(outside_squared))
     return signed
 
 
-def _add(gap: Floats, outside_squared: Floats, depth: Floats) -> None:
+def _add(shape: Shape, xs: Floats, ys: Floats, outside_squared: Floats, depth: Floats) -> None:
+    if isinstance(shape, Circle):
+        gap = np.hypot(xs[None, :] - shape.x_m, ys[:, None] - shape.y_m) - shape.radius_m
+    elif (sides := _rectangle_of(shape)) is None:
+        gap = _polygon_distance(shape, xs, ys)
+    elif sides.is_upright:
+        _add_upright(_box(shape), xs, ys, outside_squared, depth)
+        return
+    else:
+        dx, dy = xs[None, :] - sides.x_m, ys[:, None] - sides.y_m
+        along = np.abs(dx * sides.cos + dy * sides.sin) - sides.half_length_m
+        beside = np.abs(dy * sides.cos - dx * sides.sin) - sides.half_width_m
+        outside = np.hypot(np.maximum(along, 0.0), np.maximum(beside, 0.0))
+        gap = outside + np.minimum(np.maximum(along, beside), 0.0)
     np.minimum(outside_squared, np.maximum(gap, 0.0) ** 2, out=outside_squared)
     np.maximum(depth, -gap, out=depth)
 
 
-def _add_box(
-    box: tuple[float, float, float, float], xs: Floats, ys: Floats, outside_squared: Floats, depth: Floats
-) -> None:
-    """An axis-aligned box splits into its two axes, which makes it ten times as quick as any other
-    polygon."""
-    low_x, low_y, high_x, high_y = box
+def _add_upright(box: _Box, xs: Floats, ys: Floats, outside_squared: Floats, depth: Floats) -> None:
+    """A rectangle along the axes splits into both, which makes it ten times as quick as any other polygon."""
+    (low_x, low_y), (high_x, high_y) = box
     gap_x, gap_y = np.maximum(low_x - xs, xs - high_x), np.maximum(low_y - ys, ys - high_y)
     squared = (np.maximum(gap_x, 0.0) ** 2)[None, :] + (np.maximum(gap_y, 0.0) ** 2)[:, None]
     np.minimum(outside_squared, squared, out=outside_squared)
@@ -135,19 +146,41 @@ def _polygon_distance(shape: Polygon, xs: Floats, ys: Floats) -> Floats:
     return signed
 
 
-def _axis_aligned_box(shape: Shape) -> tuple[float, float, float, float] | None:
-    """Return the shape as (low x, low y, high x, high y), if it is such a box."""
-    if not isinstance(shape, Polygon) or len(shape.points) != 4:
+class _Rectangle(NamedTuple):
+    """Its centre, the direction of its length, and half its sides."""
+
+    x_m: float
+    y_m: float
+    cos: float
+    sin: float
+    half_length_m: float
+    half_width_m: float
+
+    @property
+    def is_upright(self) -> bool:
+        """Its sides lie along the axes."""
+        return min(abs(self.cos), abs(self.sin)) < 1e-9
+
+
+def _rectangle_of(shape: Polygon) -> _Rectangle | None:
+    """Return the shape as a rectangle, if it is one."""
+    if len(shape.points) != 4:
         return None
-    xs, ys = zip(*shape.points)
-    box = min(xs), min(ys), max(xs), max(ys)
-    for x, y in shape.points:
-        if min(x - box[0], box[2] - x) > 1e-9 or min(y - box[1], box[3] - y) > 1e-9:
-            return None
-    return box
+    (ax, ay), (bx, by), (cx, cy), (dx, dy) = shape.points
+    length_m, width_m = math.hypot(bx - ax, by - ay), math.hypot(cx - bx, cy - by)
+    is_closed = math.hypot(ax + cx - bx - dx, ay + cy - by - dy) < 1e-9
+    leaning = (bx - ax) * (cx - bx) + (by - ay) * (cy - by)
+    if min(length_m, width_m) < 1e-9 or not is_closed or abs(leaning) > 1e-9 * length_m * width_m:
+        return None
+    cos, sin = (bx - ax) / length_m, (by - ay) / length_m
+    return _Rectangle((ax + cx) / 2.0, (ay + cy) / 2.0, cos, sin, length_m / 2.0, width_m / 2.0)
 
 
-def _box(shape: Shape) -> tuple[tuple[float, float], tuple[float, float]]:
+_Box = tuple[tuple[float, float], tuple[float, float]]
+"""The lower left and the upper right corner."""
+
+
+def _box(shape: Shape) -> _Box:
     if isinstance(shape, Circle):
         r = shape.radius_m
         return (shape.x_m - r, shape.y_m - r), (shape.x_m + r, shape.y_m + r)

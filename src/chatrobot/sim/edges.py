@@ -12,10 +12,7 @@ from chatrobot.core.geometry import Pose
 from chatrobot.sim.shapes import Circle, Point, Polygon, Shape
 
 Floats = NDArray[np.float64]
-
-_NUMBERS_AT_ONCE = 10_000
-"""So large arrays come from memory that the process has already; larger ones are mapped anew each time, page by page,
-which took longer than the arithmetic."""
+Indices = NDArray[np.intp]
 
 
 class Footprint:
@@ -99,28 +96,41 @@ class Edges:
         angles = eye.yaw_rad - math.pi + math.tau / beams * np.arange(beams)
         directions = np.stack((np.cos(angles), np.sin(angles)))  # [2, beams]
         ranges = np.full(beams, np.inf)
-        at_once = max(1, _NUMBERS_AT_ONCE // beams)
-        for first in range(0, len(self._starts), at_once):
-            some = slice(first, first + at_once)
-            np.minimum(ranges, self._ray_to_edges(eye, directions, some), out=ranges)
+        if len(self._starts):
+            np.minimum(ranges, self._ray_to_edges(eye, directions), out=ranges)
         if len(self._radii):
             np.minimum(ranges, self._ray_to_circles(eye, directions), out=ranges)
         return ranges
 
-    def _ray_to_edges(self, eye: Pose, directions: Floats, some: slice) -> Floats:
+    def _ray_to_edges(self, eye: Pose, directions: Floats) -> Floats:
         """Ray eye + r d meets edge a + u e where r = (a x e) / (d x e) and u = (a x d) / (d x e)."""
-        to_start = self._starts[some] - np.array((eye.x_m, eye.y_m))
-        ax, ay = to_start[:, 0], to_start[:, 1]
-        ex, ey = self._vectors[some, 0], self._vectors[some, 1]
-        d_cross_e = np.stack((ey, -ex), axis=1) @ directions  # [m, beams]
-        a_cross_d = np.stack((-ay, ax), axis=1) @ directions
+        beams = directions.shape[1]
+        to_start = self._starts - np.array((eye.x_m, eye.y_m))
+        edges, which = self._pairs(to_start, eye.yaw_rad, beams)
+        (ax, ay), (ex, ey) = to_start[edges].T, self._vectors[edges].T
+        dx, dy = directions[:, which]
         with np.errstate(divide="ignore", invalid="ignore"):
-            inverse = 1.0 / d_cross_e
-            ranges = (ax * ey - ay * ex)[:, None] * inverse
-            along = a_cross_d * inverse
-        np.copyto(ranges, np.inf, where=(along < 0.0) | (along > 1.0) | ~(ranges >= 0.0))
-        nearest: Floats = ranges.min(axis=0)
+            inverse = 1.0 / (dx * ey - dy * ex)
+            ranges = (ax * ey - ay * ex) * inverse
+            along = (dy * ax - dx * ay) * inverse
+            is_hit = (along >= 0.0) & (along <= 1.0) & (ranges >= 0.0)
+        nearest = np.full(beams, np.inf)
+        np.minimum.at(nearest, which[is_hit], ranges[is_hit])
         return nearest
+
+    def _pairs(self, to_start: Floats, yaw_rad: float, beams: int) -> tuple[Indices, Indices]:
+        """Return the edges and the beams that may meet, each [pairs]: beams between the ends of an edge as the eye sees
+        it, and one more on either side. A map has thousands of edges, each in the way of a few beams."""
+        to_end = to_start + self._vectors
+        per_rad = beams / math.tau
+        begin = (np.arctan2(to_start[:, 1], to_start[:, 0]) - yaw_rad + math.pi) * per_rad
+        end = (np.arctan2(to_end[:, 1], to_end[:, 0]) - yaw_rad + math.pi) * per_rad
+        span = (end - begin + beams / 2.0) % beams - beams / 2.0
+        first = np.floor(np.minimum(begin, begin + span)).astype(np.intp) - 1
+        counts = np.minimum(np.ceil(np.abs(span)).astype(np.intp) + 4, beams)
+        edges = np.repeat(np.arange(len(counts)), counts)
+        nth = np.arange(len(edges)) - np.repeat(np.cumsum(counts) - counts, counts)
+        return edges, (first[edges] + nth) % beams
 
     def _ray_to_circles(self, eye: Pose, directions: Floats) -> Floats:
         to_centre = self._centres - np.array((eye.x_m, eye.y_m))

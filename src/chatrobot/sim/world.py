@@ -79,11 +79,12 @@ class World:
             *(alias for alias, main in self.aliases.items() if main == name and alias != name.casefold()),
         )
 
-    def obstacle_name_at(self, x_m: float, y_m: float) -> str:
-        """Return the name of the obstacle that is there, or nearest to there; empty in an empty world."""
+    def obstacle_names_at(self, x_m: float, y_m: float) -> tuple[str, ...]:
+        """Return the names, the main one first, of the obstacle that is there, or nearest; empty for none."""
         if not self.obstacles:
-            return ""
-        return min(self.obstacles, key=lambda obstacle: obstacle.shape.distance_m(x_m, y_m)).name
+            return ()
+        nearest = min(self.obstacles, key=lambda obstacle: obstacle.shape.distance_m(x_m, y_m))
+        return (nearest.name, *nearest.aliases) if nearest.name else ()
 
     def outline(self) -> list[tuple[str, tuple[Point, ...]]]:
         """Return every obstacle as a named polygon, for drawing a map."""

@@ -20,7 +20,7 @@ from chatrobot.motion.programs.clocks import SteppedProgram
 from chatrobot.motion.programs.rehearsal_environment import RehearsalEnvironment
 from chatrobot.motion.remembered_obstacles import RememberedObstacles, with_seen
 from chatrobot.plan.context import Finding, Severity
-from chatrobot.plan.known_world import Contact, Floats
+from chatrobot.plan.known_world import Contact, Floats, obstacle_values
 from chatrobot.plan.rehearsal import MARGIN_M, RehearsedPath, limited_reason
 from chatrobot.plan.swept_path import area_clearance, first_contact, pose_of
 from chatrobot.programs.events import (
@@ -288,8 +288,7 @@ def _about_the_way(
     if not world.is_empty:
         known = first_contact(poses, footprint, world.clearance_m, MARGIN_M)
         if known is not None:
-            name = world.obstacle_name_at(known.x_m, known.y_m)
-            about: dict[str, Value] = {"obstacle": name} if name else {}
+            about = obstacle_values(world.obstacle_names_at(known.x_m, known.y_m))
             yield _contact("would_collide", path, known, margin_m=MARGIN_M, **about)
     unknown = seen.first_contact(poses) if seen is not None else None
     if unknown is not None:
