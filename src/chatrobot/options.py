@@ -103,6 +103,7 @@ _KEPT = tuple(f"program {action}" for action in ("list", "show", "edit", "rename
 _JSON = (
     "plan",
     "eval",
+    "world list",
     "worlds",
     "doctor",
     "robots",
@@ -112,7 +113,7 @@ _JSON = (
     "program list",
     "program show",
 )
-_WORLD = "empty, home or a world file (default: {})"
+_WORLD = "a world by name, a world file or a map.yaml; chatrobot world list has the names (default: {})"
 _WIRES = "ros[://DOMAIN[/NAMESPACE]] or rosbridge[:ws://HOST:9090]"
 _OPEN_LOOP = (
     "drive a robot without odometry: at most 0.2 m/s, 0.5 rad/s and 10 s a text, and nothing is measured"
@@ -126,13 +127,14 @@ OPTIONS = (
             "node": f"where the robot is: dds (the default), {_WIRES}",
             "sim": f"where others find it: dds, {_WIRES} (default: a wire of its own, see --socket; ros2 run: ros)"}),
     Option("--robot", f"a robot profile, by name or .toml file (default: {DEFAULT_ROBOT}); chatrobot robots lists them",
-        (*UNDERSTAND, "calibrate", "doctor", "sim", "program show"), COMMON, DEFAULT_ROBOT, "PROFILE",
-        offers="robots", parameter=Parameter("robot", _BOTH, DEFAULT_ROBOT, "The robot's profile: a built-in name, or "
+        (*UNDERSTAND, "calibrate", "doctor", "sim", "program show", "world draw", "world check"),
+        COMMON, DEFAULT_ROBOT, "PROFILE", offers="robots",
+        parameter=Parameter("robot", _BOTH, DEFAULT_ROBOT, "The robot's profile: a built-in name, or "
             "the path of a .toml file; with open_loop no_odometry is the default.", open_loop=NO_ODOMETRY)),
     Option("--world", _WORLD.format("home"), (*UNDERSTAND, "calibrate", "sim"), COMMON, "", "WORLD", offers="worlds",
         helps=dict.fromkeys(("eval", "node", "calibrate"), _WORLD.format("empty")),
         parameter=Parameter("world", _BOTH, "empty",
-            "What is known of the surroundings: empty, home, or the path of a world file.")),
+            "What is known of the surroundings: the name of a world, or the path of a world file or a map.yaml.")),
     Option("--yes", "do each plan without asking", (*FACES, "node"), COMMON, False),
     Option("--approve", "ask before each plan", (*FACES, "node"), COMMON, False),
     Option("--json", "one JSON object a line", (*DRIVE, *_JSON), COMMON, False,

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from chatrobot import __version__
+from chatrobot.cli.families import PROGRAM_ACTIONS, WORLD_ACTIONS, actions_of
 from chatrobot.cli.options import Parser, add_defaults, add_options, offer, port
 from chatrobot.core.errors import UsageError
 from chatrobot.options import NO_ODOMETRY, OF_NODES, OPTIONS
@@ -24,7 +25,8 @@ COMMANDS = {
     "calibrate": "one metre and one turn: you measure, your profile gets the correction",
     "doctor": "what works here, and how to get the rest",
     "robots": "the robots that there is a profile for",
-    "worlds": "the worlds for the simulated robot",
+    "world": "worlds for the simulated robot: list, draw, check, new",
+    "worlds": "the same as world list",
     "program": "programs that move the robot: new, list, show, run, edit, rename, remove, export",
     "schema": "the JSON schema of plans",
     "sim": "run the simulated robot alone, for other programs to drive",
@@ -280,15 +282,13 @@ def _completion(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _COMPLETION
 
 
+def _world(parser: argparse.ArgumentParser) -> None:
+    for _ in actions_of(parser, "world", WORLD_ACTIONS):
+        pass
+
+
 def _program(parser: argparse.ArgumentParser) -> None:
-    actions = parser.add_subparsers(
-        dest="action", metavar="ACTION", required=True, title="actions", prog="chatrobot program"
-    )
-    for name, (text, takes) in PROGRAM_ACTIONS.items():
-        action = actions.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
-        for argument, meaning in takes.items():
-            offers = _OFFERED.get((name, argument), _OFFERED.get(("", argument), ""))
-            _add(action, argument.casefold(), offers, metavar=argument, help=meaning)
+    for name, action in actions_of(parser, "program", PROGRAM_ACTIONS):
         if name == "run":
             action.usage = f"{action.prog} [options] NAME [-- ARGS]"
             action.epilog = "ARGS are the program's own: -- --ros-args -p speed:=0.35 -r velocity:=/cmd_vel"
@@ -297,21 +297,6 @@ def _program(parser: argparse.ArgumentParser) -> None:
         if name == "edit":
             source = "take this source, ask no editor"
             _add(action, "--file", "files", default="", metavar="FILE.py", help=source)
-        add_options(action, f"program {name}")
-
-
-_OFFERED = {("", "NAME"): "programs", ("run", "NAME"): "programs or files", ("", "DIR"): "folders"}
-"""What Tab completes an argument of a program's action with."""
-PROGRAM_ACTIONS: dict[str, tuple[str, dict[str, str]]] = {
-    "new": ("write a program, rehearse it, run it and keep it", {"TEXT": "what it is to do"}),
-    "list": ("the programs that are kept", {}),
-    "show": ("one program: its source, where it comes from, how it went", {"NAME": "which"}),
-    "run": ("rehearse a program in today's world, and run it", {"NAME": "a kept program, or FILE.py"}),
-    "edit": ("change a program's source in your editor", {"NAME": "which"}),
-    "rename": ("give a program another name", {"NAME": "which", "TO": "its new name"}),
-    "remove": ("forget a program", {"NAME": "which"}),
-    "export": ("write a program as a ROS 2 workspace", {"NAME": "which", "DIR": "a new or empty folder"}),
-}
 
 
 def _ros_args(parser: argparse.ArgumentParser) -> None:
@@ -323,5 +308,5 @@ def _ros_args(parser: argparse.ArgumentParser) -> None:
 _ARGUMENTS = {
     "do": _do, "plan": _plan, "eval": _eval, "calibrate": _calibrate, "sim": _sim, "node": _node,
     "mcp": _mcp, "model": _model, "usage": _usage, "fake-model": _fake_model, "program": _program,
-    "completion": _completion, "web": _web,
+    "completion": _completion, "web": _web, "world": _world,
 }  # fmt: skip

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from chatrobot.cli.folders import config_folder, profile_folders
 from chatrobot.cli.json_lines import json_line
@@ -15,7 +15,6 @@ from chatrobot.robots.profile import RobotProfile
 
 if TYPE_CHECKING:
     from chatrobot.models.usage import Total
-    from chatrobot.sim.world import World
 
 _NAME_COLUMNS, _TITLE_COLUMNS = 21, 30
 
@@ -71,30 +70,9 @@ def _robot_line(entry: ProfileEntry, profile: RobotProfile) -> str:
 
 def worlds(args: argparse.Namespace) -> int:
     """List the worlds for the simulated robot. Always 0."""
-    from chatrobot.sim.load import load_world, world_names
+    from chatrobot.cli.world import list_worlds
 
-    for name in world_names():
-        facts = _world_facts(load_world(name))
-        if args.json:
-            print(json_line({"event": "world", "name": name, **facts}), end="")
-        elif facts["length_m"] is None:
-            print(f"{name:<10}an open floor: no walls, no places")
-        else:
-            size = f"{facts['length_m']:g} × {facts['width_m']:g} m, {facts['obstacles']} obstacles"
-            print(f"{name:<10}{size}; places: {', '.join(facts['places'])}")
-    if not args.json:
-        print("A world of your own: --world FILE.yaml, see docs/simulation.md.")
-    return 0
-
-
-def _world_facts(world: World) -> dict[str, Any]:
-    around = world.bounds
-    return {
-        "length_m": round(around.max_x_m - around.min_x_m, 3) if around else None,
-        "width_m": round(around.max_y_m - around.min_y_m, 3) if around else None,
-        "obstacles": len(world.obstacles),
-        "places": list(world.places),
-    }
+    return list_worlds(args)
 
 
 def usage(args: argparse.Namespace) -> int:

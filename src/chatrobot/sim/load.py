@@ -3,9 +3,10 @@ start."""
 
 from __future__ import annotations
 
+import difflib
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from chatrobot.core.errors import WorldError
@@ -17,6 +18,8 @@ from chatrobot.sim.shapes import Circle, Polygon, Shape, polygon, rectangle
 from chatrobot.sim.world import EMPTY_WORLD, Obstacle, World
 
 _BUILT_IN = Path(__file__).with_name("worlds")
+NEW_WORLD = _BUILT_IN / "new.txt"
+"""What a world of one's own begins with; {file} and {name} are to be filled in."""
 
 
 def load_world(name_or_path: str) -> World:
@@ -25,14 +28,21 @@ def load_world(name_or_path: str) -> World:
     Raises:
         WorldError: there is none, or it cannot be used; names file, line, field and what is allowed.
     """
+    return find_world(name_or_path).world
+
+
+def find_world(name_or_path: str) -> WorldFile:
+    """Return the same, with the lines of its file."""
     if name_or_path == EMPTY_WORLD.name:
-        return EMPTY_WORLD
+        return WorldFile(EMPTY_WORLD, EMPTY_WORLD.name)
     if "/" in name_or_path or name_or_path.endswith((".yaml", ".yml")):
-        return read_world(Path(name_or_path))
+        return read_world_file(Path(name_or_path).expanduser())
     path = _BUILT_IN / f"{name_or_path}.yaml"
     if path.is_file():
-        return read_world(path)
-    allowed = f"{', '.join(world_names())}, or a path to a .yaml file"
+        return read_world_file(path)
+    near = difflib.get_close_matches(name_or_path, world_names(), n=1)
+    meant = f"did you mean {near[0]}? " if near else ""
+    allowed = f"{meant}{', '.join(world_names())}, or a path to a .yaml file"
     raise WorldError(f"there is no world named {name_or_path!r}", allowed=allowed)
 
 
@@ -46,7 +56,12 @@ class WorldFile:
     """A world, and where in its file each thing stands: `start`, `allowed_area`, each place by its main name."""
 
     world: World
-    where: Mapping[str, str]
+    source: str
+    where: Mapping[str, str] = field(default_factory=dict)
+
+    def where_is(self, what: str) -> str:
+        """Return file and line of `start`, `allowed_area` or a place; the file where it is not in it."""
+        return self.where.get(what, self.source)
 
 
 def read_world(path: Path) -> World:
@@ -62,17 +77,17 @@ def read_world_file(path: Path) -> WorldFile:
     """Return the same, with its lines. A map of ROS's map_server may have its places in a file beside it."""
     root = compose(read_text(path), str(path))
     if not is_map(root):
-        return _world(root.mapping(*_KEYS), (), path.stem)
+        return _world(root.mapping(*_KEYS), (), path.stem, str(path))
     fields = root.mapping(*MAP_KEYS, *_KEYS, required=("image", "resolution", "origin"))
     beside = path.with_name(f"{path.stem}{PLACES_SUFFIX}")
     if beside.is_file():
         fields |= compose(read_text(beside), str(beside)).mapping(*_KEYS)
-    return _world(fields, walls_of(fields, path.parent), path.stem)
+    return _world(fields, walls_of(fields, path.parent), path.stem, str(path))
 
 
 def parse_world(text: str, source: str, default_name: str = "world") -> World:
     """Read a world, which is no map, from text; `source` is what errors call it."""
-    return _world(compose(text, source).mapping(*_KEYS), (), default_name).world
+    return _world(compose(text, source).mapping(*_KEYS), (), default_name, source).world
 
 
 _KEYS = ("start", "name", "obstacles", "places", "allowed_area")
@@ -80,7 +95,9 @@ PLACES_SUFFIX = ".places.yaml"
 """Of the file beside a map.yaml: map.places.yaml."""
 
 
-def _world(fields: dict[str, Field], walls: tuple[Obstacle, ...], default_name: str) -> WorldFile:
+def _world(
+    fields: dict[str, Field], walls: tuple[Obstacle, ...], default_name: str, source: str
+) -> WorldFile:
     start = _start(fields["start"]) if "start" in fields else Pose()
     obstacles = fields["obstacles"].items() if "obstacles" in fields else []
     places, aliases, without_heading = _places(fields.get("places"), start)
@@ -95,11 +112,11 @@ def _world(fields: dict[str, Field], walls: tuple[Obstacle, ...], default_name: 
         aliases=aliases,
         allowed_area=_polygon(area).seen_from(start) if area else None,
         without_heading=without_heading,
-        start_yaw_rad=start.yaw_rad,
+        start=start,
     )
     where = {key: fields[key].where for key in ("start", "allowed_area") if key in fields}
     items = fields["places"].items() if "places" in fields else []
-    return WorldFile(world, where | {name: item.where for name, item in zip(places, items)})
+    return WorldFile(world, source, where | {name: item.where for name, item in zip(places, items)})
 
 
 def _start(field: Field) -> Pose:

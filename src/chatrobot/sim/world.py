@@ -13,7 +13,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from chatrobot.core.errors import UsageError, WorldError
-from chatrobot.core.geometry import Pose
+from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.shapes import Circle, Point, Polygon, Shape
 
@@ -51,7 +51,7 @@ class World:
     say (English or Chinese, casefolded; the main names too) to a main name. `allowed_area` is the polygon the
     robot is to stay in, if the world has one; it is a rule, not a wall: neither lidar nor collisions know it.
     `without_heading` are the main names of places whose file says nothing of how a robot looks there.
-    `start_yaw_rad` is the heading of the start in the world's own axes, those of its file: maps are drawn along them.
+    `start` is where the robot begins in the axes of the world's file: maps are drawn along them.
     """
 
     name: str
@@ -60,7 +60,12 @@ class World:
     aliases: Mapping[str, str] = field(default_factory=dict)
     allowed_area: Polygon | None = None
     without_heading: frozenset[str] = frozenset()
-    start_yaw_rad: float = 0.0
+    start: Pose = ORIGIN
+
+    @property
+    def start_yaw_rad(self) -> float:
+        """The heading of the start in the axes of the file."""
+        return self.start.yaw_rad
 
     @property
     def is_empty(self) -> bool:
@@ -155,8 +160,32 @@ def check_start(world: World, profile: RobotProfile, where: str) -> None:
             raise WorldError(
                 f"the start of the world {world.name!r} lies in the {obstacle.name}",
                 where=where,
-                allowed=f"a start where the {profile.title} touches nothing",
+                allowed=f"a start where the {profile.title} touches nothing{_free_start(world, profile)}",
             )
+
+
+ROOM_M = 0.25
+"""So much more than the robot needs is a good place to begin at."""
+
+
+def _free_start(world: World, profile: RobotProfile) -> str:
+    """What could be written in its file, to begin at the nearest point with room."""
+    import numpy as np
+
+    field, around = world.distance_field, world.bounds
+    assert around is not None
+    has_room = field.values_m >= profile.footprint_radius_m + ROOM_M
+    ny, nx = field.values_m.shape
+    x_m = field.origin_x_m + field.resolution_m * np.arange(nx)
+    y_m = field.origin_y_m + field.resolution_m * np.arange(ny)
+    has_room &= ((x_m > around.min_x_m) & (x_m < around.max_x_m))[None, :]
+    has_room &= ((y_m > around.min_y_m) & (y_m < around.max_y_m))[:, None]
+    if not has_room.any():
+        return ""
+    away_m = np.where(has_room, np.hypot(x_m[None, :], y_m[:, None]), np.inf)
+    i, j = np.unravel_index(int(away_m.argmin()), away_m.shape)
+    free = world.start.compose(Pose(float(x_m[j]), float(y_m[i])))
+    return f", such as start: {{x_m: {free.x_m:.2f}, y_m: {free.y_m:.2f}}}"
 
 
 def _meet(body: Polygon, shape: Shape) -> bool:

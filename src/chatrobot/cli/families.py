@@ -1,0 +1,54 @@
+"""Commands that have actions, as `chatrobot program run NAME` has: what each action takes."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from typing import Any
+
+from chatrobot.cli.options import add_options, offer
+
+_OFFERED = {
+    ("", "NAME"): "programs", ("run", "NAME"): "programs or files", ("", "DIR"): "folders", ("", "FILE"): "files",
+    ("", "WORLD"): "worlds", ("", "OUT.svg|OUT.png"): "files",
+}  # fmt: skip
+"""What Tab completes an argument of an action with."""
+_A_WORLD = "a world by its name, a world file, or a map.yaml of ROS"
+WORLD_ACTIONS: dict[str, tuple[str, dict[str, str]]] = {
+    "list": ("the worlds there are, with their places", {}),
+    "draw": (
+        "draw a world here, or as a picture",
+        {"WORLD": _A_WORLD, "[OUT.svg|OUT.png]": "the picture to write"},
+    ),
+    "check": ("what is wrong with a world, in which line, and what is allowed", {"WORLD": _A_WORLD}),
+    "new": ("write a world of your own to begin with, with comments", {"FILE": "a new .yaml file"}),
+}
+PROGRAM_ACTIONS: dict[str, tuple[str, dict[str, str]]] = {
+    "new": ("write a program, rehearse it, run it and keep it", {"TEXT": "what it is to do"}),
+    "list": ("the programs that are kept", {}),
+    "show": ("one program: its source, where it comes from, how it went", {"NAME": "which"}),
+    "run": ("rehearse a program in today's world, and run it", {"NAME": "a kept program, or FILE.py"}),
+    "edit": ("change a program's source in your editor", {"NAME": "which"}),
+    "rename": ("give a program another name", {"NAME": "which", "TO": "its new name"}),
+    "remove": ("forget a program", {"NAME": "which"}),
+    "export": ("write a program as a ROS 2 workspace", {"NAME": "which", "DIR": "a new or empty folder"}),
+}
+
+
+def actions_of(
+    parser: argparse.ArgumentParser, command: str, family: dict[str, tuple[str, dict[str, str]]]
+) -> Iterator[tuple[str, argparse.ArgumentParser]]:
+    """Add the actions of a command; an argument in brackets may be left out."""
+    added = parser.add_subparsers(
+        dest="action", metavar="ACTION", required=True, title="actions", prog=f"chatrobot {command}"
+    )
+    for name, (text, takes) in family.items():
+        action = added.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
+        for argument, meaning in takes.items():
+            shown = argument.strip("[]")
+            offers = _OFFERED.get((name, shown), _OFFERED.get(("", shown), ""))
+            how: dict[str, Any] = {"nargs": "?", "default": ""} if argument != shown else {}
+            dest = shown.split("|")[0].split(".")[0].casefold()
+            offer(action.add_argument(dest, metavar=shown, help=meaning, **how), offers)
+        yield name, action
+        add_options(action, f"{command} {name}")
