@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import os
 import signal
 import subprocess
@@ -148,6 +149,28 @@ def test_a_no_in_the_page_is_told_to_the_agent_and_nothing_moves(asked: House) -
             seen = await _seen(agent, holds=lambda seen: "waiting_for_approval_at" not in seen)
             assert "refused" in seen["happened"][0]
             assert not any(any(twist) for _, twist in asked.web.velocities.since(said_s))
+
+    anyio.run(task)
+
+
+def test_an_edit_in_the_page_is_told_to_the_agent_with_what_was_driven(asked: House) -> None:
+    async def task() -> None:
+        async with asked.agent() as agent:
+            await agent.data("instruct", text="back 60 cm")
+            question = await asked.asked_about()
+            asked.page.say("edit", turn=question["turn"], plan_text="drive 0.2 m back")
+            edited = await asked.asked_about()
+            asked.page.say("approve", turn=edited["turn"], yes=True)
+            seen = await _seen(
+                agent, holds=lambda seen: "edited your plan of turn" in str(seen["happened"][:1])
+            )
+            assert "drive 0.2 m back" in seen["happened"][0]
+            assert "0.20 m" in seen["happened"][0], "as it was measured"
+            assert "A person has edited this plan" in seen["happened"][1], "and not: not approved"
+            last = await agent.client.read_resource("chatrobot://last")
+            edited = json.loads(last.contents[0].model_dump()["text"])["edited_by_person"]
+            assert edited["plan"] == "drive 0.2 m back"
+            assert edited["result"]["outcome"] == "completed"
 
     anyio.run(task)
 

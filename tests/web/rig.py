@@ -84,8 +84,8 @@ class NotingSession:
     def release(self) -> None:
         self._note("release")
 
-    def approve(self, turn: int, yes: bool) -> None:
-        self._note("approve", turn, yes)
+    def approve(self, turn: int, yes: bool, *, edited: bool = False) -> None:
+        self._note("approve", turn, yes, *(["edited"] if edited else []))
 
     def steer(self, twist: Twist) -> None:
         self._note("steer", *twist)

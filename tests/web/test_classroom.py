@@ -142,11 +142,12 @@ def test_each_pupil_drives_a_robot_of_their_own_and_the_teacher_sees_which(pupil
 
 
 def test_the_teacher_stops_one_and_then_all(pupils: RunningClass) -> None:
-    drive(pupils, 0, 1, 2)
+    _, stopped, _ = drive(pupils, 0, 1, 2)
     teacher = pupils.teacher()
     said_s = time.monotonic()
     teacher.say("stop", room="2")
     pupils.heard[1].wait_for_zero(said_s)
+    assert "the teacher pressed Stop" in stopped.wait_for_event("result")["text"]
     time.sleep(0.3)
     assert all(any(twist) for _, twist in pupils.heard[0].since(said_s))
     stop_port = teacher.heard[0]["stop_port"]

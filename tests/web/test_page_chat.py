@@ -8,8 +8,10 @@ from playwright.sync_api import Browser, Page, expect
 from chatrobot.core.event import Proposal
 from chatrobot.core.events import (
     FindingSeen,
+    Finished,
     Interpreted,
     Limited,
+    Ordered,
     ProgramLog,
     ProgramWritten,
     Progress,
@@ -20,6 +22,7 @@ from chatrobot.core.events import (
 )
 from chatrobot.core.geometry import ORIGIN, Twist
 from chatrobot.core.reason import Reason
+from chatrobot.link.client_line import TURNS
 from tests.web.browser import PLAN, browser, count_pixels, open_page, page, rehearse, say, write_program
 from tests.web.rig import WebRig, wait_until
 
@@ -55,6 +58,33 @@ def test_an_edited_plan_goes_in_the_place_of_the_one_that_waits(page: Page, rig:
     page.get_by_label("The plan, one step a line").fill("drive 0.2 m")
     page.get_by_role("button", name="Rehearse and run").click()
     rig.session.wait_for("say_edited_plan", "drive 0.2 m", PLAN)
+
+
+def test_what_an_agent_asks_for_is_seen_before_the_yes_and_its_end_after(page: Page, rig: WebRig) -> None:
+    turn = TURNS + 3
+    rig.tell(Ordered(turn, "agent", PLAN))
+    rig.tell(Rehearsed(turn, True, 8.0, 0.95, ORIGIN, needs_approval=True))
+    chat = page.get_by_role("log", name="What was said")
+    expect(chat.get_by_text("the agent wants to do this:")).to_be_visible()
+    expect(chat).to_contain_text("repeat 2")
+    expect(page.locator("#plan-lines li")).to_have_count(len(PLAN.splitlines()))
+    expect(page.locator("#plan-about")).to_have_text("Waits for your yes.")
+    rig.tell(
+        Finished(
+            turn,
+            "refused",
+            Reason("approval_too_late", {"limit_s": 30.0}),
+            ORIGIN,
+            ORIGIN,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+        )
+    )
+    expect(chat).to_contain_text("No yes came within 30 s")
+    expect(chat.get_by_role("button")).to_have_count(0)
+    expect(page.locator("#plan-about")).to_have_text("The last plan.")
 
 
 def test_a_question_is_answered_by_yes_or_no(page: Page, rig: WebRig) -> None:

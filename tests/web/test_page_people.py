@@ -7,7 +7,8 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Page, expect
 
 from chatrobot.cli.web import listen
-from chatrobot.core.events import Result
+from chatrobot.core.events import Result, Started
+from chatrobot.core.geometry import ORIGIN
 from chatrobot.web.access import Access
 from chatrobot.web.server import WebServer
 from tests.web.browser import DESKTOP, PHONE, TABLET, browser, open_page, page, rehearse, say, write_program
@@ -36,7 +37,11 @@ def test_two_tabs_one_steers_and_taking_over_is_shown_to_both(
 
 def test_a_lost_connection_is_said_and_comes_back(page: Page, rig: WebRig) -> None:
     port, stop_port = rig.access.port, rig.access.stop_port
+    rehearse(rig)
+    rig.tell(Started(1, ORIGIN))
+    expect(page.locator("#plan-about")).to_have_text("Runs now.")
     rig.server.close()
+    expect(page.locator("#plan-about")).to_contain_text("Not connected")
     expect(page.get_by_role("alert")).to_contain_text("The connection is gone. The robot has stopped")
     expect(page.locator("#robot-state")).to_have_text("Not connected")
     page.keyboard.press("Escape")

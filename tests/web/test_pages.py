@@ -158,7 +158,7 @@ def test_an_edited_plan_takes_the_place_of_the_one_that_waits(rig: WebRig) -> No
     rig.tell(Rehearsed(3, True, 1.0, 1.0, ORIGIN, needs_approval=True))
     page.say("edit", turn=3, plan_text="drive 0.5 m")
     rig.session.wait_for("say_edited_plan", "drive 0.5 m", "drive 1 m")
-    assert rig.session.log[0] == ("approve", 3, False)
+    assert rig.session.log[0] == ("approve", 3, False, "edited")
 
 
 def test_a_person_at_this_machine_releases_an_emergency_stop(rig: WebRig) -> None:

@@ -142,9 +142,12 @@ def _host_agents(connection: Connection, access: Access, setup: Setup, room: Roo
     from chatrobot.mcp_server.host import host_agents
 
     address = f"{access.origin(_reachable(access.host))}/"  # without the token: agents are told it
-    return host_agents(
+    host = host_agents(
         connection, lambda: address, is_simulated=setup.on in SIMULATED, is_latched=lambda: room.is_latched
     )
+    if host is not None:
+        room.plans.on_edited = host.note_edit
+    return host
 
 
 def _check(args: argparse.Namespace) -> None:

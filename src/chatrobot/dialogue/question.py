@@ -46,8 +46,8 @@ class Question:
             self._asked = None
         return False
 
-    def answer(self, session: Session, yes: bool) -> bool:
-        """Answer it, once; return whether something waited.
+    def answer(self, session: Session, yes: bool, *, edited: bool = False) -> bool:
+        """Answer it, once; return whether something waited. `edited`: another plan takes its place.
 
         Raises:
             LinkError: Motion is gone.
@@ -55,7 +55,7 @@ class Question:
         asked, self._asked = self._asked, None
         if asked is None:
             return False
-        session.approve(asked.turn, yes)
+        session.approve(asked.turn, yes, edited=edited)
         return True
 
 

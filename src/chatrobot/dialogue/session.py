@@ -191,9 +191,9 @@ class Session:
         """Ask what the lidar sees: a `looked` event of turn 0 follows."""
         self._link.send("look")
 
-    def approve(self, turn: int, yes: bool) -> None:
-        """Answer a rehearsed plan that waits for a yes."""
-        self._link.send("approve", turn, yes=yes)
+    def approve(self, turn: int, yes: bool, *, edited: bool = False) -> None:
+        """Answer a rehearsed plan that waits for a yes; `edited`: a person has another one asked about in its place."""
+        self._link.send("approve", turn, yes=yes, **({"edited": True} if edited else {}))
 
     @property
     def is_moving(self) -> bool:

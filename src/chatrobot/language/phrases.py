@@ -16,7 +16,7 @@ from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, RawTwist, Remember,
 from chatrobot.plan.text import format_step, parse_plan
 
 _TABLES = ("phrases", "outcomes")
-_OURS = ("", "console", "base", "user_input", "service")
+_OURS = ("", "console", "base", "user_input", "service", "pupil")
 """The sources of a stop that the person who is answered speaks through."""
 _SHOWN = 6
 """Steps of a plan, or groups of steps that come several times, that are spelt out in a reply; the rest is counted."""
@@ -80,6 +80,9 @@ def render_reason(reason: Reason, language: str) -> str:
     values: dict[str, Value] = dict(reason.values)
     if reason.code in ("stopped_by", "paused_by"):
         return _stop_cause(str(values.get("source", "")), str(values.get("why", "")), language)
+    if reason.code == "emergency_stop" and values.get("source") == "pupil":
+        cause = _stop_cause("", str(values.get("why", "")), language)
+        return say(language, "emergency_stop_in_class", cause=cause)
     names = load_table(language, "causes")["sources"]
     for key in ("source", "to"):
         if key in values:

@@ -32,7 +32,7 @@ Word = Literal[
     # {"code", "name", "remap": {from: to}, "args": [text], "mode", "approve", "ask_findings", "strict",
     # "rehearse_only"}
     "program",
-    "approve",  # {"yes": bool} answers a Rehearsed event that needs approval
+    "approve",  # {"yes": bool, "edited": bool} answers a Rehearsed event that needs approval; edited: by another plan
     "stop",  # {"why": …, "keep": bool}; makes void what belongs to this turn and those before. keep: a pause
     "resume",  # {}: go on with the plan of this turn, which was paused
     "emergency_stop",
@@ -139,7 +139,7 @@ PAYLOADS: Mapping[str, Mapping[str, _Check]] = {
         "ask_findings": _is_flag,
         "strict": _is_flag,
     },
-    "approve": {"yes": _is_flag},
+    "approve": {"yes": _is_flag, "edited": _is_flag},
     "stop": {"why": _text(), "keep": _is_flag},
     "resume": {},
     "emergency_stop": {"why": _text()},

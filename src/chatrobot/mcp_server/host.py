@@ -16,6 +16,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from chatrobot.compose import Connection
+from chatrobot.core.events import Result
+from chatrobot.link.client_line import TURNS
 from chatrobot.mcp_server.robot import SOURCE, AgentRobot
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.runtime_dir import agent_socket_path
@@ -49,6 +51,10 @@ class AgentHost:
         self._listener.listen(MOST_CLIENTS)
         self._listener.setblocking(False)
         self._thread.start()
+
+    def note_edit(self, turn: int, plan_text: str, result: Result) -> None:
+        """Have the agent told what became of its person's edit of the plan of that turn, as the person counts turns."""
+        self._robot.record.note_edit(turn % TURNS, plan_text, result)
 
     def close(self) -> None:
         """Serve nobody any more; stop the robot where an agent moves it."""

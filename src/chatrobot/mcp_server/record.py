@@ -39,6 +39,8 @@ class Record:
         self.last: Result | None = None
         self.emergency: Reason | None = None
         """The emergency stop that refused a motion, until a release is heard of."""
+        self.edit: dict[str, Any] | None = None
+        """What a person had done in place of the agent's last plan, until the agent's next one."""
         self._events: deque[tuple[float, str]] = deque(maxlen=KEPT_EVENTS)
         self._began_s = 0.0
         self._way: deque[tuple[float, Pose]] = deque(maxlen=MOST_SAMPLES)
@@ -51,7 +53,7 @@ class Record:
             self.telemetry, self.heard_at_s = event, now_s
             self._sample(event.pose, now_s)
         elif isinstance(event, Started):
-            self._began_s, self._is_driven, self.emergency = now_s, True, None
+            self._began_s, self._is_driven, self.emergency, self.edit = now_s, True, None, None
             self._way.clear()
             self._way.append((0.0, event.pose))
         elif isinstance(event, Result):
@@ -60,6 +62,12 @@ class Record:
         if told:
             self._events.append((now_s, one_line(told, TOLD_CHARS)))
         self._note_emergency(event)
+
+    def note_edit(self, turn: int, plan_text: str, result: Result) -> None:
+        """Take note of what became of the plan that a person made of the agent's own of that turn."""
+        told = f"a person edited your plan of turn {turn}: {plan_text}"
+        self._events.append((time.monotonic(), one_line(f"{told}: {words_of(result, 'en')}", TOLD_CHARS)))
+        self.edit = {"of_turn": turn, "plan": plan_text, "result": result.to_json()}
 
     def _sample(self, pose: Pose, now_s: float) -> None:
         t_s = now_s - self._began_s

@@ -126,7 +126,7 @@ def _add_resources(server: MCPServer[Any], robot: AgentRobot) -> None:
     def last() -> str:
         result = record.last
         told = {**result.to_json(), "ended_at": pose_told(result.pose)} if result is not None else None
-        return _json({"result": told, "way": record.way()})
+        return _json({"result": told, "way": record.way(), "edited_by_person": record.edit})
 
 
 def _add_prompt(server: MCPServer[Any], profile: RobotProfile) -> None:

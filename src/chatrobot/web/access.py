@@ -17,6 +17,7 @@ Role = Literal["steerer", "watcher", "pupil", "teacher"]
 Scope = Mapping[str, Any]
 LOOPBACK_NAMES = frozenset({"localhost", "127.0.0.1", "[::1]"})
 TOKEN_BYTES = 24
+STOP_BUTTON, EMERGENCY_BUTTON = "the Stop button", "the Emergency stop button"
 _DEFAULT_PORTS = {"http": 80, "https": 443}
 
 
@@ -36,6 +37,10 @@ class Pass:
     def may_steer(self) -> bool:
         """They may say what the robot does, once they steer."""
         return self.role != "watcher"
+
+    def pressed(self, button: str) -> str:
+        """Return why the robot is told to stop, where the holder pressed that button: a pupil hears of a teacher."""
+        return button.replace("the ", "the teacher's ", 1) if self.role == "teacher" else button
 
     @property
     def may_release(self) -> bool:

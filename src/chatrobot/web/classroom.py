@@ -13,12 +13,12 @@ from starlette.websockets import WebSocket
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import Event, Interpreted, Result, Telemetry
 from chatrobot.dialogue.pump import Pump
-from chatrobot.web.access import Access
+from chatrobot.web.access import EMERGENCY_BUTTON, STOP_BUTTON, Access
 from chatrobot.web.connection import Conversation, Page
 from chatrobot.web.outbox import Message
 from chatrobot.web.protocol import MOST_TEXT_CHARS, Fields, is_text
 from chatrobot.web.pupils import PupilsRobot
-from chatrobot.web.room import EMERGENCY_BUTTON, STOP_BUTTON, Face, Room
+from chatrobot.web.room import Face, Room
 from chatrobot.web.words import refused, told, web_words
 
 TELL_S = 0.25
@@ -209,7 +209,11 @@ def serve_teacher(websocket: WebSocket, classroom: Classroom, page: Page) -> Con
             page.language = message["code"]
         else:
             try:
-                {"stop": about.stop, "emergency_stop": about.emergency_stop, "release": about.release}[word]()
+                {
+                    "stop": lambda: about.stop(page.pass_.pressed(STOP_BUTTON)),
+                    "emergency_stop": lambda: about.emergency_stop(page.pass_.pressed(EMERGENCY_BUTTON)),
+                    "release": about.release,
+                }[word]()
             except LinkError as error:
                 page.put(refused("robot_gone", word, problem=str(error)))
 

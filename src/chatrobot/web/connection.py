@@ -13,7 +13,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 from chatrobot.core.errors import LinkError
 from chatrobot.core.geometry import Twist
 from chatrobot.language.interpretation import LanguageCode
-from chatrobot.web.access import Pass
+from chatrobot.web.access import EMERGENCY_BUTTON, STOP_BUTTON, Pass
 from chatrobot.web.limits import ABORT, UNREAD, Rate
 from chatrobot.web.outbox import Message, Outbox
 from chatrobot.web.protocol import FIELDS, Fields, MalformedError, read_message
@@ -227,8 +227,8 @@ ACTIONS: Mapping[str, Callable[[Room, Page, dict[str, Any]], None]] = {
     ),
     "pause": lambda room, _, __: room.session.pause("pause()"),
     "resume": lambda room, page, _: room.resume(page),
-    "stop": lambda room, _, __: room.stop(),
-    "emergency_stop": lambda room, _, __: room.emergency_stop(),
+    "stop": lambda room, page, _: room.stop(page.pass_.pressed(STOP_BUTTON)),
+    "emergency_stop": lambda room, page, _: room.emergency_stop(page.pass_.pressed(EMERGENCY_BUTTON)),
     "release": lambda room, _, __: room.release(),
     "steer": _steer,
     "beat": lambda _, __, ___: None,  # that it came is all

@@ -13,14 +13,14 @@ from typing import Any, Protocol
 
 from chatrobot.compose import Connection
 from chatrobot.core.errors import LinkError
-from chatrobot.core.events import Event, Finished, Interpreted, Notice, Remembered, Result
-from chatrobot.dialogue.question import Question
+from chatrobot.core.events import Event, Finished, Notice, Remembered, Result
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.link.client_line import TURNS
 from chatrobot.plan.steps import Go, Plan
 from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop
-from chatrobot.web.access import Pass
+from chatrobot.web.access import EMERGENCY_BUTTON, STOP_BUTTON, Pass
+from chatrobot.web.asked_plans import AskedPlans
 from chatrobot.web.facts import place_facts, robot_facts, world_facts
 from chatrobot.web.outbox import Message
 from chatrobot.web.programs import Programs
@@ -29,8 +29,6 @@ from chatrobot.web.words import PASSING, UNTOLD, event_message, refused, told, w
 
 HISTORY = 200
 """Messages that a page is told which comes later."""
-_PLANS = 50
-STOP_BUTTON, EMERGENCY_BUTTON = "the Stop button", "the Emergency stop button"
 
 Post = Callable[[Callable[[], None]], None]
 
@@ -69,8 +67,7 @@ class Room:
         self._faces: dict[str, Face] = {}
         self._history: deque[Message] = deque(maxlen=HISTORY)
         self._turns: dict[int, str] = {}
-        self._plan_texts: dict[int, str] = {}
-        self._question = Question()
+        self.plans = AskedPlans()
         self.is_latched = self._release_is_due = False
         self.stop_port = 0
         """Where the line listens that stops."""
@@ -102,13 +99,10 @@ class Room:
     def hear(self, event: Event) -> None:
         """Take an event in and tell everybody."""
         with self._lock:
-            self._question.hear(event)
+            self.plans.hear(event)
             if event.name not in UNTOLD or event.turn >= TURNS:
                 self._tell(event_message(event), is_kept=event.name not in PASSING)
-            if isinstance(event, Interpreted):
-                self._plan_texts[event.turn] = event.plan_text
-                self._plan_texts.pop(event.turn - _PLANS, None)
-            elif isinstance(event, Finished) and event.turn >= TURNS:
+            if isinstance(event, Finished) and event.turn >= TURNS:
                 self._turns.pop(event.turn, None)
             elif isinstance(event, Result):
                 self._turns.pop(event.turn, None)
@@ -247,7 +241,7 @@ class Room:
             "steering": {"by": steerer.id, "name": steerer.name} if steerer is not None else None,
             "robot": robot_facts(connection.profile, is_simulated=self._is_simulated),
             "world": world_facts(connection.world, session.understanding.places.all()),
-            "approval": {"asks": session.options.approve, "turn": self._question.turn},
+            "approval": {"asks": session.options.approve, "turn": self.plans.turn},
             "emergency": self.is_latched,
             "programs": self.programs.are_kept,
             "history": self.history(language),
@@ -268,7 +262,7 @@ class Room:
     # --- what people do ---
 
     def stop(self, why: str = STOP_BUTTON) -> None:
-        """Stop the robot now."""
+        """Stop the robot now; `why` is told to whose plan it ends."""
         self.session.stop(why)
 
     def emergency_stop(self, why: str = EMERGENCY_BUTTON) -> None:
@@ -295,10 +289,7 @@ class Room:
 
     def say_edited(self, face: Face, plan_text: str, turn: int) -> None:
         """Take in what a person made of the plan of that turn: it is asked about in its place."""
-        if self._question.turn == turn:
-            self._question.answer(self.session, False)
-        before = self._plan_texts.get(turn, "")
-        self._say_as(face, plan_text, lambda: self.session.say_edited_plan(plan_text, before))
+        self._say_as(face, plan_text, lambda: self.plans.edit(self.session, turn, plan_text))
 
     def go(self, face: Face, x_m: float, y_m: float, yaw_rad: float | None, *, asks: bool) -> None:
         """Have the robot go to a point of the floor; rehearsed first, and asked about unless a person waived that."""
@@ -320,10 +311,10 @@ class Room:
 
     def answer(self, face: Face, turn: int, yes: bool) -> None:
         """Answer the plan that waits, if it still does."""
-        if self._question.turn == turn:
+        if self.plans.turn == turn:
             if yes:
                 self._turns[turn] = face.id  # an agent's, too, is now something that this page wants
-            self._question.answer(self.session, yes)
+            self.plans.answer(self.session, yes=yes)
         else:
             face.put(refused("question_over", "approve"))
 

@@ -12,16 +12,16 @@ from typing import Any, Protocol
 from starlette.types import Receive, Scope, Send
 
 from chatrobot.core.errors import LinkError
-from chatrobot.web.access import Access, Pass
+from chatrobot.web.access import EMERGENCY_BUTTON, STOP_BUTTON, Access, Pass
 
 
 class Stopped(Protocol):
     """What is stopped: a room, or all of a class."""
 
-    def stop(self) -> None:
+    def stop(self, why: str) -> None:
         """Stop now."""
 
-    def emergency_stop(self) -> None:
+    def emergency_stop(self, why: str) -> None:
         """Stop now, and stay stopped until it is released."""
 
 
@@ -59,7 +59,7 @@ class StopLine:
             if text is None or not self._access.is_valid(pass_):
                 await send({"type": "websocket.close", "code": _UNSUPPORTED if text is None else _POLICY})
                 return
-            await send({"type": "websocket.send", "text": json.dumps(_obey(room, text))})
+            await send({"type": "websocket.send", "text": json.dumps(_obey(room, pass_, text))})
 
     def _admit(self, scope: Scope) -> Stopped | None:
         if scope["path"] != "/stop" or self._access.check_place(scope, self._access.stop_port) is not None:
@@ -71,7 +71,7 @@ class StopLine:
         return self._find_room(admitted, scope)
 
 
-def _obey(room: Stopped, text: str) -> dict[str, Any]:
+def _obey(room: Stopped, pass_: Pass, text: str) -> dict[str, Any]:
     """Stop, if that is what `text` says; the answer."""
     try:
         said = json.loads(text)
@@ -80,9 +80,9 @@ def _obey(room: Stopped, text: str) -> dict[str, Any]:
         do = None
     try:
         if do == "stop":
-            room.stop()
+            room.stop(pass_.pressed(STOP_BUTTON))
         elif do == "emergency_stop":
-            room.emergency_stop()
+            room.emergency_stop(pass_.pressed(EMERGENCY_BUTTON))
         else:
             return {"is": "refused", "why": "malformed", "text": "this line hears stop and emergency_stop"}
     except LinkError as error:

@@ -56,7 +56,7 @@ def event_message(event: Event) -> Message:
 
 _WORDED = (
     events.FindingSeen, events.Rehearsed, events.ProgramWritten, events.ProgramRehearsed, events.Paused,
-    events.Limited, events.Remembered, events.Notice, events.Result, events.Finished,
+    events.Limited, events.Remembered, events.Notice, events.Result, events.Finished, events.Ordered,
 )  # fmt: skip
 
 
@@ -75,6 +75,10 @@ def _text(event: Event, language: LanguageCode) -> str | list[str]:
         return say(language, "program_speeds", **values)
     if isinstance(event, events.Paused):
         return say(language, "paused_now", plan=describe_left(event, language))
+    if isinstance(event, events.Ordered):
+        source = load_table(language, "causes")["sources"].get(event.source, event.source)
+        code = "program_asked_by" if event.program else "asked_by"
+        return web_words(language, code, source=source, program=event.program)
     if isinstance(event, events.Limited):
         return _limited(event, language)
     if isinstance(event, events.Remembered):

@@ -107,6 +107,10 @@ function sayButton(entry, label, text, className) {
 }
 
 const heard = {
+  ordered(entry, event, text) {
+    entry.you.hidden = false;
+    entry.you.replaceChildren(make("span", "who", text), event.plan_text || event.program);
+  },
   interpreted(entry, event) {
     if (event.reply) say(entry, event.reply, "understood");
   },
@@ -145,21 +149,24 @@ const heard = {
   notice(entry, event, text) {
     note(entry, text || event.text);
   },
-  result(entry, event) {
+  result(entry, event, text) {
     unask(entry);
     entry.bar.hidden = true;
-    if (event.reply) say(entry, event.reply, event.outcome);
+    if (text) say(entry, text, event.outcome);
     forgetRehearsal(entry);
     if (event.proposal) {
       const yes = sayButton(entry, t("yes"), t("say_yes"), "small main");
       ask(entry, [yes, sayButton(entry, t("no"), t("say_no"), "small")]);
     } else if (event.outcome === "unclear") {
-      const choices = choicesOf(event.reply);
+      const choices = choicesOf(text);
       if (choices.length) ask(entry, choices.map((one) => sayButton(entry, one, one, "small")));
     }
-    if (!state.isReplaying && event.reply) speak(event.reply, language());
+    if (!state.isReplaying && text) speak(text, language());
   },
 };
+
+/** The turn of an agent has no result here: its own session has that. */
+heard.finished = heard.result;
 
 function note(entry, text) {
   if (!text) return;

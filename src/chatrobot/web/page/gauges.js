@@ -83,7 +83,7 @@ function hear({ event, text }) {
   else if (event.event === "limited") {
     if (!state.isReplaying) limit([].concat(text || event.rule).join(" "));
   } else if (event.event === "paused") isPaused = true;
-  else if (event.event === "started" || event.event === "result") {
+  else if (["started", "result", "finished"].includes(event.event)) {
     isPaused = false;
     limit("");
   } else return;

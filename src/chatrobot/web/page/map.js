@@ -107,6 +107,8 @@ const heard = {
   },
 };
 
+heard.finished = heard.result;
+
 function go() {
   if (!known.target) return;
   const { x, y, yaw } = known.target;

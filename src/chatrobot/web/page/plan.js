@@ -1,6 +1,6 @@
 /** The plan as lines: the one that runs is marked, and all of them can be edited. */
 
-import { on, send } from "./connection.js";
+import { on, send, state } from "./connection.js";
 import { byId, make, setText } from "./dom.js";
 import { onLanguage, t } from "./words.js";
 
@@ -8,7 +8,7 @@ const lines = byId("plan-lines");
 const text = byId("plan-text");
 const about = byId("plan-about");
 
-const plan = { turn: 0, lines: [], step: 0, outcome: "", waits: false, streams: false, isEdited: false, isProgram: false };
+const plan = { turn: 0, lines: [], step: 0, outcome: "", waits: false, streams: false, isEdited: false, edits: 0, isProgram: false };
 
 /** The lines of a plan by its steps: a repeat is one step with all its lines. */
 function stepsOfLines(all) {
@@ -44,6 +44,7 @@ function describe() {
   let key = "plan_none";
   if (plan.isProgram) key = "plan_program";
   if (plan.lines.length) key = plan.waits ? "plan_waits" : plan.step ? "plan_runs" : "plan_last";
+  if (!state.isOpen && (plan.waits || plan.step)) key = "plan_unknown";
   if (plan.isEdited) key = "plan_help";
   setText(about, t(key));
   byId("plan-run").hidden = !plan.isEdited && !plan.waits;
@@ -59,6 +60,7 @@ function describe() {
 /** Begin to edit the plan that is shown. */
 export function editPlan() {
   plan.isEdited = true;
+  plan.edits = plan.waits ? plan.turn : 0;
   text.value = plan.lines.join("\n");
   text.rows = Math.max(4, Math.min(14, plan.lines.length + 1));
   describe();
@@ -70,7 +72,7 @@ function run() {
   let message = { do: "approve", turn: plan.turn, yes: true };
   if (plan.isEdited) {
     if (!planText) return;
-    message = plan.waits ? { do: "edit", plan_text: planText, turn: plan.turn } : { do: "say_plan", plan_text: planText };
+    message = plan.edits ? { do: "edit", plan_text: planText, turn: plan.edits } : { do: "say_plan", plan_text: planText };
   }
   if (!send(message)) return;
   plan.isEdited = plan.waits = false;
@@ -92,6 +94,11 @@ const heard = {
     if (event.turn !== plan.turn || !plan.streams) show(event.turn, []);
     plan.streams = true;
     plan.lines.push(...event.plan_text.split("\n"));
+  },
+  ordered(event) {
+    if (event.rehearse_only) return;
+    show(event.turn, event.plan_text.split("\n").filter(Boolean));
+    plan.isProgram = Boolean(event.program);
   },
   interpreted(event) {
     plan.streams = false;
@@ -120,7 +127,10 @@ const heard = {
   },
 };
 
+heard.finished = heard.result;
+
 export function startPlan() {
+  on("closed", describe);
   on("open", () => {
     show(0, []);
     draw();
