@@ -82,7 +82,7 @@ class Narrator:
                 yield from (Line(line, "red", self._indent) for line in event.problem.splitlines())
             case events.ProgramLog():
                 yield Line(f"| {event.text}", "dim")
-            case events.Limited():
+            case events.Limited() if event.turn:  # a hand at a stick, or another program, sees what it does
                 asked, sent = self._twist(event.asked), self._twist(event.sent)
                 yield _marked("!", "yellow", self._words.say("limited_to", asked=asked, sent=sent))
             case events.Said():

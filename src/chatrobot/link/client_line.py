@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from chatrobot.core.events import Event, Notice, Ordered, Remembered, Scan, Telemetry
+from chatrobot.core.events import Event, Limited, Notice, Ordered, Remembered, Scan, Telemetry
 from chatrobot.governor.lease import Priority, priority_of
 from chatrobot.link.envelope import Envelope
 
@@ -58,7 +58,7 @@ class ClientLine:
         if 0 <= turn < TURNS:
             return replace(event, turn=turn)
         if event.turn == 0:
-            return event
+            return event if not isinstance(event, Limited) else None
         return replace(event, turn=0) if isinstance(event, COMMON) else None
 
     def ordered(self, envelope: Envelope) -> Ordered | None:

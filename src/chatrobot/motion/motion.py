@@ -28,7 +28,7 @@ from chatrobot.motion.programs.execution import NoSandbox, ProgramSandbox
 from chatrobot.motion.relayed_velocities import RelayedVelocities
 from chatrobot.motion.safety.stop import PAUSED, StopConfirmation, Stops, WireTransport
 from chatrobot.motion.safety.watchdog import GuardLink, Interlock, StallDetector
-from chatrobot.motion.telemetry import ScanPublisher, TelemetryPublisher, sectors_m
+from chatrobot.motion.telemetry import LimitPublisher, ScanPublisher, TelemetryPublisher, sectors_m
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.wire import Wire
 
@@ -84,7 +84,7 @@ class Motion:
         )  # fmt: skip
         self._relayed = RelayedVelocities(
             robot, self._clients, self.goals, pausing, stops, self.stop_confirmation, self.interlock, clock,
-            self._notice,
+            self._notice, LimitPublisher(emit).note,
         )  # fmt: skip
         self._stall_detector = StallDetector(clock, guard, self.halt)
         self._telemetry = TelemetryPublisher(self.sensors, self._executor.progress, emit)

@@ -9,6 +9,7 @@ from chatrobot.core.clock import Clock
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import CMD_VEL_INPUT_TOPIC, JOYSTICK_TOPIC
+from chatrobot.governor.governor import Verdict
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.clients import Clients
 from chatrobot.motion.goal_queue import Pausing
@@ -32,6 +33,7 @@ class RelayedVelocities:
 
     Args:
         tell: hears why the robot may not be driven so.
+        note: hears what became of each velocity, and when.
     """
 
     def __init__(
@@ -45,6 +47,7 @@ class RelayedVelocities:
         interlock: Interlock,
         clock: Clock,
         tell: Callable[[Reason], None],
+        note: Callable[[Verdict, float], None],
     ) -> None:
         self._robot = robot
         self._goals = goals
@@ -54,13 +57,13 @@ class RelayedVelocities:
         self._clock = clock
         other_drove = Reason("other_drove", {"source": CMD_VEL_INPUT_TOPIC})
         self._programs = VelocityInput(
-            CMD_VEL_INPUT_TOPIC, robot, lambda: pausing.drop(other_drove), self._see_it_stand, tell
+            CMD_VEL_INPUT_TOPIC, robot, lambda: pausing.drop(other_drove), self._see_it_stand, tell, note
         )
         self._joystick = VelocityInput(
-            JOYSTICK, robot, lambda: goals.hand_over(JOYSTICK), self._see_it_stand, tell
+            JOYSTICK, robot, lambda: goals.hand_over(JOYSTICK), self._see_it_stand, tell, note
         )
         self._stick = VelocityInput(
-            STICK, robot, self._take_stick, self._let_stick_go, tell, STICK_LET_GO_S, rests_s=0.0
+            STICK, robot, self._take_stick, self._let_stick_go, tell, note, STICK_LET_GO_S, rests_s=0.0
         )
         self._steering = Stick(self._stick, robot.governor.leases, clients.refusal, interlock.barrier, tell)
 

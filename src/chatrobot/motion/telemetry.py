@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from chatrobot.core.events import Event, Progress, Scan, Telemetry
+from chatrobot.core.events import Event, Limited, Progress, Scan, Telemetry
 from chatrobot.core.geometry import Pose
 from chatrobot.execution.sensors import Sensors
 from chatrobot.execution.tracking import nearest_m
+from chatrobot.governor.governor import Verdict
 from chatrobot.governor.lease import Leases
+from chatrobot.motion.governed_motion import is_worth_telling
 from chatrobot.robots.profile import Lidar, RobotProfile
 from chatrobot.wire.messages import LaserScan
 
@@ -54,6 +56,25 @@ class TelemetryPublisher:
                 self._sensors.estimator.epoch,
             )
         )
+
+
+CHANGED_LIMIT_S, SAME_LIMIT_S = 0.25, 2.0
+"""How soon after a limit was published another one is, and the same again while it lasts."""
+
+
+class LimitPublisher:
+    """Publishes what limits the velocities that others ask for, as they drive: no plan, no step, whose limit it is."""
+
+    def __init__(self, emit: Callable[[Event], None]) -> None:
+        self._emit = emit
+        self._rule, self._told_s = "", -math.inf
+
+    def note(self, verdict: Verdict, now_s: float) -> None:
+        """Take note of what became of one velocity."""
+        due_s = SAME_LIMIT_S if verdict.rule == self._rule else CHANGED_LIMIT_S
+        if now_s - self._told_s >= due_s and is_worth_telling(verdict):
+            self._rule, self._told_s = verdict.rule, now_s
+            self._emit(Limited(0, verdict.rule, verdict.asked, verdict.allowed, verdict.reason))
 
 
 SCAN_S = 0.2

@@ -15,6 +15,7 @@ from collections.abc import Callable
 from chatrobot.core.clock import TERM_S
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.reason import Reason
+from chatrobot.governor.governor import Verdict
 from chatrobot.governor.lease import Leases, may_steer
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.governed_robot import GovernedRobot
@@ -30,6 +31,7 @@ class VelocityInput:
         takes_over: called before it takes command.
         on_end: called when the robot was driven and is to stand now.
         tell: hears why it may not be driven.
+        note: hears what became of each velocity, and when.
         let_go_s: after a stop, silence for so long counts as having let go.
         rests_s: so long it keeps command once it asks for zero.
     """
@@ -41,6 +43,7 @@ class VelocityInput:
         takes_over: Callable[[], None],
         on_end: Callable[[], None],
         tell: Callable[[Reason], None],
+        note: Callable[[Verdict, float], None],
         let_go_s: float = TERM_S,
         rests_s: float = TERM_S,
     ) -> None:
@@ -49,7 +52,7 @@ class VelocityInput:
         self._takes_over = takes_over
         self._robot = robot
         self._on_end = on_end
-        self._tell = tell
+        self._tell, self._note = tell, note
         self._let_go_s = let_go_s
         self._rests_s = rests_s
         self._heard = (_NEVER, ZERO_TWIST)
@@ -120,6 +123,7 @@ class VelocityInput:
             self._end()
         else:
             self._robot.send(verdict)
+            self._note(verdict, now_s)
 
     def _end(self) -> None:
         self.is_driving = False
