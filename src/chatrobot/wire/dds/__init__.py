@@ -1,7 +1,7 @@
 """The wire over DDS (Eclipse Cyclone), which is how ROS 2 processes speak: `pip install 'chatrobot[dds]'`.
 
-`ros_types` turns ROS definitions into Cyclone's, `graph` is who is there, `wire` is the backend. Importing this package
-imports none of them.
+`definitions` has the messages of ROS, `ros_types` makes them Cyclone's, `graph` is who is there, `wire` is the backend.
+Importing this package imports none of them.
 """
 
 from __future__ import annotations

@@ -25,7 +25,8 @@ from cyclonedds.topic import Topic
 from cyclonedds.util import duration
 
 from chatrobot.core.errors import WireError
-from chatrobot.wire.dds.ros_types import MALFORMED, CdrSample, RosTypes
+from chatrobot.wire.dds.definitions import MALFORMED
+from chatrobot.wire.dds.ros_types import CdrSample, RosTypes
 from chatrobot.wire.messages import Message
 from chatrobot.wire.ros_messages import Listener, RosForm, with_wall_stamp
 from chatrobot.wire.stamps import StampTranslator

@@ -21,7 +21,8 @@ from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
 
 from chatrobot.core.errors import WireError
-from chatrobot.wire.dds.ros_types import MALFORMED, RosTypes
+from chatrobot.wire.dds.definitions import MALFORMED
+from chatrobot.wire.dds.ros_types import RosTypes
 from chatrobot.wire.wire import Endpoint
 
 _INFO_TOPIC = "ros_discovery_info"

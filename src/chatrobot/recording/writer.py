@@ -1,0 +1,88 @@
+"""Writes one recording: rosbag2-compatible MCAP, by the `mcap` library, with ROS's definitions from `rosbags`.
+
+One thread owns a writer. What it was given is in the operating system's hands once `flush` returns, so that a process
+that is killed loses no more than what came since.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from mcap.writer import Writer
+
+from chatrobot import __version__
+from chatrobot.recording.topics import (
+    MESSAGE_ENCODING,
+    METADATA,
+    PROFILE,
+    SCHEMA_ENCODING,
+    TOPICS,
+    Topic,
+)
+from chatrobot.wire.dds.definitions import RosDefinitions
+from chatrobot.wire.messages import Message, Text
+from chatrobot.wire.ros_messages import with_wall_stamp
+
+
+class RecordingWriter:
+    """A new file that only its owner can read.
+
+    Args:
+        path: where; nothing is there yet.
+        about: the metadata record, text by text.
+        redact: what every text passes before it is written.
+
+    Raises:
+        OSError: the file cannot be made; `write`, `flush` and `close` raise it where the disk is full.
+    """
+
+    def __init__(self, path: Path, about: Mapping[str, str], redact: Callable[[str], str]) -> None:
+        self.path = path
+        self._redact = redact
+        self._definitions = RosDefinitions()
+        self._file = os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb")
+        self._writer = Writer(self._file)
+        self._writer.start(PROFILE, library=f"chatrobot {__version__}")
+        self._writer.add_metadata(METADATA, {key: redact(value) for key, value in about.items()})
+        self._channels: dict[str, int] = {}
+        self._schemas: dict[str, int] = {}
+        for topic in TOPICS:
+            self._register(topic)
+        self._file.flush()
+
+    def write(self, topic: Topic, message: Message, time_ns: int) -> None:
+        """Add a message of `topic`, received at `time_ns` since 1970."""
+        if isinstance(message, Text):
+            message = Text(self._redact(message.data))
+        data = self._definitions.cdr(topic.form.type_name, topic.form.to_ros(with_wall_stamp(message)))
+        self._writer.add_message(self._channels[topic.name], time_ns, data, time_ns)
+
+    @property
+    def size_bytes(self) -> int:
+        """How long the file is, without what has not been flushed."""
+        return self._file.tell()
+
+    def flush(self) -> None:
+        """Hand all that came so far to the operating system."""
+        self._writer.flush()  # type: ignore[no-untyped-call]
+
+    def close(self) -> None:
+        """Write the index and the summary, and close the file, whatever goes wrong with them."""
+        try:
+            self._writer.finish()  # type: ignore[no-untyped-call]
+        finally:
+            self._file.close()
+
+    def _register(self, topic: Topic) -> None:
+        name = topic.form.type_name
+        if name not in self._schemas:
+            text = self._definitions.text_of(name).encode()
+            self._schemas[name] = self._writer.register_schema(name, SCHEMA_ENCODING, text)
+        self._channels[topic.name] = self._writer.register_channel(
+            topic.name,
+            MESSAGE_ENCODING,
+            self._schemas[name],
+            {"topic_type_hash": self._definitions.hash_of(name)},
+        )
