@@ -27,7 +27,7 @@ def words(*line: str) -> list[str]:
 
 def test_every_command_is_offered_with_what_it_does() -> None:
     assert dict(offers_for([""])) == COMMANDS
-    assert words("wo") == ["worlds"]
+    assert words("wo") == ["world", "worlds"]
 
 
 def test_a_commands_own_options_are_offered_and_no_others() -> None:
@@ -104,7 +104,7 @@ _PREPARED = {
     "zsh": (["-f"], "unsetopt zle_bracketed_paste; autoload -U compinit; compinit -u -D"),
 }
 _TYPED = [
-    ("chatrobot wo\t--json", "chatrobot worlds --json"),
+    ("chatrobot doc\t--json", "chatrobot doctor --json"),
     ("chatrobot do --robot turtles\tx", "chatrobot do --robot turtlesim x"),
     ("chatrobot do --robot=turtles\tx", "chatrobot do --robot=turtlesim x"),
     ("chatrobot plan x --png my\t", "chatrobot plan x --png my\\ way.png"),
@@ -150,7 +150,7 @@ def test_tab_completes_in_fish(tmp_path: Path) -> None:
         )  # fmt: skip
         return [each.partition("\t")[0] for each in done.stdout.splitlines()]
 
-    assert offered("chatrobot wo") == ["worlds"]
+    assert offered("chatrobot wo") == ["world", "worlds"]
     assert offered("chatrobot do --robot turtles") == ["turtlesim"]
     assert offered("chatrobot do --robot=turtles") == ["--robot=turtlesim"]
     assert offered("chatrobot eval ") == ["corpus.yaml"]

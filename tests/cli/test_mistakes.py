@@ -84,7 +84,7 @@ def test_help_lists_what_a_command_takes(capsys: pytest.CaptureFixture[str]) -> 
 def test_every_option_may_stand_before_every_command(command: str) -> None:
     words = {"do": ["x"], "plan": ["x"], "eval": ["x"], "node": ["input"], "fake-model": ["x"]}
     words["completion"] = ["bash"]
-    after = ["list"] if command == "program" else words.get(command, [])
+    after = ["list"] if command in ("program", "world") else words.get(command, [])
     assert parse(["--robot", "turtlesim", command, *after]).robot == "turtlesim"
     assert parse([command, *after, "--robot", "turtlesim"]).robot == "turtlesim"
 

@@ -45,7 +45,7 @@ class FakeSession:
     def limit(self, **limits):
         self._note("limit", limits)
 
-    def approve(self, turn, yes):
+    def approve(self, turn, yes, edited=""):
         self._note("approve", turn, yes)
 
 

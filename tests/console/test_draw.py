@@ -7,8 +7,8 @@ import pytest
 from PIL import Image
 
 from chatrobot.cli.draw import draw_plan
-from chatrobot.cli.drawing.ground import END, OBSTACLE, PAPER, RED
 from chatrobot.cli.drawing.canvas import font_for, is_latin
+from chatrobot.cli.drawing.ground import END, OBSTACLE, PAPER, RED
 from chatrobot.cli.drawing.ways import progress_colour, standing_points, where_found
 from chatrobot.core.events import FindingSeen, Rehearsed
 from chatrobot.core.geometry import Pose
