@@ -8,6 +8,7 @@ import warnings
 from collections.abc import Iterator
 
 import pytest
+from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 from chatrobot.core.events import Interpreted, ProgramWritten, Rehearsed
@@ -93,6 +94,12 @@ def open_page(
     page.goto(address)
     expect(page.locator("#robot-title")).not_to_have_text("ChatRobot")
     return page
+
+
+def find_violations(page: Page) -> list[tuple[str, list[object]]]:
+    """Return what axe finds wrong, each with where."""
+    found = Axe().run(page).response["violations"]
+    return [(rule["id"], [node["target"] for node in rule["nodes"]]) for rule in found]
 
 
 def count_pixels(page: Page, colour: str) -> int:

@@ -140,7 +140,7 @@ def test_the_token_becomes_a_cookie_that_no_script_and_no_other_site_has(guarded
 
 
 def test_under_tls_the_cookie_never_travels_in_clear() -> None:
-    assert "Secure" in Access("0.0.0.0", is_secure=True).cookie("t")
+    assert "Secure" in Access("0.0.0.0", is_secure=True).cookie(Pass("steerer", token="t"))
 
 
 def test_who_has_the_token_of_a_watcher_never_steers(guarded: WebRig) -> None:
@@ -262,7 +262,7 @@ def test_a_pass_does_not_show_its_token() -> None:
 def test_two_servers_of_one_machine_have_two_cookies(guarded: WebRig) -> None:
     other = Access("127.0.0.1", needs_token=True)
     other.port = guarded.access.port + 1
-    assert other.cookie_name != guarded.access.cookie_name
+    assert other.cookie_name("") != guarded.access.cookie_name("")
 
 
 def test_the_console_of_one_robot_opens_no_other() -> None:

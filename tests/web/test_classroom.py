@@ -9,7 +9,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +23,7 @@ from chatrobot.wire.local import LocalWire
 from chatrobot.wire.messages import TwistMessage
 from tests.cli.running import Command
 from tests.processes import PATIENCE_S, Heard, TalkingProcess
-from tests.web.browser import browser, open_page
+from tests.web.browser import browser, find_violations, open_page
 from tests.web.rig import Client
 
 __all__ = ["browser"]
@@ -69,7 +69,12 @@ class RunningClass(TalkingProcess):
 
     def dial(self, path: str, token: str, port: int = 0) -> Client:
         headers = {"Authorization": f"Bearer {token}"}
-        how: dict[str, Any] = {"additional_headers": headers, "proxy": None, "max_size": 2**22}
+        how: dict[str, Any] = {
+            "additional_headers": headers,
+            "proxy": None,
+            "max_size": 2**22,
+            "close_timeout": 0.5,
+        }
         address = f"ws://127.0.0.1:{port or self.port}{path}"
         return Client(self._dialled.enter_context(connect(address, origin=self.origin, **how)))
 
@@ -94,8 +99,7 @@ class RunningClass(TalkingProcess):
         """Leave nobody at any page, and every robot standing."""
         self._dialled.close()
         teacher = self.teacher()
-        while any(robot["pages"] or robot["moving"] for robot in teacher.wait_for("class")["robots"]):
-            pass
+        robots_where(teacher, lambda robots: not any(one["pages"] or one["moving"] for one in robots))
         teacher.socket.close()
 
     def close(self) -> None:
@@ -103,6 +107,14 @@ class RunningClass(TalkingProcess):
         self._opened.close()
         self.process.send_signal(signal.SIGTERM)
         self.process.wait(PATIENCE_S)
+
+
+def robots_where(teacher: Client, holds: Callable[[list[dict[str, Any]]], bool]) -> list[dict[str, Any]]:
+    """Return what the teacher sees of the robots once that holds."""
+    ends_s = time.monotonic() + PATIENCE_S
+    while not holds(robots := teacher.wait_for("class")["robots"]):
+        assert time.monotonic() < ends_s, robots
+    return robots
 
 
 @pytest.fixture
@@ -132,10 +144,7 @@ def drive(pupils: RunningClass, *places: int) -> list[Client]:
 def test_each_pupil_drives_a_robot_of_their_own_and_the_teacher_sees_which(pupils: RunningClass) -> None:
     drive(pupils, 1)
     teacher = pupils.teacher()
-    while True:
-        robots = teacher.wait_for("class")["robots"]
-        if robots[1]["moving"] and robots[1]["pose"][0] > 0.05:
-            break
+    robots = robots_where(teacher, lambda robots: robots[1]["moving"] and robots[1]["pose"][0] > 0.05)
     assert [robot["moving"] for robot in robots] == [False, True, False]
     assert [robot["pages"] for robot in robots][1] == 1
     assert robots[1]["plan_text"].startswith("drive 50 m")
@@ -161,8 +170,7 @@ def test_the_teacher_stops_one_and_then_all(pupils: RunningClass) -> None:
 def test_only_the_teacher_releases_an_emergency_stop(pupils: RunningClass) -> None:
     page, teacher = pupils.pupil(0), pupils.teacher()
     page.say("emergency_stop")
-    while not teacher.wait_for("class")["robots"][0]["emergency"]:
-        pass
+    robots_where(teacher, lambda robots: robots[0]["emergency"])
     page.say("release")
     assert page.wait_for("refused")["do"] == "release"
     page.say("say", text="forward 10 cm")
@@ -202,6 +210,72 @@ def test_a_pupil_who_opens_the_teachers_page_is_told_that_it_is_not_theirs(
     expect(page.locator("#connection-banner")).to_contain_text("This page may not come in")
     expect(page.locator("#robots li")).to_have_count(0)
     page.context.close()
+
+
+def test_two_pupils_links_in_one_browser_stay_each_with_their_own_robot(
+    pupils: RunningClass, browser: Browser
+) -> None:
+    tokens = pupils.pupils_tokens()
+    first = open_page(browser, f"{pupils.origin}/#{tokens[0]}")
+    second = first.context.new_page()
+    second.goto(f"{pupils.origin}/#{tokens[1]}")
+    expect(second.locator("#robot-title")).to_contain_text("Pupil 2 · ")
+    first.reload()
+    expect(first.locator("#robot-title")).to_contain_text("Pupil 1 · ")
+    said_s = time.monotonic()
+    first.get_by_label("Say something to the robot").fill("turn left three times")
+    first.keyboard.press("Enter")
+    pupils.heard[0].wait_for_motion(said_s)
+    expect(second.locator("#robot-state")).to_have_text("Standing")
+    second.keyboard.press("Escape")
+    expect(second.locator("#stop-said")).to_have_text("The robot was told to stop.")
+    expect(first.locator("#robot-state")).to_have_text("Moving")
+    first.context.close()
+
+
+def test_a_revoked_link_ends_its_page_and_its_motion_and_another_is_given(
+    pupils: RunningClass, browser: Browser
+) -> None:
+    drive(pupils, 1)
+    old = pupils.pupils_tokens()[0]
+    pupil = open_page(browser, f"{pupils.origin}/#{old}")
+    pupil.get_by_label("Say something to the robot").fill("forward 50 m at 0.3 m/s")
+    asked_s = time.monotonic()
+    pupil.keyboard.press("Enter")
+    pupils.heard[0].wait_for_motion(asked_s)
+    teacher = browser.new_page(locale="en-GB")
+    teacher.goto(f"{pupils.origin}/teacher#{pupils.token}")
+    teacher.get_by_role("button", name="New link: Pupil 1").click()
+    said_s = time.monotonic()
+    teacher.get_by_role("button", name="End the old link?: Pupil 1").click()
+    pupils.heard[0].wait_for_zero(said_s)
+    assert all(any(twist) for _, twist in pupils.heard[1].since(said_s)), "nobody else is stopped"
+    expect(pupil.locator("#connection-banner")).to_contain_text("its link is not valid (any more)")
+    with pytest.raises(InvalidStatus):
+        pupils.dial("/ws", old)
+    pupil.goto(f"{pupils.origin}/?as=pupil-1#{pupils.pupils_tokens()[0]}")  # pasted into the same tab
+    expect(pupil.locator("#steering-state")).to_have_text("You steer")
+    expect(pupil.locator("#turns .robot").last).to_contain_text("the teacher has ended this link")
+    teacher.close()
+    pupil.context.close()
+
+
+@pytest.mark.parametrize("dark", [False, True])
+def test_axe_finds_nothing_on_the_teachers_page(
+    pupils: RunningClass, browser: Browser, *, dark: bool
+) -> None:
+    page = browser.new_page(color_scheme="dark" if dark else "light", locale="en-GB")
+    page.goto(f"{pupils.origin}/teacher#{pupils.token}")
+    page.get_by_role("button", name="New link: Pupil 2").click()
+    expect(page.get_by_role("button", name="End the old link?: Pupil 2")).to_be_visible()
+    page.get_by_label("Task for everybody").fill("Drive a square.")
+    page.get_by_role("button", name="Hand out").click()
+    page.get_by_role("button", name="Emergency stop for all").click()
+    expect(page.get_by_role("button", name="Release emergency stop: Pupil 3")).to_be_visible()
+    assert find_violations(page) == []
+    page.get_by_role("button", name="Release all emergency stops").click()
+    expect(page.get_by_role("button", name="Release emergency stop: Pupil 3")).to_be_hidden()
+    page.close()
 
 
 def test_a_teacher_who_looks_in_first_leaves_the_steering_to_the_pupil(pupils: RunningClass) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pytest
-from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Page, expect
 
 from chatrobot.cli.web import listen
@@ -11,7 +10,18 @@ from chatrobot.core.events import Result, Started
 from chatrobot.core.geometry import ORIGIN
 from chatrobot.web.access import Access
 from chatrobot.web.server import WebServer
-from tests.web.browser import DESKTOP, PHONE, TABLET, browser, open_page, page, rehearse, say, write_program
+from tests.web.browser import (
+    DESKTOP,
+    PHONE,
+    TABLET,
+    browser,
+    find_violations,
+    open_page,
+    page,
+    rehearse,
+    say,
+    write_program,
+)
 from tests.web.rig import WebRig, wait_until
 
 __all__ = ["browser", "page"]
@@ -113,11 +123,6 @@ def test_the_keyboard_alone_gets_everywhere_and_every_focus_is_seen(page: Page, 
         "plan-edit",
     }
     assert wanted | {"stop", "pause", "emergency", "language", "give"} <= set(reached)
-
-
-def find_violations(page: Page) -> list[tuple[str, list[object]]]:
-    found = Axe().run(page).response["violations"]
-    return [(rule["id"], [node["target"] for node in rule["nodes"]]) for rule in found]
 
 
 @pytest.mark.parametrize(

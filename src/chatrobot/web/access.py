@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from http.cookies import CookieError, SimpleCookie
 from typing import Any, Literal
+from urllib.parse import parse_qs
 
 from chatrobot.web.limits import Guesses, is_loopback_address
 
@@ -32,6 +33,14 @@ class Pass:
     room: str = ""
     is_local: bool = False
     token: str = field(default="", repr=False)
+
+    @property
+    def seat(self) -> str:
+        """Return what tells this pass from others that one browser may hold: a cookie, and an address, of its own.
+
+        Whoever steers the robot, or teaches, has the address of the server itself.
+        """
+        return "" if self.role in ("steerer", "teacher") else "-".join(filter(None, (self.role, self.room)))
 
     @property
     def may_steer(self) -> bool:
@@ -72,6 +81,8 @@ class Access:
         self.port = self.stop_port = 0
         self.guesses = Guesses()
         self._passes: dict[str, Pass] = {}
+        self._revoked: set[str] = set()
+        """Tokens that were good: a page that still has one guesses nothing."""
         self._admitted: set[tuple[str, str]] = set()
         """Address and token of those who were let in: they need not wait because somebody beside them guesses."""
 
@@ -85,6 +96,7 @@ class Access:
 
     def revoke(self, token: str) -> None:
         """Let nobody in with that token any more; its connections are closed by those who hold them."""
+        self._revoked |= {token} & self._passes.keys()
         self._passes = {known: one for known, one in self._passes.items() if known != token}
         self._admitted = {one for one in self._admitted if one[1] != token}
 
@@ -126,7 +138,8 @@ class Access:
         is_local = is_loopback_address(address)
         if not self.needs_token:
             return Pass("steerer", is_local=is_local)
-        token = _token_in(_headers(scope), self.cookie_name)
+        seat = parse_qs(scope.get("query_string", b"").decode("latin-1")).get("as", [""])[0]
+        token = _token_in(_headers(scope), self.cookie_name(seat))
         if not token:
             return Refusal(401, "a token is needed: open the link that the server printed")
         return self.check_token(token, address)
@@ -140,18 +153,18 @@ class Access:
         if found is not None:
             self._admitted.add((address, token))
             return Pass(found.role, found.room, is_loopback_address(address), found.token)
-        self.guesses.note_wrong(address)
+        if token not in self._revoked:
+            self.guesses.note_wrong(address)
         return Refusal(401, "this token is not valid (any more): ask for a new link")
 
-    @property
-    def cookie_name(self) -> str:
-        """Return the name of the cookie. Cookies know no ports: two servers on one machine need two names."""
-        return f"chatrobot_{self.port}"
+    def cookie_name(self, seat: str) -> str:
+        """Return the name of a seat's cookie. Cookies know no ports: two servers on one machine need two names."""
+        return f"chatrobot_{self.port}" + (f"_{seat}" if seat else "")
 
-    def cookie(self, token: str) -> str:
+    def cookie(self, pass_: Pass) -> str:
         """Return what sets the cookie: for this very site alone, and out of reach of any script."""
         secure = "; Secure" if self.scheme == "https" else ""
-        return f"{self.cookie_name}={token}; Path=/; HttpOnly; SameSite=Strict{secure}"
+        return f"{self.cookie_name(pass_.seat)}={pass_.token}; Path=/; HttpOnly; SameSite=Strict{secure}"
 
     def origin(self, name: str, port: int | None = None) -> str:
         """Return the origin of our page, as a browser that knows us by that name writes it."""

@@ -26,6 +26,7 @@ TELL_S = 0.25
 _MOST_SHOWN_CHARS = 300
 """Of a plan or a reply."""
 _DIGITS = 3
+LINK_ENDED = "the teacher has ended this link"
 
 
 class Seat:
@@ -37,7 +38,7 @@ class Seat:
 
     def __init__(self, name: str, token: str) -> None:
         self.room = Room(name)
-        self._token = token
+        self.token = token
         self._telemetry: Telemetry | None = None
         self._plan_text = self._reply = self._outcome = ""
 
@@ -56,7 +57,7 @@ class Seat:
         seen = self._telemetry
         return {
             "name": self.room.name,
-            "link": f"/#{self._token}",
+            "link": f"/#{self.token}",
             "pages": self.room.face_count,
             "pose": [round(value, _DIGITS) for value in seen.pose] if seen is not None else None,
             "moving": seen is not None and seen.moving,
@@ -78,6 +79,7 @@ class Classroom:
 
     def __init__(self, count: int, access: Access, token: str = "") -> None:
         names = [str(place) for place in range(1, count + 1)]
+        self._access = access
         self.token = access.issue("teacher", token=token)
         self.seats = {name: Seat(name, access.issue("pupil", name)) for name in names}
         self.rooms: Mapping[str, Room] = {name: seat.room for name, seat in self.seats.items()}
@@ -151,6 +153,22 @@ class Classroom:
         """Release the emergency stops that are set."""
         self._each(lambda room: room.release() if room.is_latched else None)
 
+    def revoke(self, name: str) -> None:
+        """End a pupil's link, with the pages that it opened and what they do, and have another one for that robot.
+
+        Nothing else changes: the robot stays where it is, with its places and programs. For the event loop.
+        """
+        seat = self.seats[name]
+        old, seat.token = seat.token, self._access.issue("pupil", name)
+        self._access.revoke(old)
+        for face in seat.room.drop(old):
+            with contextlib.suppress(LinkError):  # that one is gone, and the guard halts it
+                if seat.room.steers(face):
+                    seat.room.take(None, LINK_ENDED)
+            face.close()
+        for teacher in list(self._faces.values()):
+            teacher.put(self._message())
+
     def hand_out(self, text: str) -> None:
         """Show a task to every pupil, also to one who comes later."""
         self.task = text
@@ -188,6 +206,7 @@ FIELDS: Fields = {
     "emergency_stop": {"room?": _ROOM},
     "release": {"room?": _ROOM},
     "task": {"text": is_text(MOST_TEXT_CHARS)},
+    "revoke": {"room": _ROOM},
     "language": {"code": lambda value: value in ("en", "zh")},
 }
 """What a teacher's page may say; without a room it is about all of them."""
@@ -203,6 +222,8 @@ def serve_teacher(websocket: WebSocket, classroom: Classroom, page: Page) -> Con
             about = classroom.rooms.get(message["room"])
         if about is None:
             page.put(refused("malformed", word, problem=f"there is no robot {message['room']!r}"))
+        elif word == "revoke":
+            classroom.revoke(message["room"])
         elif word == "task":
             classroom.hand_out(message["text"])
         elif word == "language":

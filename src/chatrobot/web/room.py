@@ -24,7 +24,7 @@ from chatrobot.web.asked_plans import AskedPlans
 from chatrobot.web.facts import place_facts, robot_facts, world_facts
 from chatrobot.web.outbox import Message
 from chatrobot.web.programs import Programs
-from chatrobot.web.steering import Steering
+from chatrobot.web.steering import NOBODY, Steering
 from chatrobot.web.words import PASSING, UNTOLD, event_message, refused, told, web_words
 
 HISTORY = 200
@@ -52,6 +52,10 @@ class Face(Protocol):
 
     def put(self, message: Message) -> None:
         """Tell it. Called on any thread; returns at once."""
+        ...
+
+    def close(self) -> None:
+        """Have its connection end. For the event loop."""
         ...
 
 
@@ -204,10 +208,10 @@ class Room:
         """Return those who came in with that token, which has been revoked."""
         return [face for face in list(self._faces.values()) if face.pass_.token == token]
 
-    def take(self, face: Face | None) -> None:
-        """Have somebody steer, or nobody; both sides hear of it."""
+    def take(self, face: Face | None, why: str = NOBODY) -> None:
+        """Have somebody steer, or nobody; both sides hear of it. `why` is told of what ends by that."""
         with self._lock:
-            self.steering.take(face)
+            self.steering.take(face, why)
             self._tell_steering()
 
     def steers(self, face: Face) -> bool:

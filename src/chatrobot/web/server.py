@@ -136,8 +136,7 @@ class WebServer:
         self.access.revoke(token)
         for room in self.rooms.values():
             for face in room.drop(token):
-                if isinstance(face, Page):
-                    self.call(face.close)
+                self.call(face.close)
 
     def close(self, *, stops: bool = True) -> None:
         """Stop the robots, unless somebody else sees to them; tell the pages, and end."""
@@ -198,14 +197,20 @@ class WebServer:
         admitted = self.access.check_token(token, address_of(request.scope))
         response = self._told(admitted)
         if isinstance(admitted, Pass):
-            response.headers["set-cookie"] = self.access.cookie(token)
+            response.headers["set-cookie"] = self.access.cookie(admitted)
         return response
 
     def _told(self, admitted: Pass | Refusal) -> Response:
         if isinstance(admitted, Refusal):
             return _refusal(admitted)
         return JSONResponse(
-            {"role": admitted.role, "room": admitted.room, "local": admitted.is_local}, headers=_UNKEPT
+            {
+                "role": admitted.role,
+                "room": admitted.room,
+                "seat": admitted.seat,
+                "local": admitted.is_local,
+            },
+            headers=_UNKEPT,
         )
 
     async def _page(self, websocket: WebSocket) -> None:

@@ -24,6 +24,7 @@ FIRST_BEAT_S = 1.0
 """Whoever begins to steer has so long until the first beat: the page may have to be loaded."""
 UNREAD_S = 0.5
 """What lies unread of a page, while the event loop is late, shows for so long that the page is there."""
+NOBODY = "nobody steers any more"
 LOOK_S, STALL_S = 0.02, 0.05
 """How often the watchdog looks; and from when on it was itself kept waiting, so that beats may lie unread."""
 
@@ -88,10 +89,10 @@ class Steering:
         """Tell whether beats of the steering page come: without them nothing that it says would go on."""
         return self._now() <= max(self._beat_s, self._unread_s) + self._most_s(LOST_S, LOST_AFAR_S)
 
-    def take(self, page: Steerer | None) -> None:
+    def take(self, page: Steerer | None, why: str = NOBODY) -> None:
         """Have `page` steer, or nobody: the stick is let go, and what was said goes on under the new one, or ends.
 
-        A page that steers already wins nothing: only its beats say that it is there.
+        `why` is told where it ends. A page that steers already wins nothing: only its beats say that it is there.
         """
         with self._lock:
             if page is self._steerer:
@@ -102,7 +103,7 @@ class Steering:
             self._beat_s, self._was_lost = self._now() + FIRST_BEAT_S, False
             self._unread_s, self._unread_bytes = 0.0, 0
         if page is None and self._has_work():
-            self._robot.stop("nobody steers any more")
+            self._robot.stop(why)
 
     def beat(self, page: Steerer) -> None:
         """Note that something was heard of that page."""

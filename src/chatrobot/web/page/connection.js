@@ -6,10 +6,12 @@ const OPEN = 1;
 const FIRST_WAIT_MS = 300;
 const LONGEST_WAIT_MS = 4000;
 const SILENCE_MS = 3000;
-const REFUSALS = [401, 403, 404, 421, 429];
+const GUESSED = 429;
+const GUESSED_WAIT_MS = 61000;
+const REFUSALS = [401, 403, 404, 421, GUESSED];
 
 const listeners = new Map();
-const query = location.search;
+let query = location.search;
 let path = "/ws";
 let socket = null;
 let waitMs = FIRST_WAIT_MS;
@@ -62,12 +64,21 @@ export async function connect(wanted = "/ws") {
   path = wanted;
   const token = decodeURIComponent(location.hash.slice(1)).replace(/^token=/, "");
   if (token) {
-    history.replaceState(null, "", location.pathname + query);
     const body = JSON.stringify({ token });
     const headers = { "Content-Type": "application/json" };
-    await fetch("enter", { method: "POST", headers, body }).catch(() => null);
+    const answer = await fetch("enter", { method: "POST", headers, body }).catch(() => null);
+    if (answer && answer.ok) sitDown((await answer.json()).seat);
+    history.replaceState(null, "", location.pathname + query);
   }
   open();
+}
+
+/** Several links may be open in one browser: a tab keeps, in its address, whose cookie is its own. */
+function sitDown(seat) {
+  const asked = new URLSearchParams(query);
+  asked.delete("as");
+  if (seat) asked.set("as", seat);
+  query = asked.size ? `?${asked}` : "";
 }
 
 function open() {
@@ -128,10 +139,13 @@ function lose() {
 
 /** Ask why we are not let in: a WebSocket does not say. */
 async function ask() {
-  const answer = await fetch("me", { cache: "no-store" }).catch(() => null);
+  const answer = await fetch(`me${query}`, { cache: "no-store" }).catch(() => null);
   if (!answer) return;
   const status = answer.ok && path === "/class" ? await askRole(answer) : answer.status;
-  if (REFUSALS.includes(status)) tell({ is: "denied", status });
+  if (!REFUSALS.includes(status)) return;
+  clearTimeout(timer); // asked again and again it would count as guessing, for everybody at this address
+  if (status === GUESSED) timer = setTimeout(open, GUESSED_WAIT_MS);
+  tell({ is: "denied", status });
 }
 
 /** A pupil may come in, but not to the teacher's page. */
@@ -148,6 +162,8 @@ setInterval(() => {
   silent.close();
   lose();
 }, 500);
+// Another link pasted into this tab changes the fragment alone, which loads nothing by itself.
+addEventListener("hashchange", () => location.hash.length > 1 && location.reload());
 addEventListener("online", () => {
   if (!state.isOpen && socket && socket.readyState > OPEN) open();
 });

@@ -7,6 +7,7 @@ import { firstLanguage, language, onLanguage, setLanguage, t } from "./words.js"
 
 const NOTICE_MS = 6000;
 const SAID_MS = 2500;
+const REALLY_MS = 4000;
 
 const list = byId("robots");
 const cards = new Map();
@@ -30,6 +31,15 @@ async function copyLink(robot) {
   }
 }
 
+/** A link ends at the second press: a class goes on while a teacher's finger slips. */
+function endLink(card, robot) {
+  clearTimeout(card.timer);
+  const isMeant = card.item.classList.toggle("asked");
+  if (isMeant) card.timer = setTimeout(() => card.item.classList.contains("asked") && endLink(card, null), REALLY_MS);
+  else if (robot && send({ do: "revoke", room: robot.name })) notice(t("link_ended", { name: robot.name }));
+  draw();
+}
+
 function makeCard(robot) {
   const room = robot.name;
   const card = {
@@ -42,13 +52,15 @@ function makeCard(robot) {
     stop: makeButton("", "small stop-one", () => send({ do: "stop", room })),
     release: makeButton("", "small", () => send({ do: "release", room })),
     link: makeButton("", "small", () => copyLink(robots.find((one) => one.name === room))),
+    end: makeButton("", "small", () => endLink(card, robots.find((one) => one.name === room))),
     open: make("a"),
+    timer: 0,
   };
   card.open.href = `./?room=${encodeURIComponent(room)}`;
   card.open.target = "_blank";
   card.open.rel = "noopener";
   const head = make("header", "", card.title, card.state);
-  const buttons = make("div", "buttons", card.stop, card.release, card.link, card.open);
+  const buttons = make("div", "buttons", card.stop, card.release, card.link, card.end, card.open);
   card.item.append(head, card.who, card.where, card.doing, buttons);
   list.append(card.item);
   cards.set(room, card);
@@ -81,6 +93,7 @@ function drawCard(robot) {
   label(card.stop, t("stop"), name);
   label(card.release, t("release"), name);
   label(card.link, t("link_copy"), name);
+  label(card.end, t(card.item.classList.contains("asked") ? "link_end_really" : "link_end"), name);
   label(card.open, t("robot_open"), name);
   card.release.hidden = !robot.emergency;
 }
