@@ -147,7 +147,7 @@ class Client:
 class WebRig:
     """One robot by default; `rooms` for more."""
 
-    def __init__(self, access: Access, rooms: Sequence[str] = ("",)) -> None:
+    def __init__(self, access: Access, rooms: Sequence[str] = ("",), camera: Any = None) -> None:
         self.access = access
         self.sessions = {name: NotingSession() for name in rooms}
         self.rooms = {name: Room(name) for name in rooms}
@@ -156,6 +156,7 @@ class WebRig:
                 session=self.sessions[name],
                 profile=load_profile("wheeltec_mini_mec"),
                 world=load_world("home"),
+                camera=camera,
             )
             room.open(connection, lambda job: job(), is_simulated=True)
         self.server = WebServer(access, self.rooms)
@@ -202,10 +203,12 @@ class WebRig:
 
 
 @contextlib.contextmanager
-def serving(access: Access | None = None, rooms: Sequence[str] = ("",)) -> Iterator[WebRig]:
+def serving(
+    access: Access | None = None, rooms: Sequence[str] = ("",), camera: Any = None
+) -> Iterator[WebRig]:
     """Serve a robot that only notes what it is told."""
     access = access or Access("127.0.0.1")
-    rig = WebRig(access, rooms)
+    rig = WebRig(access, rooms, camera)
     rig.server.start(listen(access.host, 0), listen(access.host, 0))
     try:
         yield rig

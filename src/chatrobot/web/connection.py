@@ -184,7 +184,7 @@ def serve_room(websocket: WebSocket, room: Room, page: Page) -> Conversation:
 
 
 _BEATS = ("beat", "steer")
-_FREE = frozenset({"stop", "emergency_stop", "beat", "programs", "program", "language", "history"})
+_FREE = frozenset({"stop", "emergency_stop", "beat", "programs", "program", "language", "history", "look"})
 """What anybody may say who may see the robot."""
 _NEEDS_BEATS = frozenset({"say", "say_plan", "edit", "go", "resume", "run_program", "edit_program"})
 
@@ -240,4 +240,5 @@ ACTIONS: Mapping[str, Callable[[Room, Page, dict[str, Any]], None]] = {
     "edit_program": lambda room, page, said: room.edit_program(page, said["name"], said["source"]),
     "language": _language,
     "history": _history,
+    "look": lambda room, page, _: room.camera.ask(page) if room.camera is not None else None,
 }

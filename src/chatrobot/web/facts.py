@@ -14,7 +14,7 @@ _DIGITS = 4
 """Of a metre or radian: a tenth of a millimetre."""
 
 
-def robot_facts(profile: RobotProfile, *, is_simulated: bool) -> dict[str, Any]:
+def robot_facts(profile: RobotProfile, *, is_simulated: bool, has_camera: bool) -> dict[str, Any]:
     """Return what a page shows of the robot, and what its stick may ask for."""
     limits = profile.limits
     return {
@@ -31,7 +31,7 @@ def robot_facts(profile: RobotProfile, *, is_simulated: bool) -> dict[str, Any]:
         },
         "defaults": {"speed_mps": profile.defaults.speed_mps, "rate_radps": profile.defaults.rate_radps},
         "has_lidar": profile.lidar is not None,
-        "has_camera": bool(profile.wiring.camera_topic) and not is_simulated,
+        "has_camera": has_camera,
         "has_odometry": profile.has_odometry,
         "simulated": is_simulated,
         "sideways": profile.can_go_sideways,

@@ -74,6 +74,7 @@ FIELDS: Fields = {
     "edit_program": {"name": _NAME, "source": is_text(MAX_SOURCE_CHARS)},
     "language": {"code": lambda value: value in ("en", "zh")},
     "history": {},
+    "look": {},
 }
 """All that may be said, with a check for every field; one with a question mark may be left out."""
 

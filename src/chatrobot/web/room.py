@@ -21,6 +21,7 @@ from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop
 from chatrobot.web.access import EMERGENCY_BUTTON, STOP_BUTTON, Pass
 from chatrobot.web.asked_plans import AskedPlans
+from chatrobot.web.camera import CameraView
 from chatrobot.web.facts import place_facts, robot_facts, world_facts
 from chatrobot.web.outbox import Message
 from chatrobot.web.programs import Programs
@@ -97,6 +98,7 @@ class Room:
         self._is_simulated = is_simulated
         self.steering = Steering(self.session, self._has_work, self._tell_lost)
         self.programs = Programs(self.session, connection.profile, post)
+        self.camera = CameraView(connection.camera) if connection.camera is not None else None
 
     # --- what happens ---
 
@@ -243,7 +245,9 @@ class Room:
             "may": self.may(face),
             "stop_port": self.stop_port,
             "steering": {"by": steerer.id, "name": steerer.name} if steerer is not None else None,
-            "robot": robot_facts(connection.profile, is_simulated=self._is_simulated),
+            "robot": robot_facts(
+                connection.profile, is_simulated=self._is_simulated, has_camera=self.camera is not None
+            ),
             "world": world_facts(connection.world, session.understanding.places.all()),
             "approval": {"asks": session.options.approve, "turn": self.plans.turn},
             "emergency": self.is_latched,

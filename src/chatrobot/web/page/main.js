@@ -1,5 +1,6 @@
 /** The page begins here. */
 
+import { startCamera } from "./camera.js";
 import { onEditPlan, startChat } from "./chat.js";
 import { connect, on, replay, send, state } from "./connection.js";
 import { byId } from "./dom.js";
@@ -44,6 +45,7 @@ startPlan();
 startMap();
 startPlaces(asksBeforeTaps);
 startGauges();
+startCamera();
 startPrograms();
 startStick();
 startSpeech();
