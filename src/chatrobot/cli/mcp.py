@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from chatrobot.cli.entry import STOPPED
 from chatrobot.core.errors import UsageError
+from chatrobot.core.process import wake_promptly
 
 if TYPE_CHECKING:
     from mcp.server.mcpserver import MCPServer
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 
 _PARTED = "asked to end"
 MEET_AFTER_S = 0.1
+SWITCH_S = 0.0005
+"""A call that is cancelled takes its turn of the interpreter from the thread that hears the robot."""
 
 
 def run(args: argparse.Namespace) -> int:
@@ -86,6 +89,8 @@ async def _serve(
     args: argparse.Namespace, setup: Setup, robot: AgentRobot, is_leaving: Callable[[], bool]
 ) -> None:
     _hint_at_terminal(args)
+    sys.setswitchinterval(SWITCH_S)
+    wake_promptly()
     from chatrobot.link.processes import SIMULATED
     from chatrobot.mcp_server.server import build_server
 

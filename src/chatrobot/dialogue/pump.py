@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import queue
 import threading
 from collections.abc import Callable
@@ -34,6 +35,7 @@ class Pump:
 
     def start(self) -> None:
         """Begin to pump."""
+        gc.freeze()  # the words are many, and stay: a stop would wait 0.1 s while the collector looks through them
         self._thread.start()
 
     def post(self, job: Callable[[], None]) -> None:

@@ -17,6 +17,7 @@ from pathlib import Path
 
 from chatrobot.compose import Connection
 from chatrobot.core.events import Result
+from chatrobot.core.process import wake_promptly
 from chatrobot.link.client_line import TURNS
 from chatrobot.mcp_server.robot import SOURCE, AgentRobot
 from chatrobot.robots.profile import RobotProfile
@@ -67,6 +68,7 @@ class AgentHost:
             self._thread.join(END_S)
 
     def _run(self) -> None:
+        wake_promptly()  # a call that is cancelled stops the robot
         asyncio.run(self._serve())
 
     async def _serve(self) -> None:

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from chatrobot.compose import Connection
 from chatrobot.core.errors import ChatRobotError, LinkError
 from chatrobot.core.events import Event, Finished, Started
+from chatrobot.core.process import wake_as_others_do
 from chatrobot.dialogue.pump import Pump
 from chatrobot.dialogue.session import Session
 from chatrobot.mcp_server.record import Record
@@ -144,6 +145,7 @@ class AgentRobot:
     # --- threads of its own ---
 
     def _meet(self) -> None:
+        wake_as_others_do()  # whatever the thread that serves has
         try:
             connection = self._connect(self._hear)
         except (ChatRobotError, OSError) as error:
