@@ -1,14 +1,16 @@
-"""Stop at the web console, from a page's WebSocket to the zero at a subscriber. Run: python -m bench.web_stop
+"""Stop at the web console, from a page to the zero at a subscriber. Run: python -m bench.web_stop
 
-Three processes: the page (a WebSocket client that beats as a page does), `chatrobot web`, and this one, which
-subscribes to the velocities of the simulated robot. With nobody else; with 20 who watch; while the event loop of the
-pages computes something else and serves nobody. Promised: 15 ms at the median, 40 ms at p99. Then what 20 who watch a
-moving robot cost the server, of one core.
+First a browser's own event: the space bar in Chromium (`event.timeStamp`, on the clock of this process), while a plan,
+a program and a plan of a language model that hangs are driven. Then a WebSocket client that beats as a page does, with
+nobody else, with 20 who watch, and while the event loop of the pages computes something else and serves nobody. This
+process subscribes to the velocities of the simulated robot. Promised: 15 ms at the median, 40 ms at p99. Last what 20
+who watch a moving robot cost the server, of one core.
 """
 
 from __future__ import annotations
 
 import json
+import os
 import re
 import subprocess
 import sys
@@ -19,14 +21,34 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import psutil
+from playwright.sync_api import Browser, sync_playwright
 from tests.processes import RunningRobot
+from tests.web.browser import ARGUMENTS, find_browser, open_page
 
 from bench import line
+from chatrobot.models.fake.script import read_script
+from chatrobot.models.fake.server import FakeModel
+from chatrobot.programs.library import KeptProgram, Library
 
-REPETITIONS = 100
+REPETITIONS = 20
 WATCHERS = 20
 PROMISED_S = (0.015, 0.040)
-COST_S = 10.0
+COST_S = 5.0
+HANGS = {"match": "nice", "text": "drive 2 m\nturn", "hang_after": 10}
+"""A plan whose second line never comes."""
+PROGRAM = """\
+import time
+import rclpy
+from geometry_msgs.msg import Twist
+rclpy.init()
+publisher = rclpy.create_node('bench').create_publisher(Twist, 'cmd_vel', 10)
+twist = Twist()
+twist.linear.x = 0.2
+for _ in range(300):
+    publisher.publish(twist)
+    time.sleep(0.1)
+publisher.publish(Twist())
+"""
 
 _SERVER = """
 import signal, sys, time
@@ -117,6 +139,63 @@ def once(robot: RunningRobot, page: subprocess.Popen[str], text: str, *, busy: b
     return took_s
 
 
+class Chromium:
+    """The page in a real browser, driven as by a person at its keyboard."""
+
+    def __init__(self, browser: Browser, address: str) -> None:
+        self._page = open_page(browser, address)
+        self._page.evaluate(
+            """window.pressedMs = 0;
+            addEventListener("keydown", (event) => {
+              if (event.code === "Space") pressedMs = performance.timeOrigin + event.timeStamp;
+            }, true);"""
+        )
+        self._offset_s = time.time() - time.monotonic()
+
+    def clock_error_s(self) -> float:
+        """Return how far the page's clock is off this process's at most."""
+        errors_s = []
+        for _ in range(REPETITIONS):
+            before_s = time.time()
+            page_s = self._page.evaluate("performance.timeOrigin + performance.now()") / 1e3
+            errors_s.append(max(abs(page_s - before_s), abs(page_s - time.time())))
+        return min(errors_s)
+
+    def once(self, robot: RunningRobot, text: str) -> float:
+        """Seconds from the space bar to the first zero."""
+        said_s = time.monotonic()
+        self._page.locator("#say").fill(text)
+        self._page.keyboard.press("Enter")
+        robot.velocities.wait_for(lambda twist: abs(twist.vx_mps) > 0.1, said_s)
+        self._page.keyboard.press("Space")
+        pressed_s = self._page.evaluate("pressedMs") / 1e3 - self._offset_s
+        took_s = robot.velocities.wait_for_zero(pressed_s) - pressed_s
+        time.sleep(0.5)
+        return took_s
+
+    def close(self) -> None:
+        """Close the page: it steers no more."""
+        self._page.context.close()
+
+
+def in_the_browser(robot: RunningRobot, address: str) -> Iterator[bool]:
+    """Print a row for each thing that is driven; yield whether it holds the promise."""
+    with sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=find_browser(), args=list(ARGUMENTS))
+        page = Chromium(browser, address)
+        print(f"the browser's clock is off by at most {page.clock_error_s() * 1e3:.1f} ms")
+        driven = {
+            "space bar, a plan": ["forward 2 m", "back 2 m"],
+            "space bar, a program": ["run the bench program"],
+            "space bar, a plan of a model that hangs": ["please do something nice"],
+        }
+        for name, texts in driven.items():
+            took = [page.once(robot, texts[number % len(texts)]) for number in range(REPETITIONS)]
+            yield line(name, took, PROMISED_S)
+        page.close()
+        browser.close()
+
+
 def cost_of_watching(robot: RunningRobot, page: subprocess.Popen[str]) -> float:
     """Processor time of the server, as a share of one core, while a robot moves that so many watch."""
     tell(page, "turn left 720 degrees")
@@ -130,15 +209,19 @@ def cost_of_watching(robot: RunningRobot, page: subprocess.Popen[str]) -> float:
 
 def main() -> None:
     print(f"{'stop at the page -> zero at a subscriber':62s} {'median':>11s} {'p99':>10s}")
-    arguments = ("web", "--no-open", "--port", "0", "--world", "empty")
+    arguments = ("web", "--no-open", "--port", "0", "--world", "empty", "--model", "openai:fake")
     with tempfile.TemporaryDirectory() as folder, ExitStack() as open_:
+        fake = open_.enter_context(FakeModel(read_script({"models": ["fake"], "replies": [HANGS]})))
+        os.environ.update(OPENAI_BASE_URL=f"{fake.url}/v1", OPENAI_API_KEY="sk-bench")
+        Library(Path(folder) / "config").keep(KeptProgram("bench", PROGRAM))
         robot = RunningRobot(Path(folder), arguments, ("-c", _SERVER))
         open_.callback(robot.close)
         found = re.search(r":(\d+)/", robot.wait_for_line("http://"))
         assert found is not None
+        kept = list(in_the_browser(robot, f"http://127.0.0.1:{found[1]}/"))
         page = open_.enter_context(pages(int(found[1])))
         texts = ["forward 2 m" if number % 2 else "back 2 m" for number in range(REPETITIONS)]
-        kept = [line("nobody else", [once(robot, page, text, busy=False) for text in texts], PROMISED_S)]
+        kept += [line("nobody else", [once(robot, page, text, busy=False) for text in texts], PROMISED_S)]
         kept.append(
             line(
                 "the pages' event loop computes",
