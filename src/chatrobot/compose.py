@@ -27,7 +27,7 @@ from chatrobot.link.motion_link import MotionLink, SecondLinks
 from chatrobot.link.processes import SIMULATED, MotionProcess, Processes
 from chatrobot.models.seam import Model
 from chatrobot.programs.library import Library
-from chatrobot.robots.load import DEFAULT_PROFILE, load_profile, profile_argument
+from chatrobot.robots.load import DEFAULT_PROFILE, load_profile, profile_argument, profile_dirs
 from chatrobot.robots.open_loop import as_chosen, drives_on_alone, slowed
 from chatrobot.robots.profile import NOT_CHOSEN, MotionBudget, RobotProfile
 from chatrobot.sim.fault_injection import FaultInjection
@@ -104,11 +104,15 @@ class Connection:
 
     session: Session
     profile: RobotProfile
-    world: World
     close: Callable[[], None]
     prepared: Prepared
     link: SecondLinks
     camera: Camera | None = None
+
+    @property
+    def world(self) -> World:
+        """Return what is known of the surroundings just now."""
+        return self.session.understanding.ways.world
 
     def second_session(self, source: str, on_event: OnEvent, options: Options | None = None) -> Connection:
         """Return a session of an agent on the same robot, beside this one, which is a person's.
@@ -227,11 +231,6 @@ def _camera(setup: Setup, profile: RobotProfile) -> Camera | None:
     return None if setup.on in SIMULATED else wire_camera(wire_address(setup.on), profile.wiring)
 
 
-def profile_dirs(folder: Path | None) -> tuple[Path, ...]:
-    """Return where a person's own robot profiles live."""
-    return (folder / "robots",) if folder is not None else ()
-
-
 # --- simulated time: one process, one thread ---
 
 
@@ -240,12 +239,14 @@ def _connect_simulated(prepared: Prepared, on_event: OnEvent) -> Connection:
     from chatrobot.motion.planner import Planner
     from chatrobot.motion.programs.host import ProgramHost
     from chatrobot.motion.safety.watchdog import SimulatedGuard
+    from chatrobot.sim.server import SimControl
     from chatrobot.wire.memory import MemoryHub
 
     setup, profile, world = prepared.setup, prepared.profile, prepared.world
     clock = VirtualClock()
     hub = MemoryHub()
     robot = SimRobot(profile, world, FaultInjection.parse(setup.sim), wire=hub.connect(), clock=clock)
+    SimControl(robot, hub.connect())
     wire = hub.connect()
     guard = SimulatedGuard(clock)
     programs = ProgramHost(profile, is_in_step=True)
@@ -260,7 +261,7 @@ def _connect_simulated(prepared: Prepared, on_event: OnEvent) -> Connection:
         hub.connect().subscribe(TRUTH_TOPIC, Odometry, _tracer(on_event))
         link.step()  # the trace begins before anything moves
     session = prepared.session(link, on_event)
-    return Connection(session, profile, world, _in_turn(session.close, programs.close), prepared, link)
+    return Connection(session, profile, _in_turn(session.close, programs.close), prepared, link)
 
 
 # --- real time: the simulated robot, Motion and the guard are processes ---
@@ -297,7 +298,7 @@ def _connect_real_time(prepared: Prepared, on_event: OnEvent) -> Connection:
         trace.subscribe(TRUTH_TOPIC, Odometry, _tracer(one_at_a_time))
         close = _in_turn(session.close, trace.close)
     camera = _camera(setup, prepared.profile)
-    return Connection(session, prepared.profile, prepared.world, close, prepared, link, camera)
+    return Connection(session, prepared.profile, close, prepared, link, camera)
 
 
 # --- a robot on a wire: Motion and the guard are processes ---
@@ -326,7 +327,7 @@ def _connect_wire(prepared: Prepared, on_event: OnEvent) -> Connection:
     setup.on_ready()
     session = prepared.session(link, on_event)
     camera = _camera(setup, profile)
-    return Connection(session, profile, prepared.world, session.close, prepared, link, camera)
+    return Connection(session, profile, session.close, prepared, link, camera)
 
 
 def _in_turn(*closes: Callable[[], None]) -> Callable[[], None]:

@@ -98,5 +98,6 @@ _READERS: Mapping[str, Any] = {
     "tuple[float | None, ...]": tuple,
     "tuple[str, ...]": tuple,
     "tuple[FindingSeen, ...]": lambda value: tuple(event_from_json(item) for item in value),
+    "tuple[tuple[float, float], ...]": lambda value: tuple(tuple(item) for item in value),
     "tuple[tuple[float, float, float], ...]": lambda value: tuple(tuple(item) for item in value),
 }

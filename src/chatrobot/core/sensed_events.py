@@ -1,4 +1,5 @@
-"""What sensors say, as events: where the robot is, what its lidar sees. They belong to no instruction."""
+"""What sensors say, as events: where the robot is, what its lidar sees; and what was put around it. They belong to no
+instruction."""
 
 from __future__ import annotations
 
@@ -53,3 +54,11 @@ class Looked(Event, name="looked"):
     """
 
     sectors_m: tuple[float | None, ...] = ()
+
+
+@dataclass(frozen=True)
+class ObstacleChanged(Event, name="obstacle_changed"):
+    """A person has put an obstacle into the simulation, or moved it; `outline_m` is empty where it was taken away."""
+
+    obstacle: str
+    outline_m: tuple[tuple[float, float], ...]

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from chatrobot.core.errors import InputError
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import one_line
+from chatrobot.core.sensed_events import ObstacleChanged
 from chatrobot.language.context import Place
 from chatrobot.plan.context import Route
 from chatrobot.plan.primitives.drive import MAX_PLACE_CHARS
@@ -98,14 +99,24 @@ class MapWays:
     """Measures ways of one robot in one world. numpy is loaded with the first question, not with the console."""
 
     def __init__(self, world: World, profile: RobotProfile) -> None:
-        self._world = world
+        self.world = world
+        """What is known of the surroundings, with what a person has put there meanwhile."""
         self._profile = profile
+
+    def __bool__(self) -> bool:
+        """Return whether anything is known to stand anywhere."""
+        return bool(self.world.obstacles)
+
+    def note_obstacle(self, event: ObstacleChanged) -> None:
+        """Take note that an obstacle has come, moved or gone."""
+        self.world = self.world.changed(event.obstacle, event.outline_m)
+        self.__dict__.pop("_planner", None)
 
     @cached_property
     def _planner(self) -> RoutePlanner:
         from chatrobot.plan.route import GridRoutePlanner
 
-        return GridRoutePlanner(self._world, self._profile)
+        return GridRoutePlanner(self.world, self._profile)
 
     def __call__(self, start: Pose, goal: Pose) -> float | None:
         """Metres; None where there is no free way."""

@@ -15,6 +15,7 @@ from chatrobot.core.errors import LinkError
 from chatrobot.core.events import Event, Finished, Notice, Paused, Remembered, Result, Telemetry
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
+from chatrobot.core.sensed_events import ObstacleChanged
 from chatrobot.dialogue.dispatch import Dispatch
 from chatrobot.dialogue.goal_client import GoalClient, RequestLog
 from chatrobot.dialogue.llm.requests import ModelRequests
@@ -183,6 +184,10 @@ class Session:
         """Change or ask for the motion budget: `max_distance_m`, `max_time_s` (a number or `none`). For the console."""
         self._link.send("limit", **limits)
 
+    def change_obstacle(self, **request: Any) -> None:
+        """Put an obstacle into the simulation, move it or take it away, as the `obstacle` envelope says."""
+        self._link.send("obstacle", **request)
+
     def watch_scans(self, on: bool) -> None:
         """Have what the lidar sees told as `scan` events, for a map, or no more."""
         self._link.send("watch", scans=on)
@@ -311,6 +316,8 @@ class Session:
             self.understanding.note_telemetry(event, is_ours=is_ours)
         elif isinstance(event, Remembered):
             self.understanding.note_place(event)
+        elif isinstance(event, ObstacleChanged):
+            self.understanding.ways.note_obstacle(event)
         elif isinstance(event, Paused) and self._requests.has(event.turn):
             event = replace(event, waiting=self._dispatch.texts_behind(event.turn))
         elif isinstance(event, Notice) and event.reason.code == OPEN_LOOP:

@@ -100,7 +100,7 @@ class Understanding:
         self.world_places = {alias: world.places[main] for alias, main in world.aliases.items()}
         self.main_places = dict(world.places)
         """The places of the world, each once."""
-        self._ways = MapWays(world, profile) if world.obstacles else None
+        self.ways = MapWays(world, profile)
         self._names = tuple(world.names_of(name) for name in world.places)
         self._without_heading = frozenset(
             alias for alias, main in world.aliases.items() if main in world.without_heading
@@ -144,7 +144,8 @@ class Understanding:
 
     def _context(self, dialogue: Dialogue) -> Context:
         without_heading = self._without_heading - dialogue.places.keys()
-        return Context(dialogue, self._state, self.world_places, without_heading, self._names, self._ways)
+        names, ways = self._names, self.ways or None
+        return Context(dialogue, self._state, self.world_places, without_heading, names, ways)
 
     def can_do(self, text: str) -> bool:
         """Return whether `text` would be driven if it were said now. From any thread: nothing is noted."""

@@ -38,6 +38,9 @@ Word = Literal[
     "emergency_stop",
     "release",
     "limit",  # {"max_distance_m", "max_time_s": number or "none"}; changes the motion budget, empty: asks for it
+    # {"add": name, "circle": [x, y, radius]}, {"add": name, "polygon": [[x, y], …]} or {"remove": name}: an obstacle in
+    # the simulation, metres in `odom`
+    "obstacle",
     "goodbye",  # an orderly end: what is queued is still done, then the lease ends
 ]
 MODES = ("queue", "replace", "append", "extend")
@@ -105,6 +108,17 @@ def _is_args(value: object) -> bool:
     )
 
 
+MOST_CORNERS = 64
+
+
+def _are_numbers(value: object) -> bool:
+    return isinstance(value, list) and len(value) <= 3 and all(map(_is_speed, value))
+
+
+def _are_points(value: object) -> bool:
+    return isinstance(value, list) and len(value) <= MOST_CORNERS and all(map(_are_numbers, value))
+
+
 def _is_flag(value: object) -> bool:
     return isinstance(value, bool)
 
@@ -145,6 +159,7 @@ PAYLOADS: Mapping[str, Mapping[str, _Check]] = {
     "emergency_stop": {"why": _text()},
     "release": {},
     "limit": {"max_distance_m": _is_limit, "max_time_s": _is_limit},
+    "obstacle": {"add": _text(60), "remove": _text(60), "circle": _are_numbers, "polygon": _are_points},
     "goodbye": {},
 }
 """All that an envelope may say, with a check for every field of its payload."""

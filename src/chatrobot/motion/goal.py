@@ -19,6 +19,7 @@ from chatrobot.motion.budgets import Account, Extent
 from chatrobot.motion.planner import Planned
 from chatrobot.plan.base import Step
 from chatrobot.plan.context import MAX_DURATION_S
+from chatrobot.plan.known_world import Floats
 from chatrobot.plan.lowering import NOT_YET, CoreWalk, NotYet, PlannedMotion, WalkItem
 from chatrobot.plan.rehearsal import Rehearsal
 from chatrobot.plan.steps import MAX_LINES, count_steps
@@ -52,6 +53,8 @@ class Stream:
         self.duration_s = self.length_m = 0.0
         self.certain = Extent()
         self.accepted: tuple[Step, ...] = ()
+        self.paths: list[Floats] = []
+        """The way of each part that was accepted, [n, 4]: a time, x, y and yaw a row."""
         self._has_unknown_part = False
 
     @property
@@ -93,6 +96,8 @@ class Stream:
             return refusal
         self.duration_s, self.certain = duration_s, certain
         self.length_m += planned.length_m
+        if planned.shown is not None:
+            self.paths.append(planned.shown.path)
         self._has_unknown_part = self._has_unknown_part or planned.is_open_ended
         if planned.rehearsal is not None:
             self.accepted += planned.rehearsal.plan.steps
@@ -285,3 +290,8 @@ class Goal:
     def _unread(self) -> str:
         """All the plan text that came."""
         return "\n".join(part.strip("\n") for part in (self.plan_text, *self.stream.waiting))
+
+
+def handed_over(source: str, to: str) -> Reason:
+    """Say that somebody else drives."""
+    return Reason("handed_over", {"source": source, "to": to})

@@ -15,10 +15,10 @@ from chatrobot.core.reason import Reason
 from chatrobot.governor.lease import Priority
 from chatrobot.link.envelope import QUEUE_LIMIT, Envelope
 from chatrobot.link.motion_link import LAPSES_AFTER_M, LAPSES_AFTER_RAD
-from chatrobot.motion.goal import Goal
+from chatrobot.motion.goal import Goal, handed_over
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.programs.goal import ProgramGoal
-from chatrobot.motion.safety.stop import Stops
+from chatrobot.motion.safety.stop import PAUSED, Stops
 from chatrobot.motion.safety.watchdog import Interlock
 
 _COUNTED_APART = ("beat", "steer")
@@ -244,10 +244,10 @@ def is_foreign(goal: Goal, robot: GovernedRobot) -> bool:
     return robot.governor.leases.priority_of(goal.lease) <= Priority.FOREIGN
 
 
-def why_not_kept(goal: Goal | None, robot: GovernedRobot) -> Reason | None:
-    """Return why a pause ended that goal as a stop does; None where there was nothing to resume."""
-    if goal is None or goal.rehearse_only:
-        return None
+def why_not_kept(goal: Goal | None, robot: GovernedRobot, why: Reason) -> Reason:
+    """Return why what `why` would have kept ends as with a stop."""
+    if goal is None or goal.rehearse_only or why.code != PAUSED:
+        return why
     if isinstance(goal, ProgramGoal):
         return Reason("program_not_paused")
     if is_foreign(goal, robot):
@@ -268,16 +268,22 @@ class Pausing:
     _emit: Callable[[Event], None]
     _paused: PausedGoal | None = field(default=None, init=False)
     _heard_s: float = field(default=0.0, init=False)
+    _waits_for_word: bool = field(default=True, init=False)
 
     @property
     def goal(self) -> Goal | None:
         """Return what is paused."""
         return self._paused.goal if self._paused is not None else None
 
-    def begin(self, paused: PausedGoal) -> None:
+    def hold(self, why: Reason) -> None:
+        """Wait for a word to go on, where it is a pause that has come: the rest sets out by itself no more."""
+        self._waits_for_word = self._waits_for_word or why.code == PAUSED
+
+    def begin(self, paused: PausedGoal, why: Reason) -> None:
         """Keep it; what is queued waits behind it."""
         self._heard_s = self._clock.now_s()
         self._paused = paused
+        self._waits_for_word = why.code == PAUSED
 
     def watch(self, now_s: float, *, is_standing: bool) -> None:
         """Tell of it once the robot stands; drop what may not be resumed any more."""
@@ -293,7 +299,9 @@ class Pausing:
             self.drop(why)
         elif is_standing and not paused.has_settled:
             event = paused.settle()
-            if event.plan_text:
+            if event.plan_text and not self._waits_for_word:
+                self._go_on(paused)
+            elif event.plan_text:
                 self._emit(event)
             else:
                 self.drop(event.reason or Reason("cause_unknown"))
@@ -304,8 +312,21 @@ class Pausing:
         if paused is None or not paused.is_for(envelope):
             self._emit(Notice(envelope.turn, Reason("nothing_paused")))
             return
+        self._go_on(paused)
+
+    def _go_on(self, paused: PausedGoal) -> None:
         self._paused = None
         self._goal_queue.resume(paused.rest(self._stops.count, self._clock.now_s()))
+
+    def drop_for(self, goal: Goal, mode: object, source_of: Callable[[Goal], str]) -> None:
+        """Let another instruction take its place, but for one of the same source that is to come after it."""
+        paused = self.goal
+        if paused is None or goal.rehearse_only:
+            return
+        if goal.lease != paused.lease:
+            self.drop(handed_over(source_of(paused), source_of(goal)))
+        elif mode == "replace":
+            self.drop(Reason("replaced"))
 
     def drop(self, why: Reason, lease: str | None = None) -> None:
         """End it and what waits behind it. `lease`: only where it is that one's."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 from chatrobot.core.clock import Clock
@@ -14,7 +14,7 @@ from chatrobot.governor.lease import Priority, priority_of
 from chatrobot.link.envelope import Envelope
 from chatrobot.link.motion_link import Approval
 from chatrobot.motion.budgets import Budgets
-from chatrobot.motion.goal import Goal
+from chatrobot.motion.goal import Goal, handed_over
 from chatrobot.motion.goal_queue import (
     GoalQueue,
     Inbox,
@@ -93,7 +93,7 @@ class GoalServer:
         if self._goal_queue.is_void(goal, self._stops.count):
             self._outcomes.tell_unmoved(goal, "stopped", self._stops.last_reason)
             return
-        self._drop_paused_for(goal, mode)
+        self._pausing.drop_for(goal, mode, self._source)
         declined = self._give_way(goal)
         if declined is None and mode == "replace":
             self._replace(Reason("replaced"))
@@ -123,19 +123,16 @@ class GoalServer:
                 return Reason("outranked", {"source": self._source(other)})
         lower = [other for other in before if leases.priority_of(other.lease) < priority]
         if lower:
-            handed_over = self._handed_over(lower[0], self._source(goal))
-            self._emit(Notice(goal.turn, handed_over))
+            why = handed_over(self._source(lower[0]), self._source(goal))
+            self._emit(Notice(goal.turn, why))
             for waiting in self._goal_queue.take(lower):
-                self._outcomes.tell_unmoved(waiting, "stopped", handed_over)
+                self._outcomes.tell_unmoved(waiting, "stopped", why)
             if lower[0] is current:
-                self._end_current_gently(handed_over)
+                self._end_current_gently(why)
         return None
 
     def _source(self, goal: Goal) -> str:
         return self._robot.governor.leases.source_of(goal.lease)
-
-    def _handed_over(self, goal: Goal, to: str) -> Reason:
-        return Reason("handed_over", {"source": self._source(goal), "to": to})
 
     def _replace(self, why: Reason) -> None:
         """New motion takes the place of the old, after a controlled stop; what was queued is dropped."""
@@ -153,9 +150,8 @@ class GoalServer:
         goals = self._goal_queue.goals
         if self.current is not None or not goals:
             return
-        if self._pausing.goal is not None and not goals[0].rehearse_only:
-            return  # it waits behind what is paused
-        if self._is_waiting_for_odometry(goals[0], now_s):
+        waits_behind_paused = self._pausing.goal is not None and not goals[0].rehearse_only
+        if waits_behind_paused or self._is_waiting_for_odometry(goals[0], now_s):
             return
         self._preparing = goal = goals.popleft()
         goal.start = self._robot.pose
@@ -219,7 +215,18 @@ class GoalServer:
         plan_text = goal.stream.take()
         if plan_text is not None:
             rehearse = self._planning(goal, plan_text, walk.end, goal.plan_start or goal.start)
-            self._inbox.fetch(rehearse, lambda planned: self._take_part(goal, planned))
+            self._fetch_part(goal, rehearse)
+
+    def _fetch_part(self, goal: Goal, rehearse: Callable[[], Planned]) -> None:
+        world = self._planner.world
+
+        def take(planned: Planned) -> None:
+            if self._planner.world is world:
+                self._take_part(goal, planned)
+            elif self._executor.drives(goal):  # it was rehearsed in another world
+                self._fetch_part(goal, rehearse)
+
+        self._inbox.fetch(rehearse, take)
 
     def _planning(
         self, goal: Goal, plan_text: str, start: Pose, plan_start: Pose | None
@@ -238,18 +245,28 @@ class GoalServer:
             self._executor.expect(goal.stream.duration_s)
         self._rehearse_part(goal)
 
+    def void_prepared(self, why: Reason) -> None:
+        """Refuse what waits for a yes: it was about another world. What is being rehearsed is rehearsed anew."""
+        goal = self._preparing
+        if goal is not None and goal.approval is not None:
+            self._drop_prepared("refused", why)
+        elif goal is not None:
+            self._preparing = None
+            self._goal_queue.resume(replace(goal))  # the rehearsal of the other is nobody's now
+
     # --- paused ---
 
     def pause(self, why: Reason, now_s: float) -> None:
         """Keep what was under way when a pause stopped the robot; end what cannot be kept."""
         goal = self.current
         if goal is None and self._pausing.goal is not None:
+            self._pausing.hold(why)
             return  # it waits already
         measure = self._break_off(goal, why) if goal is not None else None
         if goal is None or measure is None:
-            self.end_stopped(why_not_kept(goal, self._robot) or why)
+            self.end_stopped(why_not_kept(goal, self._robot, why))
         else:
-            self._pausing.begin(PausedGoal(goal, measure, now_s))
+            self._pausing.begin(PausedGoal(goal, measure, now_s), why)
 
     def _break_off(self, goal: Goal, why: Reason) -> Callable[[], Finished] | None:
         """What tells how far it has come; None for what nobody could go on with."""
@@ -259,16 +276,6 @@ class GoalServer:
             return self._executor.break_off(why)
         self._preparing = None
         return lambda: goal.unmoved("stopped", why, self._robot.pose)
-
-    def _drop_paused_for(self, goal: Goal, mode: object) -> None:
-        """Another instruction takes its place, but for one of the same source that is to come after it."""
-        paused = self._pausing.goal
-        if paused is None or goal.rehearse_only:
-            return
-        if goal.lease != paused.lease:
-            self._pausing.drop(self._handed_over(paused, self._source(goal)))
-        elif mode == "replace":
-            self._pausing.drop(Reason("replaced"))
 
     # --- approved ---
 
@@ -314,7 +321,7 @@ class GoalServer:
         goals = self._all()
         if not goals:
             return
-        why = self._handed_over(goals[0], to)
+        why = handed_over(self._source(goals[0]), to)
         self._emit(Notice(goals[0].turn, why))
         self._executor.end_stopped(why)
         self._end_waiting("stopped", why)

@@ -22,11 +22,12 @@ from chatrobot.motion.clients import Clients
 from chatrobot.motion.goal_queue import GoalQueue, Inbox, OutcomeQueue, Pausing
 from chatrobot.motion.goal_server import GoalServer
 from chatrobot.motion.governed_robot import GovernedRobot
+from chatrobot.motion.obstacles import Obstacles
 from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.execution import NoSandbox, ProgramSandbox
 from chatrobot.motion.relayed_velocities import RelayedVelocities
-from chatrobot.motion.safety.stop import PAUSED, StopConfirmation, Stops, WireTransport
+from chatrobot.motion.safety.stop import KEEPING, PAUSED, StopConfirmation, Stops, WireTransport
 from chatrobot.motion.safety.watchdog import GuardLink, Interlock, StallDetector
 from chatrobot.motion.telemetry import LimitPublisher, ScanPublisher, TelemetryPublisher, sectors_m
 from chatrobot.robots.profile import RobotProfile
@@ -82,6 +83,7 @@ class Motion:
         self.goals = GoalServer(
             robot, queue, self._executor, planner, programs, self._budgets, stops, inbox, clock, pausing, outcomes, emit
         )  # fmt: skip
+        self._obstacles = Obstacles(robot, planner, self.goals, self._executor, stops, inbox, wire, emit)
         self._relayed = RelayedVelocities(
             robot, self._clients, self.goals, pausing, stops, self.stop_confirmation, self.interlock, clock,
             self._notice, LimitPublisher(emit).note,
@@ -235,7 +237,7 @@ class Motion:
         why = self._stops.book()
         if why is None:
             return
-        if why.code == PAUSED:
+        if why.code in KEEPING:
             self.goals.pause(why, self._clock.now_s())
         else:
             self.goals.end_stopped(why)
@@ -283,6 +285,8 @@ class Motion:
         elif envelope.word == "limit":
             for reason in self._budgets.change(envelope.source, envelope.payload):
                 self._emit(Notice(envelope.turn, reason))
+        elif envelope.word == "obstacle":
+            self._obstacles.change(envelope)
         elif envelope.word == "goodbye":
             self._clients.leave(envelope.lease)
             self._relayed.leave(envelope.lease)

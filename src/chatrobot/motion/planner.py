@@ -23,7 +23,7 @@ from chatrobot.plan.steps import Plan
 from chatrobot.plan.swept_path import ANY_WAY, Most
 from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.robots.profile import Point, RobotProfile
-from chatrobot.sim.world import World
+from chatrobot.sim.world import Obstacle, World
 
 DRAWN_POINTS = 400
 """The path an event carries is thinned to about this many points: enough for any screen."""
@@ -179,14 +179,24 @@ class Planner:
 
     def __init__(self, profile: RobotProfile, world: World) -> None:
         self._profile = profile
-        self._world = world
         self._kernel = make_kernel(profile)
-        self._routes = None if world.is_empty else GridRoutePlanner(world, profile)
+        self._base = world
+        self._known = self._routes_in(world)
+        self.added: tuple[Obstacle, ...] = ()
+        """What was put into the world while a simulation runs."""
+
+    def _routes_in(self, world: World) -> tuple[World, GridRoutePlanner | None]:
+        return world, None if world.is_empty else GridRoutePlanner(world, self._profile)
+
+    def add(self, added: tuple[Obstacle, ...]) -> None:
+        """Plan in the world with these obstacles from now on, instead of those that were added before."""
+        self.added = added
+        self._known = self._routes_in(self._base.with_added(added))
 
     @property
     def world(self) -> World:
         """Return what is known of the surroundings."""
-        return self._world
+        return self._known[0]
 
     @property
     def kernel(self) -> Kernel:
@@ -196,7 +206,8 @@ class Planner:
     @property
     def allowed_area(self) -> Sequence[Point] | None:
         """Return the corners, in `odom`, of where the world lets a robot be; None where it says nothing."""
-        return self._world.allowed_area.points if self._world.allowed_area is not None else None
+        area = self._base.allowed_area
+        return area.points if area is not None else None
 
     def plan(
         self,
@@ -218,13 +229,14 @@ class Planner:
             plan = parse_plan(plan_text)
         except PlanTextError as error:
             return Planned(turn, None, Reason("plan_text", {"problem": str(error)}))
+        world, routes = self._known
         rehearsing = partial(
             rehearse,
             profile=self._profile,
-            world=self._world,
+            world=world,
             start_pose=start,
             governor=self._kernel,
-            route_planner=self._routes if seen is None else self._around(seen),
+            route_planner=routes if seen is None else self._around(seen, world, routes),
             seen=seen,
         )
         rehearsal = rehearsing(plan, plan_start=plan_start)
@@ -232,12 +244,14 @@ class Planner:
             return Planned(turn, rehearsal)
         return Planned(turn, rehearsal, offer=_offer(rehearsal.possible, rehearsing, left))
 
-    def _around(self, seen: RememberedObstacles) -> RoutePlanner | None:
+    def _around(
+        self, seen: RememberedObstacles, world: World, routes: RoutePlanner | None
+    ) -> RoutePlanner | None:
         """Finds ways around what was seen, too."""
-        unknown = seen_but_unknown(self._world, seen.points)
+        unknown = seen_but_unknown(world, seen.points)
         if not len(unknown):
-            return self._routes
-        return RoutesAroundObstacles(self._profile, self._world, unknown, self._routes)
+            return routes
+        return RoutesAroundObstacles(self._profile, world, unknown, routes)
 
 
 def _offer(plan: Plan, rehearsing: Callable[..., Rehearsal], left: Most) -> Offer:

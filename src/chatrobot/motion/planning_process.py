@@ -15,6 +15,7 @@ import sys
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import lru_cache, partial
 from multiprocessing.connection import Connection
 from typing import Any
 
@@ -32,7 +33,7 @@ from chatrobot.motion.remembered_obstacles import RememberedObstacles
 from chatrobot.plan.swept_path import ANY_WAY, Most
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sandbox.warm_server import WarmServer
-from chatrobot.sim.world import World
+from chatrobot.sim.world import Obstacle, World
 
 NICENESS = 10
 """What drives goes first."""
@@ -118,7 +119,7 @@ class RemotePlanner(Planner):
     def _ask(self, turn: int, question: tuple[Any, ...]) -> Planned:
         messages = self.messages
         try:
-            messages.send(question)
+            messages.send((self.added, question))
             answer: Planned = messages.receive()
         except (OSError, EOFError):  # not asked again: it may be what ended it
             self._renew(self, messages)
@@ -179,20 +180,32 @@ class RemoteProgramHost(ProgramHost):
         return self._elsewhere.plan_program(goal, seen)
 
 
+MOST_WORLDS = 32
+"""Worlds that differ by what pupils have put into them, and are kept."""
+
+
+def _planner(profile: RobotProfile, world: World, added: tuple[Obstacle, ...]) -> Planner:
+    planner = Planner(profile, world)
+    planner.add(added)
+    return planner
+
+
 class _Rehearsals:
     """What is asked for, and who answers."""
 
     def __init__(self, profile: RobotProfile, world: World) -> None:
-        self._planner = Planner(profile, world)
+        self._planners = lru_cache(MOST_WORLDS)(partial(_planner, profile, world))
         self._programs = ProgramHost(profile, is_in_step=True)
         self.known = (profile, world)
 
-    def answer(self, question: tuple[Any, ...]) -> Planned:
-        """Return what was asked for by a `RemotePlanner`."""
+    def answer(self, asked: tuple[tuple[Obstacle, ...], tuple[Any, ...]]) -> Planned:
+        """Return what was asked for by a `RemotePlanner`, in the world with what was added there."""
+        added, question = asked
+        planner = self._planners(added)
         if isinstance(question[0], ProgramGoal):
             goal, seen = question
-            return self._programs.rehearse(goal, self._planner, seen)
-        return self._planner.plan(*question)
+            return self._programs.rehearse(goal, planner, seen)
+        return planner.plan(*question)
 
     def close(self) -> None:
         """End what runs in the sandbox."""

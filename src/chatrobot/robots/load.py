@@ -136,3 +136,8 @@ def _unknown(name: str, known: list[str]) -> ProfileError:
         f"no robot profile is called {name!r}",
         allowed=f"{hint}there are: {', '.join(known)}; or the path of a .toml file",
     )
+
+
+def profile_dirs(folder: Path | None) -> tuple[Path, ...]:
+    """Return where a person's own robot profiles live, below their folder."""
+    return (folder / "robots",) if folder is not None else ()

@@ -13,8 +13,8 @@ from typing import Any
 
 from chatrobot.core.clock import Clock
 from chatrobot.sim.network_wire import MarshalledWire
+from chatrobot.sim.obstacle_requests import CONTROL_TOPIC, REPLY_TOPIC, read_request
 from chatrobot.sim.robot import TICK_S, SimRobot
-from chatrobot.sim.shapes import Circle, Shape, polygon
 from chatrobot.wire.local import LocalHub, LocalHubs
 from chatrobot.wire.messages import Text
 from chatrobot.wire.wire import Wire
@@ -113,13 +113,6 @@ class Simulation:
         self._is_terminated = True
 
 
-CONTROL_TOPIC = "chatrobot/sim/control"
-"""`Text` with JSON: {"add": NAME, "polygon": [[x, y], …]}, {"add": NAME, "circle": [x, y, radius]} or
-{"remove": NAME}; metres, in the frame of the start."""
-REPLY_TOPIC = "chatrobot/sim/control_reply"
-"""`Text` with JSON: {"done": NAME}, or {"error": what was wrong}."""
-
-
 class SimControl:
     """Lets obstacles come and go in a running simulation, as messages on `CONTROL_TOPIC` say."""
 
@@ -136,25 +129,9 @@ class SimControl:
         self._wire.publish(REPLY_TOPIC, Text(json.dumps(reply)))
 
     def _apply(self, request: dict[str, Any]) -> str:
-        if "remove" in request:
-            name = str(request["remove"])
-            if not self._robot.remove_obstacle(name):
-                raise ValueError(f"nothing named {name!r} was added")
-            return name
-        name = str(request["add"])
-        self._robot.add_obstacle(name, _shape(request))
+        name, shape = read_request(request)
+        if shape is not None:
+            self._robot.add_obstacle(name, shape)
+        elif not self._robot.remove_obstacle(name):
+            raise ValueError(f"nothing named {name!r} was added")
         return name
-
-
-def _shape(request: dict[str, Any]) -> Shape:
-    if "circle" in request:
-        x_m, y_m, radius_m = (_finite(value) for value in request["circle"])
-        return Circle(x_m, y_m, radius_m)
-    return polygon(tuple((_finite(x), _finite(y)) for x, y in request["polygon"]))
-
-
-def _finite(value: Any) -> float:
-    number = float(value)
-    if not math.isfinite(number):
-        raise ValueError(f"{value} is not finite")
-    return number

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -31,6 +31,8 @@ class Obstacle:
     name: str
     shape: Shape
     aliases: tuple[str, ...] = ()
+    is_added: bool = False
+    """It was put there while a simulation ran."""
 
 
 @dataclass(frozen=True)
@@ -71,6 +73,19 @@ class World:
     def is_empty(self) -> bool:
         """Return True where nothing stands."""
         return not self.obstacles
+
+    def with_added(self, added: tuple[Obstacle, ...]) -> World:
+        """Return the world with these obstacles, too."""
+        return replace(self, obstacles=(*self.obstacles, *added)) if added else self
+
+    def changed(self, name: str, outline: tuple[Point, ...]) -> World:
+        """Return the world where an obstacle of that name was put, moved, or taken away (without an outline).
+
+        What its file names stays.
+        """
+        kept = tuple(one for one in self.obstacles if not (one.is_added and one.name == name))
+        added = (Obstacle(name, Polygon(outline), is_added=True),) if outline else ()
+        return replace(self, obstacles=(*kept, *added))
 
     def place(self, name: str) -> Pose | None:
         """Return the pose of a place by any of its names; None where nobody knows it."""

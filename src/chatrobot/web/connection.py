@@ -28,6 +28,8 @@ MOST_MALFORMED = 10
 """A page that says so much that is not understood is none of ours."""
 UNSUPPORTED, POLICY, TRY_LATER = 1003, 1008, 1013
 """Codes of a closed WebSocket (RFC 6455, section 7.4): it sent bytes; it went too far; it reads too slowly."""
+RADIUS_M = 0.2
+"""Of an obstacle whose page does not say how large it is."""
 _BROWSERS = (("Edg", "Edge"), ("Firefox", "Firefox"), ("Chrome", "Chrome"), ("Safari", "Safari"))
 _numbers = itertools.count(1)
 
@@ -200,6 +202,8 @@ def why_not(room: Room, page: Page, do: str) -> str:
         return "may_only_watch"
     if do == "take":
         return ""
+    if do == "obstacle" and page.pass_.role == "teacher":
+        return ""
     if not room.steers(page):
         return "not_steering" if room.steering.steerer is not None else "nobody_steers"
     return "silent" if do in _NEEDS_BEATS and not room.steering.is_alive else ""
@@ -207,6 +211,13 @@ def why_not(room: Room, page: Page, do: str) -> str:
 
 def _steer(room: Room, page: Page, said: dict[str, Any]) -> None:
     room.steering.stick(page, Twist(said["vx_mps"], said["vy_mps"], said["wz_radps"]))
+
+
+def _obstacle(room: Room, page: Page, said: dict[str, Any]) -> None:
+    """Without a place it is taken away."""
+    is_put = "x_m" in said and "y_m" in said
+    circle = [said["x_m"], said["y_m"], abs(said.get("radius_m", RADIUS_M)) or RADIUS_M] if is_put else None
+    room.change_obstacle(page, said["name"], circle)
 
 
 def _language(_: Room, page: Page, said: dict[str, Any]) -> None:
@@ -225,6 +236,7 @@ ACTIONS: Mapping[str, Callable[[Room, Page, dict[str, Any]], None]] = {
     "go": lambda room, page, said: room.go(
         page, said["x_m"], said["y_m"], said.get("yaw_rad"), asks=said.get("ask", True)
     ),
+    "obstacle": _obstacle,
     "pause": lambda room, _, __: room.session.pause("pause()"),
     "resume": lambda room, page, _: room.resume(page),
     "stop": lambda room, page, _: room.stop(page.pass_.pressed(STOP_BUTTON)),

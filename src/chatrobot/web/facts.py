@@ -65,13 +65,14 @@ def _pose(pose: Any) -> dict[str, float]:
 
 def _obstacle(obstacle: Obstacle) -> dict[str, Any]:
     shape = obstacle.shape
+    about = {"name": obstacle.name, "names": [obstacle.name, *obstacle.aliases], "added": obstacle.is_added}
     if isinstance(shape, Circle):
         circle = {"x_m": shape.x_m, "y_m": shape.y_m, "radius_m": shape.radius_m}
         return {
-            "name": obstacle.name,
+            **about,
             "circle": {key: round(value, _DIGITS) for key, value in circle.items()},
         }
-    return {"name": obstacle.name, "polygon": _points(shape.points)}
+    return {**about, "polygon": _points(shape.points)}
 
 
 def _points(points: Any) -> list[list[float]]:

@@ -59,6 +59,7 @@ FIELDS: Fields = {
     "approve": {"turn": _is_count, "yes": _is_flag},
     "edit": {"plan_text": _PLAN, "turn": _is_count},
     "go": {"x_m": _POINT, "y_m": _POINT, "yaw_rad?": _or_none(_number(100.0)), "ask?": _is_flag},
+    "obstacle": {"name": _NAME, "x_m?": _POINT, "y_m?": _POINT, "radius_m?": _number(5.0)},
     "pause": {},
     "resume": {},
     "stop": {},

@@ -10,11 +10,11 @@ import contextlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from chatrobot.compose import Connection, OnEvent, Setup, connect, default_world, profile_dirs
+from chatrobot.compose import Connection, OnEvent, Setup, connect, default_world
 from chatrobot.core.errors import UsageError
 from chatrobot.link.processes import SIMULATED, Processes
 from chatrobot.link.socket_link import SocketLink
-from chatrobot.robots.load import profile_argument
+from chatrobot.robots.load import profile_argument, profile_dirs
 
 FEWEST, MOST = 2, 30
 PUPIL = "pupil"

@@ -305,6 +305,15 @@ class Room:
         say = self.session.say_edited_plan if asks else self.session.say_plan
         self._say_as(face, plan_text, lambda: say(plan_text))
 
+    def change_obstacle(self, face: Face, name: str, circle: list[float] | None) -> None:
+        """Put an obstacle there (x, y and radius), move it, or take it away. Motion's notice says what came of it."""
+        if not self._is_simulated:
+            face.put(refused("obstacle_simulated_only", "obstacle"))
+        elif circle is not None:
+            self.session.change_obstacle(add=name, circle=circle)
+        else:
+            self.session.change_obstacle(remove=name)
+
     def run_program(self, face: Face, name: str) -> None:
         """Have a kept program rehearsed and run."""
         self.programs.run(face, name, lambda say: self._say_as(face, name, say))

@@ -18,7 +18,7 @@ from chatrobot.web.outbox import Message
 _LEAST_MPS = 0.005
 DROPPABLE = frozenset({"telemetry", "scan"})
 """The next event of that kind says all that this one does."""
-PASSING = DROPPABLE | {"progress", "pose", "limited"}
+PASSING = DROPPABLE | {"progress", "pose", "limited", "obstacle_changed"}
 """What a page that comes later needs not be told."""
 UNTOLD = frozenset({"finished"})
 """`result` says the same. An agent's turn has no other end here."""

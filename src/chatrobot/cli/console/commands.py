@@ -16,6 +16,7 @@ from chatrobot.cli.console.controller import ChatController
 from chatrobot.cli.console.lines import shown
 from chatrobot.cli.plan import read_plan_file
 from chatrobot.core.errors import UsageError
+from chatrobot.link.processes import SIMULATED
 from chatrobot.robots.profile import NONE
 
 
@@ -161,6 +162,34 @@ def _limit(controller: ChatController, argument: str) -> None:
         controller.attempt(lambda: controller.session.limit(**limits))  # Motion says what holds then
 
 
+_PUT = re.compile(
+    r"(?:add|put|放)\s+(.+?)\s+(-?[\d.]+)[\s,]+(-?[\d.]+)(?:[\s,]+([\d.]+))?(?:\s*m)?", re.IGNORECASE
+)
+_TAKE = re.compile(r"(?:remove|take|拿走)\s+(.+)", re.IGNORECASE)
+_RADIUS_M = 0.2
+
+
+def _obstacle(controller: ChatController, argument: str) -> None:
+    """Put a disc into the simulation, move it or take it away; without words list what was put there."""
+    setup, names = controller.connection.prepared.setup, _added_names(controller)
+    put, take = _PUT.fullmatch(argument), _TAKE.fullmatch(argument)
+    if setup.on not in SIMULATED:
+        controller.tell("obstacle_simulated_only")
+    elif put is not None:
+        circle = [float(put[2]), float(put[3]), float(put[4] or _RADIUS_M)]
+        controller.attempt(lambda: controller.session.change_obstacle(add=put[1], circle=circle))
+    elif take is not None:
+        controller.attempt(lambda: controller.session.change_obstacle(remove=take[1]))
+    elif argument:
+        controller.tell("obstacle_how")
+    else:
+        controller.tell("obstacles_put", names=", ".join(names)) if names else controller.tell("obstacle_how")
+
+
+def _added_names(controller: ChatController) -> list[str]:
+    return [one.name for one in controller.connection.world.obstacles if one.is_added]
+
+
 COMMANDS = (
     Command("help", _help),
     Command("robot", lambda it, _: it.display.print(*tables.robot_tables(it.words, it.connection.profile))),
@@ -173,6 +202,7 @@ COMMANDS = (
     Command("undo", lambda it, _: it.attempt(lambda: it.session.say(it.words.say("undo_words")))),
     Command("map", _map, takes="[big]"),
     Command("limit", _limit, takes="[200 m] [20 min] [none]"),
+    Command("obstacle", _obstacle, takes="[add NAME X Y | remove NAME]"),
     Command("stop", lambda it, _: it.stop("/stop"), at_once=True, heeds_the_rest=False),
     Command("estop", _estop, at_once=True, heeds_the_rest=False),
     Command("release", lambda it, _: it.release(), at_once=True),  # Motion says whether it is

@@ -34,6 +34,7 @@ from chatrobot.compose import Connection
 from chatrobot.core.clock import Clock
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import Event, Interpreted, Notice, Result, Started, Telemetry
+from chatrobot.core.sensed_events import ObstacleChanged
 from chatrobot.dialogue.pump import Pump
 from chatrobot.dialogue.replies import is_parting
 from chatrobot.language.consent import read_consent, wants_to_edit
@@ -271,6 +272,8 @@ class ChatController:
         asks = self._approval.hear(event)
         if isinstance(event, Notice) and event.reason.code == "released":
             self._hear_release(str(event.reason.values.get("source")))
+        if isinstance(event, ObstacleChanged):
+            self.status_bar.show_world(self.connection.world)
         with self._order:
             lines: list[RenderableType] = [shown(line) for line in self.narrator.tell(event)]
             if asks:

@@ -50,6 +50,11 @@ class StatusBar:
         self._map: MapText | None = None
         self._map_of: tuple[XY, ...] | None = None
 
+    def show_world(self, world: World) -> None:
+        """Draw that world from now on."""
+        self._world = world
+        self._map_of = None
+
     def fragments(self, columns: int, latched: bool = False, model_wait_s: float | None = None) -> Fragments:
         """Draw the bar in `columns` cells: one line while the robot stands, the map's height while it moves.
 

@@ -137,6 +137,10 @@ class StopConfirmation:
 
 
 PAUSED = "paused_by"
+WAY_CHANGED = "way_changed"
+"""Something was put in the way of what runs, which is rehearsed anew once the robot stands."""
+KEEPING = frozenset({PAUSED, WAY_CHANGED})
+"""The causes of a stop that keeps what was under way."""
 """The code of a stop that keeps what was under way."""
 
 
@@ -210,7 +214,7 @@ class Stops:
 
     def _ask(self, why: Reason) -> None:
         self.last_reason = why
-        if why.code != PAUSED:
+        if why.code not in KEEPING:
             self._clear_reason = why
             self._cleared = object()
         self._asked = object()

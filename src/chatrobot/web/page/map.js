@@ -3,6 +3,7 @@
 import { on, send, state } from "./connection.js";
 import { byId, isPressed, setPressed, setText } from "./dom.js";
 import { Drawing, readColours } from "./map_drawing.js";
+import { dragged, startObstacles } from "./map_obstacles.js";
 import { startPointing } from "./map_pointing.js";
 import { View } from "./map_view.js";
 import { onLanguage, t } from "./words.js";
@@ -45,6 +46,7 @@ function draw() {
   const drawing = new Drawing(context, view, colours, getComputedStyle(floor).font);
   drawing.ground(world);
   drawing.obstacles(world);
+  if (dragged()) drawing.ghost(dragged());
   drawing.path(known.trail);
   drawing.stroke("driven", 4);
   drawing.path(known.path);
@@ -139,6 +141,7 @@ export function startMap() {
   });
   on("places", redraw);
   onLanguage(redraw);
+  startObstacles(redraw);
   startPointing({ view, known, redraw, go, release: () => setPressed(follow, false) });
   follow.addEventListener("click", () => {
     setPressed(follow, !isPressed(follow));

@@ -80,7 +80,7 @@ export class Drawing {
       this.fill(isWall ? "wall" : "thing");
       if (isWall) continue;
       this.stroke("thing-edge", 1);
-      const name = obstacleName(one.name, world.places);
+      const name = obstacleName(one, world.places);
       const [x, y] = one.circle ? [one.circle.x_m, one.circle.y_m] : middle(one.polygon);
       if (!named.has(name.toLowerCase())) this.labels.push({ name, at: this.view.toScreen(x, y), colour: "label" });
     }
@@ -90,6 +90,12 @@ export class Drawing {
     const [right, down] = this.view.toScreen(x, y);
     this.context.beginPath();
     this.context.arc(right, down, radius * this.view.scale, 0, 2 * Math.PI);
+  }
+
+  /** Where an obstacle would stand that is being dragged. */
+  ghost({ x, y, radius }) {
+    this.disc(x, y, radius);
+    this.stroke("target", 2, [4, 4]);
   }
 
   places(places) {

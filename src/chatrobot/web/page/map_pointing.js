@@ -4,6 +4,7 @@
  */
 
 import { byId, isPressed, setPressed } from "./dom.js";
+import { drag, drop, grab, isPutting, putAt } from "./map_obstacles.js";
 
 const TAP_PX = 7;
 const LONG_PRESS_MS = 450;
@@ -43,10 +44,15 @@ export function startPointing({ view, known, redraw, go, release }) {
     fingers.set(event.pointerId, at(event));
     clearTimeout(timer);
     if (fingers.size > 1) {
+      drop(false);
       start = null;
       return;
     }
     const place = at(event);
+    if (grab(view.toFloor(...place))) {
+      start = { place, isGrabbing: true, hasMoved: false };
+      return;
+    }
     start = { place, isAiming: isPressed(byId("heading")) || event.shiftKey, hasMoved: false };
     if (start.isAiming) point(place, null);
     else timer = setTimeout(() => {
@@ -72,7 +78,10 @@ export function startPointing({ view, known, redraw, go, release }) {
     else if (start) {
       const before = fingers.get(event.pointerId);
       start.hasMoved ||= Math.hypot(place[0] - start.place[0], place[1] - start.place[1]) > TAP_PX;
-      if (start.hasMoved && start.isAiming) turnTo(place);
+      if (start.isGrabbing) {
+        drag(view.toFloor(...place));
+        redraw();
+      } else if (start.hasMoved && start.isAiming) turnTo(place);
       else if (start.hasMoved) {
         release();
         view.pan(place[0] - before[0], place[1] - before[1]);
@@ -85,7 +94,13 @@ export function startPointing({ view, known, redraw, go, release }) {
   function up(event) {
     clearTimeout(timer);
     if (!fingers.delete(event.pointerId) || !start) return;
-    if (start.isAiming) {
+    if (start.isGrabbing) {
+      drop(start.hasMoved);
+      redraw();
+    } else if (!start.hasMoved && isPutting()) {
+      known.target = null;
+      putAt(view.toFloor(...start.place));
+    } else if (start.isAiming) {
       setPressed(byId("heading"), false);
       go();
     } else if (!start.hasMoved) {
@@ -98,6 +113,7 @@ export function startPointing({ view, known, redraw, go, release }) {
   function cancel(event) {
     clearTimeout(timer);
     fingers.delete(event.pointerId);
+    drop(false);
     if (start && start.isAiming) known.target = null;
     start = null;
     redraw();
@@ -127,7 +143,10 @@ export function startPointing({ view, known, redraw, go, release }) {
   function key(event) {
     if (event.ctrlKey || event.altKey || event.metaKey) return;
     if (event.key in arrows) keyPoint(...arrows[event.key], event.shiftKey);
-    else if (event.key === "Enter") go();
+    else if (event.key === "Enter" && isPutting() && known.target) {
+      putAt([known.target.x, known.target.y]);
+      known.target = null;
+    } else if (event.key === "Enter") go();
     else if (event.key === "+" || event.key === "=") zoom(STEP);
     else if (event.key === "-") zoom(1 / STEP);
     else if (event.key === "Backspace" || event.key === "Delete") known.target = null;

@@ -12,10 +12,12 @@ export function placeName(place) {
   return (place.names || []).find((name) => CHINESE.test(name) === isChinese) || place.name;
 }
 
-/** Return what an obstacle is called: as the place of that name is. */
-export function obstacleName(name, places) {
-  const place = places.find((one) => (one.names || [one.name]).some((known) => known === name.toLowerCase()));
-  return place ? placeName(place) : name;
+/** Return what an obstacle is called: by its own names, else as the place of that name is. */
+export function obstacleName(obstacle, places) {
+  if (obstacle.names && obstacle.names.length > 1) return placeName(obstacle);
+  const name = obstacle.name.toLowerCase();
+  const place = places.find((one) => (one.names || [one.name]).includes(name));
+  return place ? placeName(place) : obstacle.name;
 }
 
 /** Begin. `asks` says whether a way that was pointed at is asked about before it is driven. */
