@@ -20,7 +20,7 @@ else:
     import tomli as tomllib
 
 from chatrobot import options
-from chatrobot.cli import arguments, entry, json_lines
+from chatrobot.cli import arguments, entry, families, json_lines
 from chatrobot.cli.console.commands import COMMANDS
 from chatrobot.core import events, sensed_events
 from chatrobot.core.event import Event
@@ -157,6 +157,9 @@ def _command_object(name: str, about: dict[str, Any]) -> str:
 # --- command line ---
 
 
+FAMILIES = {"program": families.PROGRAM_ACTIONS, "world": families.WORLD_ACTIONS}
+
+
 def cli_page() -> str:
     """docs/cli.md."""
     parser = arguments.commands_parser()
@@ -169,11 +172,9 @@ def cli_page() -> str:
         _table(("command", "meaning"), [("`chatrobot`", "talk to the robot"), *overview]),
     ]
     parts += [""] + [section for name, child in found.items() if (section := _command(name, child))]
-    parts += [
-        "### `chatrobot program`\n",
-        _table(("action", "meaning", "arguments"), _actions(found["program"])),
-        "",
-    ]
+    for family, about in FAMILIES.items():
+        rows = _actions(found[family], about)
+        parts += [f"### `chatrobot {family}`\n", _table(("action", "meaning", "arguments"), rows), ""]
     parts += ["## Options\n", _legend()]
     for group in dict.fromkeys(option.group for option in options.OPTIONS):
         parts += [
@@ -223,10 +224,10 @@ def _own(parser: argparse.ArgumentParser) -> list[argparse.Action]:
     ]
 
 
-def _actions(program: argparse.ArgumentParser) -> Iterator[tuple[str, str, str]]:
-    for name, parser in _commands(program):
+def _actions(command: argparse.ArgumentParser, about: families.Actions) -> Iterator[tuple[str, str, str]]:
+    for name, parser in _commands(command):
         taken = [f"{_flag(action)}: {action.help}" for action in _own(parser)]
-        yield f"`{name}`", arguments.PROGRAM_ACTIONS[name][0], "; ".join(taken)
+        yield f"`{name}`", about[name][0], "; ".join(taken)
 
 
 def _placeholder(action: argparse.Action) -> str:

@@ -8,13 +8,15 @@ from typing import Any
 
 from chatrobot.cli.options import add_options, offer
 
+Actions = dict[str, tuple[str, dict[str, str]]]
+"""The name of each action, what it does, and its arguments; one in brackets may be left out."""
 _OFFERED = {
     ("", "NAME"): "programs", ("run", "NAME"): "programs or files", ("", "DIR"): "folders", ("", "FILE"): "files",
     ("", "WORLD"): "worlds", ("", "OUT.svg|OUT.png"): "files",
 }  # fmt: skip
 """What Tab completes an argument of an action with."""
 _A_WORLD = "a world by its name, a world file, or a map.yaml of ROS"
-WORLD_ACTIONS: dict[str, tuple[str, dict[str, str]]] = {
+WORLD_ACTIONS: Actions = {
     "list": ("the worlds there are, with their places", {}),
     "draw": (
         "draw a world here, or as a picture",
@@ -23,7 +25,7 @@ WORLD_ACTIONS: dict[str, tuple[str, dict[str, str]]] = {
     "check": ("what is wrong with a world, in which line, and what is allowed", {"WORLD": _A_WORLD}),
     "new": ("write a world of your own to begin with, with comments", {"FILE": "a new .yaml file"}),
 }
-PROGRAM_ACTIONS: dict[str, tuple[str, dict[str, str]]] = {
+PROGRAM_ACTIONS: Actions = {
     "new": ("write a program, rehearse it, run it and keep it", {"TEXT": "what it is to do"}),
     "list": ("the programs that are kept", {}),
     "show": ("one program: its source, where it comes from, how it went", {"NAME": "which"}),
@@ -36,9 +38,9 @@ PROGRAM_ACTIONS: dict[str, tuple[str, dict[str, str]]] = {
 
 
 def actions_of(
-    parser: argparse.ArgumentParser, command: str, family: dict[str, tuple[str, dict[str, str]]]
+    parser: argparse.ArgumentParser, command: str, family: Actions
 ) -> Iterator[tuple[str, argparse.ArgumentParser]]:
-    """Add the actions of a command; an argument in brackets may be left out."""
+    """Add the actions of a command; what is added to one comes before its options."""
     added = parser.add_subparsers(
         dest="action", metavar="ACTION", required=True, title="actions", prog=f"chatrobot {command}"
     )

@@ -64,6 +64,9 @@ def _unreached(world: World, name: str, where: str, reason: Reason, profile: Rob
     )
 
 
+_ENGLISH, _CHINESE = ("go to the {}", "drive to {}"), ("去{}", "开到{}")
+
+
 def unsaid_names(file: WorldFile, profile: RobotProfile) -> Iterator[WorldError]:
     """Give the names of places that mean something else in a sentence, or nothing."""
     from chatrobot.dialogue.understanding import Understanding
@@ -73,12 +76,14 @@ def unsaid_names(file: WorldFile, profile: RobotProfile) -> Iterator[WorldError]
     understanding = Understanding(profile, file.world, None)
     for main in file.world.places:
         for name in file.world.names_of(main):
-            said = f"去{name}" if has_chinese(name) else f"go to the {name}"
-            plan = understanding.interpret(said).plan
-            step = plan.steps[0] if plan is not None and len(plan.steps) == 1 else None
-            if not (isinstance(step, Go) and file.world.place(step.place) == file.world.places[main]):
-                yield WorldError(
-                    f"“{said}” is not understood: the name {name!r} of a place has a meaning of its own, or none",
-                    where=file.where_is(main),
-                    allowed="another name",
-                )
+            for said in _CHINESE if has_chinese(name) else _ENGLISH:
+                sentence = said.format(name)
+                plan = understanding.interpret(sentence).plan
+                step = plan.steps[0] if plan is not None and len(plan.steps) == 1 else None
+                if not (isinstance(step, Go) and file.world.place(step.place) == file.world.places[main]):
+                    yield WorldError(
+                        f"“{sentence}” is not understood: {name!r} has a meaning of its own, or none",
+                        where=file.where_is(main),
+                        allowed="another name",
+                    )
+                    break

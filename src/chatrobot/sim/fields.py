@@ -154,8 +154,8 @@ def compose(text: str, source: str) -> Field:
 
 def _hint(problem: str) -> str:
     """What most who see that problem have to change."""
-    if "\\t" in problem or "tab" in problem:
-        return "spaces to indent, no tabs"
+    if "cannot start any token" in problem:
+        return "spaces to indent, no tabs; quotes around a text that begins with @, % or `"
     if "mapping values" in problem:
         return "one 'name: value' a line; quote a text that has a colon in it"
     if "expected ',' or" in problem:
