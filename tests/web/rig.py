@@ -72,6 +72,9 @@ class NotingSession:
     def resume(self) -> int:
         return self._take("resume")
 
+    def change_obstacle(self, **request: Any) -> None:
+        self._note("obstacle", request)
+
     def pause(self, why: str = "") -> None:
         self._note("pause", why)
 

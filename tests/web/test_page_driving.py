@@ -7,6 +7,8 @@ import json
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
+from chatrobot.core.sensed_events import ObstacleChanged
+from chatrobot.sim.shapes import Circle
 from tests.web.browser import browser, open_page, page
 from tests.web.rig import WebRig, wait_until
 
@@ -132,3 +134,39 @@ def test_the_map_can_be_used_with_keys_and_by_the_list_of_places(page: Page, rig
     page.get_by_role("button", name="sofa").click()
     wait_until(lambda: len(rig.session.log) == 2)
     assert rig.session.log[1][1].startswith("go to -1.1 0")
+
+
+def test_an_obstacle_is_put_dragged_and_taken_away_by_whoever_steers(page: Page, rig: WebRig) -> None:
+    floor, button = page.locator("#floor"), page.get_by_role("button", name="Obstacle")
+    button.click()
+    floor.click(position={"x": 300, "y": 300})
+    wait_until(lambda: bool(rig.session.log))
+    (_, put), *_ = rig.session.log
+    x, y, radius = put["circle"]
+    assert (put["add"], radius) == ("Obstacle 1", 0.2)
+    expect(button).to_have_attribute("aria-pressed", "false")
+    rig.tell(ObstacleChanged(0, "Obstacle 1", Circle(x, y, radius).outline()))
+    box = floor.bounding_box()
+    assert box is not None
+    page.mouse.move(box["x"] + 300, box["y"] + 300)
+    page.wait_for_timeout(100)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 340, box["y"] + 300, steps=4)
+    page.mouse.up()
+    wait_until(lambda: len(rig.session.log) == 2)
+    _, moved = rig.session.log[1]
+    assert moved["add"] == "Obstacle 1"
+    assert moved["circle"][0] > x + 0.1
+    assert moved["circle"][1:] == pytest.approx([y, radius], abs=0.01)
+    button.click()
+    floor.click(position={"x": 300, "y": 300})
+    wait_until(lambda: len(rig.session.log) == 3)
+    assert rig.session.log[2] == ("obstacle", {"remove": "Obstacle 1"})
+
+
+def test_who_only_watches_puts_no_obstacle_there(rig: WebRig) -> None:
+    rig.page().say("take")
+    watcher = rig.page()
+    watcher.say("obstacle", name="box", x_m=1.0, y_m=0.0)
+    assert watcher.wait_for("refused")["do"] == "obstacle"
+    assert rig.session.log == []
