@@ -13,7 +13,7 @@ import pytest
 from tests.cli.running import Command
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = (ROOT / "README.md", ROOT / "docs" / "tutorial.md")
+PAGES = (ROOT / "README.md", ROOT / "docs" / "tutorial.md", ROOT / "docs" / "worlds.md")
 
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 PROGRESS = re.compile(r"^ +-?\d+\.\d+ / ")

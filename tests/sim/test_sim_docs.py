@@ -1,4 +1,4 @@
-"""docs/simulation.md says what the program does."""
+"""docs/simulation.md and docs/worlds.md say what the program does."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ import pytest
 from chatrobot.sim.fault_injection import FaultInjection
 from chatrobot.sim.load import parse_world
 
-DOCS = (Path(__file__).parents[2] / "docs" / "simulation.md").read_text(encoding="utf-8")
+PAGES = Path(__file__).parents[2] / "docs"
+DOCS, WORLDS = ((PAGES / name).read_text(encoding="utf-8") for name in ("simulation.md", "worlds.md"))
 
 
 def test_the_example_world_can_be_loaded() -> None:
-    (example,) = re.findall(r"```yaml\n(.*?)```", DOCS, re.DOTALL)
+    example = re.findall(r"```yaml\n(.*?)```", WORLDS, re.DOTALL)[0]
     world = parse_world(example, "the example")
     assert world.name == "workshop"
     assert len(world.obstacles) == 4
