@@ -81,13 +81,17 @@ class Obstacles:
 
     def _refusal(self, name: str, shape: Shape | None) -> Reason | None:
         if shape is None:
-            names = ", ".join(self._added)
-            return None if name in self._added else Reason("obstacle_unknown", {"name": name, "names": names})
+            return None if name in self._added else self._unknown(name)
         if name not in self._added and len(self._added) >= MOST:
             return Reason("obstacles_too_many", {"limit": MOST})
         here = np.array([self._robot.pose])
         is_on_robot = _contact(name, shape, here, self._robot, margin_m=0.0) is not None
         return Reason("obstacle_on_robot", {"name": name}) if is_on_robot else None
+
+    def _unknown(self, name: str) -> Reason:
+        if not self._added:
+            return Reason("no_obstacle_put")
+        return Reason("obstacle_unknown", {"name": name, "names": ", ".join(self._added)})
 
     def _check_way(self, name: str, shape: Shape) -> None:
         """Look, off the control thread, whether what runs comes too near to it."""
