@@ -45,7 +45,7 @@ class FakeSession:
     def limit(self, **limits):
         self._note("limit", limits)
 
-    def approve(self, turn, yes, edited=""):
+    def approve(self, turn, yes, **_):
         self._note("approve", turn, yes)
 
 

@@ -282,7 +282,7 @@ def test_a_teacher_who_looks_in_first_leaves_the_steering_to_the_pupil(pupils: R
     teacher = pupils.dial("/ws?room=3", pupils.token)
     assert teacher.wait_for("hello", role="teacher", room="3")["steering"] is None
     teacher.say("take")
-    teacher.wait_for("steering", you=True)  # they may, when they want to
+    assert teacher.wait_for("steering", you=True)["name"] == "The teacher"  # they may, when they want to
     teacher.socket.close()
 
 

@@ -60,6 +60,16 @@ def test_an_edited_plan_goes_in_the_place_of_the_one_that_waits(page: Page, rig:
     rig.session.wait_for("say_edited_plan", "drive 0.2 m", PLAN)
 
 
+def test_a_plan_that_cannot_be_read_can_be_mended(page: Page, rig: WebRig) -> None:
+    page.get_by_role("button", name="Write a plan").click()
+    page.get_by_label("The plan, one step a line").fill("turn left 90 deg\nfly 3 m")
+    page.get_by_role("button", name="Rehearse and run").click()
+    rig.session.wait_for("say_plan", "turn left 90 deg\nfly 3 m")
+    rig.tell(Result(1, "unclear", "This plan cannot be read."))
+    page.locator("#plan-edit").click()
+    expect(page.get_by_label("The plan, one step a line")).to_have_value("turn left 90 deg\nfly 3 m")
+
+
 def test_what_an_agent_asks_for_is_seen_before_the_yes_and_its_end_after(page: Page, rig: WebRig) -> None:
     turn = TURNS + 3
     rig.tell(Ordered(turn, "agent", PLAN))
@@ -174,5 +184,5 @@ def test_what_others_wrote_is_text_and_never_markup(page: Page, rig: WebRig) -> 
     rig.tell(Result(1, "answered", EVIL))
     expect(page.get_by_role("log", name="What was said")).to_contain_text(EVIL)
     expect(page.locator("#program-name")).to_have_text(EVIL)
-    assert page.locator("#evil, img:not(.icon)").count() == 0
+    assert page.locator("#evil, img:not(.icon, #camera-picture)").count() == 0
     assert "ChatRobot" in page.title()

@@ -44,7 +44,8 @@ class Page:
         self.language: LanguageCode = "zh" if wants.casefold().startswith("zh") else "en"
         agent = websocket.headers.get("user-agent", "")
         browser = next((name for mark, name in _BROWSERS if mark in agent), "page")
-        self.name = web_words(self.language, "page_name", browser=browser, number=self.id.partition("-")[2])
+        number, code = self.id.partition("-")[2], "teacher_name" if pass_.role == "teacher" else "page_name"
+        self.name = web_words(self.language, code, browser=browser, number=number)
         self._has_to_go = asyncio.Event()
         self.outbox = Outbox(self.close)
         self.unread_bytes: Callable[[], int] = websocket.scope["extensions"][UNREAD]

@@ -74,6 +74,7 @@ function drawState() {
 function limit(text) {
   clearTimeout(limitedTimer);
   setText(limited, text);
+  setText(byId("drive-limited"), text);
   limited.classList.toggle("on", Boolean(text));
   if (text) limitedTimer = setTimeout(() => limit(""), LIMITED_MS);
 }

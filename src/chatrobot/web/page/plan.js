@@ -75,8 +75,9 @@ function run() {
     message = plan.edits ? { do: "edit", plan_text: planText, turn: plan.edits } : { do: "say_plan", plan_text: planText };
   }
   if (!send(message)) return;
+  if (plan.isEdited) show(0, planText.split("\n")); // one that cannot be read can be mended
   plan.isEdited = plan.waits = false;
-  describe();
+  draw();
 }
 
 function drop() {
