@@ -239,7 +239,7 @@ def _connect_simulated(prepared: Prepared, on_event: OnEvent) -> Connection:
     from chatrobot.motion.planner import Planner
     from chatrobot.motion.programs.host import ProgramHost
     from chatrobot.motion.safety.watchdog import SimulatedGuard
-    from chatrobot.sim.server import SimControl
+    from chatrobot.sim.obstacle_control import SimControl
     from chatrobot.wire.memory import MemoryHub
 
     setup, profile, world = prepared.setup, prepared.profile, prepared.world

@@ -20,8 +20,9 @@ import pytest
 from sim_rig import PROFILE
 
 from chatrobot.core.clock import VirtualClock
+from chatrobot.sim.obstacle_control import CONTROL_TOPIC, REPLY_TOPIC
 from chatrobot.sim.robot import TRUTH_TOPIC, SimRobot
-from chatrobot.sim.server import CONTROL_TOPIC, GAP_S, LAST_CLIENT_GONE_S, REPLY_TOPIC, SimServer
+from chatrobot.sim.server import GAP_S, LAST_CLIENT_GONE_S, SimServer
 from chatrobot.wire.local import LocalHub, LocalWire
 from chatrobot.wire.messages import LaserScan, Odometry, Text, TwistMessage
 

@@ -99,17 +99,18 @@ class MapWays:
     """Measures ways of one robot in one world. numpy is loaded with the first question, not with the console."""
 
     def __init__(self, world: World, profile: RobotProfile) -> None:
+        self._profile = profile
+        self._see(world)
+
+    def _see(self, world: World) -> None:
         self.world = world
         """What is known of the surroundings, with what a person has put there meanwhile."""
-        self._profile = profile
-
-    def __bool__(self) -> bool:
-        """Return whether anything is known to stand anywhere."""
-        return bool(self.world.obstacles)
+        self.any = self if world.obstacles else None
+        """None where nothing is known to stand anywhere."""
 
     def note_obstacle(self, event: ObstacleChanged) -> None:
         """Take note that an obstacle has come, moved or gone."""
-        self.world = self.world.changed(event.obstacle, event.outline_m)
+        self._see(self.world.changed(event.obstacle, event.outline_m))
         self.__dict__.pop("_planner", None)
 
     @cached_property

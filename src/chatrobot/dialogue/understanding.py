@@ -144,8 +144,7 @@ class Understanding:
 
     def _context(self, dialogue: Dialogue) -> Context:
         without_heading = self._without_heading - dialogue.places.keys()
-        names, ways = self._names, self.ways or None
-        return Context(dialogue, self._state, self.world_places, without_heading, names, ways)
+        return Context(dialogue, self._state, self.world_places, without_heading, self._names, self.ways.any)
 
     def can_do(self, text: str) -> bool:
         """Return whether `text` would be driven if it were said now. From any thread: nothing is noted."""

@@ -28,7 +28,7 @@ from chatrobot.motion.safety.stop import WAY_CHANGED, Stops
 from chatrobot.plan.known_world import Contact, Floats
 from chatrobot.plan.rehearsal import MARGIN_M
 from chatrobot.plan.swept_path import first_contact
-from chatrobot.sim.obstacle_requests import CONTROL_TOPIC, read_request
+from chatrobot.sim.obstacle_control import CONTROL_TOPIC, read_request
 from chatrobot.sim.shapes import Shape
 from chatrobot.sim.world import Obstacle, World
 from chatrobot.wire.messages import Text

@@ -14,8 +14,9 @@ from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.fault_injection import FaultInjection
 from chatrobot.sim.load import load_world
 from chatrobot.sim.network_wire import MarshalledWire, TransformPublisher
+from chatrobot.sim.obstacle_control import SimControl
 from chatrobot.sim.robot import TICK_S, SimRobot
-from chatrobot.sim.server import SimControl, SimServer, Simulation
+from chatrobot.sim.server import SimServer, Simulation
 from chatrobot.sim.world import World, check_start
 from chatrobot.wire.local import LocalHub
 from chatrobot.wire.messages import TwistMessage

@@ -109,8 +109,9 @@ def _add(shape: Shape, xs: Floats, ys: Floats, outside_squared: Floats, depth: F
         return
     else:
         dx, dy = xs[None, :] - sides.x_m, ys[:, None] - sides.y_m
-        along = np.abs(dx * sides.cos + dy * sides.sin) - sides.half_length_m
-        beside = np.abs(dy * sides.cos - dx * sides.sin) - sides.half_width_m
+        cos, sin = math.cos(sides.yaw_rad), math.sin(sides.yaw_rad)
+        along = np.abs(dx * cos + dy * sin) - sides.half_length_m
+        beside = np.abs(dy * cos - dx * sin) - sides.half_width_m
         outside = np.hypot(np.maximum(along, 0.0), np.maximum(beside, 0.0))
         gap = outside + np.minimum(np.maximum(along, beside), 0.0)
     np.minimum(outside_squared, np.maximum(gap, 0.0) ** 2, out=outside_squared)
@@ -147,19 +148,18 @@ def _polygon_distance(shape: Polygon, xs: Floats, ys: Floats) -> Floats:
 
 
 class _Rectangle(NamedTuple):
-    """Its centre, the direction of its length, and half its sides."""
+    """Its centre, where its length points, and half its sides."""
 
     x_m: float
     y_m: float
-    cos: float
-    sin: float
+    yaw_rad: float
     half_length_m: float
     half_width_m: float
 
     @property
     def is_upright(self) -> bool:
         """Its sides lie along the axes."""
-        return min(abs(self.cos), abs(self.sin)) < 1e-9
+        return min(abs(math.cos(self.yaw_rad)), abs(math.sin(self.yaw_rad))) < 1e-9
 
 
 def _rectangle_of(shape: Polygon) -> _Rectangle | None:
@@ -172,8 +172,8 @@ def _rectangle_of(shape: Polygon) -> _Rectangle | None:
     leaning = (bx - ax) * (cx - bx) + (by - ay) * (cy - by)
     if min(length_m, width_m) < 1e-9 or not is_closed or abs(leaning) > 1e-9 * length_m * width_m:
         return None
-    cos, sin = (bx - ax) / length_m, (by - ay) / length_m
-    return _Rectangle((ax + cx) / 2.0, (ay + cy) / 2.0, cos, sin, length_m / 2.0, width_m / 2.0)
+    yaw_rad = math.atan2(by - ay, bx - ax)
+    return _Rectangle((ax + cx) / 2.0, (ay + cy) / 2.0, yaw_rad, length_m / 2.0, width_m / 2.0)
 
 
 _Box = tuple[tuple[float, float], tuple[float, float]]

@@ -3,21 +3,16 @@ by messages."""
 
 from __future__ import annotations
 
-import json
 import math
 import signal
 from collections.abc import Sequence
 from operator import itemgetter
 from types import FrameType
-from typing import Any
 
 from chatrobot.core.clock import Clock
 from chatrobot.sim.network_wire import MarshalledWire
-from chatrobot.sim.obstacle_requests import CONTROL_TOPIC, REPLY_TOPIC, read_request
 from chatrobot.sim.robot import TICK_S, SimRobot
 from chatrobot.wire.local import LocalHub, LocalHubs
-from chatrobot.wire.messages import Text
-from chatrobot.wire.wire import Wire
 
 LAST_CLIENT_GONE_S = 2.0
 """It ends so long after its last client has left."""
@@ -111,27 +106,3 @@ class Simulation:
 
     def _on_terminate(self, _signal: int, _frame: FrameType | None) -> None:
         self._is_terminated = True
-
-
-class SimControl:
-    """Lets obstacles come and go in a running simulation, as messages on `CONTROL_TOPIC` say."""
-
-    def __init__(self, robot: SimRobot, wire: Wire) -> None:
-        self._robot = robot
-        self._wire = wire
-        wire.subscribe(CONTROL_TOPIC, Text, self._on_request)
-
-    def _on_request(self, message: Text) -> None:
-        try:
-            reply = {"done": self._apply(json.loads(message.data))}
-        except (ValueError, TypeError, KeyError) as error:
-            reply = {"error": f"not understood: {error}"}
-        self._wire.publish(REPLY_TOPIC, Text(json.dumps(reply)))
-
-    def _apply(self, request: dict[str, Any]) -> str:
-        name, shape = read_request(request)
-        if shape is not None:
-            self._robot.add_obstacle(name, shape)
-        elif not self._robot.remove_obstacle(name):
-            raise ValueError(f"nothing named {name!r} was added")
-        return name

@@ -44,14 +44,14 @@ class Ground:
     """A picture on its way: an extent of the world on a canvas, and the labels that already stand there.
 
     Args:
-        foot_lines: lines of words below the legend.
+        foot_line_count: lines of words below the legend.
     """
 
     def __init__(
         self,
         extent: Extent,
         orientation: Orientation,
-        foot_lines: int,
+        foot_line_count: int,
         canvas: type[Canvas] | type[SvgCanvas] = Canvas,
     ) -> None:
         self._extent = extent
@@ -61,7 +61,7 @@ class Ground:
         self._map_h = max(MIN_MAP_HEIGHT_PX, round(extent.height_m * self._px_per_m))
         self._off_x = LEFT_PX + (self._map_w - extent.width_m * self._px_per_m) / 2.0
         self._off_y = TOP_PX + (self._map_h - extent.height_m * self._px_per_m) / 2.0
-        height = TOP_PX + self._map_h + FOOT_PX + LINE_PX * foot_lines
+        height = TOP_PX + self._map_h + FOOT_PX + LINE_PX * foot_line_count
         self.canvas: Canvas | SvgCanvas = canvas(LEFT_PX + self._map_w + RIGHT_PX, height, PAPER)
         self._taken: list[Box] = []
 

@@ -1,12 +1,18 @@
-"""Obstacles that come and go while a simulation runs: the request, as JSON on a topic of the simulated robot."""
+"""Obstacles that come and go while a simulation runs: requests, as JSON on a topic of the simulated robot."""
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from chatrobot.sim.shapes import Circle, Shape, polygon
+from chatrobot.wire.messages import Text
+from chatrobot.wire.wire import Wire
+
+if TYPE_CHECKING:
+    from chatrobot.sim.robot import SimRobot
 
 CONTROL_TOPIC = "chatrobot/sim/control"
 """`Text` with JSON: {"add": NAME, "polygon": [[x, y], …]}, {"add": NAME, "circle": [x, y, radius]} or
@@ -37,3 +43,27 @@ def _finite(value: Any) -> float:
     if not math.isfinite(number):
         raise ValueError(f"{value} is not finite")
     return number
+
+
+class SimControl:
+    """Lets obstacles come and go in a running simulation, as messages on `CONTROL_TOPIC` say."""
+
+    def __init__(self, robot: SimRobot, wire: Wire) -> None:
+        self._robot = robot
+        self._wire = wire
+        wire.subscribe(CONTROL_TOPIC, Text, self._on_request)
+
+    def _on_request(self, message: Text) -> None:
+        try:
+            reply = {"done": self._apply(json.loads(message.data))}
+        except (ValueError, TypeError, KeyError) as error:
+            reply = {"error": f"not understood: {error}"}
+        self._wire.publish(REPLY_TOPIC, Text(json.dumps(reply)))
+
+    def _apply(self, request: dict[str, Any]) -> str:
+        name, shape = read_request(request)
+        if shape is not None:
+            self._robot.add_obstacle(name, shape)
+        elif not self._robot.remove_obstacle(name):
+            raise ValueError(f"nothing named {name!r} was added")
+        return name
