@@ -30,7 +30,7 @@ class Known(ObstacleMemory):
 
     def __init__(self, *points: tuple[float, float]) -> None:
         super().__init__(LIDAR)
-        self._scans.append(np.array(points, dtype=float).reshape(-1, 2))
+        self.points = np.array(points, dtype=float).reshape(-1, 2)
 
 
 def rule(*points: tuple[float, float]) -> ObstacleRule:

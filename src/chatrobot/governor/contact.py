@@ -18,6 +18,8 @@ from chatrobot.robots.profile import Point
 Floats = NDArray[np.float64]
 
 SAMPLES = 17
+REACH_OF_CONTACT = 2.0
+"""Radii of the footprint: beside a sharp corner its half planes reach far."""
 SHRINKS_BY_M = 0.001
 """A point that is within the margin already counts only if the motion brings it nearer: away is always allowed."""
 
@@ -119,7 +121,7 @@ def comes_nearer(
         horizon_s: how far to look, in seconds of the twist.
         nearest_m: the clearance of the nearest.
     """
-    reach_m = 2.0 * footprint.radius_m  # beside a sharp corner the half planes reach far
+    reach_m = REACH_OF_CONTACT * footprint.radius_m
     near = points[np.einsum("ij,ij->i", points, points) <= reach_m * reach_m]
     moved = _moved(twist, np.linspace(0.0, horizon_s, SAMPLES))
     allowed_m = np.minimum(footprint.clearance_m(near[:, 0], near[:, 1]), nearest_m) - by_m

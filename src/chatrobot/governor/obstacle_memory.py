@@ -23,6 +23,7 @@ NEAR_M = 0.15
 
 SEEN_THROUGH_M = 0.10
 FORGET_AFTER_M = 1.0
+SLACK_M = 0.2
 NO_POINTS: Floats = np.empty((0, 2))
 
 
@@ -37,13 +38,25 @@ class ObstacleMemory:
     def __init__(self, lidar: Lidar) -> None:
         self.lidar = lidar
         self._scans: deque[Floats] = deque(maxlen=SCANS_KEPT)
-        self._remembered: Floats = NO_POINTS
+        self.points: Floats = NO_POINTS
+        """All that counts, [n, 2] in `odom`."""
+        self._near = self._near_of = NO_POINTS
+        self._near_circle = (0.0, 0.0, -math.inf)
         self.coverage = ScanCoverage()
 
-    @property
-    def points(self) -> Floats:
-        """Return all that counts, [n, 2] in `odom`."""
-        return np.concatenate([*self._scans, self._remembered])
+    def near(self, x_m: float, y_m: float, within_m: float) -> Floats:
+        """Return of `points` those within `within_m` of there, and some that are little farther.
+
+        They are picked out once for all ticks of a robot that goes no farther than `SLACK_M` until the next scan.
+        """
+        about_x_m, about_y_m, picked_m = self._near_circle
+        is_within = math.hypot(x_m - about_x_m, y_m - about_y_m) + within_m <= picked_m
+        if not is_within or self._near_of is not self.points:
+            self._near_of, picked_m = self.points, within_m + SLACK_M
+            away = self.points - (x_m, y_m)
+            self._near = self.points[np.einsum("ij,ij->i", away, away) <= picked_m * picked_m]
+            self._near_circle = (x_m, y_m, picked_m)
+        return self._near
 
     def take(self, scan: LaserScan, pose: Pose) -> None:
         """Take a scan made where the robot stood at `pose` (of `odom`)."""
@@ -61,15 +74,18 @@ class ObstacleMemory:
         seen = ranges[valid]
         points = np.stack([lidar.x_m + seen * np.cos(angles), lidar.y_m + seen * np.sin(angles)], axis=1)
         self._scans.append(points)
-        self._remembered = vanished
+        self.points = np.concatenate([*self._scans, vanished])
 
     def _still_there(self, scan: LaserScan, ranges: Floats, sees: Flags, lidar: Pose) -> Floats:
         """Return, of all points known so far, those that the lidar cannot see now because they are too near."""
-        known = self.points
+        away = self.points - (lidar.x_m, lidar.y_m)
+        distance = np.hypot(away[:, 0], away[:, 1])
+        too_near_m = scan.range_min_m + NEAR_M
+        near = distance < max(too_near_m, FORGET_AFTER_M)
+        known, distance = self.points[near], distance[near]
         if len(known) == 0:
             return NO_POINTS
-        dx, dy = known[:, 0] - lidar.x_m, known[:, 1] - lidar.y_m
-        distance = np.hypot(dx, dy)
+        dx, dy = away[near].T
         bearing = np.arctan2(dy, dx) - lidar.yaw_rad - scan.angle_min_rad
         onwards = bearing * math.copysign(1.0, scan.angle_increment_rad)  # many lidars turn clockwise
         whole = max(len(ranges), round(2.0 * math.pi / abs(scan.angle_increment_rad)))
@@ -78,7 +94,7 @@ class ObstacleMemory:
         beam = np.where(inside, beam, 0)
         # Seen through, or seen anew in about the same place: then the new return tells.
         told_anew = inside & sees[beam] & (ranges[beam] >= distance - SEEN_THROUGH_M)
-        too_near = distance < scan.range_min_m + NEAR_M
+        too_near = distance < too_near_m
         out_of_view = ~inside & (distance < FORGET_AFTER_M)
         return np.asarray(known[(too_near | out_of_view) & ~told_anew])
 

@@ -11,6 +11,7 @@ import numpy as np
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.governor.contact import (
+    REACH_OF_CONTACT,
     SAMPLES,
     Floats,
     Footprint,
@@ -53,8 +54,14 @@ class ObstacleRule:
         """Scale `asked` so that the robot can brake before what was seen."""
         if situation.begins:
             self._barred = False  # another motion: the way that was barred need not be its way
-        pose, points = situation.pose, self._obstacle_memory.points
+        pose = situation.pose
         if pose is None or asked.is_zero:
+            return FREE
+        braking, radius_m = Braking(self._limits, asked), self._footprint.radius_m
+        reach_m = radius_m + MARGIN_M + RELEASE_M + asked.speed_mps * braking.horizon_s
+        points = self._obstacle_memory.near(pose.x_m, pose.y_m, max(reach_m, REACH_OF_CONTACT * radius_m))
+        if not len(points):
+            self._barred = False
             return FREE
         cos, sin = math.cos(pose.yaw_rad), math.sin(pose.yaw_rad)
         away = points - np.array([pose.x_m, pose.y_m])
@@ -62,7 +69,6 @@ class ObstacleRule:
         nearest_m = self._footprint.nearest_m(local, MARGIN_M)
         if nearest_m <= MARGIN_M:
             return self._away(asked, local, nearest_m)
-        braking = Braking(self._limits, asked)
         margin_m = MARGIN_M + RELEASE_M if self._barred else MARGIN_M
         free_s = seconds_to_contact(self._footprint, local, asked, braking.horizon_s, margin_m)
         factor = braking.factor_within(free_s)
@@ -170,6 +176,8 @@ class FenceRule:
         self._outline = outline_points(profile.footprint)
         self._radius_m = profile.footprint_radius_m
         self._clearance = fence_clearance(fence)
+        self._known = (0.0, 0.0, -math.inf)
+        """A point, x and y, and its clearance: a metre away from there it is at most a metre less."""
 
     def judge(self, asked: Twist, situation: Situation) -> Ruling:
         """Scale `asked` so that the robot can brake before the edge; refuse it without a pose."""
@@ -180,7 +188,12 @@ class FenceRule:
             return Ruling(0.0, Reason("sensor_silent", {"sensor": "odom"}))
         braking = Braking(self._limits, asked)
         reach_m = asked.speed_mps * braking.horizon_s  # of its middle; however it turns, no corner is farther
-        if float(self._clearance(np.array([pose[:2]]))[0]) > self._radius_m + reach_m:
+        x_m, y_m, clear_m = self._known
+        if clear_m - math.hypot(pose.x_m - x_m, pose.y_m - y_m) > self._radius_m + reach_m:
+            return FREE
+        clear_m = float(self._clearance(np.array([pose[:2]]))[0])
+        self._known = (pose.x_m, pose.y_m, clear_m)
+        if clear_m > self._radius_m + reach_m:
             return FREE
         times = np.linspace(0.0, braking.horizon_s, SAMPLES)
         poses = np.array([pose.moved(asked, time_s) for time_s in times.tolist()])
