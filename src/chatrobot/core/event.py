@@ -39,20 +39,28 @@ class Event:
     def to_json(self) -> dict[str, Any]:
         """Make the object of one `--json` line; `event_from_json` reads it."""
         unknown = () if getattr(self, "measured", True) else self.unmeasured
-        known = (f.name for f in dataclasses.fields(self) if f.name not in unknown)
-        return {
-            "event": self.name,
-            **dict.fromkeys(f.name for f in dataclasses.fields(self)),
-            **{name: _plain(getattr(self, name)) for name in known},
+        values = {
+            name: None if name in unknown else _plain(getattr(self, name)) for name in _annotations(type(self))
         }
+        return {"event": self.name, **values}
+
+
+_ANNOTATIONS: dict[type[Event], dict[str, str]] = {}
+
+
+def _annotations(kind: type[Event]) -> Mapping[str, str]:
+    """The fields of an event in their order, and what they hold; looked up once."""
+    if kind not in _ANNOTATIONS:
+        _ANNOTATIONS[kind] = {f.name: str(f.type) for f in dataclasses.fields(kind)}
+    return _ANNOTATIONS[kind]
 
 
 def _plain(value: Any) -> Any:
     """JSON's own types: a Pose and a Twist become objects with their units in the keys."""
-    if isinstance(value, (Pose, Twist)):
-        return {key: round(number, 6) for key, number in zip(value._fields, value)}
     if isinstance(value, float):
         return round(value, 6)
+    if isinstance(value, (Pose, Twist)):
+        return {key: round(number, 6) for key, number in zip(value._fields, value)}
     if isinstance(value, Proposal):
         return dataclasses.asdict(value)
     if isinstance(value, (Reason, Event)):
@@ -72,7 +80,7 @@ def event_from_json(data: Mapping[str, Any]) -> Event:
     if kind is None:
         raise ValueError(f"no such event: {data.get('event')!r}")
     values = {key: value for key, value in data.items() if key != "event"}
-    annotations = {f.name: str(f.type) for f in dataclasses.fields(kind)}
+    annotations = _annotations(kind)
     try:
         return kind(**{key: _READERS.get(annotations[key], _as_is)(value) for key, value in values.items()})
     except (KeyError, TypeError) as error:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 from chatrobot.core.reason import Reason
@@ -180,7 +180,7 @@ class Envelope:
 
     def to_bytes(self) -> bytes:
         """Write it as one packet, or one text on a topic."""
-        return json.dumps(asdict(self), separators=(",", ":")).encode()
+        return _ENCODER.encode(vars(self)).encode()
 
     @classmethod
     def from_bytes(cls, packet: bytes) -> Envelope | None:
@@ -190,8 +190,7 @@ class Envelope:
         is obeyed whatever its payload, which is then left out.
         """
         try:
-            data = json.loads(packet, object_pairs_hook=_each_key_once)
-            envelope = cls(**data)
+            envelope = cls(**_DECODER.decode(packet.decode(json.detect_encoding(packet), "surrogatepass")))
         except (ValueError, TypeError, RecursionError):
             return None
         well_formed = (
@@ -220,6 +219,11 @@ def _each_key_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     if len(fields) < len(pairs) and fields.get("word") not in ("stop", "emergency_stop"):
         raise ValueError("a key stands twice")
     return fields
+
+
+_ENCODER = json.JSONEncoder(separators=(",", ":"))
+_DECODER = json.JSONDecoder(object_pairs_hook=_each_key_once)
+"""Made once: `json.dumps` and `json.loads` would make one for each of the many beats."""
 
 
 def _is_allowed(word: Word, payload: Any) -> bool:
