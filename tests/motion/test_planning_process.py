@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import os
 import threading
 import time
 from collections.abc import Iterator
+from pathlib import Path
 
+import psutil
 import pytest
 
 from chatrobot.core.geometry import Pose
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.planner import Planner
-from chatrobot.motion.planning_process import PlanningProcess, RemotePlanner, RemoteProgramHost
+from chatrobot.motion.planning_process import NICENESS, PlanningProcess, RemotePlanner, RemoteProgramHost
 from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.programs.sandboxed import warm_server
 from chatrobot.robots.load import load_profile
@@ -79,6 +82,18 @@ def test_nobody_waits_for_the_rehearsal_of_another(process: PlanningProcess) -> 
     assert process.planners[2].plan(1, SQUARE, Pose()).ok
     assert not ended, "it waited for the other"
     busy.join()
+
+
+def test_it_goes_after_all_that_drives(process: PlanningProcess) -> None:
+    (found,) = [
+        child.pid
+        for child in psutil.Process().children()
+        if "chatrobot.motion.planning_process" in child.cmdline()
+    ]
+    niceness = min(19, os.getpriority(os.PRIO_PROCESS, 0) + NICENESS)
+    assert os.getpriority(os.PRIO_PROCESS, found) == niceness
+    ranked = Path(f"/proc/{found}/autogroup")
+    assert not ranked.exists() or ranked.read_text().endswith(f"nice {niceness}\n")
 
 
 def test_where_it_was_killed_the_next_plan_is_rehearsed(process: PlanningProcess) -> None:

@@ -115,6 +115,18 @@ def test_a_program_is_scheduled_like_any_other_whoever_started_it() -> None:
     assert scheduled == [os.SCHED_OTHER]
 
 
+def test_all_programs_together_get_less_than_what_governs_the_robot(server: WarmServer) -> None:
+    """The kernel shares a processor among sessions first: each program in one of its own would get as much as Motion."""
+    with launch_forever(server) as first, launch_forever(server) as second:
+        niceness = os.getpriority(os.PRIO_PROCESS, 0) + 5
+        for program in (first, second):
+            assert os.getpriority(os.PRIO_PROCESS, program.pid) == niceness
+            assert os.getpgid(program.pid) == program.pid
+        assert os.getsid(first.pid) == os.getsid(second.pid) != os.getsid(0)
+        ranked = Path(f"/proc/{first.pid}/autogroup")
+        assert not ranked.exists() or ranked.read_text().endswith(f"nice {niceness}\n")
+
+
 def test_kill_is_not_delayed_by_a_program_that_ignores_signals(server: WarmServer) -> None:
     with launch_forever(server) as process:
         began_s = time.monotonic()

@@ -40,7 +40,8 @@ class Event:
         """Make the object of one `--json` line; `event_from_json` reads it."""
         unknown = () if getattr(self, "measured", True) else self.unmeasured
         values = {
-            name: None if name in unknown else _plain(getattr(self, name)) for name in _annotations(type(self))
+            name: None if name in unknown else _plain(getattr(self, name))
+            for name in _annotations(type(self))
         }
         return {"event": self.name, **values}
 

@@ -10,6 +10,7 @@ import contextlib
 import os
 import platform
 import struct
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -91,11 +92,25 @@ def prefer(*scores: int) -> int | None:
 _AUTOGROUP_FILE = "/proc/self/autogroup"
 
 
+_REFUSED_S, _TRIES = 0.02, 10
+"""The kernel takes a niceness for a session ten times a second in all, and refuses more, but for root's."""
+
+
 def give_way(niceness: int) -> None:
-    """Have others go first: in this session, and this session among others, which sched(7) ranks by themselves."""
-    os.nice(niceness)
-    with contextlib.suppress(OSError), open(_AUTOGROUP_FILE, "w", encoding="ascii") as file:
-        file.write(str(niceness))
+    """Have others go first, in turns as long as anybody's: within this session by so much more niceness, and this
+    session among others, which sched(7) ranks by themselves, by the niceness that results."""
+    wake_as_others_do()
+    niceness = os.nice(niceness)
+    for _ in range(_TRIES):
+        try:
+            with open(_AUTOGROUP_FILE, "w", encoding="ascii") as file:
+                file.write(str(niceness))
+        except BlockingIOError:
+            time.sleep(_REFUSED_S)
+        except OSError:
+            return  # sessions are not ranked here: the niceness of the process counts
+        else:
+            return
 
 
 _CALL = {"x86_64": 314, "aarch64": 274, "riscv64": 274, "armv7l": 380}

@@ -26,8 +26,6 @@ from chatrobot.sandbox.walls import restrict_with_landlock
 
 CHANNEL = 3
 """The one descriptor that leads out; 0 is empty, 1 and 2 are the log."""
-NICENESS = 5
-"""Whoever governs the robot goes first."""
 CRASHED = 70
 """Exit code of a child that could not be shut in: it has run nothing."""
 
@@ -92,7 +90,7 @@ def _entry(entry: str) -> Any:
 
 
 def _leave_the_server(doors: Doors) -> None:
-    os.setsid()
+    os.setpgid(0, 0)  # in the server's session: in one of its own the niceness of that would not count
     signal.set_wakeup_fd(-1)
     signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
@@ -100,8 +98,6 @@ def _leave_the_server(doors: Doors) -> None:
     prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     if os.getppid() != doors.server_pid:
         os._exit(CRASHED)
-    with contextlib.suppress(OSError):
-        os.nice(NICENESS)
 
 
 def _limit(limits: SandboxLimits, doors: Doors) -> None:

@@ -23,7 +23,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from chatrobot.core.process import wake_as_others_do
+from chatrobot.core.process import give_way
 from chatrobot.sandbox import attempts, child
 from chatrobot.sandbox.layers import build_walls, can_make_namespaces
 from chatrobot.sandbox.libc import PR_SET_PDEATHSIG, pidfd_open, prctl
@@ -53,6 +53,8 @@ loaded later. Those that reach out (`socket`, `subprocess`) are here, too: using
 
 THREAD_STACK_BYTES = 1 << 20
 MOST_DESCRIPTORS = 256
+NICENESS = 5
+"""Whoever governs the robot goes first; all programs of this server are one session, and share what one would get."""
 FIRST_WHEN_MEMORY_RUNS_OUT = "900"
 
 
@@ -222,7 +224,7 @@ def main(descriptor: int, host_pidfd: int | None = None) -> None:
     prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     # Few numbers to close in each child; and where memory runs out, the sandbox goes first.
     resource.setrlimit(resource.RLIMIT_NOFILE, (MOST_DESCRIPTORS, MOST_DESCRIPTORS))
-    wake_as_others_do()  # Motion, which started us, has it otherwise; nobody's program may
+    give_way(NICENESS)
     with contextlib.suppress(OSError):
         Path("/proc/self/oom_score_adj").write_text(FIRST_WHEN_MEMORY_RUNS_OUT)
     host = socket.socket(fileno=descriptor)
