@@ -97,10 +97,11 @@ _REFUSED_S, _TRIES = 0.02, 10
 
 
 def give_way(niceness: int) -> None:
-    """Have others go first, in turns as long as anybody's: within this session by so much more niceness, and this
-    session among others, which sched(7) ranks by themselves, by the niceness that results."""
+    """Have others go first, by at least so much niceness, in turns as long as anybody's: in this session, and this
+    session among others, which sched(7) ranks by themselves."""
     wake_as_others_do()
-    niceness = os.nice(niceness)
+    niceness = max(niceness, os.getpriority(os.PRIO_PROCESS, 0))
+    os.setpriority(os.PRIO_PROCESS, 0, niceness)
     for _ in range(_TRIES):
         try:
             with open(_AUTOGROUP_FILE, "w", encoding="ascii") as file:

@@ -35,8 +35,8 @@ from chatrobot.robots.profile import RobotProfile
 from chatrobot.sandbox.warm_server import WarmServer
 from chatrobot.sim.world import Obstacle, World
 
-NICENESS = 15
-"""What drives goes first, and what a robot drives by, too: a program that runs is nicer by 5 only."""
+NICENESS = 10
+"""What drives goes first, and programs that run."""
 OOM_SCORE = 500
 """Where memory runs out it goes before Motion: nothing moves by it."""
 

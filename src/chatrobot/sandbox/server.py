@@ -23,7 +23,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from chatrobot.core.process import give_way
+from chatrobot.core.process import give_way, wake_as_others_do
 from chatrobot.sandbox import attempts, child
 from chatrobot.sandbox.layers import build_walls, can_make_namespaces
 from chatrobot.sandbox.libc import PR_SET_PDEATHSIG, pidfd_open, prctl
@@ -224,7 +224,7 @@ def main(descriptor: int, host_pidfd: int | None = None) -> None:
     prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     # Few numbers to close in each child; and where memory runs out, the sandbox goes first.
     resource.setrlimit(resource.RLIMIT_NOFILE, (MOST_DESCRIPTORS, MOST_DESCRIPTORS))
-    give_way(NICENESS)
+    wake_as_others_do()  # Motion, which started us, has it otherwise; nobody's program may
     with contextlib.suppress(OSError):
         Path("/proc/self/oom_score_adj").write_text(FIRST_WHEN_MEMORY_RUNS_OUT)
     host = socket.socket(fileno=descriptor)
@@ -243,6 +243,9 @@ def main(descriptor: int, host_pidfd: int | None = None) -> None:
     except Exception as error:  # noqa: BLE001 - whatever a module raises is told to the host
         send_message(host, {"event": "failed", "problem": f"{type(error).__name__}: {error}"})
         return
+    give_way(
+        NICENESS
+    )  # not before: whoever waits for the first program waits for all that was imported until here
     threading.stack_size(THREAD_STACK_BYTES)
     walls = build_walls(layers, setup["tasks"], is_wrapped=setup["is_wrapped"])
     if walls.doors is None:
@@ -251,6 +254,9 @@ def main(descriptor: int, host_pidfd: int | None = None) -> None:
     gc.collect()
     gc.freeze()
     gc.disable()
+    give_way(
+        NICENESS
+    )  # now, and not before: who waits for a program waits for what has been imported until here
     server = Server(host, walls.doors, host_pidfd)
     send_message(host, {"event": "ready", "layers": dict(walls.problems)})
     server.serve()
