@@ -29,6 +29,10 @@ from chatrobot.wire.wire import Wire
 SWITCH_INTERVAL_S = 0.0005
 """How long a thread may keep the interpreter: the reader must get in between the lines of a rehearsal."""
 
+READ_S = 0.002
+"""The wires of many robots are read with each tick, and so often where none is due. To be woken by each message of each
+of them took more time than to read it; for so long, at most, news of a robot counts as younger than it is."""
+
 _FOUND = ("standing", "unseen", "waiting", "moving")
 """What `chatrobot stop` is told of many robots is what the one that is farthest from standing was found doing."""
 
@@ -131,8 +135,11 @@ class ControlLoop:
 
     def _listen(self) -> None:
         """Wait until a tick is due, a robot is woken or a wire has news; take in the news."""
-        wait_s = max(0.0, min(self._due_s.values()) - time.monotonic())
-        select.select([self._poller], [], [], wait_s)  # by itself the poller waits for whole milliseconds
+        wait_s = min(self._due_s.values()) - time.monotonic()
+        if wait_s > 0.0 and not self._woken:
+            # By itself the poller waits for whole milliseconds.
+            waited_for, longest_s = (self._wake, READ_S) if self._wires else (self._poller, TICK_S)
+            select.select([waited_for], [], [], min(wait_s, longest_s))
         for descriptor, _ in self._poller.poll(0.0):
             if descriptor == self._wake:
                 os.eventfd_read(self._wake)
