@@ -7,7 +7,7 @@ measured while the robot is at rest. So distances come from the wheels and headi
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from chatrobot.core.geometry import Pose, Twist, wrap_angle
 from chatrobot.core.reason import Reason
@@ -74,8 +74,7 @@ CREEPING_MPS, CREEPING_RADPS = 0.03, 0.1
 _GAP_POINTS = 50
 
 
-@dataclass(frozen=True)
-class Estimate:
+class Estimate(NamedTuple):
     """The robot at `stamp_s` of the sender's clock: pose in `odom` (yaw unwrapped), velocity in `base_link`."""
 
     stamp_s: float

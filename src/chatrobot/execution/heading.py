@@ -130,7 +130,9 @@ class Heading:
     def _is_quiet(self) -> bool:
         """Return True where neither the gyro's samples nor the wheels show that anything moved meanwhile."""
         rolled_rad = abs(sum(sample.wheel_turn_rad for sample in self._rest))
-        spread_radps = statistics.pstdev(sample.rate_radps for sample in self._rest)
+        rates_radps = [sample.rate_radps for sample in self._rest]
+        middle_radps = statistics.fmean(rates_radps)
+        spread_radps = math.sqrt(statistics.fmean((rate - middle_radps) ** 2 for rate in rates_radps))
         return rolled_rad <= ROLLED_RAD and spread_radps <= STILL_RADPS
 
     def _average(self) -> None:

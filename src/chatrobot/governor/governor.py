@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
@@ -47,8 +46,7 @@ VOID_EPOCH = -1
 """No stop epoch has this number: what carries it is never sent."""
 
 
-@dataclass(frozen=True)
-class Verdict:
+class Verdict(NamedTuple):
     """Tells what the governor made of a request. `asked` and `sent` differ where `action` is not `passed`.
 
     `allowed` is what the rules leave of `asked`; `sent` is on its way there as fast as the ramps allow. A refusal
@@ -206,7 +204,7 @@ class Governor:
             return self._verdict("limited", LATE_BEAT, asked, ZERO_TWIST, ZERO_TWIST, epoch, now_s, late)
         if verdict.reason is not None:  # a rule that allows even less
             return verdict
-        return replace(verdict, action="limited", rule=LATE_BEAT, asked=asked, reason=late)
+        return verdict._replace(action="limited", rule=LATE_BEAT, asked=asked, reason=late)
 
     def _judge(self, asked: Twist, lease_id: str, now_s: float, pose: Pose | None, sensed: Sensed) -> Verdict:
         epoch = self._epoch.value

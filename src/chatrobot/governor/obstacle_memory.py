@@ -72,7 +72,9 @@ class ObstacleMemory:
         vanished = self._still_there(scan, ranges, sees, lidar)
         angles = lidar.yaw_rad + scan.angle_min_rad + scan.angle_increment_rad * np.flatnonzero(valid)
         seen = ranges[valid]
-        points = np.stack([lidar.x_m + seen * np.cos(angles), lidar.y_m + seen * np.sin(angles)], axis=1)
+        points = np.empty((len(seen), 2))
+        points[:, 0] = lidar.x_m + seen * np.cos(angles)
+        points[:, 1] = lidar.y_m + seen * np.sin(angles)
         self._scans.append(points)
         self.points = np.concatenate([*self._scans, vanished])
 

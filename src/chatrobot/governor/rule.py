@@ -9,15 +9,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.robots.profile import RobotProfile
 
 
-@dataclass(frozen=True)
-class Ruling:
+class Ruling(NamedTuple):
     """A rule's answer to a request: the twist may be sent times `factor` (0..1).
 
     `urgent` means that a ramp that would come too late is skipped: zero at once. A rule that only wants the robot
@@ -47,8 +46,7 @@ class Sensed:
 NOTHING_SENSED = Sensed()
 
 
-@dataclass(frozen=True)
-class Situation:
+class Situation(NamedTuple):
     """All that a rule may know: `pose` in `odom`, None where unknown; `begins` where a new motion asks to begin."""
 
     pose: Pose | None
@@ -69,8 +67,7 @@ class Rule(Protocol):
         ...
 
 
-@dataclass(frozen=True)
-class Composed:
+class Composed(NamedTuple):
     """All rulings in one: `factor` is the smallest, `urgent_factor` the smallest of the urgent ones."""
 
     rule: str

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 from chatrobot.core.governed import GovernedTwist
 from chatrobot.core.reason import Reason
@@ -70,9 +68,8 @@ class GovernedRobot:
         verdict = self.governor.govern(may_ask, lease, now_s, self.sensors.pose_now(), self._sensed())
         if share == 1.0 or verdict.action == "refused" or verdict.rule not in RAMP_RULES:
             return verdict
-        return replace(
-            verdict, action="limited", rule=LATE_ODOMETRY, asked=asked, reason=silence(self.sensors)
-        )
+        silent = silence(self.sensors)
+        return verdict._replace(action="limited", rule=LATE_ODOMETRY, asked=asked, reason=silent)
 
     def fault(self) -> Reason | None:
         """Return why nobody sees any more where it goes."""
