@@ -23,6 +23,7 @@ from bench import percentile
 from chatrobot.compose import Setup
 from chatrobot.dialogue.pump import Pump
 from chatrobot.dialogue.session import Session
+from chatrobot.programs.library import KeptProgram
 from chatrobot.web.pupils import connect_class
 from chatrobot.wire.local import LocalWire
 from chatrobot.wire.messages import TwistMessage
@@ -94,6 +95,8 @@ def _rehearse(sessions: Sequence[Session]) -> None:
     """Two pupils have something rehearsed without end."""
     for session in sessions:
         session.stop("measured")
+        assert session.authoring is not None
+        session.authoring.library.keep(KeptProgram("busy", BUSY))
     ends_s = time.monotonic() + LASTS_S
     turns = [0] * len(sessions)
     while time.monotonic() < ends_s:
@@ -106,7 +109,9 @@ def _rehearse(sessions: Sequence[Session]) -> None:
 def measure(count: int, folder: str) -> None:
     """Print the figures of a class of so many."""
     names = [str(place) for place in range(count)]
-    robots = connect_class(Setup(world="home", folder=Path(folder)), names, lambda _: lambda _: None)
+    robots = connect_class(
+        Setup(world="home", folder=Path(folder), programs=True), names, lambda _: lambda _: None
+    )
     sessions = [robot.connection.session for robot in robots]
     pumps = [Pump(session, lambda error: print(error, file=sys.stderr)) for session in sessions]
     for pump in pumps:

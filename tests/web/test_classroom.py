@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import os
 import re
 import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -19,6 +21,7 @@ from playwright.sync_api import Browser, expect
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
+from chatrobot.programs.library import KeptProgram, Library
 from chatrobot.wire.local import LocalWire
 from chatrobot.wire.messages import TwistMessage
 from tests.cli.running import Command
@@ -35,6 +38,7 @@ class RunningClass(TalkingProcess):
     """`chatrobot web --class 3`, and those who open its pages."""
 
     def __init__(self, folder: Path) -> None:
+        self.folder = folder
         self._opened, self._dialled = contextlib.ExitStack(), contextlib.ExitStack()
         environment = {**os.environ, "XDG_RUNTIME_DIR": str(folder), "PYTHONUNBUFFERED": "1"}
         command = [
@@ -165,6 +169,54 @@ def test_the_teacher_stops_one_and_then_all(pupils: RunningClass) -> None:
     line.say("stop")
     line.wait_for("stopped")
     assert max(ear.seconds_to_zero(said_s) for ear in (pupils.heard[0], pupils.heard[2])) < 0.25
+
+
+WINDOW_S = 2.0
+ENDLESS_PROGRAM = "while True:\n    pass\n"
+ENDLESS_TEXT = "forward 10 cm, then look left and " * 110
+ENDLESS_PLAN = "drive 0.1 m\nturn left 10 deg\n" * 490
+
+
+@contextlib.contextmanager
+def kept_busy(page: Client, *orders: dict[str, str]) -> Iterator[None]:
+    """Say these in turn, each as soon as the one before has been answered."""
+    is_over = threading.Event()
+
+    def insist() -> None:
+        for order in itertools.cycle(orders):
+            page.say(**order)
+            while not is_over.is_set():
+                with contextlib.suppress(TimeoutError):
+                    page.wait_for_event("result", timeout_s=0.1)
+                    break
+            if is_over.is_set():
+                return
+
+    thread = threading.Thread(target=insist)
+    thread.start()
+    yield
+    is_over.set()
+    thread.join()
+
+
+def velocities_of(ear: Heard) -> list[bool]:
+    """Whether each that comes from now on, for a while, is one."""
+    began_s = time.monotonic()
+    time.sleep(WINDOW_S)
+    return [any(twist) for _, twist in ear.since(began_s)]
+
+
+@pytest.mark.alone
+def test_a_program_and_a_text_without_end_cost_the_others_nothing(pupils: RunningClass) -> None:
+    drive(pupils, 0)
+    undisturbed = velocities_of(pupils.heard[0])
+    Library(pupils.folder / "config/class/pupil-2").keep(KeptProgram("busy", ENDLESS_PROGRAM))
+    program = {"do": "edit_program", "name": "busy", "source": ENDLESS_PROGRAM}
+    texts = {"do": "say", "text": ENDLESS_TEXT}, {"do": "say_plan", "plan_text": ENDLESS_PLAN}
+    with kept_busy(pupils.pupil(1), program), kept_busy(pupils.pupil(2), *texts):
+        disturbed = velocities_of(pupils.heard[0])
+    assert all(disturbed), "it was stopped"
+    assert len(disturbed) > 0.9 * len(undisturbed)
 
 
 def test_only_the_teacher_releases_an_emergency_stop(pupils: RunningClass) -> None:

@@ -1,7 +1,7 @@
 """The control thread of a process that drives robots, one or the many of a class, and what it has once for all of them.
 
-Each Motion ticks every `TICK_S` by a time of its own. Those of many robots are spread over the period: so a tick waits
-for the one before it and not for all of them, and what the robots measure comes in evenly.
+Each Motion ticks every `TICK_S` by a time of its own. Those of many robots are spread over the period, a few at a time:
+so a tick waits for some of the others and not for all of them, and what the robots measure comes in evenly.
 """
 
 from __future__ import annotations
@@ -29,9 +29,11 @@ from chatrobot.wire.wire import Wire
 SWITCH_INTERVAL_S = 0.0005
 """How long a thread may keep the interpreter: the reader must get in between the lines of a rehearsal."""
 
-READ_S = 0.002
-"""The wires of many robots are read with each tick, and so often where none is due. To be woken by each message of each
-of them took more time than to read it; for so long, at most, news of a robot counts as younger than it is."""
+TURNS = 5
+TURN_S = TICK_S / TURNS
+"""Many robots are ticked in so many turns, one after the other within a turn, and their wires are read as often: to be
+woken for each tick and each message costs as much as many of them. For so long, at most, news of a robot of a class
+counts as younger than it is."""
 
 _FOUND = ("standing", "unseen", "waiting", "moving")
 """What `chatrobot stop` is told of many robots is what the one that is farthest from standing was found doing."""
@@ -111,8 +113,8 @@ class ControlLoop:
             threading.Thread(target=target, daemon=True).start()
         gc.collect()
         gc.freeze()  # what start-up has made stays: the collector need not look through it while the robot moves
-        began_s, apart_s = time.monotonic(), TICK_S / max(1, len(robots))
-        self._due_s = {robot: began_s + place * apart_s for place, robot in enumerate(robots)}
+        began_s = time.monotonic()
+        self._due_s = {robot: began_s + place % TURNS * TURN_S for place, robot in enumerate(robots)}
         lost: WireError | None = None
         try:
             while self._due_s:
@@ -138,7 +140,7 @@ class ControlLoop:
         wait_s = min(self._due_s.values()) - time.monotonic()
         if wait_s > 0.0 and not self._woken:
             # By itself the poller waits for whole milliseconds.
-            waited_for, longest_s = (self._wake, READ_S) if self._wires else (self._poller, TICK_S)
+            waited_for, longest_s = (self._wake, TURN_S) if self._wires else (self._poller, TICK_S)
             select.select([waited_for], [], [], min(wait_s, longest_s))
         for descriptor, _ in self._poller.poll(0.0):
             if descriptor == self._wake:

@@ -23,6 +23,8 @@ from chatrobot.wire.messages import TwistMessage
 from chatrobot.wire.wire import Wire
 
 NODE = "chatrobot_sim"
+TURNS = 5
+"""Many robots measure in so many turns: not all at once, and not each by itself, for each turn is a waking."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -71,8 +73,10 @@ def _serve(options: argparse.Namespace) -> None:
     check_start(world, profile, f"--world {options.world}")
     wake_promptly()
     wires = _open_wires(options, profile)
-    apart_s = TICK_S / len(wires)  # not all of them are due at once
-    servers = [_server(profile, world, faults, wire, place * apart_s) for place, wire in enumerate(wires)]
+    servers = [
+        _server(profile, world, faults, wire, place % TURNS * TICK_S / TURNS)
+        for place, wire in enumerate(wires)
+    ]
     os.write(options.ready_fd, b"ready\n")
     if options.ready_fd > 2:
         os.close(options.ready_fd)

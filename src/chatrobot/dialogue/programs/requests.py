@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from chatrobot.core.errors import InputError
 from chatrobot.core.events import (
     Event,
     Finished,
@@ -199,7 +200,11 @@ class ProgramRequests:
 
         One that cannot be read leaves the program as it was.
         """
-        before = self._shown[name]
+        try:
+            before = self._shown.get(name) or self.authoring.draft_of(self.authoring.library.get(name))
+        except InputError as error:  # nobody has shown it, nor is it kept
+            self._requests.conclude(turn, "refused", str(error))
+            return
         draft = self.authoring.edited(before, source)
         unreadable = draft.checked.refusal
         if unreadable is not None and before.checked.refusal is None:
