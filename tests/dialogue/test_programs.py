@@ -77,7 +77,13 @@ class House:
 
     def run(self, code: str, name: str = "test") -> Result:
         self.events.clear()
-        turn = self.session.say_draft(self.authoring.draft_of(KeptProgram(name, code)))
+        return self._end_of(self.session.say_draft(self.authoring.draft_of(KeptProgram(name, code))))
+
+    def edit(self, name: str, code: str) -> Result:
+        self.events.clear()
+        return self._end_of(self.session.say_source(name, code))
+
+    def _end_of(self, turn: int) -> Result:
         while turn not in self.session.results:
             self.session.pump(0.1)
         return self.session.results[turn]
@@ -317,6 +323,24 @@ def test_findings_ask_and_a_no_moves_nothing(house: House) -> None:
     assert house.all(Rehearsed)[0].needs_approval
     assert "program_never_stops" in house.findings
     assert (result.outcome, result.path_m) == ("refused", 0.0)
+
+
+def test_an_edit_is_asked_about_though_this_session_has_not_shown_the_program(house: House) -> None:
+    house.authoring.library.keep(KeptProgram("unseen", program("self.drive(0.1, 0.0, 1.0)")))
+    house.on_event = lambda event: (
+        house.session.approve(event.turn, True)
+        if isinstance(event, Rehearsed) and event.needs_approval
+        else None
+    )
+    result = house.edit("unseen", program("self.drive(0.2, 0.0, 1.0)"))
+    assert result.outcome == "completed"
+    assert result.path_m == pytest.approx(0.2, abs=0.02)
+
+
+def test_an_edit_of_a_program_that_is_not_kept_is_refused(house: House) -> None:
+    result = house.edit("nobody's", program("self.drive(0.2, 0.0, 1.0)"))
+    assert (result.outcome, result.path_m) == ("refused", 0.0)
+    assert "there is no program" in result.reply
 
 
 def test_who_said_yes_beforehand_is_not_asked(house: House) -> None:
