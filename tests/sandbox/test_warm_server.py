@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import signal
 import subprocess
@@ -125,6 +126,28 @@ def test_all_programs_together_get_less_than_what_governs_the_robot(server: Warm
         assert os.getsid(first.pid) == os.getsid(second.pid) != os.getsid(0)
         ranked = Path(f"/proc/{first.pid}/autogroup")
         assert not ranked.exists() or ranked.read_text().endswith(f"nice {niceness}\n")
+
+
+def test_programs_that_compute_without_end_leave_the_processor_to_what_drives(server: WarmServer) -> None:
+    """On one processor, beside whatever else the machine does: more to the one that drives than to all of them."""
+    here = psutil.Process().cpu_affinity()[:1]
+    words = [sys.executable, "-c", "while True: pass"]
+    drives = psutil.Process(subprocess.Popen(words, start_new_session=True).pid)
+    with contextlib.ExitStack() as programs:
+        programs.callback(drives.wait)
+        programs.callback(drives.kill)
+        all_of_them = []
+        for _ in range(3):
+            program = server.launch("sandbox_entries:run_source", b"while True: pass")
+            all_of_them.append(psutil.Process(programs.enter_context(program).pid))
+        for one in (drives, *all_of_them):
+            one.cpu_affinity(here)
+        began_s = [sum(one.cpu_times()[:2]) for one in (drives, *all_of_them)]
+        time.sleep(1.5)
+        own_s, *others_s = [
+            sum(one.cpu_times()[:2]) - before_s for one, before_s in zip((drives, *all_of_them), began_s)
+        ]
+    assert own_s > sum(others_s)
 
 
 def test_kill_is_not_delayed_by_a_program_that_ignores_signals(server: WarmServer) -> None:
