@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from chatrobot.core.clock import VirtualClock
+from chatrobot.core.clock import Clock, RealClock, VirtualClock
 from chatrobot.core.errors import LinkError, UsageError
 from chatrobot.core.events import Event, TruePose
 from chatrobot.dialogue.llm.camera import Camera, PassedCamera, wire_camera
@@ -36,6 +36,7 @@ from chatrobot.sim.robot import TRUTH_TOPIC, SimRobot
 from chatrobot.sim.world import World, check_known, check_start
 from chatrobot.wire.connect import connect_wire, is_on_this_machine, wire_address
 from chatrobot.wire.messages import Odometry
+from chatrobot.wire.wire import Wire
 
 OnEvent = Callable[[Event], None]
 SETTLE_S = 0.5
@@ -60,8 +61,8 @@ class Setup:
         source: in whose name it speaks to Motion, which decides its priority and what it may (`governor/lease.py`).
         processes: those of a simulated robot in real time that have been started ahead.
         age_s: how long ago the page was heard from which the orders come, 0 where it is there or they come from
-            elsewhere. While something of the session moves, Motion slows and stops the robot by it, as by beats that
-            are late: from 0.13 s on slower, zero at 0.18 s. Called many times a second, from a thread of the link's.
+            elsewhere. While something moves, Motion slows (0.13 s) and stops (0.18 s) the robot by it, as by beats
+            that are late. Called many times a second, from a thread of the link's.
         on_ready: called once the robot is ready.
     """
 
@@ -98,9 +99,7 @@ class Setup:
 
 @dataclass
 class Connection:
-    """A session and what it stands on. Close it: a robot in motion finishes what it was told, orderly.
-
-    `camera` is one beside that of a model; None where there is none."""
+    """A session and what it stands on. Close it: a robot in motion finishes what it was told, orderly."""
 
     session: Session
     profile: RobotProfile
@@ -108,6 +107,7 @@ class Connection:
     prepared: Prepared
     link: SecondLinks
     camera: Camera | None = None
+    """One beside that of a model; None where there is none."""
 
     @property
     def world(self) -> World:
@@ -117,10 +117,9 @@ class Connection:
     def second_session(self, source: str, on_event: OnEvent, options: Options | None = None) -> Connection:
         """Return a session of an agent on the same robot, beside this one, which is a person's.
 
-        It hears of its own turns, and of notices and telemetry; this one hears of its turns, too, under numbers of
-        their own (`ordered` comes first), and `approve` answers what waits for a yes. It approves and releases nothing.
-        What a person chose to approve is asked about whatever `options` say. One at a time; pump it in any thread,
-        and close it before this one.
+        It hears of its own turns, notices and telemetry; this one hears of its turns, too, under numbers of their own
+        (`ordered` first), and `approve` answers what waits for a yes. It approves and releases nothing. What a person
+        chose to approve is asked about whatever `options` say. One at a time; close it before this one.
 
         Raises:
             UsageError: that source is a person's.
@@ -141,6 +140,8 @@ class Connection:
 class Prepared:
     """What is known before a robot is met: all that a session needs but the link.
 
+    `listen` opens another end of the robot's wire, and gives the clock that its messages come by.
+
     Raises:
         InputError: the world is wrong, or does not fit the robot.
     """
@@ -148,6 +149,7 @@ class Prepared:
     def __init__(self, setup: Setup, profile: RobotProfile) -> None:
         self.setup, self.profile = setup, profile
         self.world = load_world(setup.world)
+        self.listen: Callable[[], tuple[Wire, Clock]]
         check_known(self.world, profile)
         self.understanding = Understanding(profile, self.world, setup.folder)
 
@@ -243,12 +245,10 @@ def _connect_simulated(prepared: Prepared, on_event: OnEvent) -> Connection:
     from chatrobot.wire.memory import MemoryHub
 
     setup, profile, world = prepared.setup, prepared.profile, prepared.world
-    clock = VirtualClock()
-    hub = MemoryHub()
+    clock, hub = VirtualClock(), MemoryHub()
     robot = SimRobot(profile, world, FaultInjection.parse(setup.sim), wire=hub.connect(), clock=clock)
     SimControl(robot, hub.connect())
-    wire = hub.connect()
-    guard = SimulatedGuard(clock)
+    wire, guard = hub.connect(), SimulatedGuard(clock)
     programs = ProgramHost(profile, is_in_step=True)
 
     def build(emit: OnEvent) -> Motion:
@@ -260,6 +260,7 @@ def _connect_simulated(prepared: Prepared, on_event: OnEvent) -> Connection:
     if setup.trace:
         hub.connect().subscribe(TRUTH_TOPIC, Odometry, _tracer(on_event))
         link.step()  # the trace begins before anything moves
+    prepared.listen = lambda: (hub.connect(), clock)
     session = prepared.session(link, on_event)
     return Connection(session, profile, _in_turn(session.close, programs.close), prepared, link)
 
@@ -291,10 +292,11 @@ def _connect_real_time(prepared: Prepared, on_event: OnEvent) -> Connection:
         with lock:
             on_event(event)
 
+    prepared.listen = lambda: (LocalWire(processes.wire_path), RealClock())
     session = prepared.session(link, one_at_a_time)
     close = session.close
     if setup.trace:
-        trace = LocalWire(processes.wire_path)
+        trace, _ = prepared.listen()
         trace.subscribe(TRUTH_TOPIC, Odometry, _tracer(one_at_a_time))
         close = _in_turn(session.close, trace.close)
     camera = _camera(setup, prepared.profile)
@@ -325,8 +327,8 @@ def _connect_wire(prepared: Prepared, on_event: OnEvent) -> Connection:
         link = SocketLink(motion, setup.source)
         link.wait_until_ready()
     setup.on_ready()
-    session = prepared.session(link, on_event)
-    camera = _camera(setup, profile)
+    prepared.listen = lambda: (connect_wire(address, profile.wiring, "chatrobot_recorder"), RealClock())
+    session, camera = prepared.session(link, on_event), _camera(setup, profile)
     return Connection(session, profile, session.close, prepared, link, camera)
 
 

@@ -102,6 +102,7 @@ INTERPRETERS = ("auto", "offline", "model")
 _KEPT = tuple(f"program {action}" for action in ("list", "show", "edit", "rename", "remove", "export"))
 _JSON = (
     "plan",
+    "replay",
     "eval",
     "world list",
     "worlds",
@@ -122,27 +123,32 @@ _BASE, _CONTROL, _BOTH = ("base",), ("control",), ("base", "control")
 
 # fmt: off
 OPTIONS = (
-    Option("--on", f"which robot: sim (the default), dds, {_WIRES}", (*PLAN, "calibrate", "sim"), COMMON, "auto",
-        "WHERE", offers=("sim", "dds", "ros", "rosbridge"), helps={
+    Option("--on", f"which robot: sim (the default), dds, {_WIRES}", (*PLAN, "calibrate", "sim", "record"), COMMON,
+        "auto", "WHERE", offers=("sim", "dds", "ros", "rosbridge"), helps={
+            "record": f"where the robot is: dds (the default), {_WIRES}",
             "node": f"where the robot is: dds (the default), {_WIRES}",
             "sim": f"where others find it: dds, {_WIRES} (default: a wire of its own, see --socket; ros2 run: ros)"}),
     Option("--robot", f"a robot profile, by name or .toml file (default: {DEFAULT_ROBOT}); chatrobot robots lists them",
-        (*UNDERSTAND, "calibrate", "doctor", "sim", "program show", "world draw", "world check"),
+        (*UNDERSTAND, "calibrate", "doctor", "sim", "record", "program show", "world draw", "world check"),
         COMMON, DEFAULT_ROBOT, "PROFILE", offers="robots",
         parameter=Parameter("robot", _BOTH, DEFAULT_ROBOT, "The robot's profile: a built-in name, or "
             "the path of a .toml file; with open_loop no_odometry is the default.", open_loop=NO_ODOMETRY)),
-    Option("--world", _WORLD.format("home"), (*UNDERSTAND, "calibrate", "sim"), COMMON, "", "WORLD", offers="worlds",
-        helps=dict.fromkeys(("eval", "node", "calibrate"), _WORLD.format("empty")),
+    Option("--world", _WORLD.format("home"), (*UNDERSTAND, "calibrate", "sim", "record"), COMMON, "", "WORLD",
+        offers="worlds", helps=dict.fromkeys(("eval", "node", "calibrate", "record"), _WORLD.format("empty")),
         parameter=Parameter("world", _BOTH, "empty",
             "What is known of the surroundings: the name of a world, or the path of a world file or a map.yaml.")),
     Option("--yes", "do each plan without asking", (*FACES, "node"), COMMON, False),
     Option("--approve", "ask before each plan", (*FACES, "node"), COMMON, False),
     Option("--json", "one JSON object a line", (*DRIVE, *_JSON), COMMON, False,
         helps={"": "text in, events out: one JSON object a line"}),
-    Option("--web", "at a terminal: show the conversation in a browser, too", ("",), COMMON, False),
-    Option("--config-dir", "where places, programs and robot profiles live",
-        (*PLAN, "calibrate", "sim", "doctor", "robots", "model", "usage", *_KEPT), COMMON, None, "DIR",
-        offers="folders", parameter=Parameter("config_dir", _BASE, "",
+    Option("--web", "at a terminal: show the conversation in a browser, too", ("", "replay"), COMMON, False,
+        helps={"replay": "show it in a browser"}),
+    Option("--record", "record what happens, by default to a new file of the recordings folder; the console and the"
+        " web console do so unasked", (*DRIVE, "web"), COMMON, None, "[FILE.mcap]", offers="files"),
+    Option("--no-record", "record nothing", (*DRIVE, "web"), COMMON, False),
+    Option("--config-dir", "where places, programs, recordings and robot profiles live",
+        (*PLAN, "calibrate", "sim", "doctor", "robots", "model", "usage", "record", "replay", *_KEPT), COMMON, None,
+        "DIR", offers="folders", parameter=Parameter("config_dir", _BASE, "",
             "Where places and robot profiles live; empty for the user's own folder.")),
     Option("-p", "as the tutorial's node takes it: revChatGPT:=True", ("", "do", "plan", "node"), COMMON, (),
         "NAME:=VALUE", dest="parameters", is_repeated=True,

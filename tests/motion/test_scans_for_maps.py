@@ -11,7 +11,7 @@ from tests.motion.far_robot import Rig
 from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.events import Event, Scan
 from chatrobot.core.geometry import Pose
-from chatrobot.motion.telemetry import SCAN_POINTS, scan_points_m
+from chatrobot.execution.sensors import SCAN_POINTS, scan_points_m
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import Lidar
 from chatrobot.wire.messages import LaserScan

@@ -8,11 +8,11 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Sequence
-from typing import Any
 
 from chatrobot import __version__
 from chatrobot.cli.families import PROGRAM_ACTIONS, WORLD_ACTIONS, actions_of
-from chatrobot.cli.options import Parser, add_defaults, add_options, offer, port
+from chatrobot.cli.options import Parser, add_defaults, add_options, joined, port, positive
+from chatrobot.cli.options import argument as _add
 from chatrobot.core.errors import UsageError
 from chatrobot.options import NO_ODOMETRY, OF_NODES, OPTIONS
 from chatrobot.programs.ros_args import split_ros_args
@@ -36,6 +36,8 @@ COMMANDS = {
     "usage": "what language models have used and cost",
     "fake-model": "a scripted stand-in for a language model, for tests and demonstrations",
     "web": "a page in your browser: chat, map, plan, stick and stop",
+    "record": "record a robot that others drive, until Ctrl-C",
+    "replay": "show a recording again, at any speed; no robot moves",
     "completion": "what makes Tab complete in bash, zsh or fish",
 }
 SHELLS = ("bash", "zsh", "fish")
@@ -83,7 +85,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         UsageError: what is wrong, and what is allowed.
     """
     arguments, program_args = _split_program_args(arguments)
-    arguments, ros_args = split_ros_args(arguments)
+    arguments, ros_args = split_ros_args(joined(arguments))
     word = _first_word(arguments)
     if word is not None and word not in COMMANDS:
         raise UsageError(
@@ -188,10 +190,6 @@ def commands_parser() -> Parser:
     return parser
 
 
-def _add(parser: argparse.ArgumentParser, name: str, offers: str = "", **how: Any) -> None:
-    offer(parser.add_argument(name, **how), offers or ())
-
-
 def _do(parser: argparse.ArgumentParser) -> None:
     _add(parser, "texts", nargs="*", metavar="TEXT", help="what to do; several are turns of one dialogue")
     drive = "drive a saved plan, rehearsed anew; texts are the turns after it"
@@ -255,9 +253,8 @@ def _usage(parser: argparse.ArgumentParser) -> None:
 
 
 def _fake_model(parser: argparse.ArgumentParser) -> None:
-    _add(
-        parser, "script", "files", metavar="SCRIPT.yaml", help="what it answers: docs/models.md has the form"
-    )
+    answers = "what it answers: docs/models.md has the form"
+    _add(parser, "script", "files", metavar="SCRIPT.yaml", help=answers)
     _add(parser, "--port", type=port, default=8399, help="0: any that is free (default: 8399)")
     where = "where to listen; beyond loopback a token is asked for"
     _add(parser, "--host", default="127.0.0.1", help=where)
@@ -275,6 +272,17 @@ def _web(parser: argparse.ArgumentParser) -> None:
     _add(parser, "--no-open", action="store_true", help="do not open the page in a browser")
     _add(parser, "--tls-cert", "files", default="", metavar="FILE", help="a certificate in PEM: speak HTTPS")
     _add(parser, "--tls-key", "files", default="", metavar="FILE", help="its key in PEM")
+
+
+def _record(parser: argparse.ArgumentParser) -> None:
+    new = "the new file (default: one in the recordings folder)"
+    _add(parser, "file", "files", nargs="?", default="", metavar="FILE.mcap", help=new)
+
+
+def _replay(parser: argparse.ArgumentParser) -> None:
+    _add(parser, "file", "files", metavar="FILE.mcap", help="a recording")
+    speed = "so many times as fast as it was (default: 1)"
+    _add(parser, "--speed", type=positive, default=1.0, metavar="X", help=speed)
 
 
 def _completion(parser: argparse.ArgumentParser) -> None:
@@ -308,5 +316,5 @@ def _ros_args(parser: argparse.ArgumentParser) -> None:
 _ARGUMENTS = {
     "do": _do, "plan": _plan, "eval": _eval, "calibrate": _calibrate, "sim": _sim, "node": _node,
     "mcp": _mcp, "model": _model, "usage": _usage, "fake-model": _fake_model, "program": _program,
-    "completion": _completion, "web": _web, "world": _world,
+    "completion": _completion, "web": _web, "world": _world, "record": _record, "replay": _replay,
 }  # fmt: skip

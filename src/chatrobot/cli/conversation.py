@@ -10,7 +10,7 @@ from chatrobot.cli.approver import Approver
 from chatrobot.cli.entry import STOPPED, forget_stdout
 from chatrobot.cli.json_lines import Printer
 from chatrobot.cli.signals import SignalWatch
-from chatrobot.compose import Connection, Setup, connect
+from chatrobot.compose import Connection, OnEvent, Setup, connect
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import EXIT_CODES, Event, Notice, Result
 from chatrobot.core.reason import Reason
@@ -27,8 +27,15 @@ class Conversation:
     thread, so that these wait for its next step, a matter of milliseconds; in real time they wait for nothing.
     """
 
-    def __init__(self, setup: Setup, printer: Printer, approver: Approver) -> None:
+    def __init__(
+        self,
+        setup: Setup,
+        printer: Printer,
+        approver: Approver,
+        meet: Callable[[Setup, OnEvent], Connection] = connect,
+    ) -> None:
         self._setup = setup
+        self._meet = meet
         self._printer = printer
         self._approver = approver
         self._posted: queue.Queue[Callable[[], object]] = queue.Queue()
@@ -40,7 +47,7 @@ class Conversation:
         self._connection: Connection | None = None
 
     def __enter__(self) -> Conversation:
-        connection = connect(self._setup, self._on_event)
+        connection = self._meet(self._setup, self._on_event)
         self.session, self._connection = connection.session, connection
         self._approver.attach(connection.world)
         self._watch.__enter__()

@@ -12,6 +12,7 @@ from chatrobot.cli.json_lines import printer_for
 from chatrobot.cli.keyboard import Keyboard
 from chatrobot.cli.lines import has_keyboard
 from chatrobot.cli.plan import read_plan_file
+from chatrobot.cli.recorder import recorded
 from chatrobot.core.events import EXIT_CODES, Notice, Result
 from chatrobot.core.reason import Reason
 from chatrobot.language.consent import read_consent
@@ -26,7 +27,7 @@ def run(args: argparse.Namespace) -> int:
     plan_text = read_plan_file(args.plan) if args.plan else ""
     printer = printer_for(args)
     approver = Approver(can_ask=has_keyboard())
-    conversation = Conversation(setup_from(args, programs=True), printer, approver)
+    conversation = Conversation(setup_from(args, programs=True), printer, approver, recorded(args))
     Keyboard(conversation, approver).start()  # a stop may be typed while the robot starts
     with conversation:
         conversation.drop_if_stopped([args.plan, *args.texts] if args.plan else args.texts)

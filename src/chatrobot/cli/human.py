@@ -17,10 +17,14 @@ _CLEAR_LINE = "\r\x1b[K"
 
 
 class HumanPrinter:
-    """A `Printer` for people. Sentences come in the language of the question; the rest is numbers with units."""
+    """A `Printer` for people. Sentences come in the language of the question; the rest is numbers with units.
 
-    def __init__(self, output: Output) -> None:
+    `shows_pose`: at a terminal its last line says where the robot is, in place of how far it is.
+    """
+
+    def __init__(self, output: Output, *, shows_pose: bool = False) -> None:
         self._output = output
+        self._shows_pose = shows_pose
         self._words = Words()
         self._narrator = Narrator(self._words, plain=True)
         self._way = _Way()
@@ -48,7 +52,9 @@ class HumanPrinter:
                 self._way.planned_m += event.length_m
             case events.Started():
                 self._way.start(event.pose)
-            case events.Progress():
+            case events.Telemetry() if self._shows_pose:
+                self._show_status(f"{self._words.pose(event.pose)}  {event.twist.speed_mps:.2f} m/s")
+            case events.Progress() if not self._shows_pose:
                 self._show_progress(event)
             case events.TruePose():
                 x, y, yaw = fixed(event.x_m, 3), fixed(event.y_m, 3), fixed(math.degrees(event.yaw_rad), 1)
@@ -58,17 +64,26 @@ class HumanPrinter:
 
     def _show_progress(self, event: events.Progress) -> None:
         metres = self._way.advance(event.pose)
-        status = f"  {self._way.text(event.fraction)}"
+        status = self._way.text(event.fraction)
+        if not self._show_status(status) and metres:
+            self._line(f"  {status}")
+
+    def clear(self) -> None:
+        """Clear the last line, where it says something that passes."""
+        if self._has_status:
+            self._has_status = False
+            self._output.write(_CLEAR_LINE)
+
+    def _show_status(self, status: str) -> bool:
+        """Say it in the last line of a terminal; false where there is none."""
         if self._output.is_terminal:
-            self._output.write(f"{_CLEAR_LINE}{status}")
+            self._output.write(f"{_CLEAR_LINE}  {status}")
             self._has_status = True
-        elif metres:
-            self._line(status)
+        return self._output.is_terminal
 
     def _line(self, text: str) -> None:
-        clear = _CLEAR_LINE if self._has_status else ""
-        self._has_status = False
-        self._output.write(f"{clear}{text}\n")
+        self.clear()
+        self._output.write(f"{text}\n")
 
 
 class _Way:

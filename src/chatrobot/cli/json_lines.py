@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import json
-import math
 import os
 import select
 import sys
 from typing import Any, Protocol
 
+from chatrobot.core.event import strict_json
 from chatrobot.core.events import Event
 from chatrobot.language.interpretation import LanguageCode
 
@@ -38,19 +37,8 @@ class JsonPrinter:
 
 
 def json_line(data: dict[str, Any]) -> str:
-    """Write one line of strict JSON: NaN and infinity (a robot may report them) become null."""
-    try:
-        return json.dumps(data, ensure_ascii=False, allow_nan=False) + "\n"
-    except ValueError:
-        return json.dumps(_finite(data), ensure_ascii=False) + "\n"
-
-
-def _finite(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _finite(item) for key, item in value.items()}
-    if isinstance(value, list):
-        return [_finite(item) for item in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
+    """Write one line of strict JSON."""
+    return strict_json(data) + "\n"
 
 
 STDOUT = 1

@@ -93,7 +93,8 @@ class Narrator:
             case events.Paused() if not self._plain:  # there the reply says so
                 yield _marked("‖", "yellow", say(language, "paused_now", plan=describe_left(event, language)))
             case events.Notice():
-                yield _marked("!", "yellow", event.text or render_reason(event.reason, language))
+                mark = ("·", "dim") if event.reason.code == "recording" else ("!", "yellow")
+                yield _marked(*mark, event.text or render_reason(event.reason, language))
             case events.Result():
                 yield from self._result(event)
 

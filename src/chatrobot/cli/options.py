@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, NoReturn, TypeVar
 
 from chatrobot.core.errors import UsageError
@@ -42,6 +42,17 @@ class _HelpText(argparse.RawDescriptionHelpFormatter):
         super().add_usage(usage, actions, groups, prefix)
 
 
+def joined(arguments: Sequence[str]) -> list[str]:
+    """Return them with `--record` and its file as one: without a file, what follows is no file but a text."""
+    found, rest = [], list(arguments)
+    while rest and rest[0] != "--":
+        word = rest.pop(0)
+        if word == "--record":
+            word = f"--record={rest.pop(0) if rest and rest[0].endswith('.mcap') else ''}"
+        found.append(word)
+    return [*found, *rest]
+
+
 def add_options(parser: argparse.ArgumentParser, command: str) -> None:
     """Have `parser` accept every option of `command`, and list those that it uses, group by group."""
     options = (*OPTIONS, *OF_NODES) if command == "node" else OPTIONS
@@ -73,6 +84,11 @@ def add_defaults(parsed: argparse.Namespace, options: Iterable[Option]) -> None:
     for option in options:
         if not hasattr(parsed, option.name):
             setattr(parsed, option.name, option.default)
+
+
+def argument(parser: argparse.ArgumentParser, name: str, offers: str = "", **how: Any) -> None:
+    """Add an argument of a command of its own; `offers` as of `offer`."""
+    offer(parser.add_argument(name, **how), offers or ())
 
 
 def offer(action: argparse.Action, offers: str | tuple[str, ...]) -> None:
@@ -109,4 +125,5 @@ def _positive(kind: Callable[[str], Number]) -> Callable[[str], Number]:
     return read
 
 
-_READERS: dict[Any, Callable[[str], Any]] = {int: _positive(int), float: _positive(float), "limit": _limit}
+positive = _positive(float)
+_READERS: dict[Any, Callable[[str], Any]] = {int: _positive(int), float: positive, "limit": _limit}

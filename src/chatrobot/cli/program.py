@@ -15,6 +15,7 @@ from chatrobot.cli.json_lines import json_line, printer_for
 from chatrobot.cli.keyboard import Keyboard
 from chatrobot.cli.lines import has_keyboard
 from chatrobot.cli.parameters import with_parameter_files
+from chatrobot.cli.recorder import recorded
 from chatrobot.core.errors import UsageError
 from chatrobot.dialogue.options import Options
 from chatrobot.programs.library import KeptProgram, Library, clean_name
@@ -84,7 +85,8 @@ def _drive(args: argparse.Namespace, say: Callable[[Conversation], int]) -> int:
         ask_new=is_new and can_ask and not args.yes,
     )
     approver = Approver(can_ask=can_ask)
-    with Conversation(setup_from(args, options=options, programs=True), printer, approver) as conversation:
+    setup = setup_from(args, options=options, programs=True)
+    with Conversation(setup, printer, approver, recorded(args)) as conversation:
         Keyboard(conversation, approver).start()
         conversation.see_through_edits(say(conversation))
     return conversation.exit_code

@@ -12,6 +12,7 @@ from chatrobot.cli.choices import setup_from
 from chatrobot.cli.conversation import Conversation
 from chatrobot.cli.json_lines import printer_for
 from chatrobot.cli.lines import LineReader, TypedAhead
+from chatrobot.cli.recorder import recorded
 from chatrobot.core.events import Notice
 from chatrobot.core.reason import Reason
 
@@ -23,10 +24,10 @@ def run(args: argparse.Namespace) -> int:
         from chatrobot.cli.console.app import run_console
 
         typed_ahead = args.early.typed_ahead if args.early is not None else TypedAhead()
-        return run_console(setup, typed_ahead, has_page=args.web)
+        return run_console(setup, typed_ahead, recorded(args, unasked=True), has_page=args.web)
     printer = printer_for(args)
     approver = Approver(can_ask=False, others_answer=args.json)
-    with Conversation(setup, printer, approver) as conversation:
+    with Conversation(setup, printer, approver, recorded(args)) as conversation:
         reader = LineReader(JsonInput(conversation, approver).hear if args.json else conversation.hear)
         reader.start()
         while not (conversation.is_leaving or conversation.has_parted or reader.has_ended):

@@ -16,10 +16,13 @@ from typing import TYPE_CHECKING
 from chatrobot.cli.choices import setup_from
 from chatrobot.cli.console.words import language_of_environment
 from chatrobot.cli.entry import STOPPED
+from chatrobot.cli.recorder import Connect, recorded
 from chatrobot.cli.signals import SignalWatch
-from chatrobot.compose import Connection, Setup, connect
+from chatrobot.compose import Connection, Setup
 from chatrobot.core.errors import LinkError, UsageError
+from chatrobot.core.events import Event, Notice
 from chatrobot.dialogue.pump import Pump
+from chatrobot.language.phrases import render_reason
 from chatrobot.link.processes import SIMULATED
 
 if TYPE_CHECKING:
@@ -49,6 +52,8 @@ def run(args: argparse.Namespace) -> int:
     setup = setup_from(args, programs=True)
     if args.pupils:
         check_class(setup, args.pupils)
+        if args.record is not None:
+            raise UsageError("a class is not recorded", where="--record", allowed="chatrobot web --record")
     setup = replace(setup, options=replace(setup.options, while_moving="replace"))
     access = _access(args)
     page_socket, stop_socket = listen(args.host, args.port), listen(args.host, 0)
@@ -58,7 +63,8 @@ def run(args: argparse.Namespace) -> int:
             return _serve_class(setup, args, access, (page_socket, stop_socket), certificate)
         room = Room()
         server = WebServer(access, {room.name: room}, certificate)
-        return _serve(setup, room, server, (page_socket, stop_socket), lambda: _tell(args, access))
+        meet = recorded(args, unasked=True, tokens=lambda: access.tokens)
+        return _serve(setup, room, server, (page_socket, stop_socket), lambda: _tell(args, access), meet)
 
 
 def _serve(
@@ -67,8 +73,14 @@ def _serve(
     server: WebServer,
     sockets: tuple[socket.socket, socket.socket],
     tell: Callable[[], None],
+    meet: Connect,
 ) -> int:
-    connection = connect(setup, room.hear)
+    def hear(event: Event) -> None:
+        if isinstance(event, Notice) and event.reason.code.startswith("recording"):
+            print(render_reason(event.reason, language_of_environment()), flush=True)
+        room.hear(event)
+
+    connection = meet(setup, hear)
     ended = threading.Event()
     problems: list[Exception] = []
 

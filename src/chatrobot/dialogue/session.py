@@ -63,6 +63,8 @@ class Session:
         self._link = link
         self.understanding = understanding
         self._on_event = on_event
+        self.on_said: Callable[[int, str], None] = lambda _, __: None
+        """Hears, in the thread that says it, each text that was taken in, with the number of its turn."""
         self._resuming = Resuming(understanding)
         self._goals = GoalClient(link, options, self._resuming)
         self._utterances = UtteranceQueue()
@@ -144,6 +146,7 @@ class Session:
 
     def _take_in(self, text: str, kind: Kind, about: Draft | str = "") -> int:
         turn = self._utterances.add(text, kind, about, is_moving=self.is_moving)
+        self.on_said(turn, text)
         self._link.wake()
         return turn
 

@@ -14,7 +14,7 @@ from chatrobot.core.clock import Clock
 from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.execution.estimator import Estimate, PoseEstimator
-from chatrobot.robots.profile import RobotProfile
+from chatrobot.robots.profile import Lidar, RobotProfile
 from chatrobot.wire.messages import Flag, Imu, LaserScan, Number, Odometry
 from chatrobot.wire.wire import Wire, subscribe_sensors
 
@@ -29,6 +29,7 @@ LEAST_MPS, LEAST_RADPS = 0.1, 0.2
 """From slower motion nothing can be told."""
 LATEST_S = 0.15
 """A base that is later than that has another fault."""
+SCAN_POINTS = 180
 
 
 class _Debt:
@@ -282,3 +283,23 @@ def is_seen_standing(sensors: Sensors, since_s: float = -math.inf) -> bool:
     if estimate is None or not estimate.is_standing or sensors.odometry_age_s() >= FRESH_S:
         return False
     return estimate.stamp_s - max(since_s, sensors.estimator.rest.told_since_s) > SAME_MOMENT_S
+
+
+def scan_points_m(lidar: Lidar, scan: LaserScan, pose: Pose) -> tuple[tuple[float, float], ...]:
+    """Return what the lidar saw from `pose`, in `odom`: of neighbouring beams the nearest return, to the centimetre."""
+    origin = pose.compose(Pose(lidar.x_m, lidar.y_m, lidar.yaw_rad))
+    ranges, first_rad = scan.ranges_m, origin.yaw_rad + scan.angle_min_rad
+    together = math.ceil(len(ranges) / SCAN_POINTS)
+    points = []
+    for start in range(0, len(ranges), max(together, 1)):
+        seen = [
+            (distance_m, start + offset)
+            for offset, distance_m in enumerate(ranges[start : start + together])
+            if scan.range_min_m <= distance_m <= scan.range_max_m
+        ]
+        if seen:
+            distance_m, beam = min(seen)
+            angle_rad = first_rad + beam * scan.angle_increment_rad
+            x_m = origin.x_m + distance_m * math.cos(angle_rad)
+            points.append((round(x_m, 2), round(origin.y_m + distance_m * math.sin(angle_rad), 2)))
+    return tuple(points)

@@ -20,7 +20,7 @@ from chatrobot.models.keys import find_key
 from chatrobot.models.providers import Provider, split_name
 from chatrobot.models.reply import StreamedReply, in_background
 from chatrobot.models.seam import CallLimits, Message, Model, ModelError, Reply, Usage
-from chatrobot.models.secret import PieceScrubber
+from chatrobot.models.secret import PieceScrubber, Secret
 from chatrobot.models.usage import priced, record
 
 EXTRA = "pip install 'chatrobot[models]'"
@@ -131,6 +131,11 @@ class LibraryModel:
     def name(self) -> str:
         """`PROVIDER:NAME`, as the person wrote it."""
         return f"{self._provider.name}:{self._model}"
+
+    @property
+    def secret(self) -> Secret | None:
+        """Its key, once it has been found."""
+        return self._place.secret if self._place is not None else None
 
     def ask(self, messages: Sequence[Message], limits: CallLimits) -> Reply:
         """Begin a call; see `seam.Model`."""

@@ -6,8 +6,7 @@ import math
 from collections.abc import Callable
 
 from chatrobot.core.events import Event, Limited, Progress, Scan, Telemetry
-from chatrobot.core.geometry import Pose
-from chatrobot.execution.sensors import Sensors
+from chatrobot.execution.sensors import Sensors, scan_points_m
 from chatrobot.execution.tracking import nearest_m
 from chatrobot.governor.governor import Verdict
 from chatrobot.governor.lease import Leases
@@ -78,7 +77,6 @@ class LimitPublisher:
 
 
 SCAN_S = 0.2
-SCAN_POINTS = 180
 
 
 class ScanPublisher:
@@ -115,26 +113,6 @@ class ScanPublisher:
         pose = self._sensors.estimator.pose_at(scan.stamp_s)
         if pose is not None and self._watchers:
             self._emit(Scan(0, pose, scan_points_m(lidar, scan, pose)))
-
-
-def scan_points_m(lidar: Lidar, scan: LaserScan, pose: Pose) -> tuple[tuple[float, float], ...]:
-    """Return what the lidar saw from `pose`, in `odom`: of neighbouring beams the nearest return, to the centimetre."""
-    origin = pose.compose(Pose(lidar.x_m, lidar.y_m, lidar.yaw_rad))
-    ranges, first_rad = scan.ranges_m, origin.yaw_rad + scan.angle_min_rad
-    together = math.ceil(len(ranges) / SCAN_POINTS)
-    points = []
-    for start in range(0, len(ranges), max(together, 1)):
-        seen = [
-            (distance_m, start + offset)
-            for offset, distance_m in enumerate(ranges[start : start + together])
-            if scan.range_min_m <= distance_m <= scan.range_max_m
-        ]
-        if seen:
-            distance_m, beam = min(seen)
-            angle_rad = first_rad + beam * scan.angle_increment_rad
-            x_m = origin.x_m + distance_m * math.cos(angle_rad)
-            points.append((round(x_m, 2), round(origin.y_m + distance_m * math.sin(angle_rad), 2)))
-    return tuple(points)
 
 
 SECTORS = 8

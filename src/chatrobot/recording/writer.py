@@ -6,9 +6,8 @@ that is killed loses no more than what came since.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Mapping
-from pathlib import Path
+from typing import BinaryIO
 
 from mcap.writer import Writer
 
@@ -23,26 +22,24 @@ from chatrobot.recording.topics import (
 )
 from chatrobot.wire.dds.definitions import RosDefinitions
 from chatrobot.wire.messages import Message, Text
-from chatrobot.wire.ros_messages import with_wall_stamp
 
 
 class RecordingWriter:
-    """A new file that only its owner can read.
+    """One file; it is closed with the writer.
 
     Args:
-        path: where; nothing is there yet.
+        file: a new one, open for writing; nothing else writes there.
         about: the metadata record, text by text.
         redact: what every text passes before it is written.
 
     Raises:
-        OSError: the file cannot be made; `write`, `flush` and `close` raise it where the disk is full.
+        OSError: the disk is full; so do `write`, `flush` and `close`.
     """
 
-    def __init__(self, path: Path, about: Mapping[str, str], redact: Callable[[str], str]) -> None:
-        self.path = path
+    def __init__(self, file: BinaryIO, about: Mapping[str, str], redact: Callable[[str], str]) -> None:
         self._redact = redact
         self._definitions = RosDefinitions()
-        self._file = os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb")
+        self._file = file
         self._writer = Writer(self._file)
         self._writer.start(PROFILE, library=f"chatrobot {__version__}")
         self._writer.add_metadata(METADATA, {key: redact(value) for key, value in about.items()})
@@ -53,15 +50,15 @@ class RecordingWriter:
         self._file.flush()
 
     def write(self, topic: Topic, message: Message, time_ns: int) -> None:
-        """Add a message of `topic`, received at `time_ns` since 1970."""
+        """Add a message of `topic`, received at `time_ns` since 1970; so are its stamps, if it has any."""
         if isinstance(message, Text):
             message = Text(self._redact(message.data))
-        data = self._definitions.cdr(topic.form.type_name, topic.form.to_ros(with_wall_stamp(message)))
+        data = self._definitions.cdr(topic.form.type_name, topic.form.to_ros(message))
         self._writer.add_message(self._channels[topic.name], time_ns, data, time_ns)
 
     @property
     def size_bytes(self) -> int:
-        """How long the file is, without what has not been flushed."""
+        """Return how long the file is, without what has not been flushed."""
         return self._file.tell()
 
     def flush(self) -> None:

@@ -72,10 +72,14 @@ class Access:
         host: where the server listens.
         is_secure: it speaks TLS.
         needs_token: nobody comes in without one.
+        open_as: what who comes in without one is.
     """
 
-    def __init__(self, host: str, *, is_secure: bool = False, needs_token: bool = False) -> None:
+    def __init__(
+        self, host: str, *, is_secure: bool = False, needs_token: bool = False, open_as: Role = "steerer"
+    ) -> None:
         self.host = host
+        self._open_as = open_as
         self.scheme = "https" if is_secure else "http"
         self.needs_token = needs_token
         self.port = self.stop_port = 0
@@ -137,7 +141,7 @@ class Access:
         address = address_of(scope)
         is_local = is_loopback_address(address)
         if not self.needs_token:
-            return Pass("steerer", is_local=is_local)
+            return Pass(self._open_as, is_local=is_local)
         seat = parse_qs(scope.get("query_string", b"").decode("latin-1")).get("as", [""])[0]
         token = _token_in(_headers(scope), self.cookie_name(seat))
         if not token:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import json
-import math
 import threading
 from collections import deque
 from collections.abc import Callable
 from typing import Any
 
+from chatrobot.core.event import strict_json
 from chatrobot.language.interpretation import LanguageCode
 
 MOST_DROPPABLE = 40
@@ -42,24 +41,8 @@ class Message:
         """Return it as it is sent."""
         text = self._texts.get(language)
         if text is None:
-            text = self._texts[language] = strict_json(self._make(language))
+            text = self._texts[language] = strict_json(self._make(language), is_compact=True)
         return text
-
-
-def strict_json(data: Any) -> str:
-    """Write JSON that every browser reads: NaN and infinity, which a robot may report, become null."""
-    try:
-        return json.dumps(data, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
-    except ValueError:
-        return json.dumps(_finite(data), ensure_ascii=False, separators=(",", ":"))
-
-
-def _finite(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _finite(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_finite(item) for item in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 class Outbox:

@@ -19,7 +19,7 @@ from chatrobot.cli.console.page import PageBeside
 from chatrobot.cli.console.tables import example_place, place_in
 from chatrobot.cli.console.words import Words, language_of_environment
 from chatrobot.cli.lines import TypedAhead
-from chatrobot.compose import Setup, connect
+from chatrobot.compose import Connection, OnEvent, Setup
 from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import LinkError, UsageError
 from chatrobot.core.events import Event
@@ -28,11 +28,18 @@ from chatrobot.link.processes import SIMULATED
 HISTORY_FILE = "history"
 
 
-def run_console(setup: Setup, typed_ahead: TypedAhead, *, has_page: bool = False) -> int:
+def run_console(
+    setup: Setup,
+    typed_ahead: TypedAhead,
+    meet: Callable[[Setup, OnEvent], Connection],
+    *,
+    has_page: bool = False,
+) -> int:
     """Talk to the robot until somebody leaves. What is said while it moves replaces what it does.
 
     Args:
         typed_ahead: has what was typed while the robot started.
+        meet: connects to the robot, and records what happens where that was chosen.
         has_page: show it in a browser, too.
 
     Raises:
@@ -52,7 +59,7 @@ def run_console(setup: Setup, typed_ahead: TypedAhead, *, has_page: bool = False
             page.hear(event)
 
     page: PageBeside | None = None
-    connection = connect(setup, hear)
+    connection = meet(setup, hear)
     controller = ChatController(connection, words, RealClock(), commands.run)
     if has_page:
         page = PageBeside(controller, is_simulated=setup.on in SIMULATED)

@@ -1,0 +1,147 @@
+"""What a command records, and where: `--record [FILE]`, `--no-record`, and what the console and the page do unasked."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import threading
+from collections.abc import Callable, Iterable
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from chatrobot.compose import Connection, OnEvent, Setup, connect
+from chatrobot.core.errors import UsageError, WireError
+from chatrobot.core.events import Event, Notice
+from chatrobot.core.reason import Reason
+from chatrobot.language.phrases import render_reason
+from chatrobot.recording.shelf import MOST_BYTES, check_new, make_folder, make_room, new_path, tidy
+from chatrobot.sim.robot import TRUTH_TOPIC
+
+if TYPE_CHECKING:
+    from chatrobot.recording.recorder import Recorder
+
+Connect = Callable[[Setup, OnEvent], Connection]
+EXTRA = "pip install 'chatrobot[record]'"
+_LIBRARIES = ("mcap", "rosbags")
+
+
+def data_folder(config_dir: str | None) -> Path:
+    """Return the folder that holds the folder of recordings: `--config-dir`, or the user's folder of data."""
+    if config_dir is not None:
+        return Path(config_dir).expanduser()
+    from platformdirs import user_data_path
+
+    return user_data_path("chatrobot")
+
+
+def require_extra() -> None:
+    """Check that recordings can be written and read here.
+
+    Raises:
+        UsageError: they cannot.
+    """
+    missing = [name for name in _LIBRARIES if find_spec(name) is None]
+    if missing:
+        raise UsageError(f"recordings are not installed: {missing[0]} is missing", allowed=EXTRA)
+
+
+def recorded(
+    args: argparse.Namespace, *, unasked: bool = False, tokens: Callable[[], Iterable[str]] = tuple
+) -> Connect:
+    """Return what connects to the robot, and records what happens where that was chosen.
+
+    Args:
+        unasked: this command records unless a person says no.
+        tokens: the tokens in use; no recording has them.
+
+    Raises:
+        UsageError: it cannot be recorded as chosen.
+    """
+    if args.record is None and (args.no_record or not unasked or any(map(_is_missing, _LIBRARIES))):
+        return connect
+    if args.record is not None and args.no_record:
+        raise UsageError("either of both", where="--record --no-record", allowed="leave one out")
+    if args.record is not None:
+        require_extra()
+    chosen = check_new(Path(args.record)) if args.record else None
+
+    def connect_recorded(setup: Setup, on_event: OnEvent) -> Connection:
+        tap = _Tap(on_event)
+        connection = connect(setup, tap.hear)
+        try:
+            _record(connection, tap, chosen or _free_path(args, setup), tokens)
+        except (OSError, WireError) as error:
+            problem = getattr(error, "strerror", None) or str(error)
+            if args.record is not None:
+                connection.close()
+                raise UsageError(f"cannot record: {problem}", where="--record") from error
+            tap.waiting.append(Notice(0, Reason("recording_not_begun", {"problem": problem})))
+        return connection
+
+    return connect_recorded
+
+
+def _is_missing(library: str) -> bool:
+    return find_spec(library) is None
+
+
+def _free_path(args: argparse.Namespace, setup: Setup) -> Path:
+    """Make room in the folder of recordings, and mend there what was cut off, while the robot is already there.
+
+    Raises:
+        OSError: there can be no such folder.
+    """
+    folder = make_folder(data_folder(args.config_dir))
+    make_room(folder, MOST_BYTES * 0.9)
+    threading.Thread(target=tidy, args=(folder,), name="recordings", daemon=True).start()
+    return new_path(folder, setup.profile.name)
+
+
+class _Tap:
+    """Stands where events are heard: the recorder hears them, too, and what it has to tell comes in between."""
+
+    def __init__(self, on_event: OnEvent) -> None:
+        self._on_event = on_event
+        self.recorder: Recorder | None = None
+        self.waiting: list[Notice] = []
+
+    def hear(self, event: Event) -> None:
+        """Take an event in."""
+        if self.recorder is not None:
+            self.recorder.hear(event)
+            self.waiting += self.recorder.notices()
+        while self.waiting:
+            self._on_event(self.waiting.pop(0))
+        self._on_event(event)
+
+
+def _record(connection: Connection, tap: _Tap, path: Path, tokens: Callable[[], Iterable[str]]) -> None:
+    """Begin to record that connection, until it is closed."""
+    from chatrobot.recording.about import about_of
+    from chatrobot.recording.recorder import Recorder
+    from chatrobot.recording.redactor import Redactor
+
+    setup, session = connection.prepared.setup, connection.session
+
+    def in_use() -> tuple[str, ...]:
+        secret = getattr(setup.model, "secret", None)
+        return (*tokens(), *([secret.reveal()] if secret is not None else ()))
+
+    wire, clock = connection.prepared.listen()
+    recorder = Recorder(path, Redactor(in_use, os.environ), clock=clock, limit_bytes=MOST_BYTES)
+    recorder.listen(wire, connection.profile.wiring, TRUTH_TOPIC)
+    language = session.understanding.language
+    recorder.start(lambda: about_of(connection.profile, connection.world, on=setup.on, language=language))
+    tap.recorder, session.on_said, close = recorder, recorder.said, connection.close
+
+    def close_both() -> None:
+        try:
+            close()
+        finally:
+            recorder.close()
+            for notice in recorder.notices():  # nobody hears events any more
+                print(render_reason(notice.reason, language), file=sys.stderr)
+
+    connection.close = close_both

@@ -1,0 +1,120 @@
+"""Mends a recording whose writer was killed: what reached the disk is written anew, with index and summary."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from chatrobot.core.errors import InputError
+
+MAGIC = b"\x89MCAP0\r\n"
+_FOOTER_BYTES = 9 + 20
+_LARGEST_RECORD_BYTES = 1 << 28
+"""A length beyond it is no length: the file ends within it."""
+
+
+def is_whole(path: Path) -> bool:
+    """Tell whether the file has its end: the index, and the mark behind it.
+
+    Raises:
+        OSError: it cannot be read.
+    """
+    with path.open("rb") as file:
+        if file.read(len(MAGIC)) != MAGIC:
+            return False
+        size = file.seek(0, os.SEEK_END)
+        if size < 2 * len(MAGIC) + _FOOTER_BYTES:
+            return False
+        file.seek(-len(MAGIC) - _FOOTER_BYTES, os.SEEK_END)
+        end = file.read()
+    return end.endswith(MAGIC) and end[0] == 2 and int.from_bytes(end[1:9], "little") == _FOOTER_BYTES - 9
+
+
+@contextmanager
+def held(path: Path) -> Iterator[bool]:
+    """Within it nobody else writes or mends that file; false where somebody does.
+
+    Raises:
+        OSError: it cannot be opened.
+    """
+    with path.open("rb") as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            yield False
+            return
+        yield True
+
+
+def repair(path: Path) -> int | None:
+    """Write a truncated file anew; how many messages it holds then. None where nothing was to be done.
+
+    A file that is being written just now is left alone.
+
+    Raises:
+        InputError: it is no recording, or nothing in it can be read.
+        OSError: it cannot be read, or the disk is full; then it stays as it is.
+    """
+    with held(path) as is_ours:
+        if not is_ours or is_whole(path):
+            return None
+        beside = path.with_name(f".{path.name}.mending")
+        try:
+            descriptor = os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NOFOLLOW, 0o600)
+            with os.fdopen(descriptor, "wb") as mended, path.open("rb") as broken:
+                count = _copy(broken, mended, str(path))
+            os.utime(beside, ns=(path.stat().st_atime_ns, path.stat().st_mtime_ns))  # its age stays
+            os.replace(beside, path)
+        finally:
+            beside.unlink(missing_ok=True)
+    return count
+
+
+def _copy(broken: BinaryIO, mended: BinaryIO, name: str) -> int:
+    """Copy record by record up to the first that is not whole."""
+    from mcap import records
+    from mcap.writer import Writer
+
+    found = _records(broken)
+    header = next(found, None)
+    if not isinstance(header, records.Header):
+        raise InputError("is no recording: it does not begin as one", where=name, allowed="an MCAP file")
+    writer, count = Writer(mended), 0
+    writer.start(header.profile, header.library)
+    schemas: dict[int, int] = {0: 0}
+    channels: dict[int, int] = {}
+    for record in found:
+        if isinstance(record, records.Metadata):
+            writer.add_metadata(record.name, record.metadata)
+        elif isinstance(record, records.Schema) and record.id not in schemas:
+            schemas[record.id] = writer.register_schema(record.name, record.encoding, record.data)
+        elif isinstance(record, records.Channel) and record.id not in channels:
+            channels[record.id] = writer.register_channel(
+                record.topic, record.message_encoding, schemas[record.schema_id], record.metadata
+            )
+        elif isinstance(record, records.Message):
+            channel = channels[record.channel_id]
+            writer.add_message(channel, record.log_time, record.data, record.publish_time, record.sequence)
+            count += 1
+    writer.finish()  # type: ignore[no-untyped-call]
+    return count
+
+
+def _records(file: BinaryIO) -> Iterator[Any]:
+    """Give the records of the data section, up to its end or the first that cannot be read."""
+    from mcap.records import DataEnd
+    from mcap.stream_reader import StreamReader
+
+    reader = iter(StreamReader(file, validate_crcs=True, record_size_limit=_LARGEST_RECORD_BYTES).records)
+    while True:
+        try:
+            record = next(reader)
+        except Exception:  # noqa: BLE001 - the library raises a dozen kinds for bytes that are no record: that is the end
+            return
+        if isinstance(record, DataEnd):
+            return
+        yield record
