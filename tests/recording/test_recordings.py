@@ -25,7 +25,7 @@ from chatrobot.recording.redactor import Redactor
 from chatrobot.recording.shelf import make_folder, new_path, tidy
 from chatrobot.recording.topics import CMD_VEL, ODOM
 from chatrobot.robots.load import load_profile
-from chatrobot.sim.load import load_world
+from chatrobot.sim.load import load_world, world_names
 from chatrobot.sim.world import World
 from chatrobot.wire.messages import Odometry, TwistMessage
 from tests.cli.running import Command
@@ -113,13 +113,13 @@ def test_a_recording_of_a_foreign_robot_is_shown_by_its_odometry(tmp_path: Path)
     assert any(getattr(item, "text", "") == "go" for _, item in items)
 
 
-@pytest.mark.parametrize("name", ["home", "empty"])
+@pytest.mark.parametrize("name", world_names())
 def test_the_world_can_be_read_again_without_its_file(name: str) -> None:
     world = load_world(name)
     about = about_of(load_profile("wheeltec_mini_mec"), world, on="sim")
     again = world_of(about)
     assert again.name == world.name
-    assert again.start_yaw_rad == pytest.approx(world.start_yaw_rad)
+    assert again.start == pytest.approx(world.start, abs=1e-5)
     assert dict(again.aliases) == dict(world.aliases)
     for (label, outline), (label_before, before) in zip(again.outline(), world.outline(), strict=True):
         assert label == label_before

@@ -86,7 +86,7 @@ class _Screen:
         where = f" in {world}" if world else ""
         output.write(f"{title}{where}, {when}, {recording.duration_s:.1f} s\n")
 
-    def show(self, _: float, item: Shown) -> None:
+    def show(self, _t_s: float, item: Shown) -> None:
         """Show one thing."""
         if isinstance(item, Heard):
             if item.text:

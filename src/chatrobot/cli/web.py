@@ -75,12 +75,7 @@ def _serve(
     tell: Callable[[], None],
     meet: Connect,
 ) -> int:
-    def hear(event: Event) -> None:
-        if isinstance(event, Notice) and event.reason.code.startswith("recording"):
-            print(render_reason(event.reason, language_of_environment()), flush=True)
-        room.hear(event)
-
-    connection = meet(setup, hear)
+    connection = meet(setup, lambda event: _hear(room, event))
     ended = threading.Event()
     problems: list[Exception] = []
 
@@ -111,6 +106,13 @@ def _serve(
     if problems:
         raise problems[0]
     return STOPPED
+
+
+def _hear(room: Room, event: Event) -> None:
+    """Have the page told, and the terminal what concerns a recording."""
+    if isinstance(event, Notice) and event.reason.code.startswith("recording"):
+        print(render_reason(event.reason, language_of_environment()), flush=True)
+    room.hear(event)
 
 
 def _serve_class(

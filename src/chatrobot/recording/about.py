@@ -13,7 +13,7 @@ from typing import Any
 
 from chatrobot import __version__
 from chatrobot.core.event import strict_json
-from chatrobot.core.geometry import Pose
+from chatrobot.core.geometry import ORIGIN, Pose, wrap_angle
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.load import parse_world
 from chatrobot.sim.shapes import Circle, Shape
@@ -55,12 +55,15 @@ def world_of(about: Mapping[str, str]) -> World:
 
 
 def _world_file(world: World) -> dict[str, Any]:
-    """The world as its file could say it (JSON is YAML), with the start in the middle."""
-    back = Pose(0.0, 0.0, -world.start_yaw_rad)
+    """The world as its file could say it (JSON is YAML)."""
+    back = ORIGIN.relative_to(world.start)
     found: dict[str, Any] = {
         "name": world.name,
-        "start": {"x_m": 0.0, "y_m": 0.0, "yaw_deg": _degrees(world.start_yaw_rad)},
-        "obstacles": [{"name": one.name, **_shape(one.shape.seen_from(back))} for one in world.obstacles],
+        "start": _pose(world.start),
+        "obstacles": [
+            {"name": one.name, "aliases": list(one.aliases), **_shape(one.shape.seen_from(back))}
+            for one in world.obstacles
+        ],
         "places": [
             {"name": name, **_place(world, name, pose.relative_to(back))}
             for name, pose in world.places.items()
@@ -71,11 +74,16 @@ def _world_file(world: World) -> dict[str, Any]:
     return found
 
 
+def _pose(pose: Pose) -> dict[str, float]:
+    yaw_deg = math.degrees(wrap_angle(pose.yaw_rad))
+    return {"x_m": round(pose.x_m, 6), "y_m": round(pose.y_m, 6), "yaw_deg": round(yaw_deg, 6)}
+
+
 def _place(world: World, name: str, pose: Pose) -> dict[str, Any]:
+    facts: dict[str, Any] = _pose(pose)
+    if name in world.without_heading:
+        del facts["yaw_deg"]
     others = [alias for alias in world.names_of(name)[1:] if alias != name]
-    facts: dict[str, Any] = {"x_m": round(pose.x_m, 6), "y_m": round(pose.y_m, 6)}
-    if name not in world.without_heading:
-        facts["yaw_deg"] = _degrees(pose.yaw_rad)
     return {**facts, "aliases": others} if others else facts
 
 
@@ -87,7 +95,3 @@ def _shape(seen: Shape) -> dict[str, Any]:
 
 def _points(points: Any) -> list[list[float]]:
     return [[round(x_m, 6), round(y_m, 6)] for x_m, y_m in points]
-
-
-def _degrees(angle_rad: float) -> float:
-    return round(math.degrees(angle_rad), 6)

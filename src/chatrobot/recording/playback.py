@@ -52,14 +52,14 @@ def shown(recording: Recording, lidar: Lidar | None = None) -> list[tuple[float,
 
 def play(
     items: list[tuple[float, Shown]],
-    speed: float,
+    speed_factor: float,
     show: Callable[[float, Shown], None],
     goes_on: Callable[[], bool] = lambda: True,
 ) -> None:
-    """Show each at its time, `speed` times as fast as it was, as long as it goes on."""
+    """Show each at its time, `speed_factor` times as fast as it was, as long as it goes on."""
     began_s = time.monotonic()
     for t_s, item in items:
-        while (left_s := began_s + t_s / speed - time.monotonic()) > 0.0 and goes_on():
+        while (left_s := began_s + t_s / speed_factor - time.monotonic()) > 0.0 and goes_on():
             time.sleep(min(left_s, WAIT_S))
         if not goes_on():
             return

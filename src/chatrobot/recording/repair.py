@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import fcntl
 import os
+import struct
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -94,9 +95,9 @@ def _copy(broken: BinaryIO, mended: BinaryIO, name: str) -> int:
             schemas[record.id] = writer.register_schema(record.name, record.encoding, record.data)
         elif isinstance(record, records.Channel) and record.id not in channels:
             channels[record.id] = writer.register_channel(
-                record.topic, record.message_encoding, schemas[record.schema_id], record.metadata
+                record.topic, record.message_encoding, schemas.get(record.schema_id, 0), record.metadata
             )
-        elif isinstance(record, records.Message):
+        elif isinstance(record, records.Message) and record.channel_id in channels:
             channel = channels[record.channel_id]
             writer.add_message(channel, record.log_time, record.data, record.publish_time, record.sequence)
             count += 1
@@ -106,14 +107,26 @@ def _copy(broken: BinaryIO, mended: BinaryIO, name: str) -> int:
 
 def _records(file: BinaryIO) -> Iterator[Any]:
     """Give the records of the data section, up to its end or the first that cannot be read."""
+    from mcap.exceptions import McapError
     from mcap.records import DataEnd
     from mcap.stream_reader import StreamReader
+    from zstandard import ZstdError
 
+    no_record = (
+        McapError,
+        ZstdError,
+        struct.error,
+        ValueError,
+        OverflowError,
+        MemoryError,
+        KeyError,
+        EOFError,
+    )
     reader = iter(StreamReader(file, validate_crcs=True, record_size_limit=_LARGEST_RECORD_BYTES).records)
     while True:
         try:
             record = next(reader)
-        except Exception:  # noqa: BLE001 - the library raises a dozen kinds for bytes that are no record: that is the end
+        except no_record:
             return
         if isinstance(record, DataEnd):
             return

@@ -11,7 +11,7 @@ from chatrobot.core.errors import ChatRobotError, UsageError
 from chatrobot.recording.repair import held, repair
 
 FOLDER, SUFFIX = "recordings", ".mcap"
-MOST_BYTES, MOST_DAYS = 500_000_000, 30
+MOST_BYTES, KEPT_S = 500_000_000, 30 * 86_400
 """What all recordings of a folder take at most, and how long one is kept: the oldest go first."""
 
 
@@ -53,14 +53,14 @@ def check_new(path: Path) -> Path:
     return path
 
 
-def tidy(folder: Path, *, most_bytes: float = MOST_BYTES, most_days: float = MOST_DAYS) -> None:
+def tidy(folder: Path, *, most_bytes: float = MOST_BYTES, kept_s: float = KEPT_S) -> None:
     """Mend what was cut off, and delete what is too old or too much. What is being written is left alone.
 
     What cannot be mended or deleted stays: a recording must not fail because of an older one.
     """
     for path in sorted(folder.glob(f"*{SUFFIX}")):
         with contextlib.suppress(ChatRobotError, OSError):
-            _delete_if(path, path.stat().st_mtime < time.time() - most_days * 86_400 or _is_bare(path))
+            _delete_if(path, path.stat().st_mtime < time.time() - kept_s or _is_bare(path))
         with contextlib.suppress(ChatRobotError, OSError):
             repair(path)
     make_room(folder, most_bytes)

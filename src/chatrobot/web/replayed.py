@@ -37,7 +37,7 @@ class ReplayRoom(Room):
         self.open(cast(Connection, replayed), lambda job: job(), is_simulated=True)
         self.hear(Notice(0, Reason("replay_begins")))
 
-    def show(self, _: float, item: Shown) -> None:
+    def show(self, _t_s: float, item: Shown) -> None:
         """Tell everybody one thing of the recording."""
         if isinstance(item, Heard):
             if item.text:
