@@ -9,7 +9,7 @@ import pyte
 from PIL import Image, ImageDraw
 from pyte.screens import Char
 
-from chatrobot.cli.drawing import canvas
+from chatrobot.cli.drawing import fonts
 
 SCALE = 2
 FONT_PX, CELL_W, CELL_H = 15, 9.03, 19
@@ -49,7 +49,7 @@ def draw_screen(screen: pyte.Screen, title: str, path: Path) -> None:
     for number, colour in enumerate(((237, 106, 94), (245, 191, 79), (98, 197, 84))):
         x, y, r = (20 + number * 20) * SCALE, TITLE_H * SCALE / 2, 6 * SCALE
         draw.ellipse((x - r, y - r, x + r, y + r), fill=colour)
-    font = canvas.latin(13 * SCALE)
+    font = fonts.latin(13 * SCALE)
     draw.text((image.width / 2, TITLE_H * SCALE / 2), title, fill=(160, 168, 180), font=font, anchor="mm")
     for y in range(screen.lines):
         for x in range(screen.columns):
@@ -77,7 +77,7 @@ def _letter(
     draw: ImageDraw.ImageDraw, x: float, y: float, letter: str, ink: tuple[int, int, int], bold: bool
 ) -> None:
     is_wide = ord(letter) >= 0x2E80
-    font = canvas.han(FONT_PX * SCALE) if is_wide else canvas.mono(FONT_PX * SCALE)
+    font = fonts.han(FONT_PX * SCALE) if is_wide else fonts.mono(FONT_PX * SCALE)
     if font is None:
         raise SystemExit(
             "no font for this: install DejaVu Sans Mono, and a Chinese one such as WenQuanYi Micro Hei"

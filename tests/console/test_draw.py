@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 from chatrobot.cli.draw import draw_plan
-from chatrobot.cli.drawing.canvas import font_for, is_latin
+from chatrobot.cli.drawing.fonts import font_for, is_latin
 from chatrobot.cli.drawing.ground import END, OBSTACLE, PAPER, RED
 from chatrobot.cli.drawing.ways import progress_colour, standing_points, where_found
 from chatrobot.core.events import FindingSeen, Rehearsed

@@ -1,4 +1,4 @@
-"""A rehearsed plan as a picture: the world, the predicted way coloured by progress, what rehearsal found."""
+"""Pictures of a world, and of a rehearsed plan in it: the predicted way coloured by progress, what rehearsal found."""
 
 from __future__ import annotations
 
@@ -7,35 +7,41 @@ from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
 
-from chatrobot.cli.drawing.canvas import Canvas, font_for
-from chatrobot.cli.drawing.extent import Orientation, extent_of_world
-from chatrobot.cli.drawing.ground import (
-    AMBER,
-    END,
-    FAINT,
-    INK,
-    LEFT_PX,
-    LINE_PX,
-    PLACE,
-    RED,
-    START,
-    SWEPT,
-    SWEPT_EDGE,
-    TITLE_SIZE_PX,
-    TOP_PX,
-    WHITE,
-    Ground,
-)  # fmt: skip
-from chatrobot.cli.drawing.svg_canvas import SvgCanvas
+from chatrobot.cli.drawing.canvas import Canvas
+from chatrobot.cli.drawing.extent import Extent, Orientation, extent_of_world
+from chatrobot.cli.drawing.fonts import font_for
+from chatrobot.cli.drawing.ground import AMBER, END, FAINT, INK, PAPER, PLACE, RED, START, WHITE, Ground
+from chatrobot.cli.drawing.surface import Surface
+from chatrobot.cli.drawing.svg import SvgCanvas
 from chatrobot.cli.drawing.ways import outline_at, progress_colour, standing_points, where_found
 from chatrobot.core.events import FindingSeen, Rehearsed
 from chatrobot.core.geometry import Pose
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.world import World
 
+SWEPT, SWEPT_EDGE = (232, 237, 247), (168, 180, 204)
+
+MAP_WIDTH_PX, MAX_MAP_HEIGHT_PX, MIN_MAP_HEIGHT_PX = 1080, 860, 420
+LEFT_PX, RIGHT_PX, TOP_PX, FOOT_PX, LINE_PX, TITLE_SIZE_PX = 62, 28, 108, 96, 24, 26
 WAY_CLEARANCE_PX = 9
 
 Words = Callable[[FindingSeen], str]
+
+
+def draw_world(path: Path, *, world: World, profile: RobotProfile) -> None:
+    """Write the picture of a world, with the robot at its start, to `path`: an SVG where it ends so, else a PNG.
+
+    Raises:
+        OSError: the file cannot be written.
+    """
+    extent = extent_of_world(world, (), margin_m=0.25, least_m=3.0)
+    kind = SvgCanvas if path.suffix.casefold() == ".svg" else Canvas
+    sheet = _Sheet(extent, Orientation(world), 0, kind)
+    sheet.draw_ground(world)
+    sheet.ground.robot((0.0, 0.0, 0.0), profile.footprint, START)
+    sheet.draw_names(world)
+    sheet.canvas.text((LEFT_PX, 14), world.name, INK, TITLE_SIZE_PX)
+    sheet.canvas.save(path, world.name)
 
 
 def draw_plan(
@@ -56,12 +62,49 @@ def draw_plan(
     picture.draw(world, profile, rehearsed, title, words).save(path)
 
 
-class _Picture(Ground):
+class _Sheet:
+    """A surface with a ground on it, and room for words above and below.
+
+    Args:
+        foot_line_count: lines of words below the legend.
+    """
+
+    def __init__(
+        self,
+        extent: Extent,
+        orientation: Orientation,
+        foot_line_count: int,
+        kind: type[Canvas] | type[SvgCanvas] = Canvas,
+    ) -> None:
+        px_per_m = min(MAP_WIDTH_PX / extent.width_m, MAX_MAP_HEIGHT_PX / extent.height_m)
+        self._is_turned = orientation.is_turned
+        self._map_w = max(760, round(extent.width_m * px_per_m))
+        self._map_h = max(MIN_MAP_HEIGHT_PX, round(extent.height_m * px_per_m))
+        height = TOP_PX + self._map_h + FOOT_PX + LINE_PX * foot_line_count
+        self.canvas: Surface = kind(LEFT_PX + self._map_w + RIGHT_PX, height, PAPER)
+        box = (LEFT_PX, TOP_PX, LEFT_PX + self._map_w, TOP_PX + self._map_h)
+        self.ground = Ground(self.canvas, extent, orientation, box)
+
+    def draw_ground(self, world: World) -> None:
+        """Draw the grid and what stands there, and say what the axes are."""
+        self.ground.draw(world)
+        left, top, right, bottom = self.ground.box
+        whose = "from the start along the world's " if self._is_turned else ""
+        self.canvas.text((right, bottom + 26), f"{whose}x, metres", FAINT, 12, "ra")
+        self.canvas.text((left, top - 8), f"{whose}y, metres", FAINT, 12, "ls")
+
+    def draw_names(self, world: World) -> None:
+        """Draw the places, and the names of all where there is room."""
+        self.ground.places(world)
+        self.ground.name_obstacles(world)
+
+
+class _Picture(_Sheet):
     """The picture of one plan."""
 
     def draw(
         self, world: World, profile: RobotProfile, rehearsed: Rehearsed, title: str, words: Words
-    ) -> Canvas | SvgCanvas:
+    ) -> Surface:
         """Draw all of it, the ground first."""
         self.draw_ground(world)
         self._way(profile, rehearsed)
@@ -71,43 +114,36 @@ class _Picture(Ground):
         self._legend(rehearsed, words, bool(world.places))
         return self.canvas
 
-    # --- the way ---
-
     def _way(self, profile: RobotProfile, rehearsed: Rehearsed) -> None:
-        way = rehearsed.path
+        way, ground = rehearsed.path, self.ground
         if not way:
             return
         radius_m = profile.footprint_radius_m
         for point in standing_points(way, radius_m / 4.0, math.radians(6)):
-            self.canvas.polygon(self._points(outline_at(profile.footprint, Pose(*point))), fill=SWEPT)
+            self.canvas.polygon(ground.points(outline_at(profile.footprint, Pose(*point))), fill=SWEPT)
         for point in standing_points(way, max(radius_m * 2.0, rehearsed.length_m / 40.0), math.radians(45)):
-            outline = self._points(outline_at(profile.footprint, Pose(*point)))
+            outline = ground.points(outline_at(profile.footprint, Pose(*point)))
             self.canvas.polygon(outline, edge=SWEPT_EDGE, width_px=0.8)
-        for point in standing_points(way, WAY_CLEARANCE_PX / self._px_per_m, math.tau):
-            x, y = self._at(*point[:2])
+        for point in standing_points(way, WAY_CLEARANCE_PX / ground.px_per_m, math.tau):
+            x, y = ground.at(*point[:2])
             clear = WAY_CLEARANCE_PX
-            self._taken.append((x - clear, y - clear, x + clear, y + clear))
+            ground.taken.append((x - clear, y - clear, x + clear, y + clear))
         for i, (a, b) in enumerate(pairwise(way)):
-            ends = [self._at(*a[:2]), self._at(*b[:2])]
-            self.canvas.line(ends, progress_colour(i / max(1, len(way) - 2)), 4.5)
-        is_loop = math.dist(way[0][:2], way[-1][:2]) <= profile.footprint_radius_m
+            self.canvas.line(ground.points((a[:2], b[:2])), progress_colour(i / max(1, len(way) - 2)), 4.5)
+        is_loop = math.dist(way[0][:2], way[-1][:2]) <= radius_m
         names = ("", "start and end") if is_loop else ("start", "end")
         for point, colour, name in ((way[0], START, names[0]), (way[-1], END, names[1])):
-            self.draw_footprint(profile, Pose(*point), colour)
+            ground.robot(point, profile.footprint, colour)
             if name:
-                x, y = self._at(*point[:2])
-                below = profile.footprint_radius_m * self._px_per_m + 6
-                self.canvas.text((x, y + below), name, colour, 14, "mt", halo=(*WHITE, 215))
-                self._taken.append(self.canvas.text_box((x, y + below), name, 14, "mt"))
+                ground.name_below(point[:2], name, radius_m, colour)
 
     def _findings(self, rehearsed: Rehearsed) -> None:
         for number, finding in enumerate(rehearsed.findings, 1):
             spot = where_found(rehearsed, finding)
             if spot is not None:
-                at, colour = self._at(*spot), _severity_colour(finding)
+                at, colour = self.ground.at(*spot), _severity_colour(finding)
                 self.canvas.circle(at, 15, edge=(*colour, 130), width_px=2.5)
-                self.canvas.circle(at, 10, fill=colour, edge=WHITE, width_px=1.5)
-                self.canvas.text(at, str(number), WHITE, 13, "mm")
+                self.ground.mark(at, str(number), colour)
 
     # --- words around the map ---
 
@@ -123,12 +159,9 @@ class _Picture(Ground):
 
     def _fitting(self, title: str) -> str:
         """Cut the title where the picture ends; "plan" where no font has its letters."""
-        shown = " ".join(title.split())
-        if not shown or font_for(shown, TITLE_SIZE_PX) is None:
+        if not title.strip() or font_for(title, TITLE_SIZE_PX) is None:
             return "plan"
-        while self.canvas.text_box((0.0, 0.0), shown, TITLE_SIZE_PX)[2] > self._map_w:
-            shown = f"{shown[:-2].rstrip()}…"
-        return shown
+        return self.canvas.fitting(title, self._map_w, TITLE_SIZE_PX)
 
     def _legend(self, rehearsed: Rehearsed, words: Words, has_places: bool) -> None:
         y = TOP_PX + self._map_h + 58

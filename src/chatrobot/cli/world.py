@@ -76,7 +76,7 @@ def _draw(args: argparse.Namespace) -> int:
         raise UsageError(
             "no such kind of picture", where=args.out, allowed=f"a file that ends in {' or '.join(_PICTURES)}"
         )
-    from chatrobot.cli.drawing.ground import draw_world
+    from chatrobot.cli.draw import draw_world
 
     try:
         draw_world(out, world=world, profile=_profile(args))
