@@ -82,7 +82,15 @@ def test_help_lists_what_a_command_takes(capsys: pytest.CaptureFixture[str]) -> 
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_every_option_may_stand_before_every_command(command: str) -> None:
-    words = {"do": ["x"], "plan": ["x"], "eval": ["x"], "node": ["input"], "fake-model": ["x"]}
+    words = {
+        "do": ["x"],
+        "plan": ["x"],
+        "eval": ["x"],
+        "node": ["input"],
+        "fake-model": ["x"],
+        "report": ["x"],
+        "replay": ["x"],
+    }
     words["completion"] = ["bash"]
     after = ["list"] if command in ("program", "world") else words.get(command, [])
     assert parse(["--robot", "turtlesim", command, *after]).robot == "turtlesim"

@@ -35,12 +35,14 @@ COMMANDS = {
     "model": "set up, list and test language models",
     "usage": "what language models have used and cost",
     "fake-model": "a scripted stand-in for a language model, for tests and demonstrations",
+    "report": "a recording as a page: ways told and measured, speeds, what happened; or SVG, PNG, GIF, CSV",
     "web": "a page in your browser: chat, map, plan, stick and stop",
     "record": "record a robot that others drive, until Ctrl-C",
     "replay": "show a recording again, at any speed; no robot moves",
     "completion": "what makes Tab complete in bash, zsh or fish",
 }
 SHELLS = ("bash", "zsh", "fish")
+LANGUAGES = ("en", "zh")
 _NODES = ("node", "sim")
 _TALKS = ("", "do", "plan")
 """A conversation takes `--ros-args -p revChatGPT:=True` as the tutorial's base node does."""
@@ -285,6 +287,21 @@ def _replay(parser: argparse.ArgumentParser) -> None:
     _add(parser, "--speed", type=positive, default=1.0, metavar="X", help=speed)
 
 
+def _report(parser: argparse.ArgumentParser) -> None:
+    _add(parser, "file", "files", metavar="FILE", help="the recording, an .mcap file")
+    kinds = {
+        "html": "a page that needs nothing else (the default: FILE.html beside the recording)",
+        "svg": "one figure: map and speeds",
+        "png": "the same as pixels",
+        "gif": "an animation of the drive",
+        "csv": "poses and commands, a row a message",
+    }
+    for kind, text in kinds.items():
+        _add(parser, f"--{kind}", "files", nargs="?", const="", default=None, metavar="OUT", help=text)
+    language = "of the report (default: that of the recording)"
+    _add(parser, "--language", choices=LANGUAGES, default="", help=language)
+
+
 def _completion(parser: argparse.ArgumentParser) -> None:
     _add(parser, "shell", choices=SHELLS, help="the shell whose script is printed")
     parser.epilog = _COMPLETION
@@ -317,4 +334,5 @@ _ARGUMENTS = {
     "do": _do, "plan": _plan, "eval": _eval, "calibrate": _calibrate, "sim": _sim, "node": _node,
     "mcp": _mcp, "model": _model, "usage": _usage, "fake-model": _fake_model, "program": _program,
     "completion": _completion, "web": _web, "world": _world, "record": _record, "replay": _replay,
+    "report": _report,
 }  # fmt: skip

@@ -9,7 +9,13 @@ from collections.abc import Sequence
 
 FAILED, USAGE, STOPPED = 1, 2, 5
 
-_MODULES = {"": "talk", "eval": "eval.command", "model": "model.command", "fake-model": "fake_model"}
+_MODULES = {
+    "": "talk",
+    "eval": "eval.command",
+    "model": "model.command",
+    "fake-model": "fake_model",
+    "report": "report.command",
+}
 """The module of a command, if not that of its name; its function is `run(args)`."""
 _LISTS = ("robots", "worlds", "usage", "schema")
 """Commands that are functions of `lists`."""
