@@ -13,6 +13,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "scripts")]
 from moving_picture import FILE as RUN  # noqa: E402
 from moving_picture import draw as draw_run  # noqa: E402
 from moving_picture import record  # noqa: E402
+from report_pictures import draw as draw_report  # noqa: E402
 from speed_profile import FILE as SPEED_PROFILE  # noqa: E402
 from speed_profile import draw as draw_speed_profile  # noqa: E402
 from terminal_picture import draw_screen, replay  # noqa: E402
@@ -36,6 +37,7 @@ def main() -> None:
     IMAGES.mkdir(parents=True, exist_ok=True)
     SPEED_PROFILE.write_text(draw_speed_profile(), encoding="utf-8")
     RUN.write_text(draw_run(record()), encoding="utf-8")
+    draw_report()
     with tempfile.TemporaryDirectory() as folder:
         for name, (text, world) in PLANS.items():
             command = [sys.executable, "-m", "chatrobot", "plan", text, "--world", world]
