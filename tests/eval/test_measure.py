@@ -6,8 +6,8 @@ import math
 
 import pytest
 
-from chatrobot.cli.eval.measure import has_moved, measure
 from chatrobot.core.geometry import Twist
+from chatrobot.sim.trace import has_moved, measure
 from tests.eval.traces import forward, left, rest, trace
 
 

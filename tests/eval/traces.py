@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from chatrobot.cli.eval.measure import Sample
 from chatrobot.core.geometry import ORIGIN, Twist
+from chatrobot.sim.trace import Sample
 
 STEP_S = 0.02
 

@@ -18,11 +18,12 @@ from pathlib import Path
 
 from chatrobot.cli.eval.corpus import Item, load_corpus
 from chatrobot.cli.eval.judge import misfit
-from chatrobot.cli.eval.measure import Measured, ideal
+from chatrobot.cli.eval.measure import ideal
 from chatrobot.plan.base import Step
 from chatrobot.plan.steps import Plan, Say, Wait
 from chatrobot.plan.text import format_plan
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
+from chatrobot.sim.trace import Measured
 from tests.language.dialogue_runner import Conversation
 
 HERE = Path(__file__).parent

@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from chatrobot.core.errors import WorldError
+from chatrobot.core.errors import InputError, WorldError
 from chatrobot.sim.shapes import Point
 
 if TYPE_CHECKING:
@@ -18,25 +18,26 @@ _FULL_WIDTH = "：，［］｛｝"
 """Of a Chinese keyboard: YAML takes them for letters."""
 
 
-def read_text(path: Path) -> str:
+def read_text(path: Path, kind: type[InputError] = WorldError) -> str:
     """Return what stands in a file.
 
     Raises:
-        WorldError: it cannot be read, or is no text.
+        InputError: of that kind; it cannot be read, or is no text.
     """
     try:
         return path.read_text(encoding="utf-8-sig")
     except OSError as error:
-        raise WorldError(f"cannot be read ({error.strerror})", where=str(path)) from error
+        raise kind(f"cannot be read ({error.strerror})", where=str(path)) from error
     except UnicodeDecodeError as error:
-        raise WorldError("cannot be read", where=str(path), allowed="YAML in UTF-8") from error
+        raise kind("cannot be read", where=str(path), allowed="YAML in UTF-8") from error
 
 
 class Field:
-    """A node of the file that knows its name and line."""
+    """A node of the file that knows its name and line; `kind` is the error that is raised for it."""
 
-    def __init__(self, node: yaml.Node, source: str, name: str) -> None:
+    def __init__(self, node: yaml.Node, source: str, name: str, kind: type[InputError] = WorldError) -> None:
         self._node = node
+        self._error = kind
         self._kind: str = node.id  # type: ignore[attr-defined]  # "scalar", "sequence" or "mapping"
         self._source = source
         self.name = name
@@ -46,10 +47,20 @@ class Field:
         """The file and the line it stands in."""
         return f"{self._source}, line {self._node.start_mark.line + 1}"
 
-    def error(self, problem: str, allowed: str = "") -> WorldError:
+    @property
+    def is_mapping(self) -> bool:
+        """It has fields of its own."""
+        return self._kind == "mapping"
+
+    @property
+    def is_list(self) -> bool:
+        """It has entries."""
+        return self._kind == "sequence"
+
+    def error(self, problem: str, allowed: str = "") -> InputError:
         """Make the error that says what is wrong here."""
         what = f"{self.name}: {problem}" if self.name else problem
-        return WorldError(what, where=self.where, allowed=allowed)
+        return self._error(what, where=self.where, allowed=allowed)
 
     def mapping(self, *allowed: str, required: tuple[str, ...] = ()) -> dict[str, Field]:
         """The fields of a mapping; none but the allowed ones, none missing, none twice.
@@ -60,11 +71,11 @@ class Field:
         fields: dict[str, Field] = {}
         for key_node, value_node in self._pairs(allowed):
             key = str(key_node.value)
-            field = Field(value_node, self._source, f"{self.name}.{key}" if self.name else key)
+            field = Field(value_node, self._source, f"{self.name}.{key}" if self.name else key, self._error)
             if key not in allowed:
                 near = difflib.get_close_matches(key, allowed, n=1)
                 meant = f"did you mean {near[0]}? " if near else ""
-                raise Field(key_node, self._source, field.name).error(
+                raise Field(key_node, self._source, field.name, self._error).error(
                     "unknown field", f"{meant}allowed: {', '.join(allowed)}"
                 )
             if key in fields:
@@ -95,7 +106,10 @@ class Field:
         """The entries of a list."""
         if self._kind != "sequence":
             raise self.error("must be a list", "[a, b], or a line with - for each")
-        return [Field(node, self._source, f"{self.name}[{i}]") for i, node in enumerate(self._node.value)]
+        return [
+            Field(node, self._source, f"{self.name}[{i}]", self._error)
+            for i, node in enumerate(self._node.value)
+        ]
 
     def text(self) -> str:
         """One line of text."""
@@ -103,6 +117,20 @@ class Field:
         if self._kind != "scalar" or not value.strip() or not value.isprintable():
             raise self.error("must be a line of text", "a word or two")
         return str(value.strip())
+
+    def lines(self) -> str:
+        """Text of one line or more."""
+        value = self._node.value
+        if self._kind != "scalar" or not value.strip() or not value.replace("\n", "").isprintable():
+            raise self.error("must be a text", "on one line, or on several behind a |")
+        return str(value.strip())
+
+    def choice(self, *allowed: str) -> str:
+        """One of some words."""
+        text = self.text()
+        if text not in allowed:
+            raise self.error(f"{text!r} is not possible", f"allowed: {', '.join(allowed)}")
+        return text
 
     def number(self, least: float = -MAX_COORDINATE_M, most: float = MAX_COORDINATE_M) -> float:
         """A number from `least` to `most`."""
@@ -129,11 +157,16 @@ class Field:
         return pair[0].number(), pair[1].number()
 
 
-def compose(text: str, source: str) -> Field:
-    """Return the root of a YAML text; `source` is what errors call it.
+def compose(
+    text: str,
+    source: str,
+    kind: type[InputError] = WorldError,
+    holds: str = "a world has obstacles, places and a start",
+) -> Field:
+    """Return the root of a YAML text; `source` is what errors call it, `holds` says what is in such a file.
 
     Raises:
-        WorldError: it is empty, or no YAML.
+        InputError: of that kind; it is empty, or no YAML.
     """
     import yaml  # late: an empty world needs none
 
@@ -144,12 +177,12 @@ def compose(text: str, source: str) -> Field:
         mark = getattr(error, "problem_mark", None)
         where = f"{source}, line {mark.line + 1}" if mark else source
         problem = getattr(error, "problem", None) or str(error)
-        raise WorldError(f"is not YAML: {problem}", where=where, allowed=_hint(problem)) from error
+        raise kind(f"is not YAML: {problem}", where=where, allowed=_hint(problem)) from error
     except RecursionError as error:
-        raise WorldError("is nested too deeply", where=source) from error
+        raise kind("is nested too deeply", where=source) from error
     if node is None:
-        raise WorldError("is empty", where=source, allowed="a world has obstacles, places and a start")
-    return Field(node, source, "")
+        raise kind("is empty", where=source, allowed=holds)
+    return Field(node, source, "", kind)
 
 
 def _hint(problem: str) -> str:

@@ -20,10 +20,11 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from chatrobot.cli.eval.corpus import Expect, Item, Meant
-from chatrobot.cli.eval.measure import Ideal, Measured, Sample, has_moved, ideal, measure, without_last_turn
+from chatrobot.cli.eval.measure import Ideal, ideal, without_last_turn
 from chatrobot.core.events import Outcome
 from chatrobot.plan.base import Step, expanded
 from chatrobot.robots.profile import RobotProfile
+from chatrobot.sim.trace import Measured, Sample, has_moved, measure
 
 Kind = Literal["correct", "wrong", "abstained"]
 

@@ -9,10 +9,10 @@ from tempfile import TemporaryDirectory
 
 from chatrobot.cli.eval.corpus import Item
 from chatrobot.cli.eval.judge import Record, Verdict, judge
-from chatrobot.cli.eval.measure import Measured, Sample, has_moved, measure
 from chatrobot.compose import Setup, connect
 from chatrobot.core.events import Event, Interpreted, Result, TruePose
 from chatrobot.robots.profile import RobotProfile
+from chatrobot.sim.trace import Measured, Sample, has_moved, measure
 
 START = Sample(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
