@@ -17,7 +17,7 @@ LEVELS = {
     "sim": 2,
     "plan": 3, "sandbox": 3,
     "language": 4, "models": 4, "execution": 4, "governor": 4, "programs": 4,
-    "link": 5, "recording": 5,
+    "link": 5, "lessons": 5, "recording": 5,
     "motion": 6, "dialogue": 6,
     "link.in_process": 7,
     "compose": 8,

@@ -12,7 +12,7 @@ import chatrobot
 from chatrobot.language.data_files import load_table
 
 SOURCE = Path(chatrobot.__file__).parent
-TABLES = ("phrases", "outcomes", "console")
+TABLES = ("phrases", "outcomes", "console", "lesson")
 CODE_AT = {"Reason": 0, "_found": 1, "_mark": 2}
 """Who makes reasons, and which of the arguments is the code."""
 

@@ -4,6 +4,7 @@ ChatRobotError                 something broke or was given to us broken
 ├── InputError                 a person can mend it: it names the place, what is wrong and what is allowed
 │   ├── ProfileError           a robot profile
 │   ├── WorldError             a world file
+│   ├── LessonError            a lesson sheet
 │   ├── PlanTextError          a line of plan text (or its JSON form)
 │   ├── CorpusError            a file for `chatrobot eval`
 │   └── UsageError             a command-line option or an API argument
@@ -45,6 +46,10 @@ class ProfileError(InputError):
 
 class WorldError(InputError):
     """A world file cannot be used."""
+
+
+class LessonError(InputError):
+    """A lesson sheet cannot be used."""
 
 
 class PlanTextError(InputError):
