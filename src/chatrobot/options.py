@@ -97,7 +97,9 @@ FACES = (*DRIVE, "mcp", "web")
 """The same and the faces on one robot that last."""
 PLAN = (*FACES, "plan", "node")
 """Those that turn text into a plan."""
-UNDERSTAND = (*PLAN, "eval")
+UNDERSTAND = (*PLAN, "eval", "lesson")
+_IN_A_WORLD = tuple(command for command in UNDERSTAND if command != "lesson")
+"""A lesson has its own."""
 INTERPRETERS = ("auto", "offline", "model")
 _KEPT = tuple(f"program {action}" for action in ("list", "show", "edit", "rename", "remove", "export"))
 _JSON = (
@@ -105,6 +107,7 @@ _JSON = (
     "replay",
     "eval",
     "world list",
+    "lesson",
     "worlds",
     "doctor",
     "robots",
@@ -133,7 +136,7 @@ OPTIONS = (
         COMMON, DEFAULT_ROBOT, "PROFILE", offers="robots",
         parameter=Parameter("robot", _BOTH, DEFAULT_ROBOT, "The robot's profile: a built-in name, or "
             "the path of a .toml file; with open_loop no_odometry is the default.", open_loop=NO_ODOMETRY)),
-    Option("--world", _WORLD.format("home"), (*UNDERSTAND, "calibrate", "sim", "record"), COMMON, "", "WORLD",
+    Option("--world", _WORLD.format("home"), (*_IN_A_WORLD, "calibrate", "sim", "record"), COMMON, "", "WORLD",
         offers="worlds", helps=dict.fromkeys(("eval", "node", "calibrate", "record"), _WORLD.format("empty")),
         parameter=Parameter("world", _BOTH, "empty",
             "What is known of the surroundings: the name of a world, or the path of a world file or a map.yaml.")),
@@ -147,7 +150,7 @@ OPTIONS = (
         " web console do so unasked", (*DRIVE, "web"), COMMON, None, "[FILE.mcap]", offers="files"),
     Option("--no-record", "record nothing", (*DRIVE, "web"), COMMON, False),
     Option("--config-dir", "where places, programs, recordings and robot profiles live",
-        (*PLAN, "calibrate", "sim", "doctor", "robots", "model", "usage", "record", "replay", *_KEPT), COMMON, None,
+        (*PLAN, "lesson", "calibrate", "sim", "doctor", "robots", "model", "usage", "record", "replay", *_KEPT), COMMON, None,
         "DIR", offers="folders", parameter=Parameter("config_dir", _BASE, "",
             "Where places and robot profiles live; empty for the user's own folder.")),
     Option("-p", "as the tutorial's node takes it: revChatGPT:=True", ("", "do", "plan", "node"), COMMON, (),
@@ -155,7 +158,7 @@ OPTIONS = (
         helps={"node": "the tutorial's parameters: generate_code:=True (base), revChatGPT:=True"}),
     Option("--fast", "simulated time, as quick as it goes", (*DRIVE, "calibrate"), SIMULATION, False),
     Option("--sim", "faults injected into the simulated robot: slip=0.03,latency_s=0.05,noise=on,seed=1",
-        (*FACES, "eval", "calibrate", "sim"), SIMULATION, "", "KEY=VALUE,…"),
+        (*FACES, "eval", "lesson", "calibrate", "sim"), SIMULATION, "", "KEY=VALUE,…"),
     Option("--trace", "with --json: the simulated robot's true pose, 50 times a second", DRIVE, SIMULATION, False),
     Option("--model", "the language model to ask what is not understood offline", (*UNDERSTAND, "doctor", "model"),
         MODEL, "", "PROVIDER:NAME", offers="models",

@@ -27,6 +27,10 @@ TYPES: dict[str, tuple[type, ...]] = {
 }  # fmt: skip
 FOR_OURSELVES = {"CHATROBOT_ID"}
 """What our processes tell each other."""
+LESSON = """\
+{title: a, world: empty, tasks: [{title: a, task: b, check: {path_m: {at_least: 0.1}},
+  solution: {en: forward 20 cm}}]}
+"""
 CORPUS = """\
 - {id: t-1, category: primitive, say: forward 1 m, expect: {x: 1.0}}
 """
@@ -65,7 +69,7 @@ def test_every_variable_of_ours_that_a_person_sets_is_told() -> None:
 
 @pytest.fixture
 def objects(
-    chatrobot: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    chatrobot: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> list[dict[str, Any]]:
     """What every command prints with `--json` that drives nothing."""
     folder = tmp_path / "settings"
@@ -82,7 +86,16 @@ def objects(
         for command in ("robots", "worlds", "doctor", "usage", "program list", "program show square"):
             main([*command.split(), *where])
     main(["eval", str(corpus), "--json"])
-    printed = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    sheet, lines = tmp_path / "lesson.yaml", tmp_path / "lines.txt"
+    sheet.write_text(LESSON, encoding="utf-8")
+    lines.write_text("forward 20 cm\n", encoding="utf-8")
+    for words in (
+        ["lesson"],
+        ["lesson", str(sheet), "--check", str(lines)],
+        ["lesson", str(sheet), "--test"],
+    ):
+        main([*words, "--json"])
+    printed = [json.loads(line) for line in capfd.readouterr().out.splitlines()]
     return [*printed, *_of_a_fake_model(chatrobot, tmp_path)]
 
 

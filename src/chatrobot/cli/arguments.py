@@ -21,6 +21,7 @@ COMMANDS = {
     "do": "one instruction, or a dialogue turn by turn, then exit",
     "plan": "understand and rehearse only; nothing moves",
     "stop": "stop whatever runs on this machine",
+    "lesson": "tasks for a simulated robot, checked by what it really did",
     "eval": "run a corpus of sayings and count correct, wrong and abstained",
     "calibrate": "one metre and one turn: you measure, your profile gets the correction",
     "doctor": "what works here, and how to get the rest",
@@ -211,6 +212,19 @@ def _eval(parser: argparse.ArgumentParser) -> None:
     _add(parser, "--misses", action="store_true", help="list what was wrong and what was asked back")
 
 
+def _lesson(parser: argparse.ArgumentParser) -> None:
+    name = "a lesson, or a sheet of your own; without it the lessons are listed"
+    _add(parser, "lesson", "lessons", nargs="?", default="", metavar="FILE|NAME", help=name)
+    lines = (
+        "do the lines of a file (- for standard input) without a person, in simulated time; 0 where they pass"
+    )
+    _add(parser, "--check", "files", default="", metavar="FILE", help=lines)
+    _add(parser, "--solutions", action="store_true", help="print what passes, as --check reads it")
+    tests = "try the sheet: each of its solutions has to pass, each of its mistakes must not"
+    _add(parser, "--test", action="store_true", help=tests)
+    parser.epilog = "exit codes: 0 passed, right or listed; 1 not; 2 usage, or a sheet that cannot be used"
+
+
 def _calibrate(parser: argparse.ArgumentParser) -> None:
     parser.description = _CALIBRATE
     _add(parser, "--reset", action="store_true", help="take the saved correction back; nothing moves")
@@ -331,7 +345,7 @@ def _ros_args(parser: argparse.ArgumentParser) -> None:
 
 
 _ARGUMENTS = {
-    "do": _do, "plan": _plan, "eval": _eval, "calibrate": _calibrate, "sim": _sim, "node": _node,
+    "do": _do, "plan": _plan, "eval": _eval, "lesson": _lesson, "calibrate": _calibrate, "sim": _sim, "node": _node,
     "mcp": _mcp, "model": _model, "usage": _usage, "fake-model": _fake_model, "program": _program,
     "completion": _completion, "web": _web, "world": _world, "record": _record, "replay": _replay,
     "report": _report,

@@ -144,6 +144,13 @@ def _worlds(_: argparse.Namespace) -> Iterator[Offer]:
     yield from map(Offer, world_names())
 
 
+def _lessons(_: argparse.Namespace) -> Iterator[Offer]:
+    from chatrobot.lessons.sheet import lesson_names
+
+    yield FILES
+    yield from map(Offer, lesson_names())
+
+
 def _programs(args: argparse.Namespace) -> Iterator[Offer]:
     from chatrobot.cli.folders import config_folder
     from chatrobot.programs.library import Library
@@ -160,6 +167,7 @@ def _models(_: argparse.Namespace) -> Iterator[Offer]:
 OFFERS: dict[str, Callable[[argparse.Namespace], Iterable[Offer]]] = {
     "robots": _robots,
     "worlds": _worlds,
+    "lessons": _lessons,
     "programs": _programs,
     "programs or files": lambda args: (FILES, *_programs(args)),
     "models": _models,

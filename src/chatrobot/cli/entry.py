@@ -12,6 +12,7 @@ FAILED, USAGE, STOPPED = 1, 2, 5
 _MODULES = {
     "": "talk",
     "eval": "eval.command",
+    "lesson": "lesson.command",
     "model": "model.command",
     "fake-model": "fake_model",
     "report": "report.command",

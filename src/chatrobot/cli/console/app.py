@@ -6,7 +6,7 @@ import contextlib
 import os
 import shutil
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from rich.console import RenderableType
@@ -14,6 +14,7 @@ from rich.text import Text
 
 from chatrobot.cli.console import commands, plain
 from chatrobot.cli.console.controller import ChatController
+from chatrobot.cli.console.lesson import ConsoleLesson
 from chatrobot.cli.console.lines import indented
 from chatrobot.cli.console.page import PageBeside
 from chatrobot.cli.console.tables import example_place, place_in
@@ -22,7 +23,7 @@ from chatrobot.cli.lines import TypedAhead
 from chatrobot.compose import Connection, OnEvent, Setup
 from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import LinkError, UsageError
-from chatrobot.core.events import Event
+from chatrobot.core.events import Event, TruePose
 from chatrobot.link.processes import SIMULATED
 
 HISTORY_FILE = "history"
@@ -34,6 +35,7 @@ def run_console(
     meet: Callable[[Setup, OnEvent], Connection],
     *,
     has_page: bool = False,
+    lesson: ConsoleLesson | None = None,
 ) -> int:
     """Talk to the robot until somebody leaves. What is said while it moves replaces what it does.
 
@@ -41,6 +43,7 @@ def run_console(
         typed_ahead: has what was typed while the robot started.
         meet: connects to the robot, and records what happens where that was chosen.
         has_page: show it in a browser, too.
+        lesson: what the robot does is judged by it.
 
     Raises:
         InputError: the setup is wrong.
@@ -49,14 +52,19 @@ def run_console(
     if setup.fast:
         raise UsageError("the console runs in real time", where="--fast", allowed='chatrobot do "…" --fast')
     words = Words(language_of_environment())
-    setup = replace(setup, trace=False, options=replace(setup.options, while_moving="replace"))
+    setup = replace(setup, trace=lesson is not None, options=replace(setup.options, while_moving="replace"))
     controller: ChatController | None = None
 
     def hear(event: Event) -> None:
-        assert controller is not None  # nothing is heard before it is pumped
+        if lesson is not None and isinstance(event, TruePose):
+            lesson.hear(event)  # from the moment of connecting on
+            return
+        assert controller is not None  # nothing else is heard before it is pumped
         controller.hear(event)
         if page is not None:
             page.hear(event)
+        if lesson is not None:
+            lesson.hear(event)
 
     page: PageBeside | None = None
     connection = meet(setup, hear)
@@ -64,7 +72,10 @@ def run_console(
     if has_page:
         page = PageBeside(controller, is_simulated=setup.on in SIMULATED)
     try:
-        code = _converse(controller, setup, typed_ahead, page.start if page is not None else lambda: None)
+        begin = greeting(controller, setup.on) if lesson is None else lesson.begin(controller)
+        code = _converse(
+            controller, setup, typed_ahead, begin, page.start if page is not None else lambda: None
+        )
     finally:
         if page is not None:
             page.close()
@@ -84,7 +95,11 @@ def can_chat() -> bool:
 
 
 def _converse(
-    controller: ChatController, setup: Setup, typed_ahead: TypedAhead, on_prompt: Callable[[], None]
+    controller: ChatController,
+    setup: Setup,
+    typed_ahead: TypedAhead,
+    begin: Sequence[RenderableType],
+    on_prompt: Callable[[], None],
 ) -> int:
     def hang_up() -> None:
         with contextlib.suppress(LinkError):  # nothing is said: nobody is there to read it
@@ -99,7 +114,7 @@ def _converse(
     else:
         display = plain.Plain(controller, hang_up)
     controller.display = display
-    display.print(*greeting(controller, setup.on))
+    display.print(*begin)
     for text in typed_ahead.stop():
         controller.enter(text)
     if typed_ahead.has_ended:

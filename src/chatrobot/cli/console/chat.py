@@ -68,6 +68,7 @@ class Chat:
                 controller.words,
                 controller.session.understanding.place_names,
                 controller.session.understanding.can_do,
+                controller.commands,
             ),
             complete_in_thread=True,  # a stop is typed while it looks for what may follow
             complete_while_typing=Condition(lambda: self._prompt.default_buffer.text.startswith("/")),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -48,9 +48,10 @@ class Command:
 def run(controller: ChatController, line: str) -> None:
     """Do the command in `line`, which begins with a slash; an unknown one gets the nearest name."""
     word, _, argument = line[1:].strip().partition(" ")
-    command = BY_NAME.get(word.casefold())
+    known = BY_NAME | {each.name: each for each in controller.commands}
+    command = known.get(word.casefold())
     if command is None:
-        _unknown(controller, word)
+        _unknown(controller, word, known)
     elif argument.strip() and not command.takes and command.heeds_the_rest:
         controller.tell("takes_nothing", command=command.typed)
     elif command.at_once:
@@ -59,14 +60,14 @@ def run(controller: ChatController, line: str) -> None:
         controller.pump.post(lambda: command.act(controller, argument.strip()))
 
 
-def nearest(word: str) -> str:
+def nearest(word: str, known: Iterable[str] = ()) -> str:
     """Return the command that was most likely meant; empty where none is near."""
-    near = difflib.get_close_matches(word.casefold(), BY_NAME, n=1, cutoff=0.5)
+    near = difflib.get_close_matches(word.casefold(), known or BY_NAME, n=1, cutoff=0.5)
     return near[0] if near else ""
 
 
-def _unknown(controller: ChatController, word: str) -> None:
-    near = nearest(word)
+def _unknown(controller: ChatController, word: str, known: Mapping[str, Command]) -> None:
+    near = nearest(word, known)
     if near:
         controller.tell("nearest_command", command=f"/{word}", nearest=f"/{near}")
     else:
@@ -78,7 +79,7 @@ def _unknown(controller: ChatController, word: str) -> None:
 
 
 def _help(controller: ChatController, _: str) -> None:
-    shown = [(command.typed, command.help_code) for command in COMMANDS]
+    shown = [(command.typed, command.help_code) for command in (*COMMANDS, *controller.commands)]
     controller.display.print(tables.help_table(controller.words, controller.connection.world, shown))
 
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from prompt_toolkit.completion import CompleteEvent, Completer, Completion, PathCompleter
 from prompt_toolkit.document import Document
 
-from chatrobot.cli.console.commands import BY_NAME, COMMANDS
+from chatrobot.cli.console.commands import BY_NAME, COMMANDS, Command
 from chatrobot.cli.console.words import Words
 from chatrobot.language.lexicon import cut, lexicon
 from chatrobot.language.names import by_language
@@ -38,15 +38,21 @@ class ChatCompleter(Completer):
 
     Args:
         places: the names of each place that can be gone to, as of now.
+        commands: those of this conversation alone, such as a lesson's.
         can_do: whether a text is an order that is understood; of what stands within a sentence only that is offered.
     """
 
     def __init__(
-        self, words: Words, places: Callable[[], Iterable[Sequence[str]]], can_do: Callable[[str], bool]
+        self,
+        words: Words,
+        places: Callable[[], Iterable[Sequence[str]]],
+        can_do: Callable[[str], bool],
+        commands: Sequence[Command] = (),
     ) -> None:
         self._words = words
         self._places = places
         self._can_do = can_do
+        self._commands_here = (*COMMANDS, *commands)
 
     def get_completions(self, document: Document, complete_event: CompleteEvent) -> Iterable[Completion]:
         """Commands as they are typed; everything else only when Tab asks for it."""
@@ -61,7 +67,7 @@ class ChatCompleter(Completer):
             yield from self._sayings(text)
 
     def _commands(self, text: str) -> Iterable[Completion]:
-        for command in COMMANDS:
+        for command in self._commands_here:
             if f"/{command.name}".startswith(text.casefold()):
                 meta = self._words.say(command.help_code)
                 yield Completion(f"/{command.name}", -len(text), display_meta=meta)

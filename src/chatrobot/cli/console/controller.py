@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
 from rich.console import RenderableType
 from rich.text import Text
@@ -41,6 +42,9 @@ from chatrobot.language.consent import read_consent, wants_to_edit
 from chatrobot.programs.check import MAX_SOURCE_CHARS
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 
+if TYPE_CHECKING:
+    from chatrobot.cli.console.commands import Command
+
 TWICE_S = 1.5
 """Two Ctrl-C within this time leave."""
 
@@ -48,7 +52,9 @@ ECHO_CHARS = 600
 
 
 class ChatController:
-    """See the module. `display` is attached once it exists; `run_command` does a line that begins with a slash."""
+    """See the module. `display` is attached once it exists; `run_command` does a line that begins with a slash.
+
+    `on_said` are told what was typed, by the number of its turn; `commands` are further ones, those of a lesson."""
 
     display: Display
 
@@ -68,7 +74,8 @@ class ChatController:
         self.status_bar = StatusBar(self.motion_view, words, connection.world)
         self.narrator = Narrator(words)
         self.pump = Pump(self.session, self._end)
-        self.on_said: Callable[[int, str], None] = lambda _, __: None
+        self.on_said: list[Callable[[int, str], None]] = []
+        self.commands: Sequence[Command] = ()
         self.latched = False
         self.has_parted = False
         """The person said goodbye in words, and was answered."""
@@ -148,18 +155,19 @@ class ChatController:
         if len(edited) > limit:
             self.tell("line_too_long", limit=limit)
         elif text.strip():
-            self._say_as_one(lambda: self._approval.say_edited(self.session, text), self.words.say("edited"))
+            say, shown = lambda: self._approval.say_edited(self.session, text), self.words.say("edited")
+            self._say_as_one(say, shown, text)
         else:
             self.tell("edited_away")
 
     def say_plan(self, plan_text: str, shown: str = "") -> None:
         """Have a plan driven that is there as text; `shown` is what its line looks like, if it has not been shown."""
-        self._say_as_one(lambda: self.session.say_plan(plan_text), shown)
+        self._say_as_one(lambda: self.session.say_plan(plan_text), shown, plan_text)
 
-    def _say_as_one(self, say: Callable[[], object], shown: str) -> None:
+    def _say_as_one(self, say: Callable[[], int], shown: str, text: str) -> None:
         with self._order:
             undone = self._pasted.drop()
-            self.attempt(say)
+            self.attempt(lambda: self._note_said(say(), text))
             if shown:
                 self._echo(shown)
         self._tell_undone(undone)
@@ -233,7 +241,11 @@ class ChatController:
     def _say_one(self, text: str) -> None:
         turn = self.session.say(text)
         self._pasted.follow(turn)
-        self.on_said(turn, text)
+        self._note_said(turn, text)
+
+    def _note_said(self, turn: int, text: str) -> None:
+        for note in self.on_said:
+            note(turn, text)
 
     def _is_stop(self, text: str) -> bool:
         return leads_with_stop(text) if self.session.is_moving else is_stop(text)

@@ -39,7 +39,7 @@ class PageBeside:
         """What pages and terminal were last told of the emergency stop. Belongs to the pumping thread."""
         self._is_closed = threading.Event()
         self._thread = threading.Thread(target=self._load, name="web console", daemon=True)
-        controller.on_said = self.note_said
+        controller.on_said.append(self.note_said)
 
     def start(self) -> None:
         """Load it, in a thread of its own."""

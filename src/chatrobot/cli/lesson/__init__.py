@@ -1,0 +1,1 @@
+"""`chatrobot lesson`: a lesson at the console, or lines checked without a person."""
