@@ -243,9 +243,6 @@ def main(descriptor: int, host_pidfd: int | None = None) -> None:
     except Exception as error:  # noqa: BLE001 - whatever a module raises is told to the host
         send_message(host, {"event": "failed", "problem": f"{type(error).__name__}: {error}"})
         return
-    give_way(
-        NICENESS
-    )  # not before: whoever waits for the first program waits for all that was imported until here
     threading.stack_size(THREAD_STACK_BYTES)
     walls = build_walls(layers, setup["tasks"], is_wrapped=setup["is_wrapped"])
     if walls.doors is None:
@@ -254,9 +251,8 @@ def main(descriptor: int, host_pidfd: int | None = None) -> None:
     gc.collect()
     gc.freeze()
     gc.disable()
-    give_way(
-        NICENESS
-    )  # now, and not before: who waits for a program waits for what has been imported until here
+    # Not before: whoever waits for the first program waits for all that was imported until here.
+    give_way(NICENESS)
     server = Server(host, walls.doors, host_pidfd)
     send_message(host, {"event": "ready", "layers": dict(walls.problems)})
     server.serve()

@@ -116,6 +116,9 @@ class _Terminal:
         """Return 0: nothing of a terminal comes over the network, and it steers nothing here."""
         return 0
 
+    def close(self) -> None:
+        """Do nothing: the terminal has no connection that a server could end."""
+
     def put(self, message: Message) -> None:
         """Have it shown by the thread that shows all else: a terminal that was halted holds up no page."""
         self._controller.pump.post(lambda: self._show(message))

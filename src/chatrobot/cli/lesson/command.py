@@ -10,6 +10,7 @@ from chatrobot.cli.choices import setup_from
 from chatrobot.cli.console.words import language_of_environment
 from chatrobot.cli.folders import profile_folders
 from chatrobot.cli.json_lines import json_line
+from chatrobot.cli.recorder import recorded
 from chatrobot.compose import Setup
 from chatrobot.core.errors import UsageError
 from chatrobot.lessons.run import LessonRun
@@ -43,17 +44,17 @@ def run(args: argparse.Namespace) -> int:
         if args.test:
             return trial.run(sheet, setup, is_json=args.json)
         return check.run(sheet, setup, args.check, is_json=args.json)
-    return _take(sheet, setup, has_page=args.web)
+    return _take(args, sheet, setup)
 
 
-def _take(sheet: Sheet, setup: Setup, *, has_page: bool) -> int:
+def _take(args: argparse.Namespace, sheet: Sheet, setup: Setup) -> int:
     """Have a pupil take the lesson at the console."""
     from chatrobot.cli.console.app import run_console
     from chatrobot.cli.console.lesson import ConsoleLesson
     from chatrobot.cli.lines import TypedAhead
 
     lesson = ConsoleLesson(LessonRun(sheet, setup.profile.footprint))
-    code = run_console(setup, TypedAhead(), has_page=has_page, lesson=lesson)
+    code = run_console(setup, TypedAhead(), recorded(args, unasked=True), has_page=args.web, lesson=lesson)
     print("\n".join(describe_end(lesson.run, lesson.language)))
     return code or (0 if lesson.run.is_passed else 1)
 
