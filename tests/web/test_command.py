@@ -97,7 +97,9 @@ def test_what_a_page_says_is_driven_and_measured(shared: RunningWeb, page: Clien
     time.sleep(0.3)
     page.say("approve", turn=turn, yes=True)
     assert page.wait_for_event("result", 20.0)["event"]["pose"]["x_m"] == pytest.approx(0.5, abs=0.03)
-    assert [line for line in shared.lines if line] == [f"Web console: http://127.0.0.1:{shared.port}/"]
+    address, recording = [line for line in shared.lines if line]
+    assert address == f"Web console: http://127.0.0.1:{shared.port}/"
+    assert recording.startswith("Recording to ")
 
 
 def test_the_page_of_the_documents_shows_what_is_printed(shared: RunningWeb) -> None:
