@@ -165,7 +165,8 @@ class Classroom:
             with contextlib.suppress(LinkError):  # that one is gone, and the guard halts it
                 if seat.room.steers(face):
                     seat.room.take(None, LINK_ENDED)
-            face.close()
+            if isinstance(face, Page):
+                face.close()
         for teacher in list(self._faces.values()):
             teacher.put(self._message())
 

@@ -55,10 +55,6 @@ class Face(Protocol):
         """Tell it. Called on any thread; returns at once."""
         ...
 
-    def close(self) -> None:
-        """Have its connection end. For the event loop."""
-        ...
-
 
 class Room:
     """See the module. `hear` events from the moment of connecting on; `open` it once the robot is there.

@@ -136,7 +136,8 @@ class WebServer:
         self.access.revoke(token)
         for room in self.rooms.values():
             for face in room.drop(token):
-                self.call(face.close)
+                if isinstance(face, Page):
+                    self.call(face.close)
 
     def close(self, *, stops: bool = True) -> None:
         """Stop the robots, unless somebody else sees to them; tell the pages, and end."""
