@@ -90,8 +90,8 @@ def _serve(
     try:
         with SignalWatch(connection.session.stop) as watch:
             server.start(*sockets)
-            pump.start()
             tell()
+            pump.start()
             agents = _host_agents(connection, server.access, setup, room)
             while not (watch.is_leaving or ended.wait(0.1)):
                 pass
