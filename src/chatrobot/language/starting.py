@@ -1,4 +1,4 @@
-"""A bare `go`, which starts what was said before, and what is held back until then: `but don't do it yet`."""
+"""A bare `go`, which starts what was said before; what is held back until then, and what is taken back at once."""
 
 from __future__ import annotations
 
@@ -27,13 +27,18 @@ def check_start(frames: Sequence[Frame], dialogue: Dialogue) -> None:
 
 def without_hold(plain: str, language: str) -> str:
     """A normalised text without what holds it back; an empty string where nothing does."""
-    rest = _held(language).sub("", plain)
+    rest = _pattern(language, "held").sub("", plain)
     return rest.strip(" ,.;:!") if rest != plain else ""
 
 
+def is_withdrawn(plain: str, language: str) -> bool:
+    """Whether a normalised text takes back at its end what it ordered before: `go ahead, no wait, don't go`."""
+    return bool(_pattern(language, "withdrawn").search(plain))
+
+
 @cache
-def _held(language: str) -> re.Pattern[str]:
-    return re.compile(load_table(language, "starting")["held"])
+def _pattern(language: str, name: str) -> re.Pattern[str]:
+    return re.compile(load_table(language, "starting")[name])
 
 
 def _is_bare(frame: Frame) -> bool:
