@@ -42,3 +42,25 @@ def test_a_way_that_may_be_denied_or_put_right_is_asked_about(said: str) -> None
 def test_a_question_that_denies_forbids_nothing() -> None:
     assert Conversation().say("don't you turn left?").code == "nothing_to_do"
     assert Conversation().say("don't turn left").code == "only_forbidden"
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "前进一米，不对，别走", "前进一米，算了别走", "前进一米，等等，别走", "前进一米，哦不，不走了", 
+        "前进一米，停，别走",
+        "往前走一米，千万别走", "前进一米，不，停", "往前走一米，不是，我不是让你走", "向左平移，啊不，停下",
+        "go forward 1 m, no wait, don't go", "go forward 1 m, never mind, don't move",
+    ],
+)  # fmt: skip
+def test_an_order_that_is_taken_back_at_once_is_neither_driven_nor_proposed(said: str) -> None:
+    meant = Conversation().say(said)
+    assert meant.plan is None
+    assert meant.proposal is None
+
+
+@pytest.mark.parametrize(
+    "said", ["前进一米，别走太快", "别走，后退一米", "往左平移半米，别转", "前进一米，然后别动"]
+)
+def test_what_only_bounds_an_order_takes_nothing_back(said: str) -> None:
+    assert Conversation().say(said).plan is not None
