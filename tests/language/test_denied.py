@@ -47,7 +47,7 @@ def test_a_question_that_denies_forbids_nothing() -> None:
 @pytest.mark.parametrize(
     "said",
     [
-        "前进一米，不对，别走", "前进一米，算了别走", "前进一米，等等，别走", "前进一米，哦不，不走了", 
+        "前进一米，不对，别走", "前进一米，算了别走", "前进一米，等等，别走", "前进一米，哦不，不走了",
         "前进一米，停，别走",
         "往前走一米，千万别走", "前进一米，不，停", "往前走一米，不是，我不是让你走", "向左平移，啊不，停下",
         "go forward 1 m, no wait, don't go", "go forward 1 m, never mind, don't move",
