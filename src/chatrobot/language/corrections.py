@@ -5,6 +5,7 @@ Turn right.`
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Sequence
 
@@ -13,7 +14,10 @@ from chatrobot.language.numbers import is_chinese
 from chatrobot.language.tokens import SILENT, Atom, quantity
 from chatrobot.language.unclear import Unclear
 
-_NO = frozenset({"no", "nope", "不", "wait", "sorry", "oops", "whoops", "等等", "no no", "rather"})
+_NO = frozenset({"no", "nope", "nah", "不", "wait", "sorry", "oops", "whoops", "等等", "no no", "rather"})
+_SLIPS = _NO | {"actually", "well actually", "damn", "dang", "argh", "pardon", "excuse me", "apologies", "my apologies",
+                "whoopsie", "ehm"}  # fmt: skip
+"""What stands between an amount and the one that was meant."""
 _ONLY_AFTER = frozenset({"rather", "wrong", "make it", "还是", "算了", "不是", "应该是"})
 """Corrections only after something in the same sentence."""
 _DENIED = frozenset({"no", "nope", "no no", "oops", "whoops", "sorry", "oh no", "oh"})
@@ -25,9 +29,24 @@ MEANT = "meant"
 """The flag of what corrects the turn before."""
 CORRECTING = frozenset({MEANT, "short_of"})
 """The flags of what puts the turn before right: by what was meant, or by the total that was meant."""
+_CORRECTED = frozenset({*EXTENTS, "number", "speed", "rate", "radius"})
 _TOTALS = frozenset({"total", "until"})
 _OPPOSITE = ("other_way", "mirrored")
 _BEFORE_MEANT = frozenset({"sep", "filler", "glue", "negation", "correction"})
+
+
+def with_slips(atoms: Sequence[Atom]) -> list[Atom]:
+    """`Three metres, oops, two metres`: what stands alone between two amounts of one kind corrects the first."""
+    amounts = [i for i, a in enumerate(atoms) if a.kind == "q" and a.value in _CORRECTED]
+    out = list(atoms)
+    for first, second in itertools.pairwise(amounts):
+        same = atoms[first].value in (atoms[second].value, "number")
+        between = range(first + 1, second)
+        slips = [i for i in between if atoms[i].text in _SLIPS and atoms[i].kind != "verb"]
+        alone = all(atoms[i].kind in ("sep", "filler") for i in between if i not in slips)
+        if same and slips and alone:
+            out[slips[-1]] = Atom("correction", "replace", atoms[slips[-1]].text)
+    return out
 
 
 def corrected(atoms: Sequence[Atom]) -> list[Atom]:

@@ -89,6 +89,9 @@ def _letter(atoms: Sequence[Atom], i: int) -> Atom:
 
 def _counter(atoms: Sequence[Atom], i: int) -> Atom:
     atom = atoms[i]
+    counted = i > 0 and atoms[i - 1].kind in ("q", "number", "num")
+    if atom.text == "edge" and not counted and any(is_kind(atoms, i + 1, k) for k in ("dir", "q", "flag")):
+        return Atom("verb", "shift", atom.text)  # `edge forward 20 cm`
     if atom.text not in ("step", "pace", "steps"):
         return Atom("role", atom.value, atom.text)
     return Atom("verb", "go", atom.text) if is_kind(atoms, i + 1, "dir") else _glue(atoms, i)

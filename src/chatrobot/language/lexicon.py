@@ -37,6 +37,7 @@ _NEVER_MEANT = frozenset(
         "conn",
         "operator",
         "sep",
+        "unknown",
     }
 )
 _POLITE = frozenset({"please", "then", "after", "robot", "thanks", "could", "would", "until"})

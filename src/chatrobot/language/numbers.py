@@ -29,6 +29,10 @@ def is_chinese(text: str) -> bool:
     return bool(text) and ord(text[0]) > 0x2E7F
 
 
+_COUNTED = ("unit_length", "unit_angle", "unit_time")
+"""What is counted in hundreds: `hundred centimetres`."""
+_FEWEST_DEGREES = 10.0
+"""Nobody says less than a degree as `point ninety degrees`."""
 _NAMES_A_POINT = frozenset({"the", "a", "that", "this", "to the", "to a", "any", "some"})
 
 
@@ -151,7 +155,7 @@ def _plain(atoms: Atoms, i: int) -> Number | None:
             break
         i += 1
     if i == start:
-        return _decimals(atoms, i, 0.0)
+        return None if _points_at_angle(atoms, i) else _decimals(atoms, i, 0.0)
     if (
         current is not None
         and 1 <= current <= 9
@@ -165,8 +169,9 @@ def _plain(atoms: Atoms, i: int) -> Number | None:
 
 
 def _scale_alone(atoms: Atoms, i: int, start: int) -> bool:
-    """A scale may stand without a number before it in Chinese (十) and after an article (a hundred)."""
-    return is_chinese(atoms[i].text) or is_kind(atoms, start - 1, "num", "article")
+    """A scale may stand without a number before it in Chinese (十), after an article, and before a unit."""
+    counts = _is_joining_and(atoms, i + 1) or any(is_kind(atoms, i + 1, unit) for unit in _COUNTED)
+    return counts or is_chinese(atoms[i].text) or is_kind(atoms, start - 1, "num", "article")
 
 
 def _is_joining_and(atoms: Atoms, i: int) -> bool:
@@ -192,6 +197,12 @@ def _joined(current: float | None, atom: Atom, value: float) -> float | None:
     if current == 0 and is_chinese(atom.text):
         return value
     return None
+
+
+def _points_at_angle(atoms: Atoms, i: int) -> bool:
+    """`Point 90 degrees to the left`: what is to be done, and no decimal point."""
+    whole = is_kind(atoms, i + 1, "number") and float(atoms[i + 1].value) >= _FEWEST_DEGREES
+    return whole and is_kind(atoms, i, "num", "point") and is_kind(atoms, i + 2, "unit_angle")
 
 
 def _decimals(atoms: Atoms, i: int, whole: float) -> Number | None:

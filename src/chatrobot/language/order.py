@@ -13,7 +13,7 @@ _THEN = Atom("conn", "then", "")
 
 def in_order(atoms: Sequence[Atom]) -> list[Atom]:
     """The atoms with what is done first said first."""
-    atoms = with_after(atoms)
+    atoms = _settled_after(with_after(atoms))
     at = next((i for i, a in enumerate(atoms) if a.kind == "order"), None)
     if at is None:
         return list(atoms)
@@ -47,6 +47,21 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
         end = _ends_at(tail, at_then=True)
         return [*tail[:end], _THEN, *head, *tail[end:]]
     return [*head, _THEN, *tail]
+
+
+def _settled_after(atoms: Sequence[Atom]) -> list[Atom]:
+    """`Turn left right after going …` tells an order; `turn left, and immediately after go …` only goes on."""
+    out = list(atoms)
+    real = [i for i, a in enumerate(atoms) if a.kind not in ("filler", "glue")]
+    for before, i, after in zip(real, real[1:], real[2:]):
+        if atoms[i].text.split()[-1:] != ["after"] or atoms[after].kind not in ("verb", "dir"):
+            continue
+        gerund = atoms[after].text.split()[0].endswith("ing")
+        if gerund and atoms[i].kind == "conn":
+            out[i] = Atom("order", "after", atoms[i].text)
+        elif not gerund and after == i + 1 and atoms[i].kind == "order" and atoms[before].kind in ("sep", "conn"):
+            out[i] = _THEN
+    return out
 
 
 def _second_order(tail: list[Atom]) -> int | None:

@@ -12,7 +12,7 @@ from chatrobot.language.clauses import read_frames
 from chatrobot.language.compass import with_headings
 from chatrobot.language.conditions import settle_condition
 from chatrobot.language.context import Context
-from chatrobot.language.corrections import corrected, without_negated
+from chatrobot.language.corrections import corrected, with_slips, without_negated
 from chatrobot.language.dialogue import refer, walked
 from chatrobot.language.facts import with_defined_units, with_words_counted
 from chatrobot.language.frames import Frame
@@ -70,7 +70,7 @@ class Reading:
     def atoms(self, plain: str) -> list[Atom]:
         """The atoms of a normalised text."""
         atoms = tokenise(plain, lexicon(), names_in(self.context), by_ear=self.by_ear)
-        atoms = without_restated(with_multiples(read_quantities(atoms)))
+        atoms = without_restated(with_multiples(with_slips(read_quantities(atoms))))
         atoms = back_to_places(with_headings(atoms, self.facing_rad))
         atoms = without_cautions(with_words_counted(atoms, self.context.dialogue.words))
         if any(a.kind == "role" and a.value == "apart" for a in atoms):  # rows side by side, no garden work
