@@ -59,7 +59,12 @@ def _settled_after(atoms: Sequence[Atom]) -> list[Atom]:
         gerund = atoms[after].text.split()[0].endswith("ing")
         if gerund and atoms[i].kind == "conn":
             out[i] = Atom("order", "after", atoms[i].text)
-        elif not gerund and after == i + 1 and atoms[i].kind == "order" and atoms[before].kind in ("sep", "conn"):
+        elif (
+            not gerund
+            and after == i + 1
+            and atoms[i].kind == "order"
+            and atoms[before].kind in ("sep", "conn")
+        ):
             out[i] = _THEN
     return out
 
