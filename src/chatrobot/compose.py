@@ -106,8 +106,7 @@ class Connection:
     close: Callable[[], None]
     prepared: Prepared
     link: SecondLinks
-    camera: Camera | None = None
-    """One beside that of a model; None where there is none."""
+    camera: Camera | None = None  # one beside that of a model, where there is one
 
     @property
     def world(self) -> World:

@@ -26,7 +26,8 @@ class Answers:
     def __init__(self) -> None:
         self.all: list[tuple[int, bool]] = []
 
-    def approve(self, turn: int, yes: bool) -> None:
+    def approve(self, turn: int, yes: bool, *, edited: bool = False) -> None:
+        assert not edited
         self.all.append((turn, yes))
 
 

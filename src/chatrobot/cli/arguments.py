@@ -297,8 +297,7 @@ def _record(parser: argparse.ArgumentParser) -> None:
 
 def _replay(parser: argparse.ArgumentParser) -> None:
     _add(parser, "file", "files", metavar="FILE.mcap", help="a recording")
-    speed = "so many times as fast as it was (default: 1)"
-    _add(parser, "--speed", type=positive, default=1.0, metavar="X", help=speed)
+    _add(parser, "--speed", type=positive, default=1.0, metavar="X", help="times as fast (default: 1)")
 
 
 def _report(parser: argparse.ArgumentParser) -> None:
@@ -312,8 +311,7 @@ def _report(parser: argparse.ArgumentParser) -> None:
     }
     for kind, text in kinds.items():
         _add(parser, f"--{kind}", "files", nargs="?", const="", default=None, metavar="OUT", help=text)
-    language = "of the report (default: that of the recording)"
-    _add(parser, "--language", choices=LANGUAGES, default="", help=language)
+    _add(parser, "--language", choices=LANGUAGES, default="", help="its language (default: the recording's)")
 
 
 def _completion(parser: argparse.ArgumentParser) -> None:
@@ -347,6 +345,6 @@ def _ros_args(parser: argparse.ArgumentParser) -> None:
 _ARGUMENTS = {
     "do": _do, "plan": _plan, "eval": _eval, "lesson": _lesson, "calibrate": _calibrate, "sim": _sim, "node": _node,
     "mcp": _mcp, "model": _model, "usage": _usage, "fake-model": _fake_model, "program": _program,
-    "completion": _completion, "web": _web, "world": _world, "record": _record, "replay": _replay,
-    "report": _report,
+    "completion": _completion, "web": _web, "world": _world,
+    "record": _record, "replay": _replay, "report": _report,
 }  # fmt: skip

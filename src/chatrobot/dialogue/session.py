@@ -48,7 +48,6 @@ class Session:
     Args:
         on_event: hears every event, in order; it only reads.
         authoring: writes and keeps programs; None where requests for one are driven as plans.
-        model_setup: the language model to ask, None for none.
     """
 
     def __init__(
@@ -76,9 +75,8 @@ class Session:
         )  # fmt: skip
         self.authoring = authoring
         early = EarlyAnswers(understanding, self._llm, self._requests, authoring)
-        self._next = NextUtterance(
-            self._utterances, self._requests, self._llm, understanding, self._resuming, early
-        )
+        waiting, log = self._utterances, self._requests
+        self._next = NextUtterance(waiting, log, self._llm, understanding, self._resuming, early)
         self._programs: ProgramRequests | None = None
         self._steered_at_s = -math.inf
         if authoring is not None:
@@ -105,8 +103,6 @@ class Session:
     def results(self) -> dict[int, Result]:
         """Return how each turn ended, by its number."""
         return self._requests.results
-
-    # --- from any thread ---
 
     def say(self, text: str) -> int:
         """Take in what a person said; the number of its turn. A stop is out before this returns."""

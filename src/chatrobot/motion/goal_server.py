@@ -291,7 +291,7 @@ class GoalServer:
             return  # or another person was asked, about another plan that happens to have this number
         lapse = goal.approval.lapsed(self._clock.now_s(), self._robot.pose)
         if not yes or lapse is not None:
-            refusal = Reason("edited" if envelope.payload.get("edited") else "not_approved")
+            refusal = Reason("edited_instead" if envelope.payload.get("edited") else "not_approved")
             self._drop_prepared("refused", lapse or refusal)
         else:
             goal.approval = None
