@@ -211,7 +211,7 @@ def test_a_question_about_a_motion_orders_none(said: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "said", ["could you go forward 1 m?", "shall we go forward 1 m?", "why don't you go forward 1 m"]
+    "said", ["could you go forward 1 m?", "would you go forward 1 m?", "why don't you go forward 1 m"]
 )
 def test_a_request_put_as_a_question_is_still_done(said: str) -> None:
     assert _done(said) == "F1"

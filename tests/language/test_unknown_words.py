@@ -20,7 +20,7 @@ COMMANDS = (
 NOUNS = (
     "giraffe", "lantern", "teapot", "violin", "harvest", "lorry", "umbrella", "senate", "pebble", "walnut",
     "barks", "loft", "leapt", "sprinkling", "crushing", "labs", "camp", "deer", "lent", "freight", "fright",
-    "forge", "turnip", "tuft", "gopher", "gobbles", "droves", "riven", "ditch",
+    "anvil", "turnip", "tuft", "gopher", "gobbles", "droves", "riven", "ditch",
 )  # fmt: skip
 DOINGS = ("frobnicate", "yodel", "polka", "juggle", "meditate upon", "defrost", "interview", "marinate")
 CONDITIONS = (

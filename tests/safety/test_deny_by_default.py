@@ -56,6 +56,12 @@ GOOD: dict[str, dict[str, Any]] = {
     "emergency_stop": {"why": "x"},
     "release": {},
     "limit": {"max_distance_m": 1, "max_time_s": "none"},
+    "obstacle": {
+        "add": "box",
+        "circle": [1.0, 0.5, 0.2],
+        "polygon": [[0, 0], [1, 0], [0, 1]],
+        "remove": "box",
+    },
     "goodbye": {},
 }
 FIELDS = sorted({field for fields in PAYLOADS.values() for field in fields})
@@ -91,6 +97,10 @@ ALLOWED: dict[str, list[Any]] = {
     "wz_radps": [0, 1, -1, 0.5, -0.5],
     "max_distance_m": [1, 0.5],
     "max_time_s": [1, 0.5],
+    "add": ["", "x", "queue", "now"],
+    "remove": ["", "x", "queue", "now"],
+    "circle": [[]],
+    "polygon": [[]],
 }
 STOPS = ("stop", "emergency_stop")
 

@@ -51,7 +51,7 @@ def test_every_message_with_its_fields_is_read() -> None:
     samples: dict[str, Any] = {
         "text": "hi", "plan_text": "drive 1 m", "turn": 1, "yes": True, "x_m": 1, "y_m": 2.5, "vx_mps": 0.1,
         "vy_mps": 0, "wz_radps": -1, "name": "square", "source": "pass", "code": "zh", "held": False, "ask": True,
-        "yaw_rad": None,
+        "yaw_rad": None, "radius_m": 0.2,
     }  # fmt: skip
     for do, fields in FIELDS.items():
         message = {"do": do, **{name.rstrip("?"): samples[name.rstrip("?")] for name in fields}}

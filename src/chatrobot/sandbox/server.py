@@ -243,6 +243,9 @@ def main(descriptor: int, host_pidfd: int | None = None) -> None:
     except Exception as error:  # noqa: BLE001 - whatever a module raises is told to the host
         send_message(host, {"event": "failed", "problem": f"{type(error).__name__}: {error}"})
         return
+    # Not before: whoever waits for the first program waits for all that was imported until here. Not after: behind the
+    # walls no niceness of a session can be written.
+    give_way(NICENESS)
     threading.stack_size(THREAD_STACK_BYTES)
     walls = build_walls(layers, setup["tasks"], is_wrapped=setup["is_wrapped"])
     if walls.doors is None:
@@ -251,8 +254,6 @@ def main(descriptor: int, host_pidfd: int | None = None) -> None:
     gc.collect()
     gc.freeze()
     gc.disable()
-    # Not before: whoever waits for the first program waits for all that was imported until here.
-    give_way(NICENESS)
     server = Server(host, walls.doors, host_pidfd)
     send_message(host, {"event": "ready", "layers": dict(walls.problems)})
     server.serve()

@@ -47,7 +47,7 @@ class CompetingControllers:
         if open_loop is not None:
             self._about["open_loop"] = dict(open_loop.values)
         self._hears: dict[str, None] = {}
-        self._said = Text("")
+        self._said = ""
         self._said_of: dict[str, None] | None = None
         self._heard: dict[str, tuple[float, str]] = {}
         wire.advertise(CONTROL, Text)
@@ -63,8 +63,8 @@ class CompetingControllers:
         hears = self._hears
         if hears is not self._said_of:
             about = {**self._about, "hears": list(hears)}
-            self._said, self._said_of = Text(json.dumps(about, separators=(",", ":"))), hears
-        self._wire.publish(CONTROL, self._said)
+            self._said, self._said_of = json.dumps(about, separators=(",", ":")), hears
+        self._wire.publish(CONTROL, Text(self._said))
 
     def motions(self) -> list[str]:
         """The other Motions on this robot, by name."""
@@ -80,7 +80,7 @@ class CompetingControllers:
         return self._wire.publishers_of(self._topic)
 
     def _hear(self, message: Text) -> None:
-        if message == self._said:
+        if message.data == self._said:
             return  # we hear ourselves
         about = read_beat(message.data)
         if about is not None and about.id != self._id:
