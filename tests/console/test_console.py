@@ -325,11 +325,11 @@ def test_who_wants_no_colour_gets_plain_lines(tmp_path):
 def test_fast_is_refused_because_a_talk_is_in_real_time():
     from chatrobot.cli.console.app import run_console
     from chatrobot.cli.lines import TypedAhead
-    from chatrobot.compose import Setup
+    from chatrobot.compose import Setup, connect
     from chatrobot.core.errors import UsageError
 
     with pytest.raises(UsageError, match="real time"):
-        run_console(Setup(fast=True), TypedAhead())
+        run_console(Setup(fast=True), TypedAhead(), connect)
 
 
 @pytest.mark.parametrize("terminal", ["xterm-256color", "dumb"])

@@ -71,11 +71,13 @@ class Plain:
         return shutil.get_terminal_size().columns
 
     def print(self, *lines: RenderableType) -> None:
-        """Show lines."""
-        if self._is_at_prompt:
-            self._is_at_prompt = False
+        """Show lines; where the prompt stood, it stands below them."""
+        was_at_prompt, self._is_at_prompt = self._is_at_prompt, False
+        if was_at_prompt:
             sys.stdout.write("\r")  # what is printed begins with blanks, or a mark of its own
         self._console.print(*lines, sep="\n")
+        if was_at_prompt:
+            self._show_prompt()
 
     def refresh(self) -> None:
         """Nothing here shows what has changed; a standing robot is worth a new prompt."""
