@@ -106,6 +106,28 @@ def _rehearse(sessions: Sequence[Session]) -> None:
         time.sleep(0.01)
 
 
+def print_row(name: str, listener: subprocess.Popen[str], pids: dict[str, int], first: int) -> None:
+    """Measure for a while, and print the figures of all robots from that one on."""
+    assert listener.stdin is not None
+    assert listener.stdout is not None
+    before = {process: busy_s(pid) for process, pid in pids.items()}
+    since_s = time.monotonic()
+    time.sleep(LASTS_S)
+    until_s = time.monotonic()
+    listener.stdin.write(f"{first} {since_s} {until_s}\n")
+    listener.stdin.flush()
+    hz, median_s, p99_s, most_s = map(float, listener.stdout.readline().split())
+    shares = " ".join(
+        f"{process} {100 * (busy_s(pid) - before[process]) / (until_s - since_s):.0f} %"
+        for process, pid in pids.items()
+    )
+    print(
+        f"{name}: at least {hz:4.1f} Hz, off 20 ms by {median_s * 1e3:5.2f} ms, p99 {p99_s * 1e3:6.2f} ms,"
+        f" most {most_s * 1e3:6.1f} ms; {sum(map(memory_mb, pids.values())):4.0f} MB; {shares}",
+        flush=True,
+    )
+
+
 def measure(count: int, folder: str) -> None:
     """Print the figures of a class of so many."""
     names = [str(place) for place in range(count)]
@@ -123,32 +145,14 @@ def measure(count: int, folder: str) -> None:
     command = [sys.executable, "-m", "bench.classroom", "--listen", *paths]
     pipe = subprocess.PIPE
     listener = subprocess.Popen(command, stdin=pipe, stdout=pipe, text=True)
-    assert listener.stdin is not None
     assert listener.stdout is not None
     listener.stdout.readline()
     for session in sessions:
         session.say_plan(ROUND)
     time.sleep(3.0)
-    for first, what in ((0, ""), (2, "while two others rehearse without end")):
-        if what:
-            threading.Thread(target=_rehearse, args=(sessions[:2],), daemon=True).start()
-        before = {name: busy_s(pid) for name, pid in pids.items()}
-        since_s = time.monotonic()
-        time.sleep(LASTS_S)
-        until_s = time.monotonic()
-        listener.stdin.write(f"{first} {since_s} {until_s}\n")
-        listener.stdin.flush()
-        hz, median_s, p99_s, most_s = map(float, listener.stdout.readline().split())
-        shares = " ".join(
-            f"{name} {100 * (busy_s(pid) - before[name]) / (until_s - since_s):.0f} %"
-            for name, pid in pids.items()
-        )
-        print(
-            f"{count:2d} robots: at least {hz:4.1f} Hz, off 20 ms by {median_s * 1e3:5.2f} ms, p99"
-            f" {p99_s * 1e3:6.2f} ms, most {most_s * 1e3:6.1f} ms; {sum(map(memory_mb, pids.values())):4.0f} MB;"
-            f" {shares} {what}",
-            flush=True,
-        )
+    print_row(f"{count:2d} robots", listener, pids, first=0)
+    threading.Thread(target=_rehearse, args=(sessions[:2],), daemon=True).start()
+    print_row(f"{count:2d} robots, while two others rehearse without end", listener, pids, first=2)
     listener.kill()
     listener.wait()
     if ended := [result for session in sessions[2:] for result in session.results.values()]:

@@ -26,7 +26,7 @@ rclpy.init()
 node = rclpy.create_node('bench')
 publisher = node.create_publisher(Twist, 'cmd_vel', 10)
 twist = Twist()
-twist.linear.x = 0.1
+twist.linear.x = 0.2
 for _ in range(300):
     publisher.publish(twist)
     time.sleep(0.1)

@@ -26,6 +26,7 @@ from tests.processes import RunningRobot
 from tests.web.browser import ARGUMENTS, find_browser, open_page
 
 from bench import line
+from bench.program_stop import SOURCE
 from chatrobot.models.fake.script import read_script
 from chatrobot.models.fake.server import FakeModel
 from chatrobot.programs.library import KeptProgram, Library
@@ -36,19 +37,6 @@ PROMISED_S = (0.015, 0.040)
 COST_S = 5.0
 HANGS = {"match": "nice", "text": "drive 2 m\nturn", "hang_after": 10}
 """A plan whose second line never comes."""
-PROGRAM = """\
-import time
-import rclpy
-from geometry_msgs.msg import Twist
-rclpy.init()
-publisher = rclpy.create_node('bench').create_publisher(Twist, 'cmd_vel', 10)
-twist = Twist()
-twist.linear.x = 0.2
-for _ in range(300):
-    publisher.publish(twist)
-    time.sleep(0.1)
-publisher.publish(Twist())
-"""
 
 _SERVER = """
 import signal, sys, time
@@ -213,7 +201,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder, ExitStack() as open_:
         fake = open_.enter_context(FakeModel(read_script({"models": ["fake"], "replies": [HANGS]})))
         os.environ.update(OPENAI_BASE_URL=f"{fake.url}/v1", OPENAI_API_KEY="sk-bench")
-        Library(Path(folder) / "config").keep(KeptProgram("bench", PROGRAM))
+        Library(Path(folder) / "config").keep(KeptProgram("bench", SOURCE))
         robot = RunningRobot(Path(folder), arguments, ("-c", _SERVER))
         open_.callback(robot.close)
         found = re.search(r":(\d+)/", robot.wait_for_line("http://"))

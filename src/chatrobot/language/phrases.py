@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import cache
 
 from chatrobot.core.reason import ANGLE_PLACES, LENGTH_PLACES, Reason, Value, number
@@ -133,19 +133,32 @@ def _way(direction_rad: float) -> str:
     return f"way_{names[round(direction_rad / (math.pi / 4)) % 8]}"
 
 
+def _drive(step: Drive, spoken: Callable[..., str]) -> str:
+    way = spoken(_way(step.direction_rad))
+    if step.distance_m is not None:
+        text = spoken("step_drive", way=way, m=number(step.distance_m))
+    elif step.duration_s is not None:
+        text = spoken("step_drive_time", way=way, s=number(step.duration_s))
+    else:
+        text = spoken("step_drive_until", way=way)
+    return text + (spoken("step_speed", mps=number(step.speed_mps)) if step.speed_mps else "")
+
+
+def _go(step: Go, spoken: Callable[..., str]) -> str:
+    code = "the_start" if step.frame == "start" else "the_point"
+    point = spoken(code, x=number(step.x_m, 2), y=number(step.y_m, 2))
+    if step.place and step.yaw_rad is not None:
+        deg = number(math.degrees(step.yaw_rad), ANGLE_PLACES)
+        return spoken("step_go_facing", place=step.place, deg=deg)
+    return spoken("step_go", place=step.place or point)
+
+
 def _step(step: Step, language: str) -> str:
     def spoken(code: str, **values: Value) -> str:
         return say(language, code, **values)
 
     if isinstance(step, Drive):
-        way = spoken(_way(step.direction_rad))
-        if step.distance_m is not None:
-            text = spoken("step_drive", way=way, m=number(step.distance_m))
-        elif step.duration_s is not None:
-            text = spoken("step_drive_time", way=way, s=number(step.duration_s))
-        else:
-            text = spoken("step_drive_until", way=way)
-        return text + (spoken("step_speed", mps=number(step.speed_mps)) if step.speed_mps else "")
+        return _drive(step, spoken)
     if isinstance(step, Turn):
         side = spoken("way_left" if step.left else "way_right")
         if step.angle_rad is not None:
@@ -153,27 +166,13 @@ def _step(step: Step, language: str) -> str:
         return spoken("step_turn_time", side=side, s=number(step.duration_s or 0.0))
     if isinstance(step, Arc):
         side = spoken("way_left" if step.left else "way_right")
-        return spoken(
-            "step_arc",
-            side=side,
-            m=number(step.radius_m),
-            deg=number(math.degrees(step.angle_rad), ANGLE_PLACES),
-        )
+        deg = number(math.degrees(step.angle_rad), ANGLE_PLACES)
+        return spoken("step_arc", side=side, m=number(step.radius_m), deg=deg)
     if isinstance(step, RawTwist):
-        return spoken(
-            "step_twist",
-            vx=number(step.vx_mps),
-            vy=number(step.vy_mps),
-            wz=number(step.wz_radps),
-            s=number(step.duration_s),
-        )
+        vx, vy, wz = number(step.vx_mps), number(step.vy_mps), number(step.wz_radps)
+        return spoken("step_twist", vx=vx, vy=vy, wz=wz, s=number(step.duration_s))
     if isinstance(step, Go):
-        code = "the_start" if step.frame == "start" else "the_point"
-        point = spoken(code, x=number(step.x_m, 2), y=number(step.y_m, 2))
-        if step.place and step.yaw_rad is not None:
-            deg = number(math.degrees(step.yaw_rad), ANGLE_PLACES)
-            return spoken("step_go_facing", place=step.place, deg=deg)
-        return spoken("step_go", place=step.place or point)
+        return _go(step, spoken)
     if isinstance(step, Face):
         return spoken("step_face")
     if isinstance(step, Wait):

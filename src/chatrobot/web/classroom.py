@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import contextlib
+import sys
 import threading
+import traceback
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from typing import Any
 
 from starlette.websockets import WebSocket
@@ -94,12 +97,13 @@ class Classroom:
         """Let pupils in, each to their own robot, and begin to pump its session.
 
         Args:
-            on_gone: told why a robot is gone, and with it all of them, for they share their processes.
+            on_gone: told why a robot is gone, and with it all of them, for they share their processes. What goes wrong
+                in one pupil's conversation ends that one alone.
         """
         self._robots = robots
         for robot in robots:
             room = self.rooms[robot.name]
-            pump = Pump(robot.connection.session, lambda error, room=room: _lose(room, error, on_gone))  # type: ignore[misc]
+            pump = Pump(robot.connection.session, partial(_lose, room, robot, on_gone))
             room.open(robot.connection, pump.post, is_simulated=True, release=robot.release)
             self._pumps.append(pump)
         for pump in self._pumps:
@@ -196,9 +200,17 @@ class Classroom:
                     face.put(message)
 
 
-def _lose(room: Room, error: Exception, on_gone: Callable[[Exception], None]) -> None:
+def _lose(room: Room, robot: PupilsRobot, on_gone: Callable[[Exception], None], error: Exception) -> None:
+    """Tell whom it concerns that a conversation has ended with that; called by the thread that pumped it."""
     room.lose(error)
-    on_gone(error)
+    if isinstance(error, LinkError):
+        on_gone(error)
+        return
+    # A mistake of ours in one conversation: its robot stops, and the nineteen others go on.
+    print(f"chatrobot: pupil {room.name}:", file=sys.stderr)
+    traceback.print_exception(error)
+    with contextlib.suppress(LinkError):
+        robot.connection.session.stop("the conversation has ended")
 
 
 _ROOM = is_text(8)

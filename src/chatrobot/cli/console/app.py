@@ -53,34 +53,40 @@ def run_console(
         raise UsageError("the console runs in real time", where="--fast", allowed='chatrobot do "…" --fast')
     words = Words(language_of_environment())
     setup = replace(setup, trace=lesson is not None, options=replace(setup.options, while_moving="replace"))
-    controller: ChatController | None = None
-
-    def hear(event: Event) -> None:
-        if lesson is not None and isinstance(event, TruePose):
-            lesson.hear(event)  # from the moment of connecting on
-            return
-        assert controller is not None  # nothing else is heard before it is pumped
-        controller.hear(event)
-        if page is not None:
-            page.hear(event)
-        if lesson is not None:
-            lesson.hear(event)
-
-    page: PageBeside | None = None
-    connection = meet(setup, hear)
-    controller = ChatController(connection, words, RealClock(), commands.run)
-    if has_page:
-        page = PageBeside(controller, is_simulated=setup.on in SIMULATED)
+    listeners = _Listeners(lesson)
+    connection = meet(setup, listeners.hear)
+    controller = listeners.controller = ChatController(connection, words, RealClock(), commands.run)
+    page = listeners.page = PageBeside(controller, is_simulated=setup.on in SIMULATED) if has_page else None
     try:
         begin = greeting(controller, setup.on) if lesson is None else lesson.begin(controller)
-        code = _converse(
+        return _converse(
             controller, setup, typed_ahead, begin, page.start if page is not None else lambda: None
         )
     finally:
         if page is not None:
             page.close()
         connection.close()
-    return code
+
+
+class _Listeners:
+    """Who hears the events of the one session of a console."""
+
+    def __init__(self, lesson: ConsoleLesson | None) -> None:
+        self._lesson = lesson
+        self.controller: ChatController | None = None
+        self.page: PageBeside | None = None
+
+    def hear(self, event: Event) -> None:
+        """Hand an event on."""
+        if self._lesson is not None and isinstance(event, TruePose):
+            self._lesson.hear(event)  # from the moment of connecting on
+            return
+        assert self.controller is not None  # nothing else is heard before it is pumped
+        self.controller.hear(event)
+        if self.page is not None:
+            self.page.hear(event)
+        if self._lesson is not None:
+            self._lesson.hear(event)
 
 
 def can_chat() -> bool:

@@ -51,17 +51,8 @@ class Canvas(Surface):
     def box(self, box: Box, *, fill: Colour | None = None, edge: Colour | None = None) -> None:
         self._draw.rectangle([v * SCALE for v in box], fill=fill, outline=edge, width=SCALE)
 
-    def text(
-        self,
-        at: XY,
-        text: str,
-        colour: Colour,
-        size_px: float,
-        anchor: str = "la",
-        halo: Colour | None = None,
-        *,
-        is_minor: bool = False,  # noqa: ARG002
-    ) -> None:
+    def text(self, at: XY, text: str, colour: Colour, size_px: float, anchor: str = "la",
+             halo: Colour | None = None, *, is_minor: bool = False) -> None:  # fmt: skip  # noqa: ARG002
         """Write `text`; nothing at all where no font has its letters. `anchor` as pillow has it."""
         font = font_for(text, round(size_px * SCALE))
         if font is not None:

@@ -46,17 +46,8 @@ class Surface(ABC):
         """Draw a rectangle."""
 
     @abstractmethod
-    def text(
-        self,
-        at: XY,
-        text: str,
-        colour: Colour,
-        size_px: float,
-        anchor: str = "la",
-        halo: Colour | None = None,
-        *,
-        is_minor: bool = False,
-    ) -> None:
+    def text(self, at: XY, text: str, colour: Colour, size_px: float, anchor: str = "la",
+             halo: Colour | None = None, *, is_minor: bool = False) -> None:  # fmt: skip
         """Write `text`. `anchor` as pillow has it; what is minor is left out where there is little room."""
 
     @abstractmethod

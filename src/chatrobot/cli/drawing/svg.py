@@ -73,17 +73,8 @@ class SvgCanvas(Surface):
         place = f'x="{left:.1f}" y="{top:.1f}" width="{right - left:.1f}" height="{bottom - top:.1f}"'
         self._shapes.append(f"<rect {place}{_painted(fill, edge, 1.0)}/>")
 
-    def text(
-        self,
-        at: XY,
-        text: str,
-        colour: Colour,
-        size_px: float,
-        anchor: str = "la",
-        halo: Colour | None = None,
-        *,
-        is_minor: bool = False,
-    ) -> None:
+    def text(self, at: XY, text: str, colour: Colour, size_px: float, anchor: str = "la",
+             halo: Colour | None = None, *, is_minor: bool = False) -> None:  # fmt: skip
         x, y = self._share(at)
         shift = f' dy="{_SHIFTS_EM[anchor[1]] * size_px:.1f}"' if _SHIFTS_EM[anchor[1]] else ""
         side = f' text-anchor="{_ANCHORS[anchor[0]]}"' if anchor[0] != "l" else ""
